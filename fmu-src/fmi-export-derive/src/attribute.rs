@@ -1,0 +1,194 @@
+//! The attributes: `#[parameter(...)]` and its siblings, `#[group(...)]`, `#[variables(...)]`.
+
+use model_description::{Causality, Initial, Variability};
+use proc_macro2::Span;
+use syn::{
+    Attribute, Expr, Ident, LitStr, Meta, Type, meta::ParseNestedMeta, parenthesized, spanned::Spanned, token,
+};
+
+/// `#[parameter(...)]`, `#[input(...)]` and so on.
+pub struct Declaration {
+    pub span: Span,
+    pub causality: Causality,
+    pub variability: Option<Variability>,
+    pub initial: Option<Initial>,
+    pub name: Option<LitStr>,
+    pub unit: Option<LitStr>,
+    pub display: Option<LitStr>,
+    pub min: Option<Expr>,
+    pub max: Option<Expr>,
+    pub nominal: Option<Expr>,
+    pub start: Option<Expr>,
+}
+
+/// `#[group(...)]`.
+pub struct Group {
+    pub name: Option<LitStr>,
+    pub count: Option<Expr>,
+    pub setup: Option<Expr>,
+}
+
+/// What a field's attribute says.
+pub enum FieldAttribute {
+    Declaration(Box<Declaration>),
+    Group(Box<Group>),
+}
+
+const DECLARATION_ITEMS: &str = "constant, fixed, tunable, discrete, continuous, \
+    initial = exact|approx|calculated, start, unit, display, min, max, nominal, name";
+
+/// The one declaring attribute of a field; others (`doc`, `cfg`, ...) are none of our business.
+pub fn of_field(name: &Ident, attributes: &[Attribute]) -> syn::Result<FieldAttribute> {
+    let mut found = None;
+    for attribute in attributes {
+        let Some(word) = attribute.path().get_ident() else { continue };
+        let causality = match word.to_string().as_str() {
+            "parameter" => Some(Causality::Parameter),
+            "calculated_parameter" => Some(Causality::CalculatedParameter),
+            "input" => Some(Causality::Input),
+            "output" => Some(Causality::Output),
+            "local" => Some(Causality::Local),
+            "group" => None,
+            _ => continue,
+        };
+        let parsed = match causality {
+            Some(causality) => FieldAttribute::Declaration(Box::new(declaration(attribute, causality)?)),
+            None => FieldAttribute::Group(Box::new(group(attribute)?)),
+        };
+        if found.replace(parsed).is_some() {
+            return Err(syn::Error::new_spanned(word, format!("`{name}` is declared twice")));
+        }
+    }
+    found.ok_or_else(|| {
+        let problem = format!(
+            "`{name}` needs one of #[parameter], #[calculated_parameter], #[input], #[output], #[local], #[group]"
+        );
+        syn::Error::new(name.span(), problem)
+    })
+}
+
+fn declaration(attribute: &Attribute, causality: Causality) -> syn::Result<Declaration> {
+    let mut all = Declaration {
+        span: attribute.path().span(),
+        causality,
+        variability: None,
+        initial: None,
+        name: None,
+        unit: None,
+        display: None,
+        min: None,
+        max: None,
+        nominal: None,
+        start: None,
+    };
+    each_item(attribute, |item, word| {
+        if let Some(variability) = variability(word) {
+            return once(&mut all.variability, item, |_| Ok(variability));
+        }
+        match word {
+            "initial" => once(&mut all.initial, item, initial),
+            "name" => once(&mut all.name, item, value),
+            "unit" => once(&mut all.unit, item, value),
+            "display" => once(&mut all.display, item, value),
+            "min" => once(&mut all.min, item, value),
+            "max" => once(&mut all.max, item, value),
+            "nominal" => once(&mut all.nominal, item, value),
+            "start" => once(&mut all.start, item, value),
+            _ => Err(item.error(format!("unknown item `{word}`; allowed: {DECLARATION_ITEMS}"))),
+        }
+    })?;
+    Ok(all)
+}
+
+fn group(attribute: &Attribute) -> syn::Result<Group> {
+    let mut all = Group { name: None, count: None, setup: None };
+    each_item(attribute, |item, word| match word {
+        "name" => once(&mut all.name, item, value),
+        "count" => once(&mut all.count, item, value),
+        "setup" => once(&mut all.setup, item, value),
+        _ => Err(item.error(format!("unknown item `{word}`; allowed: name, count, setup"))),
+    })?;
+    Ok(all)
+}
+
+/// The setup type of `#[variables(setup = Type)]`.
+pub fn setup_type(attributes: &[Attribute]) -> syn::Result<Option<Type>> {
+    let mut setup = None;
+    for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("variables")) {
+        each_item(attribute, |item, word| match word {
+            "setup" => once(&mut setup, item, value),
+            _ => Err(item.error(format!("unknown item `{word}`; allowed: setup = Type"))),
+        })?;
+    }
+    Ok(setup)
+}
+
+/// The name of `#[enumeration(name = "...")]`.
+pub fn enumeration_name(attributes: &[Attribute]) -> syn::Result<Option<LitStr>> {
+    let mut name = None;
+    for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("enumeration")) {
+        each_item(attribute, |item, word| match word {
+            "name" => once(&mut name, item, value),
+            _ => Err(item.error(format!("unknown item `{word}`; allowed: name = \"...\""))),
+        })?;
+    }
+    Ok(name)
+}
+
+fn each_item(
+    attribute: &Attribute,
+    mut read: impl FnMut(&ParseNestedMeta<'_>, &str) -> syn::Result<()>,
+) -> syn::Result<()> {
+    if matches!(attribute.meta, Meta::Path(_)) {
+        return Ok(());
+    }
+    attribute.parse_nested_meta(|item| {
+        let word = item.path.get_ident().map(Ident::to_string).unwrap_or_default();
+        if item.input.peek(token::Paren) {
+            let inner;
+            parenthesized!(inner in item.input);
+            return Err(inner.error(format!("write `{word} = ...`")));
+        }
+        read(&item, &word)
+    })
+}
+
+fn once<T>(
+    slot: &mut Option<T>,
+    item: &ParseNestedMeta<'_>,
+    read: impl FnOnce(&ParseNestedMeta<'_>) -> syn::Result<T>,
+) -> syn::Result<()> {
+    let value = read(item)?;
+    match slot.replace(value) {
+        None => Ok(()),
+        Some(_) => Err(item.error("given twice")),
+    }
+}
+
+fn value<T: syn::parse::Parse>(item: &ParseNestedMeta<'_>) -> syn::Result<T> {
+    item.value()?.parse()
+}
+
+fn variability(word: &str) -> Option<Variability> {
+    Some(match word {
+        "constant" => Variability::Constant,
+        "fixed" => Variability::Fixed,
+        "tunable" => Variability::Tunable,
+        "discrete" => Variability::Discrete,
+        "continuous" => Variability::Continuous,
+        _ => return None,
+    })
+}
+
+fn initial(item: &ParseNestedMeta<'_>) -> syn::Result<Initial> {
+    let word: Ident = value(item)?;
+    match word.to_string().as_str() {
+        "exact" => Ok(Initial::Exact),
+        "approx" => Ok(Initial::Approx),
+        "calculated" => Ok(Initial::Calculated),
+        other => Err(syn::Error::new(
+            word.span(),
+            format!("unknown initial `{other}`; allowed: exact, approx, calculated"),
+        )),
+    }
+}

@@ -1,0 +1,161 @@
+//! What can be said of a declaration before the program runs.
+
+use model_description::{
+    Causality, Variability, names,
+    rules::{self, StartRule},
+    units,
+};
+use syn::{Expr, Ident, LitStr, spanned::Spanned};
+
+use crate::attribute::Declaration;
+use crate::field::Kind;
+use crate::source::{Errors, literal_numbers};
+
+/// Checks one declaration; `field` is where an error without a place of its own points to.
+pub fn declaration(declared: &Declaration, kind: Kind, field: &Ident, errors: &mut Errors) {
+    errors.take(role(declared, kind, field));
+    errors.take(unit(declared, kind, field));
+    errors.take(limits(declared, kind));
+}
+
+/// The variability given, or the causality's usual one.
+pub fn variability(declared: &Declaration, kind: Kind) -> Variability {
+    declared.variability.unwrap_or(match declared.causality {
+        Causality::Parameter | Causality::CalculatedParameter => Variability::Fixed,
+        _ if kind.is_real() => Variability::Continuous,
+        _ => Variability::Discrete,
+    })
+}
+
+fn role(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
+    let at = |problem: String| Err(syn::Error::new(declared.span, problem));
+    let (causality, variability) = (declared.causality, variability(declared, kind));
+    if variability == Variability::Continuous && !kind.is_real() {
+        return at("only a Real can be continuous".to_owned());
+    }
+    let Some(rule) = rules::initial(causality, variability) else {
+        let allowed = list(rules::legal_variabilities(causality));
+        return at(format!("{causality} cannot be {variability}; allowed: {allowed}"));
+    };
+    if let Some(initial) = declared.initial
+        && !rule.allowed.contains(&initial)
+    {
+        let allowed = list(rule.allowed);
+        return at(format!("{variability} {causality} cannot have initial {initial}; allowed: {allowed}"));
+    }
+    let effective = rules::effective(causality, variability, declared.initial);
+    match (rules::start(causality, effective), &declared.start) {
+        (StartRule::Required, None) => {
+            Err(syn::Error::new(field.span(), format!("`{field}` needs a start value")))
+        }
+        (StartRule::Forbidden, Some(start)) => {
+            let problem = format!("`{field}` is calculated and cannot have a start value");
+            Err(syn::Error::new_spanned(start, problem))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn list<T: core::fmt::Display>(all: impl IntoIterator<Item = T>) -> String {
+    let words: Vec<_> = all.into_iter().map(|word| word.to_string()).collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+}
+
+fn unit(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
+    let only_real = |place: proc_macro2::Span, item: &str| {
+        Err(syn::Error::new(place, format!("only a Real has a {item}")))
+    };
+    if !kind.is_real() {
+        return match (&declared.unit, &declared.display, &declared.nominal) {
+            (Some(unit), _, _) => only_real(unit.span(), "unit"),
+            (_, Some(display), _) => only_real(display.span(), "display unit"),
+            (_, _, Some(nominal)) => only_real(nominal.span(), "nominal value"),
+            _ => Ok(()),
+        };
+    }
+    let Some(unit) = &declared.unit else {
+        return Err(syn::Error::new(
+            field.span(),
+            format!("`{field}` needs a unit; dimensionless is `unit = \"1\"`"),
+        ));
+    };
+    let Some(known) = units::find(&unit.value()) else {
+        let problem = format!(
+            "unknown unit `{}`; the allowed ones are the rows of `model_description::units::UNITS`",
+            unit.value()
+        );
+        return Err(syn::Error::new(unit.span(), problem));
+    };
+    match &declared.display {
+        Some(display) if !known.has_display(&display.value()) => {
+            let allowed = list(known.display.iter().map(|(name, _)| *name));
+            Err(syn::Error::new(
+                display.span(),
+                format!("`{}` is no display unit of `{}`; allowed: {allowed}", display.value(), known.name),
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn limits(declared: &Declaration, kind: Kind) -> syn::Result<()> {
+    let Declaration { min, max, nominal, start, .. } = declared;
+    if let Some(limit) = min.as_ref().or(max.as_ref())
+        && !(kind.is_real() || kind == Kind::Integer)
+    {
+        return Err(syn::Error::new_spanned(limit, "only a Real or an Integer has limits"));
+    }
+    let literal =
+        |expression: &Option<Expr>| expression.as_ref().and_then(literal_numbers).unwrap_or_default();
+    let (lows, highs, starts) = (literal(min), literal(max), literal(start));
+    let above = |low: &[f64], high: &[f64]| low.iter().any(|low| high.iter().any(|high| low > high));
+    let error = |place: &Option<Expr>, problem: &str| {
+        Err(match place {
+            Some(place) => syn::Error::new_spanned(place, problem),
+            None => syn::Error::new(declared.span, problem),
+        })
+    };
+    if above(&lows, &highs) {
+        return error(min, "`min` is above `max`");
+    }
+    if above(&lows, &starts) {
+        return error(start, "`start` is below `min`");
+    }
+    if above(&starts, &highs) {
+        return error(start, "`start` is above `max`");
+    }
+    if literal(nominal).iter().any(|value| *value <= 0.0) {
+        return error(nominal, "`nominal` must be above 0");
+    }
+    Ok(())
+}
+
+/// Checks a structured name (FMI 2.0.5, 2.2.9) and that it is new among `known`.
+pub fn name(given: &str, suffix: &str, place: &impl Spanned, known: &mut Vec<String>) -> syn::Result<()> {
+    let full = format!("{given}{suffix}");
+    structured(&full, &full, place)?;
+    if known.iter().any(|other| other == given) {
+        return Err(syn::Error::new(place.span(), format!("two names are `{given}`")));
+    }
+    known.push(given.to_owned());
+    Ok(())
+}
+
+/// Checks the name of a group, which may be empty (no prefix) unless it is counted.
+pub fn group_name(given: &str, counted: bool, place: &impl Spanned) -> syn::Result<()> {
+    if given.is_empty() && !counted {
+        return Ok(());
+    }
+    let prefix = if counted { format!("{given}[1]") } else { given.to_owned() };
+    structured(&prefix, &format!("{prefix}.x"), place)
+}
+
+fn structured(shown: &str, full: &str, place: &impl Spanned) -> syn::Result<()> {
+    names::check_structured(full)
+        .map_err(|problem| syn::Error::new(place.span(), format!("the name `{shown}` {problem}")))
+}
+
+/// The text of a name attribute, or else the default.
+pub fn name_or(given: Option<&LitStr>, default: impl FnOnce() -> String) -> String {
+    given.map_or_else(default, LitStr::value)
+}

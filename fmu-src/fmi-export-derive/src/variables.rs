@@ -1,0 +1,233 @@
+//! The code behind `#[derive(Variables)]`: one call of the builder a field.
+
+use model_description::{Causality, Initial, Variability};
+use proc_macro2::{Span, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
+use syn::{Data, DeriveInput, Expr, Field, Fields, Ident, Type, spanned::Spanned};
+
+use crate::attribute::{self, Declaration, FieldAttribute, Group};
+use crate::check;
+use crate::field::{Kind, element_of_vec};
+use crate::source::{Errors, camel_from_snake, description};
+
+/// Expands the derive.
+pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+    let fields = named_fields(input)?;
+    let mut errors = Errors::default();
+    let setup = errors.take(attribute::setup_type(&input.attrs)).flatten();
+    // Hygienic: an expression of the user's must not see the builder.
+    let scope = Ident::new("scope", Span::mixed_site());
+    let mut names = Vec::new();
+    let mut statements = Vec::new();
+    let mut members = Vec::new();
+    for (position, (ident, field)) in fields.iter().enumerate() {
+        let binding = Ident::new(&format!("field_{position}"), Span::mixed_site());
+        let Some(attribute) = errors.take(attribute::of_field(ident, &field.attrs)) else { continue };
+        let call = match &attribute {
+            FieldAttribute::Declaration(declared) => {
+                declare(declared, ident, field, &scope, &mut names, &mut errors)
+            }
+            FieldAttribute::Group(group) => declare_group(group, ident, field, &scope, &mut errors),
+        };
+        let ty = &field.ty;
+        statements.extend(call.map(|call| quote! { let #binding: #ty = #call?; }));
+        members.push(quote! { #ident: #binding });
+    }
+    errors.finish()?;
+
+    let struct_name = &input.ident;
+    let (_, type_generics, where_clause) = input.generics.split_for_impl();
+    let mut generics = input.generics.clone();
+    let setup = match setup {
+        Some(ty) => quote! { #ty },
+        None => {
+            let parameter = format_ident!("AnySetup", span = Span::mixed_site());
+            generics.params.push(syn::parse_quote! { #parameter });
+            quote! { #parameter }
+        }
+    };
+    let (impl_generics, _, _) = generics.split_for_impl();
+    Ok(quote! {
+        #[automatically_derived]
+        impl #impl_generics ::fmi_export::Variables<#setup> for #struct_name #type_generics #where_clause {
+            fn declare(
+                #scope: &mut ::fmi_export::Declare,
+                setup: &#setup,
+                index: usize,
+            ) -> ::core::result::Result<Self, ::fmi_export::DeclareError> {
+                let _ = (&*#scope, setup, index);
+                #(#statements)*
+                ::core::result::Result::Ok(Self { #(#members),* })
+            }
+        }
+    })
+}
+
+fn named_fields(input: &DeriveInput) -> syn::Result<Vec<(&Ident, &Field)>> {
+    match &input.data {
+        Data::Struct(data) => match &data.fields {
+            Fields::Named(fields) => {
+                return Ok(fields.named.iter().filter_map(|it| Some((it.ident.as_ref()?, it))).collect());
+            }
+            Fields::Unit => return Ok(Vec::new()),
+            Fields::Unnamed(_) => {}
+        },
+        Data::Enum(_) | Data::Union(_) => {}
+    }
+    Err(syn::Error::new(input.ident.span(), "Variables can be derived for a struct with named fields only"))
+}
+
+fn declare(
+    declared: &Declaration,
+    ident: &Ident,
+    field: &Field,
+    scope: &Ident,
+    names: &mut Vec<String>,
+    errors: &mut Errors,
+) -> Option<TokenStream> {
+    let kind = errors.take(Kind::of(&field.ty))?;
+    check::declaration(declared, kind, ident, errors);
+    let name = check::name_or(declared.name.as_ref(), || camel_from_snake(&ident.to_string()));
+    errors.take(match &declared.name {
+        Some(given) => check::name(&name, kind.first_element(), given, names),
+        None => check::name(&name, kind.first_element(), ident, names),
+    });
+    let Some(description) = description(&field.attrs) else {
+        let problem = format!("`{ident}` needs a doc comment: it is the variable's description");
+        errors.push(syn::Error::new(ident.span(), problem));
+        return None;
+    };
+    let role = role_tokens(declared, check::variability(declared, kind));
+    let (min, max) = (option(declared.min.as_ref()), option(declared.max.as_ref()));
+    let start = option(declared.start.as_ref());
+    let spec = quote! {
+        &::fmi_export::variables::ScalarSpec { name: #name, description: #description, role: #role }
+    };
+    Some(match kind {
+        Kind::Real | Kind::RealVector | Kind::RealMatrix => {
+            let unit = declared.unit.as_ref().map(syn::LitStr::value);
+            let display = match &declared.display {
+                Some(display) => quote! { ::core::option::Option::Some(#display) },
+                None => quote! { ::core::option::Option::None },
+            };
+            let nominal = option(declared.nominal.as_ref());
+            let method = format_ident!(
+                "{}",
+                match kind {
+                    Kind::RealVector => "real_vector",
+                    Kind::RealMatrix => "real_matrix",
+                    _ => "real",
+                }
+            );
+            quote! {
+                #scope.#method(
+                    &::fmi_export::variables::RealSpec {
+                        name: #name,
+                        description: #description,
+                        role: #role,
+                        unit: #unit,
+                        display_unit: #display,
+                        min: #min,
+                        max: #max,
+                        nominal: #nominal,
+                    },
+                    #start,
+                )
+            }
+        }
+        Kind::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
+        Kind::Boolean => quote! { #scope.boolean(#spec, #start) },
+        Kind::Choice => quote! { #scope.choice(#spec, #start) },
+        Kind::Text => match &declared.start {
+            Some(start) => {
+                let borrowed =
+                    quote_spanned! { start.span()=> ::core::convert::AsRef::<str>::as_ref(&#start) };
+                quote! { #scope.text(#spec, ::core::option::Option::Some(#borrowed)) }
+            }
+            None => quote! { #scope.text(#spec, ::core::option::Option::None) },
+        },
+    })
+}
+
+fn declare_group(
+    group: &Group,
+    ident: &Ident,
+    field: &Field,
+    scope: &Ident,
+    errors: &mut Errors,
+) -> Option<TokenStream> {
+    let name = check::name_or(group.name.as_ref(), || camel_from_snake(&ident.to_string()));
+    errors.take(match &group.name {
+        Some(given) => check::group_name(&name, group.count.is_some(), given),
+        None => check::group_name(&name, group.count.is_some(), ident),
+    });
+    let element = match (element_of_vec(&field.ty), &group.count) {
+        (Some(element), Some(_)) => element,
+        (None, None) => &field.ty,
+        (None, Some(_)) => {
+            errors.push(syn::Error::new_spanned(&field.ty, "a group with `count` is a Vec<...>"));
+            return None;
+        }
+        (Some(_), None) => {
+            errors.push(syn::Error::new_spanned(&field.ty, "a Vec of groups needs #[group(count = ...)]"));
+            return None;
+        }
+    };
+    let declare = declare_element(element, group.setup.as_ref(), scope);
+    Some(match &group.count {
+        Some(count) => quote! { #scope.groups(#name, #count, |#scope, index| #declare) },
+        None => quote! { #scope.group(#name, |#scope| #declare) },
+    })
+}
+
+fn declare_element(element: &Type, setup: Option<&Expr>, scope: &Ident) -> TokenStream {
+    let setup = setup.map_or_else(|| quote! { setup }, |setup| quote! { #setup });
+    quote_spanned! { element.span()=>
+        <#element as ::fmi_export::Variables<_>>::declare(#scope, #setup, index)
+    }
+}
+
+fn option(expression: Option<&Expr>) -> TokenStream {
+    match expression {
+        Some(expression) => quote_spanned! { expression.span()=> ::core::option::Option::Some(#expression) },
+        None => quote! { ::core::option::Option::None },
+    }
+}
+
+fn role_tokens(declared: &Declaration, variability: Variability) -> TokenStream {
+    let word = |text: &str| Ident::new(text, Span::call_site());
+    let causality = word(match declared.causality {
+        Causality::Parameter => "Parameter",
+        Causality::CalculatedParameter => "CalculatedParameter",
+        Causality::Input => "Input",
+        Causality::Output => "Output",
+        Causality::Local => "Local",
+        Causality::Independent => "Independent",
+    });
+    let variability = word(match variability {
+        Variability::Constant => "Constant",
+        Variability::Fixed => "Fixed",
+        Variability::Tunable => "Tunable",
+        Variability::Discrete => "Discrete",
+        Variability::Continuous => "Continuous",
+    });
+    let initial = match declared.initial {
+        Some(Initial::Exact) => {
+            quote! { ::core::option::Option::Some(::fmi_export::variables::Initial::Exact) }
+        }
+        Some(Initial::Approx) => {
+            quote! { ::core::option::Option::Some(::fmi_export::variables::Initial::Approx) }
+        }
+        Some(Initial::Calculated) => {
+            quote! { ::core::option::Option::Some(::fmi_export::variables::Initial::Calculated) }
+        }
+        None => quote! { ::core::option::Option::None },
+    };
+    quote! {
+        ::fmi_export::variables::Role {
+            causality: ::fmi_export::variables::Causality::#causality,
+            variability: ::fmi_export::variables::Variability::#variability,
+            initial: #initial,
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! The panic boundary around every function that takes an instance, and what a handle is.
+
+use core::cell::UnsafeCell;
+use core::ffi::{CStr, c_char, c_int, c_void};
+use core::sync::atomic::{AtomicBool, Ordering};
+use std::borrow::Cow;
+use std::ffi::CString;
+
+use super::LoggerCallback;
+use crate::Status;
+use crate::blob::SavedState;
+use crate::call_table::Function;
+use crate::instance::Instance;
+use crate::logger::LogSink;
+use crate::panics::contain;
+use crate::problem::{Complaint, Problem};
+
+/// Their addresses tell this library's handles from those of any other, another copy of this library
+/// included, and instances from states.
+static MARKS: [u8; 2] = [0; 2];
+
+fn instance_mark() -> *const u8 {
+    &raw const MARKS[0]
+}
+
+fn state_mark() -> *const u8 {
+    &raw const MARKS[1]
+}
+
+/// What `fmi2Component` points to.
+#[repr(C)]
+struct Handle {
+    mark: *const u8,
+    /// A call is running: the master calls from its logger, or from two threads at once.
+    busy: AtomicBool,
+    inner: UnsafeCell<Inner>,
+}
+
+/// An instance and the strings it lent out.
+pub(super) struct Inner {
+    pub(super) instance: Instance,
+    pub(super) lent: Lent,
+}
+
+/// The C strings that `fmi2GetString` handed out: one a variable, replaced when the variable is read again
+/// with another value.
+pub(super) struct Lent(Vec<Option<CString>>);
+
+impl Lent {
+    /// A C string with this text (NUL replaced) that lives in the slot of `reference`.
+    pub(super) fn lend(&mut self, reference: u32, text: &str) -> *const c_char {
+        let text = match text.contains('\0') {
+            true => Cow::Owned(text.replace('\0', "\u{FFFD}")),
+            false => Cow::Borrowed(text),
+        };
+        let index = reference as usize;
+        if index >= self.0.len() {
+            self.0.resize(index + 1, None);
+        }
+        let slot = &mut self.0[index];
+        if slot.as_deref().map(CStr::to_bytes) != Some(text.as_bytes()) {
+            *slot = CString::new(text.into_owned()).ok();
+        }
+        slot.as_deref().map_or(c"".as_ptr(), CStr::as_ptr)
+    }
+}
+
+/// A new handle.
+pub(super) fn handle_of(instance: Instance) -> *mut c_void {
+    let inner = UnsafeCell::new(Inner { instance, lent: Lent(Vec::new()) });
+    let handle = Handle { mark: instance_mark(), busy: AtomicBool::new(false), inner };
+    Box::into_raw(Box::new(handle)).cast()
+}
+
+/// The handle behind a component, unless it is NULL or not ours.
+///
+/// # Safety
+/// A `component` that is not NULL points to a live handle, of whatever FMU.
+unsafe fn own<'a>(component: *mut c_void) -> Option<&'a Handle> {
+    // SAFETY: the caller's promise; a foreign handle is larger than the mark that is read.
+    let ours = !component.is_null() && unsafe { component.cast::<*const u8>().read() } == instance_mark();
+    // SAFETY: ours and live.
+    ours.then(|| unsafe { &*component.cast::<Handle>() })
+}
+
+/// Runs one function on one instance: finds it, keeps panics inside, gives the status.
+///
+/// NULL, a handle of another library, and a call from within a call answer `fmi2Error` without a message,
+/// for there is nobody safe to tell.
+///
+/// # Safety
+/// As [`own`].
+#[inline]
+pub(super) unsafe fn call(
+    component: *mut c_void,
+    function: Function,
+    body: impl FnOnce(&mut Inner) -> Result<(), Problem>,
+) -> c_int {
+    // SAFETY: the caller's promise.
+    let Some(handle) = (unsafe { own(component) }) else { return Status::Error.code() };
+    // Load and store rather than swap: this finds calls from the logger, which are the ones that happen.
+    if handle.busy.load(Ordering::Relaxed) {
+        return Status::Error.code();
+    }
+    handle.busy.store(true, Ordering::Relaxed);
+    // SAFETY: `busy` was false, so no other call holds the inner part.
+    let inner = unsafe { &mut *handle.inner.get() };
+    let status = match contain(|| concluded(inner, function, body)) {
+        Ok(status) => status,
+        Err(text) => panicked(inner, function, &text),
+    };
+    handle.busy.store(false, Ordering::Relaxed);
+    status.code()
+}
+
+#[inline]
+fn concluded(
+    inner: &mut Inner,
+    function: Function,
+    body: impl FnOnce(&mut Inner) -> Result<(), Problem>,
+) -> Status {
+    let usable = !inner.instance.is_poisoned() || function == Function::FreeFmuState;
+    let result = if usable { body(inner) } else { Err(Problem::Poisoned) };
+    inner.instance.conclude(function, result)
+}
+
+#[cold]
+fn panicked(inner: &mut Inner, function: Function, text: &str) -> Status {
+    inner.instance.poison();
+    let logger = inner.instance.logger();
+    // The logger itself may have been what panicked.
+    let _ = contain(|| logger.log(Status::Error, format_args!("{}: panic: {text}", function.symbol())));
+    Status::Error
+}
+
+/// `fmi2FreeInstance`.
+///
+/// # Safety
+/// As [`own`]; the component is not used again.
+pub(super) unsafe fn free(component: *mut c_void) {
+    // SAFETY: the caller's promise.
+    let Some(handle) = (unsafe { own(component) }) else { return };
+    if handle.busy.load(Ordering::Relaxed) {
+        return;
+    }
+    // SAFETY: ours, made by `handle_of`, not in a call, and never used again.
+    let handle = unsafe { Box::from_raw(component.cast::<Handle>()) };
+    let (logger, runtime) = handle.inner.into_inner().instance.dismantle();
+    if let Err(text) = contain(|| drop(runtime)) {
+        let symbol = Function::FreeInstance.symbol();
+        let _ = contain(|| logger.log(Status::Error, format_args!("{symbol}: panic: {text}")));
+    }
+    let _ = contain(|| drop(logger));
+}
+
+/// What `fmi2FMUstate` points to.
+#[repr(C)]
+pub(super) struct StateHandle {
+    mark: *const u8,
+    saved: SavedState,
+}
+
+/// A new state handle.
+pub(super) fn state_handle_of(saved: SavedState) -> *mut c_void {
+    Box::into_raw(Box::new(StateHandle { mark: state_mark(), saved })).cast()
+}
+
+/// The saved state behind an FMU state.
+///
+/// # Safety
+/// A `state` that is not NULL points to a live FMU state, of whatever FMU, that nobody else uses meanwhile.
+pub(super) unsafe fn saved<'a>(
+    state: *mut c_void,
+    name: &'static str,
+) -> Result<&'a mut SavedState, Problem> {
+    if state.is_null() {
+        return Err(Problem::Argument { name, what: Complaint::Null });
+    }
+    // SAFETY: the caller's promise; a foreign state is larger than the mark that is read.
+    if unsafe { state.cast::<*const u8>().read() } != state_mark() {
+        return Err(Problem::Argument { name, what: Complaint::NotOurs });
+    }
+    // SAFETY: ours and live.
+    Ok(unsafe { &mut (*state.cast::<StateHandle>()).saved })
+}
+
+/// Frees a state that [`saved`] accepts.
+///
+/// # Safety
+/// As [`saved`]; the state is not used again.
+pub(super) unsafe fn free_state(state: *mut c_void) -> Result<(), Problem> {
+    // SAFETY: the caller's promise.
+    unsafe { saved(state, "FMUstate") }?;
+    // SAFETY: ours, made by `state_handle_of`, and never used again.
+    drop(unsafe { Box::from_raw(state.cast::<StateHandle>()) });
+    Ok(())
+}
+
+/// The master's logger with its environment.
+pub(super) struct MasterLogger {
+    pub(super) logger: LoggerCallback,
+    pub(super) environment: *mut c_void,
+}
+
+// SAFETY: the environment is only handed back to the master's own logger, in calls that the master makes;
+// from which threads it makes them is its own choice.
+unsafe impl Send for MasterLogger {}
+
+impl LogSink for MasterLogger {
+    fn write(&self, instance_name: &CStr, status: Status, category: &CStr, message: &CStr) {
+        // SAFETY: the pointer is valid until the instance is freed (2.1.5); the message holds no format
+        // directive, so no further argument is read.
+        unsafe {
+            (self.logger)(
+                self.environment,
+                instance_name.as_ptr(),
+                status.code(),
+                category.as_ptr(),
+                message.as_ptr(),
+            );
+        }
+    }
+}

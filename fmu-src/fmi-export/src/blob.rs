@@ -1,0 +1,153 @@
+//! FMU states: kept in memory, and as bytes that another process can read.
+//!
+//! Layout of the bytes, little endian: mark (8), layout version (4), GUID digest (16), payload length (8),
+//! checksum of the payload (8), payload: [`Memory`] and the model's state in postcard's format.
+
+use uuid::Uuid;
+
+use crate::call_table::{Function, State};
+use crate::instance::Instance;
+use crate::memory::{Memory, content};
+use crate::problem::{Problem, StateMismatch};
+use crate::runtime::{ErasedState, unencodable};
+
+const MARK: [u8; 8] = *b"FMUSTATE";
+const LAYOUT: u32 = 1;
+const HEADER: usize = 8 + 4 + 16 + 8 + 8;
+
+/// A saved instance.
+pub(crate) struct SavedState {
+    digest: Uuid,
+    memory: Memory,
+    model: ErasedState,
+}
+
+impl Instance {
+    /// `fmi2GetFMUstate`, into `reuse` if given.
+    pub(crate) fn save(&mut self, reuse: Option<&mut SavedState>) -> Result<Option<SavedState>, Problem> {
+        self.guard(Function::GetFmuState)?;
+        let Some(saved) = reuse else {
+            let (digest, memory, model) = (self.digest, self.memory.clone(), self.runtime.save(None));
+            return Ok(Some(SavedState { digest, memory, model }));
+        };
+        self.own(saved)?;
+        saved.memory.copy_from(&self.memory);
+        let old = core::mem::replace(&mut saved.model, Box::new(()));
+        saved.model = self.runtime.save(Some(old));
+        Ok(None)
+    }
+
+    /// `fmi2SetFMUstate`.
+    pub(crate) fn restore(&mut self, saved: &SavedState) -> Result<(), Problem> {
+        self.guard(Function::SetFmuState)?;
+        self.own(saved)?;
+        self.runtime.restore(&saved.model)?;
+        self.forget_last_step();
+        self.memory.copy_from(&saved.memory);
+        self.check_promise(saved.memory.time_s);
+        Ok(())
+    }
+
+    /// `fmi2SerializedFMUstateSize`.
+    pub(crate) fn serialized_size(&self, saved: &SavedState) -> Result<usize, Problem> {
+        self.guard(Function::SerializedFmuStateSize)?;
+        self.size(saved)
+    }
+
+    fn size(&self, saved: &SavedState) -> Result<usize, Problem> {
+        self.own(saved)?;
+        let memory = postcard::serialize_with_flavor(&saved.memory, postcard::ser_flavors::Size::default())
+            .map_err(unencodable)?;
+        Ok(HEADER + memory + self.runtime.encoded_size(&saved.model)?)
+    }
+
+    /// `fmi2SerializeFMUstate`: `bytes` must hold [`Instance::serialized_size`]; what lies beyond is kept.
+    pub(crate) fn serialize(&self, saved: &SavedState, bytes: &mut [u8]) -> Result<(), Problem> {
+        self.guard(Function::SerializeFmuState)?;
+        let (given, needed) = (bytes.len(), self.size(saved)?);
+        let Some((header, payload)) =
+            bytes.get_mut(..needed).and_then(|all| all.split_at_mut_checked(HEADER))
+        else {
+            return Err(StateMismatch::Length { found: given as u64, expected: needed as u64 }.into());
+        };
+        let used = postcard::to_slice(&saved.memory, payload).map_err(unencodable)?.len();
+        self.runtime.encode(&saved.model, &mut payload[used..])?;
+        let length = payload.len() as u64;
+        let parts: [&[u8]; 5] = [
+            &MARK,
+            &LAYOUT.to_le_bytes(),
+            saved.digest.as_bytes(),
+            &length.to_le_bytes(),
+            &checksum(payload).to_le_bytes(),
+        ];
+        for (to, from) in header.iter_mut().zip(parts.into_iter().flatten()) {
+            *to = *from;
+        }
+        Ok(())
+    }
+
+    /// `fmi2DeSerializeFMUstate`. Total: any bytes give a state or an error, and no more memory is asked for
+    /// than the bytes can fill.
+    pub(crate) fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Problem> {
+        self.guard(Function::DeSerializeFmuState)?;
+        let payload = self.unsealed(bytes)?;
+        let (memory, rest) = postcard::take_from_bytes::<Memory>(payload)
+            .map_err(|error| content(format!("instance: {error}")))?;
+        memory.check(&self.access)?;
+        let model = self.runtime.decode(rest)?;
+        let steps_next = memory.state == State::StepComplete
+            || (memory.state == State::InitializationMode && !memory.needs_initialization);
+        let needs_model = steps_next || matches!(memory.state, State::StepFailed | State::Terminated);
+        if needs_model && !self.runtime.is_initialized(&model) {
+            return Err(content(format!("state {} without a model state", memory.state.name())).into());
+        }
+        if steps_next {
+            self.runtime.check_time(&model, memory.time_s)?;
+        }
+        Ok(SavedState { digest: self.digest, memory, model })
+    }
+
+    /// The payload behind a valid header.
+    fn unsealed<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], StateMismatch> {
+        let short = || StateMismatch::Length { found: bytes.len() as u64, expected: HEADER as u64 };
+        let (mark, rest) = bytes.split_first_chunk::<8>().ok_or_else(short)?;
+        if *mark != MARK {
+            return Err(StateMismatch::Mark);
+        }
+        let (layout, rest) = rest.split_first_chunk::<4>().ok_or_else(short)?;
+        let found = u32::from_le_bytes(*layout);
+        if found != LAYOUT {
+            return Err(StateMismatch::Version { found, expected: LAYOUT });
+        }
+        let (digest, rest) = rest.split_first_chunk::<16>().ok_or_else(short)?;
+        let found = Uuid::from_bytes(*digest);
+        if found != self.digest {
+            return Err(StateMismatch::Guid { found, expected: self.digest });
+        }
+        let (length, rest) = rest.split_first_chunk::<8>().ok_or_else(short)?;
+        let (sum, rest) = rest.split_first_chunk::<8>().ok_or_else(short)?;
+        let length = u64::from_le_bytes(*length);
+        // A buffer may be longer than the blob, never shorter.
+        let payload =
+            usize::try_from(length).ok().and_then(|length| rest.get(..length)).ok_or_else(|| {
+                let expected = length.saturating_add(HEADER as u64);
+                StateMismatch::Length { found: bytes.len() as u64, expected }
+            })?;
+        if checksum(payload) == u64::from_le_bytes(*sum) { Ok(payload) } else { Err(StateMismatch::Checksum) }
+    }
+
+    fn own(&self, saved: &SavedState) -> Result<(), StateMismatch> {
+        if saved.digest == self.digest {
+            Ok(())
+        } else {
+            Err(StateMismatch::Guid { found: saved.digest, expected: self.digest })
+        }
+    }
+}
+
+/// FNV-1a, 64 bits: guards against damage, not against intent.
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
+    })
+}

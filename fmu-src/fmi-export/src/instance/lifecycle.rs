@@ -1,0 +1,109 @@
+//! Experiment, initialization, termination, reset, log settings.
+
+use super::{Instance, once};
+use crate::Status;
+use crate::call_table::Function;
+use crate::logger::Category;
+use crate::memory::{Experiment, Memory};
+use crate::problem::Problem;
+
+impl Instance {
+    /// `fmi2SetDebugLogging`: `categories` gives each named category, or `None` where the name is unknown.
+    pub(crate) fn set_debug_logging(
+        &mut self,
+        on: bool,
+        count: usize,
+        mut categories: impl FnMut(usize) -> Option<Category>,
+    ) -> Result<(), Problem> {
+        self.guard(Function::SetDebugLogging)?;
+        let known: Vec<Category> = (0..count).filter_map(&mut categories).collect();
+        let unknown = (0..count).find(|&index| categories(index).is_none());
+        if count > 0 && known.is_empty() {
+            self.logger.enable_nothing();
+        } else {
+            self.logger.enable(on, known);
+        }
+        unknown.map_or(Ok(()), |index| Err(Problem::UnknownCategory { index }))
+    }
+
+    /// `fmi2SetupExperiment`.
+    pub(crate) fn setup_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start_s: f64,
+        stop_s: Option<f64>,
+    ) -> Result<(), Problem> {
+        self.guard(Function::SetupExperiment)?;
+        if !start_s.is_finite() || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) {
+            return Err(Problem::Experiment { start_s, stop_s });
+        }
+        if let Some(tolerance) = tolerance
+            && !(tolerance > 0.0 && tolerance.is_finite())
+        {
+            self.logger.log(
+                Status::Warning,
+                format_args!(
+                    "fmi2SetupExperiment: the tolerance {tolerance:?} is no positive number; ignored"
+                ),
+            );
+        }
+        self.memory.experiment = Some(Experiment { start_s, stop_s });
+        Ok(())
+    }
+
+    /// `fmi2EnterInitializationMode`.
+    pub(crate) fn enter_initialization_mode(&mut self) -> Result<(), Problem> {
+        self.guard(Function::EnterInitializationMode)?;
+        let experiment = self.memory.experiment.ok_or(Problem::NoExperiment)?;
+        self.memory.time_s = experiment.start_s;
+        self.memory.needs_initialization = true;
+        Ok(())
+    }
+
+    /// `fmi2ExitInitializationMode`.
+    pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
+        self.guard(Function::ExitInitializationMode)?;
+        self.initialize_if_needed()?;
+        self.warm_up();
+        Ok(())
+    }
+
+    /// Computes the outputs of Initialization Mode from what was set so far.
+    pub(super) fn initialize_if_needed(&mut self) -> Result<(), Problem> {
+        if self.memory.needs_initialization {
+            self.runtime.initialize(&mut self.memory.values, self.memory.time_s, &self.logger)?;
+            self.memory.needs_initialization = false;
+        }
+        Ok(())
+    }
+
+    /// `fmi2Terminate`.
+    pub(crate) fn terminate(&mut self) -> Result<(), Problem> {
+        self.guard(Function::Terminate)
+    }
+
+    /// `fmi2Reset`: as if freshly instantiated.
+    pub(crate) fn reset(&mut self) -> Result<(), Problem> {
+        self.guard(Function::Reset)?;
+        self.runtime.clear();
+        self.forget_last_step();
+        self.memory.copy_from(&Memory::new(&self.start));
+        self.logger.reset();
+        self.said = 0;
+        self.promised_s = f64::NEG_INFINITY;
+        Ok(())
+    }
+
+    /// Notes that the master goes back behind a time it promised not to.
+    pub(crate) fn check_promise(&mut self, time_s: f64) {
+        let promised_s = self.promised_s;
+        if time_s < promised_s {
+            self.say_once(
+                once::BEHIND_PROMISE,
+                format_args!(
+                    "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {promised_s:?} s"
+                ),
+            );
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! One instance: the state machine around a model, its values, its log. No C types here.
+//!
+//! Every function of the standard is one method that asks the call table, does its work and hands a
+//! [`Problem`] or nothing to [`Instance::conclude`], which logs, moves the state and gives the status.
+
+mod derivatives;
+mod lifecycle;
+mod stepping;
+mod values;
+
+use crate::access::AccessTable;
+use crate::call_table::{self, Access, Function, Next, State};
+use crate::logger::Logger;
+use crate::memory::{Memory, copy_values};
+use crate::problem::Problem;
+use crate::runtime::{Capabilities, Parts, Runtime};
+use crate::variables::Values;
+use crate::{Status, describe::Prepared};
+
+pub(crate) use stepping::StatusKind;
+
+/// Messages that are worth saying once per instance, as bits.
+mod once {
+    pub(super) const INPUT_BEFORE_INITIALIZATION: u8 = 1;
+    pub(super) const READ_IN_INITIALIZATION: u8 = 1 << 1;
+    pub(super) const OUTPUT_AFTER_SET: u8 = 1 << 2;
+    pub(super) const BEHIND_PROMISE: u8 = 1 << 3;
+    pub(super) const NO_INTERPOLATION: u8 = 1 << 4;
+}
+
+/// One instance of one model.
+pub(crate) struct Instance {
+    pub(super) memory: Memory,
+    pub(super) runtime: Box<dyn Runtime>,
+    pub(super) access: AccessTable,
+    pub(super) start: Values,
+    pub(super) digest: uuid::Uuid,
+    pub(super) capabilities: Capabilities,
+    pub(super) logger: Logger,
+    /// What has been said already.
+    said: u8,
+    /// The master promised not to go back before this time.
+    promised_s: f64,
+    /// Whether the model may be asked for derivatives, so that [`Memory::at_last_step`] is needed.
+    keeps_last_step: bool,
+    /// Spare memory for it.
+    spare: Values,
+    poisoned: bool,
+}
+
+impl Instance {
+    /// A fresh instance.
+    pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
+        let Parts { access, start, runtime, digest, capabilities } = prepared.parts;
+        let mut memory = Memory::new(&start);
+        memory.input_derivatives.reserve(access.real_limits.len());
+        let keeps_last_step =
+            capabilities.directional_derivative || capabilities.max_output_derivative_order > 0;
+        Self {
+            spare: if keeps_last_step { start.clone() } else { Values::default() },
+            keeps_last_step,
+            memory,
+            runtime,
+            access,
+            start,
+            digest,
+            capabilities,
+            logger,
+            said: 0,
+            promised_s: f64::NEG_INFINITY,
+            poisoned: false,
+        }
+    }
+
+    /// Whether a panic ended this instance.
+    #[inline]
+    pub(crate) fn is_poisoned(&self) -> bool {
+        self.poisoned
+    }
+
+    /// No call but free works from here on.
+    pub(crate) fn poison(&mut self) {
+        self.poisoned = true;
+        self.memory.state = State::Error;
+    }
+
+    /// The log.
+    pub(crate) fn logger(&self) -> &Logger {
+        &self.logger
+    }
+
+    /// The log, and what else must be dropped.
+    pub(crate) fn dismantle(self) -> (Logger, Box<dyn Runtime>) {
+        (self.logger, self.runtime)
+    }
+
+    /// Refuses a call that the table forbids in this state. What is conditional is checked per variable.
+    #[inline]
+    pub(super) fn guard(&self, function: Function) -> Result<(), Problem> {
+        match call_table::allowed(function, self.memory.state) {
+            Access::Forbidden => Err(Problem::Illegal { function, state: self.memory.state }),
+            Access::Allowed | Access::Conditional(_) => Ok(()),
+        }
+    }
+
+    /// The status of a call, after the state machine and the log heard of it.
+    #[inline]
+    pub(crate) fn conclude(&mut self, function: Function, result: Result<(), Problem>) -> Status {
+        match result {
+            Ok(()) => {
+                self.follow(function, Status::Ok);
+                Status::Ok
+            }
+            Err(problem) => self.refuse(function, &problem),
+        }
+    }
+
+    #[cold]
+    fn refuse(&mut self, function: Function, problem: &Problem) -> Status {
+        let status = problem.status(function);
+        self.logger.log(status, format_args!("{}: {}", function.symbol(), problem.explain(&self.access)));
+        self.follow(function, status);
+        status
+    }
+
+    #[inline]
+    fn follow(&mut self, function: Function, status: Status) {
+        if let Next::State(state) = call_table::after(function, self.memory.state, status) {
+            self.memory.state = state;
+        }
+    }
+
+    /// Logs a warning the first time only.
+    #[cold]
+    pub(super) fn say_once(&mut self, what: u8, message: core::fmt::Arguments<'_>) {
+        if self.said & what == 0 {
+            self.said |= what;
+            self.logger.log(Status::Warning, message);
+        }
+    }
+
+    /// The values that derivatives are asked of: those of the last step, whatever was set since.
+    pub(super) fn values_at_last_step(&self) -> &Values {
+        self.memory.at_last_step.as_ref().unwrap_or(&self.memory.values)
+    }
+
+    /// Brings the spare values to their size, so that no step has to.
+    pub(super) fn warm_up(&mut self) {
+        if self.keeps_last_step {
+            copy_values(&mut self.spare, &self.memory.values);
+        }
+    }
+
+    /// Forgets the values kept for derivatives, but not their memory.
+    pub(super) fn forget_last_step(&mut self) {
+        if let Some(values) = self.memory.at_last_step.take() {
+            self.spare = values;
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! All that changes in an instance beside the model's own state: one value, saved and restored as a whole.
+
+use serde::{Deserialize, Serialize};
+
+use crate::access::{AccessTable, BaseType, CONTINUOUS, GIVEN, INPUT};
+use crate::call_table::State;
+use crate::problem::StateMismatch;
+use crate::variables::Values;
+
+/// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
+pub const MAX_INPUT_DERIVATIVE_ORDER: u32 = 170;
+
+/// What `fmi2SetupExperiment` told; the tolerance is not used by any model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Experiment {
+    pub(crate) start_s: f64,
+    pub(crate) stop_s: Option<f64>,
+}
+
+/// The mutable part of an instance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Memory {
+    pub(crate) state: State,
+    pub(crate) experiment: Option<Experiment>,
+    /// Where the last step ended.
+    pub(crate) time_s: f64,
+    /// The model ended by itself.
+    pub(crate) terminated: bool,
+    /// In Initialization Mode: the outputs do not belong to what was set.
+    pub(crate) needs_initialization: bool,
+    /// Between steps: an input or tunable parameter differs from what the last step used.
+    pub(crate) changed: bool,
+    /// The last step had input derivatives, which ended with it.
+    pub(crate) derivatives_ended: bool,
+    /// Value reference, order, value; until the end of the next step.
+    pub(crate) input_derivatives: Vec<(u32, u32, f64)>,
+    pub(crate) values: Values,
+    /// The values as the last step left them, where derivatives may still be asked of them; else empty.
+    pub(crate) at_last_step: Option<Values>,
+}
+
+impl Memory {
+    /// A fresh instance.
+    pub(crate) fn new(start: &Values) -> Self {
+        Self {
+            state: State::Instantiated,
+            experiment: None,
+            time_s: 0.0,
+            terminated: false,
+            needs_initialization: false,
+            changed: false,
+            derivatives_ended: false,
+            input_derivatives: Vec::new(),
+            values: start.clone(),
+            at_last_step: None,
+        }
+    }
+
+    /// Becomes a copy of `other`, reusing memory.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        // Without `..` a new field cannot be forgotten.
+        let Self {
+            state,
+            experiment,
+            time_s,
+            terminated,
+            needs_initialization,
+            changed,
+            derivatives_ended,
+            input_derivatives,
+            values,
+            at_last_step,
+        } = other;
+        self.state = *state;
+        self.experiment = *experiment;
+        self.time_s = *time_s;
+        self.terminated = *terminated;
+        self.needs_initialization = *needs_initialization;
+        self.changed = *changed;
+        self.derivatives_ended = *derivatives_ended;
+        self.input_derivatives.clone_from(input_derivatives);
+        copy_values(&mut self.values, values);
+        match (&mut self.at_last_step, at_last_step) {
+            (Some(mine), Some(theirs)) => copy_values(mine, theirs),
+            (mine, theirs) => mine.clone_from(theirs),
+        }
+    }
+
+    /// Whether decoded bytes make sense for a model with these variables. The error says what does not.
+    pub(crate) fn check(&self, access: &AccessTable) -> Result<(), StateMismatch> {
+        self.check_clock()?;
+        check_values(&self.values, access)?;
+        if let Some(values) = &self.at_last_step {
+            check_values(values, access)?;
+        }
+        for &(reference, order, value) in &self.input_derivatives {
+            let flags = access.flags(BaseType::Real).get(reference as usize).copied().unwrap_or(0);
+            let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
+            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !value.is_finite() {
+                return Err(content(format!(
+                    "input derivative {value:?} of order {order} for Real value reference {reference}"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_clock(&self) -> Result<(), StateMismatch> {
+        if matches!(self.state, State::StepInProgress | State::StepCanceled | State::Fatal) {
+            return Err(content(format!("no instance is saved in the state {}", self.state.name())));
+        }
+        let started = matches!(
+            self.state,
+            State::InitializationMode | State::StepComplete | State::StepFailed | State::Terminated
+        );
+        match self.experiment {
+            None if started => return Err(content("started without an experiment".to_owned())),
+            Some(Experiment { start_s, stop_s })
+                if !start_s.is_finite()
+                    || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) =>
+            {
+                return Err(content(format!("start {start_s:?} s and stop {stop_s:?} s")));
+            }
+            _ => {}
+        }
+        if self.time_s.is_finite() { Ok(()) } else { Err(content(format!("time {:?} s", self.time_s))) }
+    }
+}
+
+pub(crate) fn content(what: String) -> StateMismatch {
+    StateMismatch::Content(what)
+}
+
+/// `to` becomes `from` without new memory where the lengths agree.
+pub(crate) fn copy_values(to: &mut Values, from: &Values) {
+    to.reals.clone_from(&from.reals);
+    to.integers.clone_from(&from.integers);
+    to.booleans.clone_from(&from.booleans);
+    to.strings.clone_from(&from.strings);
+}
+
+fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
+    let lengths = [values.reals.len(), values.integers.len(), values.booleans.len(), values.strings.len()];
+    for (base, length) in BaseType::ALL.into_iter().zip(lengths) {
+        let expected = access.flags(base).len();
+        if length != expected {
+            return Err(content(format!("{length} {} values, the model has {expected}", base.name())));
+        }
+    }
+    // What the model computes is its own affair; what a master sets obeys the same limits here.
+    let reals = access.flags(BaseType::Real).iter().zip(&values.reals).zip(&access.real_limits);
+    for (reference, ((&flags, &value), &(min, max))) in reals.enumerate() {
+        if flags & GIVEN != 0 && !(value >= min && value <= max) {
+            let name = access.name(BaseType::Real, reference as u32).unwrap_or_default();
+            return Err(content(format!("`{name}` is {value:?}")));
+        }
+    }
+    for (reference, &value) in values.integers.iter().enumerate() {
+        let flags = access.flags(BaseType::Integer).get(reference).copied().unwrap_or(0);
+        if flags & GIVEN != 0 && !access.admits_integer(reference, value) {
+            let name = access.name(BaseType::Integer, reference as u32).unwrap_or_default();
+            return Err(content(format!("`{name}` is {value}")));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! What a declaration must fulfil at run time: roles, ranges and texts that may come from a setup file.
+
+use core::fmt::Display;
+
+use model_description::{
+    EnumerationItem, Variability, names,
+    rules::{self, StartRule},
+};
+
+use super::declare::Role;
+
+/// Result of a check: the problem in words.
+pub type Checked = Result<(), String>;
+
+/// Checks causality, variability, initial and the presence of a start value (FMI 2.0.5, 2.2.7).
+pub fn role(role: Role, is_real: bool, has_start: bool) -> Checked {
+    let Role { causality, variability, initial } = role;
+    if variability == Variability::Continuous && !is_real {
+        return Err("only a Real can be continuous".to_owned());
+    }
+    let Some(rule) = rules::initial(causality, variability) else {
+        let legal = list(rules::legal_variabilities(causality));
+        return Err(format!("{causality} cannot be {variability}; allowed: {legal}"));
+    };
+    if let Some(written) = initial
+        && !rule.allowed.contains(&written)
+    {
+        let allowed = list(rule.allowed);
+        return Err(format!("{variability} {causality} cannot have initial {written}; allowed: {allowed}"));
+    }
+    match rules::start(causality, rules::effective(causality, variability, initial)) {
+        StartRule::Required if !has_start => Err("needs a start value".to_owned()),
+        StartRule::Forbidden if has_start => Err("is calculated and cannot have a start value".to_owned()),
+        _ => Ok(()),
+    }
+}
+
+/// Checks a structured name.
+pub fn name(full: &str) -> Checked {
+    names::check_structured(full).map_err(|problem| format!("the name {problem}"))
+}
+
+/// Checks that a Real attribute is a number the XML can carry.
+pub fn finite(what: &str, value: Option<f64>) -> Checked {
+    match value {
+        Some(value) if !value.is_finite() => Err(format!("{what} is {value}; it must be finite")),
+        _ => Ok(()),
+    }
+}
+
+/// Checks min <= start <= max.
+pub fn range<T: PartialOrd + Display>(start: Option<T>, min: Option<T>, max: Option<T>) -> Checked {
+    if let (Some(min), Some(max)) = (&min, &max)
+        && min > max
+    {
+        return Err(format!("min {min} is above max {max}"));
+    }
+    match (start, min, max) {
+        (Some(start), Some(min), _) if start < min => Err(format!("start {start} is below min {min}")),
+        (Some(start), _, Some(max)) if start > max => Err(format!("start {start} is above max {max}")),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that XML 1.0 and C strings can carry a text.
+pub fn text(what: &str, text: &str) -> Checked {
+    let bad = |letter: &char| {
+        matches!(letter, '\u{FFFE}' | '\u{FFFF}' | '\0'..='\u{1F}') && !matches!(letter, '\t' | '\n' | '\r')
+    };
+    match text.chars().find(bad) {
+        Some(letter) => Err(format!("{what} holds the character {letter:?}, which XML cannot carry")),
+        None => Ok(()),
+    }
+}
+
+/// Checks the items of an enumeration type: some, with distinct names and values.
+pub fn items(items: &[EnumerationItem]) -> Checked {
+    if items.is_empty() {
+        return Err("its enumeration has no items".to_owned());
+    }
+    for (position, item) in items.iter().enumerate() {
+        let before = &items[..position];
+        if before.iter().any(|other| other.name == item.name || other.value == item.value) {
+            return Err(format!(
+                "its enumeration has two items named `{}` or valued {}",
+                item.name, item.value
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn list<T: Display>(all: impl IntoIterator<Item = T>) -> String {
+    let words: Vec<_> = all.into_iter().map(|word| word.to_string()).collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+}

@@ -1,0 +1,169 @@
+//! A set is checked as a whole before anything is written, and values out of range are discarded by name.
+
+use fmi_export::Status::{Discard, Error, Ok};
+
+use super::{fresh, only_message, real, reference, started};
+
+#[test]
+fn an_unknown_reference_in_a_vector_writes_nothing_of_it() {
+    let (mut instance, description) = started("AllTypes");
+    let input = reference(&description, "input.real");
+    assert_eq!(instance.set_real(&[input, 9999], &[5.0, 6.0]), Error);
+    let text = only_message(&instance);
+    assert!(text.contains("fmi2SetReal: unknown Real value reference 9999: this model has 0 to"), "{text}");
+    assert_eq!(real(&mut instance, input), 0.0);
+}
+
+#[test]
+fn values_out_of_range_are_discarded_whole_and_the_instance_lives() {
+    let (mut instance, description) = started("AllTypes");
+    let at = |name| reference(&description, name);
+    let (input, tunable) = (at("input.real"), at("tunable.real"));
+    for (values, words) in [
+        ([1.0, 10.5], ["`tunable.real`", "10.5", "0.0 to 10.0"]),
+        ([1.0, f64::NAN], ["`tunable.real`", "NaN", "0.0 to 10.0"]),
+        ([f64::INFINITY, 1.0], ["`input.real`", "inf", "-1000000.0 to 1000000.0"]),
+    ] {
+        assert_eq!(instance.set_real(&[input, tunable], &values), Discard);
+        let text = only_message(&instance);
+        assert!(words.iter().all(|word| text.contains(word)), "{text}");
+        assert_eq!([real(&mut instance, input), real(&mut instance, tunable)], [0.0, 2.5]);
+    }
+    let discrete = at("input.discreteReal");
+    assert_eq!(instance.set_real(&[discrete], &[f64::NEG_INFINITY]), Discard);
+    assert!(only_message(&instance).contains("any finite value"));
+    assert_eq!(instance.set_integer(&[at("input.integer")], &[1001]), Discard);
+    assert!(only_message(&instance).contains("`input.integer`"));
+    for gap in [0, 3, 5, i32::MIN] {
+        assert_eq!(instance.set_integer(&[at("input.choice")], &[gap]), Discard, "{gap}");
+        assert!(only_message(&instance).contains("[1, 2, 4]"));
+    }
+    assert_eq!(instance.set_integer(&[at("input.choice")], &[4]), Ok);
+    assert_eq!(instance.set_boolean(&[at("input.boolean")], &[2]), Discard);
+    assert!(only_message(&instance).contains("0 (fmi2False) and 1 (fmi2True)"));
+    assert_eq!(instance.set_string(&[at("input.text")], &[b"\xFF\xFE"]), Discard);
+    assert!(only_message(&instance).contains("UTF-8"));
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+}
+
+#[test]
+fn what_may_be_set_depends_on_the_state() {
+    // Name, then whether Instantiated, Initialization Mode and the steps admit it (2.2.7, notes 1, 3, 6).
+    let table = [
+        ("parameter.real", [true, true, false]),
+        ("tunable.real", [true, true, true]),
+        ("input.real", [true, true, true]), // Instantiated: leniency
+        ("output.real", [false, false, false]),
+        ("role.calculatedFixed", [false, false, false]),
+        ("role.calculatedApprox", [true, false, false]),
+        ("role.outputConstant", [false, false, false]),
+        ("role.outputApprox", [true, false, false]),
+        ("role.localExact", [true, true, false]),
+        ("role.localContinuous", [false, false, false]),
+    ];
+    for (name, admitted) in table {
+        for (phase, admitted) in admitted.into_iter().enumerate() {
+            let (mut instance, description) = fresh("AllTypes");
+            if phase > 0 {
+                assert_eq!(instance.setup_experiment(0.0, None), Ok);
+                assert_eq!(instance.enter_initialization_mode(), Ok);
+            }
+            if phase > 1 {
+                assert_eq!(instance.exit_initialization_mode(), Ok);
+            }
+            let expected = if admitted { Ok } else { Error };
+            let found = instance.set_real(&[reference(&description, name)], &[3.0]);
+            assert_eq!(found, expected, "{name} in phase {phase}");
+            if !admitted {
+                let text = only_message(&instance);
+                assert!(text.contains(&format!("`{name}`")) && text.contains("may not be set"), "{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn leniencies_are_logged_once() {
+    let (mut instance, description) = fresh("AllTypes");
+    let input = reference(&description, "input.real");
+    assert_eq!(instance.set_real(&[input], &[1.0]), Ok);
+    assert!(only_message(&instance).contains("inputs are set before Initialization Mode"));
+    assert_eq!(instance.set_real(&[input], &[2.0]), Ok);
+    assert_eq!(instance.setup_experiment(0.0, None), Ok);
+    assert_eq!(instance.enter_initialization_mode(), Ok);
+    assert!(instance.take_messages().is_empty());
+    assert_eq!(real(&mut instance, input), 2.0);
+    assert!(only_message(&instance).contains("read in Initialization Mode"));
+    assert_eq!(real(&mut instance, input), 2.0);
+    assert_eq!(real(&mut instance, reference(&description, "output.real")), 2.0);
+    assert!(instance.take_messages().is_empty());
+}
+
+#[test]
+fn initialization_follows_what_was_set() {
+    let (mut instance, description) = fresh("AllTypes");
+    let at = |name| reference(&description, name);
+    assert_eq!(instance.setup_experiment(7.0, None), Ok);
+    assert_eq!(instance.enter_initialization_mode(), Ok);
+    let (parameter, calculated) = (at("parameter.real"), at("role.calculatedFixed"));
+    assert_eq!(real(&mut instance, calculated), 3.0);
+    assert_eq!(instance.set_real(&[parameter, at("input.real")], &[5.0, 8.0]), Ok);
+    assert_eq!(real(&mut instance, calculated), 10.0);
+    assert_eq!(instance.set_real(&[parameter], &[6.0]), Ok);
+    assert_eq!(instance.exit_initialization_mode(), Ok);
+    assert_eq!(real(&mut instance, calculated), 12.0);
+    assert_eq!(real(&mut instance, at("output.real")), 8.0);
+}
+
+#[test]
+fn outputs_after_a_set_belong_to_the_last_step_and_inputs_read_back() {
+    let (mut instance, description) = started("AllTypes");
+    let (input, output) = (reference(&description, "input.real"), reference(&description, "output.real"));
+    assert_eq!(instance.set_real(&[input], &[1.0]), Ok);
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!(instance.set_real(&[input], &[2.0]), Ok);
+    assert_eq!(real(&mut instance, input), 2.0);
+    assert!(instance.take_messages().is_empty());
+    assert_eq!(real(&mut instance, output), 1.0);
+    assert!(only_message(&instance).contains("last communication point"));
+    assert_eq!(real(&mut instance, output), 1.0);
+    assert!(instance.take_messages().is_empty());
+    assert_eq!(instance.do_step(1.0, 1.0), Ok);
+    assert_eq!(real(&mut instance, output), 2.0);
+}
+
+#[test]
+fn only_a_different_value_ends_what_was_computed_ahead() {
+    // The integral of AllTypes is one product while nothing changes: 0.1 * (3 * 0.1) differs from a sum.
+    let run = |set_again: bool| {
+        let (mut instance, description) = fresh("AllTypes");
+        let input = reference(&description, "input.real");
+        assert_eq!(instance.set_real(&[input], &[0.1]), Ok);
+        assert_eq!(instance.start(0.0, None), Ok);
+        for i in 0..7 {
+            if set_again {
+                assert_eq!(instance.set_real(&[input], &[0.1]), Ok);
+            }
+            assert_eq!(instance.do_step(0.1 * f64::from(i), 0.1), Ok);
+        }
+        real(&mut instance, reference(&description, "output.integral"))
+    };
+    assert_eq!(run(false).to_bits(), run(true).to_bits());
+}
+
+#[test]
+fn every_type_comes_back_as_it_was_set() {
+    let (mut instance, description) = started("AllTypes");
+    let at = |name| reference(&description, name);
+    let (mut integer, mut boolean) = ([0], [9]);
+    assert_eq!(instance.set_integer(&[at("tunable.integer")], &[-10]), Ok);
+    assert_eq!(instance.set_boolean(&[at("tunable.boolean")], &[1]), Ok);
+    assert_eq!(instance.set_string(&[at("input.text")], &["Ωμέγα % #".as_bytes()]), Ok);
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!(instance.get_integer(&[at("echo.integer")], &mut integer), Ok);
+    assert_eq!(instance.get_boolean(&[at("echo.boolean")], &mut boolean), Ok);
+    let (status, texts) = instance.get_string(&[at("output.text"), at("output.text"), at("parameter.text")]);
+    assert_eq!((status, integer, boolean), (Ok, [-10], [1]));
+    assert_eq!(texts, ["Ωμέγα % #", "Ωμέγα % #", "Grüße, 世界 <&\"'> 🛰"]);
+    assert_eq!(instance.get_string(&[77]).0, Error);
+}

@@ -1,0 +1,242 @@
+//! Random legal and illegal calls are answered as the standard's text says, state by state.
+
+use fmi_export::Enumeration;
+use fmi_export::Status::{self, Discard, Error, Ok};
+use fmi_export::abi::{InProcess, StatePointer};
+use probe::panicking::Accident;
+
+use super::{Random, fresh, reference};
+
+/// States as the text of 4.2.4 names them; those that we never reach are left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    Instantiated,
+    Initializing,
+    Complete,
+    Failed,
+    Terminated,
+    Erroneous,
+}
+
+/// What the text of 4.2.4 lists under each state, in its own order; common to all: `COMMON`.
+fn listed(place: Place) -> &'static [&'static str] {
+    match place {
+        Place::Instantiated => {
+            &["SetupExperiment", "EnterInitializationMode", "Set", "GetFMUstate", "InputDerivatives"]
+        }
+        Place::Initializing => {
+            &["ExitInitializationMode", "Get", "Set", "GetFMUstate", "Directional", "InputDerivatives"]
+        }
+        Place::Complete => &[
+            "DoStep",
+            "Terminate",
+            "Get",
+            "Set",
+            "GetFMUstate",
+            "Directional",
+            "InputDerivatives",
+            "OutputDerivatives",
+            "Status",
+        ],
+        Place::Failed => &["Terminate", "Get", "GetFMUstate", "Directional", "OutputDerivatives", "Status"],
+        Place::Terminated => &["Get", "GetFMUstate", "Directional", "OutputDerivatives", "Status"],
+        Place::Erroneous => &["Get", "GetFMUstate", "Directional", "OutputDerivatives"],
+    }
+}
+
+const COMMON: &[&str] = &["SetDebugLogging", "Reset", "SetFMUstate", "Serialize"];
+
+const CALLS: &[&str] = &[
+    "SetupExperiment",
+    "EnterInitializationMode",
+    "ExitInitializationMode",
+    "DoStep",
+    "DoStep",
+    "Terminate",
+    "CancelStep",
+    "Get",
+    "Set",
+    "GetFMUstate",
+    "SetFMUstate",
+    "Directional",
+    "InputDerivatives",
+    "OutputDerivatives",
+    "Status",
+    "SetDebugLogging",
+    "Reset",
+    "Serialize",
+    "Advance",
+];
+
+/// What an observer who knows only the standard keeps in mind.
+#[derive(Clone, Copy)]
+struct Expected {
+    place: Place,
+    experiment: bool,
+    computed: bool,
+    time_s: f64,
+}
+
+const FRESH: Expected =
+    Expected { place: Place::Instantiated, experiment: false, computed: false, time_s: 0.0 };
+
+struct Walk {
+    instance: InProcess,
+    expected: Expected,
+    saved: Option<Expected>,
+    state: StatePointer,
+    accident: u32,
+    output: u32,
+    input: u32,
+    random: Random,
+    visits: [usize; 6],
+}
+
+impl Walk {
+    fn legal(&self, call: &str) -> bool {
+        COMMON.contains(&call) || listed(self.expected.place).contains(&call)
+    }
+
+    /// Makes a call and says what it answered and what it had to answer if it was legal.
+    fn call(&mut self, call: &str) -> (Status, Status) {
+        let (instance, expected) = (&mut self.instance, &mut self.expected);
+        match call {
+            "SetupExperiment" => {
+                let status = instance.setup_experiment(0.0, None);
+                expected.experiment |= expected.place == Place::Instantiated;
+                (status, Ok)
+            }
+            "EnterInitializationMode" => {
+                (instance.enter_initialization_mode(), if expected.experiment { Ok } else { Error })
+            }
+            "ExitInitializationMode" => (instance.exit_initialization_mode(), Ok),
+            "DoStep" => {
+                let ends = self.random.below(4) == 0;
+                let accident = if ends { Accident::TerminateStep } else { Accident::Nowhere };
+                if expected.place == Place::Complete {
+                    assert_eq!(instance.set_integer(&[self.accident], &[accident.value()]), Ok);
+                }
+                (instance.do_step(expected.time_s, 0.5), if ends { Discard } else { Ok })
+            }
+            "Terminate" => (instance.terminate(), Ok),
+            "CancelStep" => (instance.cancel_step(), Ok),
+            "Get" => match self.random.below(4) {
+                0 => {
+                    expected.computed |= expected.place == Place::Initializing;
+                    (instance.get_real(&[self.output], &mut [0.0]), Ok)
+                }
+                1 => (instance.get_integer(&[], &mut []), Ok),
+                2 => (instance.get_boolean(&[], &mut []), Ok),
+                _ => (instance.get_string(&[]).0, Ok),
+            },
+            "Set" => match self.random.below(4) {
+                // Accident is a tunable parameter: settable wherever anything is.
+                0 => (instance.set_integer(&[self.accident], &[Accident::Nowhere.value()]), Ok),
+                1 => (instance.set_real(&[], &[]), Ok),
+                2 => (instance.set_boolean(&[], &[]), Ok),
+                _ => (instance.set_string(&[], &[]), Ok),
+            },
+            "GetFMUstate" => (instance.get_state(&mut self.state), Ok),
+            "SetFMUstate" => (instance.set_state(&self.state), if self.saved.is_some() { Ok } else { Error }),
+            "Serialize" => {
+                let (status, bytes) = instance.serialize(&self.state);
+                if status != Ok {
+                    return (status, if self.saved.is_some() { Ok } else { Error });
+                }
+                let (status, decoded) = instance.deserialize(&bytes);
+                drop(decoded);
+                (status, Ok)
+            }
+            "Directional" | "OutputDerivatives" => {
+                // In Initialization Mode asking for it computes it.
+                expected.computed |= expected.place == Place::Initializing && call == "Directional";
+                let computed = expected.computed;
+                let status = match call {
+                    "Directional" => {
+                        instance.get_directional_derivative(&[self.output], &[self.input], &[1.0], &mut [0.0])
+                    }
+                    _ => instance.get_output_derivatives(&[self.output], &[1], &mut [0.0]),
+                };
+                (status, if computed { Ok } else { Error })
+            }
+            "InputDerivatives" => (instance.set_input_derivatives(&[self.input], &[1], &[1.0]), Ok),
+            "Status" => match self.random.below(3) {
+                0 => (instance.get_status(0), Discard),
+                1 => (instance.last_successful_time().0, Ok),
+                _ => (instance.terminated().0, Ok),
+            },
+            "SetDebugLogging" => (instance.set_debug_logging(false, &[]), Ok),
+            "Reset" => (instance.reset(), Ok),
+            other => panic!("{other}"),
+        }
+    }
+
+    fn go(&mut self, call: &'static str) {
+        let before = self.expected;
+        let (status, if_legal) = self.call(call);
+        let wanted = if self.legal_before(before, call) { if_legal } else { Error };
+        assert_eq!(status, wanted, "{call} in {:?}", before.place);
+        self.follow(call, status, before);
+        self.visits[self.expected.place as usize] += 1;
+        self.instance.take_messages();
+    }
+
+    fn legal_before(&mut self, before: Expected, call: &str) -> bool {
+        let now = core::mem::replace(&mut self.expected, before);
+        let legal = self.legal(call);
+        self.expected = now;
+        legal
+    }
+
+    fn follow(&mut self, call: &str, status: Status, before: Expected) {
+        let expected = &mut self.expected;
+        match (call, status) {
+            ("Reset", _) => *expected = FRESH,
+            ("SetFMUstate", Ok) => *expected = self.saved.unwrap(),
+            ("GetFMUstate", Ok) => self.saved = Some(before),
+            (_, Error) => expected.place = Place::Erroneous,
+            ("DoStep", Discard) => expected.place = Place::Failed,
+            ("DoStep", Ok) => expected.time_s += 0.5,
+            ("EnterInitializationMode", _) => expected.place = Place::Initializing,
+            ("ExitInitializationMode", _) => (expected.place, expected.computed) = (Place::Complete, true),
+            ("Terminate", _) => expected.place = Place::Terminated,
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn two_hundred_thousand_random_calls() {
+    let (instance, description) = fresh("Panicking");
+    let at = |name| reference(&description, name);
+    let (accident, output, input) = (at("accident"), at("output"), at("input"));
+    let mut walk = Walk {
+        instance,
+        expected: FRESH,
+        saved: None,
+        state: StatePointer::null(),
+        accident,
+        output,
+        input,
+        random: Random(2026),
+        visits: [0; 6],
+    };
+    for _ in 0..200_000 {
+        match CALLS[walk.random.below(CALLS.len())] {
+            // The legal way on, or pure chance would seldom leave the error state.
+            "Advance" => match walk.expected.place {
+                Place::Instantiated => {
+                    walk.go("SetupExperiment");
+                    walk.go("EnterInitializationMode");
+                }
+                Place::Initializing => walk.go("ExitInitializationMode"),
+                Place::Complete => walk.go("DoStep"),
+                _ => walk.go("Reset"),
+            },
+            // Most illegal calls are left out, for each costs the way back.
+            call if !walk.legal(call) && walk.random.below(12) > 0 => {}
+            call => walk.go(call),
+        }
+    }
+    assert!(walk.visits.iter().all(|&visits| visits > 1000), "{:?}", walk.visits);
+}

@@ -1,0 +1,130 @@
+//! Whatever bytes are given to DeSerialize, the answer is a state or an error that says what is wrong.
+
+use fmi_export::Status::{Error, Ok};
+use fmi_export::abi::InProcess;
+
+use super::{Random, fresh, started};
+
+const HEADER: usize = 44;
+
+/// FNV-1a, 64 bits.
+fn checksum(bytes: &[u8]) -> u64 {
+    let mut hash = 14_695_981_039_346_656_037_u64;
+    for byte in bytes {
+        hash ^= u64::from(*byte);
+        hash = hash.wrapping_mul(1_099_511_628_211);
+    }
+    hash
+}
+
+/// The header of `like` before another payload, sealed as ours would be.
+fn sealed(like: &[u8], payload: &[u8]) -> Vec<u8> {
+    let mut bytes = like[..28].to_vec();
+    bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
+    bytes.extend_from_slice(&checksum(payload).to_le_bytes());
+    bytes.extend_from_slice(payload);
+    bytes
+}
+
+fn saved() -> Vec<u8> {
+    let (mut instance, description) = started("AllTypes");
+    let input = super::reference(&description, "input.real");
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!(instance.set_real(&[input], &[2.0]), Ok);
+    assert_eq!(instance.set_input_derivatives(&[input], &[1], &[1.0]), Ok);
+    instance.state_bytes().1
+}
+
+/// Decodes, and where that works uses the state; says whether it worked.
+fn survives(instance: &mut InProcess, bytes: &[u8]) -> bool {
+    let (status, state) = instance.deserialize(bytes);
+    let messages = instance.take_messages();
+    assert_eq!(state.is_null(), status == Error);
+    if status == Error {
+        assert_eq!(messages.len(), 1);
+        assert!(!messages[0].text.contains("panic"), "{messages:?}");
+        assert_eq!(instance.reset(), Ok);
+        return false;
+    }
+    assert_eq!(instance.set_state(&state), Ok);
+    let _ = instance.do_step(1.0, 0.5);
+    let (status, _) = instance.state_bytes();
+    assert_eq!(status, Ok);
+    assert!(instance.take_messages().iter().all(|message| !message.text.contains("panic")));
+    assert_eq!(instance.reset(), Ok);
+    true
+}
+
+#[test]
+fn each_part_of_the_header_is_checked() {
+    let bytes = saved();
+    for (at, word) in [
+        (0, "do not begin with its mark"),
+        (8, "layout version"),
+        (12, "another model or another setup"),
+        (36, "checksum"),
+        (HEADER, "checksum"),
+    ] {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 1;
+        let (mut instance, _) = fresh("AllTypes");
+        assert_eq!(instance.deserialize(&damaged).0, Error);
+        assert!(super::only_message(&instance).contains(word), "{word}");
+    }
+    for length in [0, 7, 8, 12, 28, 36, HEADER, bytes.len() - 1] {
+        let (mut instance, _) = fresh("AllTypes");
+        assert_eq!(instance.deserialize(&bytes[..length]).0, Error, "{length}");
+        assert!(super::only_message(&instance).contains(&format!("has {length} bytes")), "{length}");
+    }
+    let mut endless = bytes.clone();
+    endless[28..36].fill(0xFF);
+    let (mut instance, _) = fresh("AllTypes");
+    assert_eq!(instance.deserialize(&endless).0, Error);
+}
+
+#[test]
+fn damage_behind_a_valid_checksum_is_survived() {
+    let bytes = saved();
+    let (mut instance, _) = fresh("AllTypes");
+    let mut random = Random(7);
+    let mut accepted = 0;
+    for _ in 0..20_000 {
+        let mut payload = bytes[HEADER..].to_vec();
+        for _ in 0..=random.below(4) {
+            let at = random.below(payload.len());
+            match random.below(4) {
+                0 => payload[at] = random.next() as u8,
+                1 => payload.truncate(at + 1),
+                2 => payload.insert(at, random.next() as u8),
+                _ => payload[at] = 0xFF,
+            }
+        }
+        accepted += usize::from(survives(&mut instance, &sealed(&bytes, &payload)));
+    }
+    // Most of the payload is plain numbers, so some damage is another state.
+    assert!(accepted > 100, "{accepted}");
+}
+
+#[test]
+fn random_payloads_and_random_bytes_are_survived() {
+    let bytes = saved();
+    let (mut instance, _) = fresh("AllTypes");
+    let mut random = Random(8);
+    for _ in 0..20_000 {
+        let noise: Vec<u8> = (0..random.below(200)).map(|_| random.next() as u8).collect();
+        survives(&mut instance, &sealed(&bytes, &noise));
+        survives(&mut instance, &noise);
+    }
+}
+
+#[test]
+fn values_that_could_not_be_set_are_refused_in_bytes_too() {
+    let bytes = saved();
+    let needle = 2.5_f64.to_le_bytes();
+    let at = bytes.windows(8).position(|window| window == needle).unwrap();
+    let mut payload = bytes[HEADER..].to_vec();
+    payload[at - HEADER..at - HEADER + 8].copy_from_slice(&(-1.0_f64).to_le_bytes());
+    let (mut instance, _) = fresh("AllTypes");
+    assert_eq!(instance.deserialize(&sealed(&bytes, &payload)).0, Error);
+    assert!(super::only_message(&instance).contains("`tunable.real` is -1.0"));
+}

@@ -1,0 +1,94 @@
+//! Steps end where they should, whatever roundings the master's clock has; wrong times are errors.
+
+use fmi_export::Status::{Discard, Error, Ok, Warning};
+use fmi_export::abi::StatePointer;
+
+use super::{fresh, only_message, real, reference, started};
+
+#[test]
+fn jitter_within_roundings_is_taken_and_a_wrong_time_is_not() {
+    let (mut instance, description) = started("Empty");
+    let clock = reference(&description, "clock");
+    let h = 1.0 / 60.0;
+    let mut sum = 0.0;
+    for i in 0..600 {
+        let product = f64::from(i) * h;
+        let point = if i % 2 == 0 { product } else { sum };
+        assert_eq!(instance.do_step(point, h), Ok);
+        assert_eq!(real(&mut instance, clock), point + h);
+        sum += h;
+    }
+    assert_eq!(instance.do_step(10.0 + h, h), Error);
+    let text = only_message(&instance);
+    assert!(text.contains(&format!("begins at {:?} s", 10.0 + h)), "{text}");
+}
+
+#[test]
+fn step_sizes_must_be_positive_and_move_the_time() {
+    for (time_s, step_s) in [(0.0, 0.0), (0.0, -1.0), (0.0, f64::NAN), (0.0, f64::INFINITY), (1e9, 1e-9)] {
+        let (mut instance, _) = fresh("Empty");
+        assert_eq!(instance.start(time_s, None), Ok);
+        assert_eq!(instance.do_step(time_s, step_s), Error, "{step_s}");
+        assert!(only_message(&instance).contains("step size"));
+    }
+    let (mut instance, _) = started("Empty");
+    assert_eq!(instance.do_step(f64::NAN, 1.0), Error);
+}
+
+#[test]
+fn a_step_past_the_stop_time_is_an_error() {
+    let (mut instance, _) = fresh("Empty");
+    assert_eq!(instance.start(0.0, Some(0.3)), Ok);
+    // 0.1 + 0.1 + 0.1 rounds to just above 0.3.
+    let mut time = 0.0;
+    for _ in 0..3 {
+        assert_eq!(instance.do_step(time, 0.1), Ok);
+        time += 0.1;
+    }
+    assert!(time > 0.3);
+    assert_eq!(instance.do_step(time, 0.1), Error);
+    assert!(only_message(&instance).contains("after the stop time 0.3 s"));
+}
+
+#[test]
+fn a_model_that_ends_by_itself_answers_discard_with_terminated() {
+    let (mut instance, description) = started("Panicking");
+    let accident = [reference(&description, "accident")];
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!((instance.terminated(), instance.last_successful_time()), ((Ok, false), (Ok, 1.0)));
+    let terminate = probe::panicking::Accident::TerminateStep as i32 + 1;
+    assert_eq!(instance.set_integer(&accident, &[terminate]), Ok);
+    assert_eq!(instance.do_step(1.0, 1.0), Discard);
+    assert!(only_message(&instance).contains("the model ends here"));
+    assert_eq!((instance.terminated(), instance.last_successful_time()), ((Ok, true), (Ok, 1.0)));
+    assert_eq!(instance.get_real(&[reference(&description, "clock")], &mut [0.0]), Ok);
+    assert_eq!(instance.terminate(), Ok);
+}
+
+#[test]
+fn a_status_that_only_a_pending_step_has_is_discarded() {
+    let (mut instance, _) = started("Empty");
+    for kind in [0, 1, 2, 3, 4, -1, i32::MAX] {
+        assert_eq!(instance.get_status(kind), Discard);
+    }
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!(instance.cancel_step(), Error);
+}
+
+#[test]
+fn going_back_behind_a_promise_is_warned_about_and_works() {
+    let (mut instance, _) = started("AllTypes");
+    let mut state = StatePointer::null();
+    assert_eq!(instance.get_state(&mut state), Ok);
+    for i in 0..3 {
+        assert_eq!(instance.do_step_without_return(f64::from(i), 1.0), Ok);
+    }
+    for _ in 0..2 {
+        assert_eq!(instance.set_state(&state), Ok);
+    }
+    let messages = instance.take_messages();
+    assert_eq!(messages.len(), 1);
+    assert_eq!(messages[0].status, Warning);
+    assert!(messages[0].text.contains("noSetFMUStatePriorToCurrentPoint"));
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+}

@@ -1,0 +1,157 @@
+//! `DisturbanceTorque`: geometry in, force and torque of light, heat and gravity gradient by source out, without
+//! memory, with exact partial derivatives; to embed in somebody else's dynamics.
+
+mod choices;
+mod outputs;
+mod prepared;
+mod setup;
+mod variables;
+
+use std::sync::Arc;
+
+use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values};
+use physics::numerics::scalar::Dual64;
+use physics::radiation::disturbance::Workspace;
+use serde::{Deserialize, Serialize};
+
+use prepared::{Inputs, Prepared};
+pub use setup::DisturbanceSetup;
+use variables::DisturbanceVariables;
+
+/// The memoryless disturbance model.
+pub struct DisturbanceTorque;
+
+type Plan<'a> = Context<'a, DisturbanceTorque>;
+
+/// What the last step was computed from; the rest is cache.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct DisturbanceState {
+    inputs: Inputs<f64>,
+    #[serde(skip)]
+    prepared: Option<Arc<Prepared>>,
+    #[serde(skip)]
+    workspace: Workspace<f64>,
+}
+
+impl Model for DisturbanceTorque {
+    const NAME: &'static str = "DisturbanceTorque";
+    const STATE_VERSION: u32 = 1;
+    const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
+    const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
+    const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = true;
+
+    type Setup = DisturbanceSetup;
+    type Variables = DisturbanceVariables;
+    type State = DisturbanceState;
+
+    fn parse_setup(file: &str, text: &str) -> Result<DisturbanceSetup, SetupError> {
+        DisturbanceSetup::from_toml(file, text)
+    }
+
+    fn about(setup: &DisturbanceSetup) -> About {
+        About {
+            description: format!(
+                "{}: force and torque of sunlight, reflected and infrared planet light, the spacecraft's own heat and \
+                 the gravity gradient, by source, from where Sun and planet are; with exact partial derivatives",
+                setup.spacecraft.name
+            ),
+            start_time_s: 0.0,
+            stop_time_s: 43_200.0,
+            step_size_s: 60.0,
+            tolerance: 1e-4,
+            ..crate::about()
+        }
+    }
+
+    fn initialize(
+        context: &Plan<'_>,
+        values: &mut Values,
+        _start_time_s: f64,
+    ) -> Result<DisturbanceState, Failure> {
+        let prepared = Arc::new(Prepared::new(context, values)?);
+        let mut state = DisturbanceState {
+            inputs: Inputs::read(context.variables, |handle| values.real(handle)),
+            prepared: Some(prepared.clone()),
+            workspace: Workspace::default(),
+        };
+        update(context, values, &mut state, &prepared)?;
+        Ok(state)
+    }
+
+    fn step(
+        context: &Plan<'_>,
+        values: &mut Values,
+        state: &mut DisturbanceState,
+        step: &Step<'_>,
+    ) -> Result<(), Failure> {
+        let prepared = match state.prepared.take() {
+            Some(prepared) => prepared,
+            None => Arc::new(Prepared::new(context, values)?),
+        };
+        state.inputs.refresh(context.variables, |handle| step.input(values, handle, step.end_s));
+        let outcome = update(context, values, state, &prepared);
+        state.prepared = Some(prepared);
+        outcome
+    }
+
+    fn check_state(setup: &DisturbanceSetup, state: &DisturbanceState) -> Result<(), Failure> {
+        let (found, allowed) = (state.inputs.panel_angles_rad.len(), setup.spacecraft.panels.len());
+        if found == allowed {
+            return Ok(());
+        }
+        Err(Failure::new(format!("the saved state has {found} panel angles, allowed: {allowed}")))
+    }
+
+    fn dependencies(variables: &DisturbanceVariables, output: Real) -> Option<Vec<u32>> {
+        Some(outputs::dependencies(variables, output.reference()))
+    }
+
+    fn directional_derivative(
+        context: &Plan<'_>,
+        values: &Values,
+        state: &DisturbanceState,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        result: &mut [f64],
+    ) -> Result<(), Failure> {
+        let variables = context.variables;
+        if let Some(stranger) = knowns.iter().find(|known| !Inputs::<f64>::has(variables, **known)) {
+            return Err(Failure::new(format!(
+                "no directional derivative with respect to the Real of value reference {stranger}, allowed: the inputs"
+            )));
+        }
+        let prepared = match &state.prepared {
+            Some(prepared) => prepared.clone(),
+            None => Arc::new(Prepared::new(context, values)?),
+        };
+        let along = |reference: u32| -> f64 {
+            knowns.iter().zip(seed).filter(|(known, _)| **known == reference).map(|(_, seed)| seed).sum()
+        };
+        let inputs = state.inputs.with_seed(variables, along);
+        let mut workspace = Workspace::<Dual64>::default();
+        let outcome = prepared.evaluate(&inputs, &mut workspace)?;
+        for (unknown, slope) in unknowns.iter().zip(result) {
+            *slope = outputs::value(variables, &outcome, &workspace, *unknown)
+                .ok_or_else(|| {
+                    Failure::new(format!(
+                        "no directional derivative of the Real of value reference {unknown}, allowed: the outputs"
+                    ))
+                })?
+                .eps;
+        }
+        Ok(())
+    }
+}
+
+/// Evaluates at the state's inputs and writes every output.
+fn update(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut DisturbanceState,
+    prepared: &Prepared,
+) -> Result<(), Failure> {
+    let outcome = prepared.evaluate(&state.inputs, &mut state.workspace)?;
+    outputs::write(context.variables, values, &outcome, &state.workspace);
+    Ok(())
+}

@@ -1,0 +1,93 @@
+//! From an outcome to the output variables, and what each output depends on.
+
+use fmi_export::{RealVector, Values};
+use nalgebra::Vector3;
+use physics::numerics::scalar::Scalar;
+use physics::radiation::disturbance::Workspace;
+
+use super::prepared::Outcome;
+use super::variables::DisturbanceVariables;
+
+/// Writes every output.
+pub fn write(
+    variables: &DisturbanceVariables,
+    values: &mut Values,
+    outcome: &Outcome<f64>,
+    workspace: &Workspace<f64>,
+) {
+    for (handle, vector) in vectors(variables, outcome) {
+        values.set_vector(handle, vector.into());
+    }
+    values.set_real(variables.sun.lit_fraction, outcome.lit_fraction);
+    for (plate, face) in variables.plate.iter().zip(workspace.faces()) {
+        values.set_real(plate.temperature, face.temperature_k);
+        values.set_vector(plate.force, face.force_body_n().into());
+    }
+}
+
+/// The value of an output by its reference.
+pub fn value<T: Scalar>(
+    variables: &DisturbanceVariables,
+    outcome: &Outcome<T>,
+    workspace: &Workspace<T>,
+    reference: u32,
+) -> Option<T> {
+    if reference == variables.sun.lit_fraction.reference() {
+        return Some(outcome.lit_fraction);
+    }
+    let element = |(handle, vector): (RealVector<3>, Vector3<T>)| {
+        let index = reference.checked_sub(handle.reference())? as usize;
+        vector.as_slice().get(index).copied()
+    };
+    if let Some(value) = vectors(variables, outcome).into_iter().find_map(element) {
+        return Some(value);
+    }
+    variables.plate.iter().zip(workspace.faces()).find_map(|(plate, face)| {
+        let force = || element((plate.force, face.force_body_n()));
+        (reference == plate.temperature.reference()).then_some(face.temperature_k).or_else(force)
+    })
+}
+
+fn vectors<T: Scalar>(
+    variables: &DisturbanceVariables,
+    outcome: &Outcome<T>,
+) -> [(RealVector<3>, Vector3<T>); 11] {
+    let (torque, force) = (&variables.torque, &variables.force);
+    let found = &outcome.disturbance;
+    let total = found.total();
+    [
+        (torque.solar, found.solar.torque_body_n_m),
+        (torque.albedo, found.albedo.torque_body_n_m),
+        (torque.infrared, found.infrared.torque_body_n_m),
+        (torque.thermal, found.thermal.torque_body_n_m),
+        (torque.gravity_gradient, outcome.gravity_gradient_n_m),
+        (torque.total, total.torque_body_n_m + outcome.gravity_gradient_n_m),
+        (force.solar, found.solar.force_body_n),
+        (force.albedo, found.albedo.force_body_n),
+        (force.infrared, found.infrared.force_body_n),
+        (force.thermal, found.thermal.force_body_n),
+        (force.total, total.force_body_n),
+    ]
+}
+
+/// The inputs an output depends on. All light depends on where Sun and planet are and how the panels stand; a torque
+/// also on the centre of mass, but not on its component along the torque; the gravity gradient on the planet only.
+pub fn dependencies(variables: &DisturbanceVariables, output: u32) -> Vec<u32> {
+    let span = |vector: RealVector<3>| vector.reference()..vector.reference() + 3;
+    let mut places: Vec<u32> = span(variables.sun.position).chain(span(variables.planet.position)).collect();
+    let torque = &variables.torque;
+    if output == variables.sun.lit_fraction.reference() {
+        return places;
+    }
+    if span(torque.gravity_gradient).contains(&output) {
+        return span(variables.planet.position).collect();
+    }
+    places.extend(variables.panel.iter().map(|panel| panel.angle.reference()));
+    let torques = [torque.solar, torque.albedo, torque.infrared, torque.thermal, torque.total];
+    if let Some(vector) = torques.iter().find(|vector| span(**vector).contains(&output)) {
+        let along = output - vector.reference();
+        let center = variables.center_of_mass.reference();
+        places.extend((0..3).filter(|i| *i != along).map(|i| center + i));
+    }
+    places
+}

@@ -1,0 +1,200 @@
+//! The model's variables at its public face.
+
+use fmi_export::{Boolean, Choice, Integer, Real, RealMatrix, RealVector, Variables};
+use physics::constants;
+use physics::environment::sun;
+
+use super::choices::DayTemperature;
+use super::setup::DisturbanceSetup;
+use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
+use crate::momentum_plant::defaults;
+
+/// Every variable, in the order of the XML.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct DisturbanceVariables {
+    #[group]
+    pub sun: SunVariables,
+    #[group]
+    pub planet: PlanetVariables,
+    #[group(count = setup.spacecraft.panels.len())]
+    pub panel: Vec<PanelVariables>,
+    /// Centre of mass in the body frame.
+    #[input(unit = "m", display = "cm", start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
+    pub center_of_mass: RealVector<3>,
+    #[group]
+    pub solar: SolarVariables,
+    #[group]
+    pub eclipse: EclipseVariables,
+    #[group]
+    pub radiation: RadiationVariables,
+    #[group]
+    pub spacecraft: SpacecraftVariables,
+    #[group]
+    pub sunshade: SunshadeVariables,
+    #[group]
+    pub torque: TorqueVariables,
+    #[group]
+    pub force: ForceVariables,
+    #[group(count = setup.reported_faces.len())]
+    pub plate: Vec<PlateVariables>,
+}
+
+/// The Sun.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct SunVariables {
+    /// From the spacecraft to the Sun, body frame.
+    #[input(unit = "m", display = "AU", start = [0.0, -5.791e10, 0.0])]
+    pub position: RealVector<3>,
+    /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
+    #[output(unit = "1", nominal = 1.0)]
+    pub lit_fraction: Real,
+}
+
+/// The planet: where it is and what its surface does with sunlight.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct PlanetVariables {
+    /// From the spacecraft to the planet's centre, body frame.
+    #[input(unit = "m", display = "km", start = [2e6, 3e6, 9e6])]
+    pub position: RealVector<3>,
+    /// Whether there is a planet; without one its position does not count.
+    #[parameter(start = true)]
+    pub present: Boolean,
+    /// Radius; the default is Mercury's. A spacecraft below it is refused.
+    #[parameter(unit = "m", display = "km", min = 1.0, start = constants::RADIUS_MERCURY_M)]
+    pub radius: Real,
+    /// Gravitational parameter, for the gravity gradient; the default is Mercury's.
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, start = constants::GM_MERCURY_M3_S2)]
+    pub gravitational_parameter: Real,
+    /// Absorbed fraction of sunlight; 0.88 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.88)]
+    pub absorptivity: Real,
+    /// Diffusely reflected fraction of sunlight; 0.12 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.12)]
+    pub diffuse_reflectivity: Real,
+    /// Infrared emissivity; 0.9 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.9)]
+    pub emissivity: Real,
+    /// Temperature of the night side; 100 K fits paper 004, which does not print it.
+    #[parameter(unit = "K", min = 0.0, max = 1e4, start = 100.0)]
+    pub night_temperature: Real,
+    /// How the day side's temperature is distributed.
+    #[parameter(start = DayTemperature::Uniform)]
+    pub day_temperature: Choice<DayTemperature>,
+}
+
+/// One solar panel.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct PanelVariables {
+    /// Rotation angle about the panel's axis from its zero position.
+    #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
+    pub angle: Real,
+}
+
+/// Sunlight.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct SolarVariables {
+    /// Solar flux at 1 AU; 1365 W/m2 fits paper 004 (well-known simulators use 1349 to 1368).
+    #[parameter(unit = "W/m2", min = 0.0, start = sun::SOLAR_FLUX_PAPER_004_W_M2)]
+    pub flux: Real,
+}
+
+/// Shadow of the planet.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct EclipseVariables {
+    /// How the planet's shadow dims the Sun.
+    #[parameter(start = EclipseModel::Discs)]
+    pub model: Choice<EclipseModel>,
+}
+
+/// How light is computed.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct RadiationVariables {
+    /// Quadrature nodes for planet light: 6 for 1e-4 of the force, 16 for 1e-5.
+    #[parameter(min = 1, max = 64, start = 6)]
+    pub nodes: Integer,
+    /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.
+    #[parameter(start = true)]
+    pub self_shadowing: Boolean,
+}
+
+/// Mass properties.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct SpacecraftVariables {
+    /// Inertia about the centre of mass, body frame, for the gravity gradient.
+    #[parameter(unit = "kg.m2", start = setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into())]
+    pub inertia: RealMatrix<3, 3>,
+}
+
+/// Sunshade.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct SunshadeVariables {
+    /// Which model of the shade takes the light; without a shade it does not count.
+    #[parameter(start = defaults::shade_of(&setup.spacecraft))]
+    pub model: Choice<SunshadeModel>,
+}
+
+/// Torque about the centre of mass by source, body frame.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct TorqueVariables {
+    /// Direct sunlight.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
+    pub solar: RealVector<3>,
+    /// Sunlight reflected by the planet.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub albedo: RealVector<3>,
+    /// Infrared light of the planet.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub infrared: RealVector<3>,
+    /// Recoil of the heat the spacecraft radiates, all surfaces in balance with their light.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub thermal: RealVector<3>,
+    /// Gravity gradient of the planet.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
+    pub gravity_gradient: RealVector<3>,
+    /// Sum of all sources.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
+    pub total: RealVector<3>,
+}
+
+/// Force by source, body frame.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct ForceVariables {
+    /// Direct sunlight.
+    #[output(unit = "N", display = "uN", nominal = 1e-4)]
+    pub solar: RealVector<3>,
+    /// Sunlight reflected by the planet.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub albedo: RealVector<3>,
+    /// Infrared light of the planet.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub infrared: RealVector<3>,
+    /// Recoil of the heat the spacecraft radiates, all surfaces in balance with their light.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub thermal: RealVector<3>,
+    /// Sum of all sources.
+    #[output(unit = "N", display = "uN", nominal = 1e-4)]
+    pub total: RealVector<3>,
+}
+
+/// One face of a plate or panel, in the file's order: plates, sunshade, panels, the rear after the front.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct PlateVariables {
+    /// Temperature.
+    #[output(unit = "K", nominal = 300.0)]
+    pub temperature: Real,
+    /// Force of sunlight, planet light and recoil, body frame.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub force: RealVector<3>,
+}

@@ -1,0 +1,148 @@
+//! The plant's options.
+
+use fmi_export::Enumeration;
+
+/// Where the attitude comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum AttitudeSource {
+    /// Computes its own guidance and follows it ideally.
+    Guided = 1,
+    /// Follows the command inputs ideally.
+    Commanded = 2,
+    /// Rigid body and wheels under an internal controller; not in this version.
+    Controlled = 3,
+    /// Rigid body and wheels driven by wheel-torque inputs; not in this version.
+    Free = 4,
+}
+
+/// What a command gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum CommandKind {
+    /// Attitude command.q and rate command.rate.
+    Attitude = 1,
+    /// The attitude held turns at once by command.error, then with command.rate.
+    ErrorQuaternion = 2,
+    /// The attitude held turns on with command.rate.
+    RateOnly = 3,
+}
+
+/// Pitch during science.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum ScienceRule {
+    /// Sun elevation is a fraction of (Sun-nadir angle - 90 deg), within the keep-in zone.
+    Scaled = 1,
+    /// Z points to nadir as far as the keep-in zone allows.
+    Nadir = 2,
+    /// Paper 004's attitude: -Y from the planet to the Sun, -Z to the north of the planet's orbit; no keep-in zone.
+    Paper004 = 3,
+}
+
+/// Central body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum OrbitCenter {
+    /// Mercury.
+    Mercury = 1,
+    /// The Sun.
+    Sun = 2,
+}
+
+/// Origin of the orbit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum OrbitSource {
+    /// From the orbital elements at the start.
+    Elements = 1,
+    /// From the position and velocity inputs, anew whenever they change.
+    Inputs = 2,
+}
+
+/// What moves the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum OrbitModel {
+    /// The centre's gravity alone: the orbit in closed form.
+    TwoBody = 1,
+    /// Integrated with the planet's flattening, the Sun's tide, and light and heat.
+    Disturbed = 2,
+}
+
+/// Frame of the orbital elements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum OrbitFrame {
+    /// Paper 004's Mercury-centred inertial frame: Mercury's orbit plane, from its ascending node.
+    Paper004Mci = 1,
+    /// Mercury's equator of J2000.
+    MercuryEquator = 2,
+    /// Earth mean equator and equinox of J2000.
+    Eme2000 = 3,
+    /// Ecliptic and equinox of J2000.
+    Ecliptic = 4,
+}
+
+/// Origin of the Sun's and the planets' positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum EphemerisSource {
+    /// The analytic theory VSOP87.
+    Vsop87 = 1,
+    /// The planet on an ellipse about the Sun by ephemeris.semiMajorAxis and so on, as paper 004 prints it; the Earth by
+    /// VSOP87.
+    KeplerAsPrinted = 2,
+    /// The inputs sun.position and earth.position.
+    Inputs = 3,
+}
+
+/// How the planet's shadow dims the Sun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum EclipseModel {
+    /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
+    Discs = 1,
+    /// Paper 004: no light as soon as the discs touch.
+    Cone = 2,
+    /// No light in the cylinder of the planet's radius behind it.
+    Cylinder = 3,
+    /// The planet casts no shadow; so in paper 000.
+    Off = 4,
+}
+
+/// What turns a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum PanelControl {
+    /// A constant angle between the panel's normal and the Sun.
+    SunOffset = 1,
+    /// The input angle.
+    Angle = 2,
+}
+
+/// Sense in which a panel tilts off the Sun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum PanelTilt {
+    /// Right-handed about the panel's axis.
+    Positive = 1,
+    /// Left-handed about the panel's axis.
+    Negative = 2,
+}
+
+/// Model of the sunshade.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum SunshadeModel {
+    /// Flat plates.
+    Plates = 1,
+    /// Section of a cylinder.
+    Cylinder = 2,
+}
+
+/// Meaning of system momentum in the body frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum MomentumConvention {
+    /// Physical: the inertial total shown in body components.
+    Inertial = 1,
+    /// Paper 000: each body component of torque integrated on its own.
+    BodyIntegral = 2,
+}
+
+/// Where a dump leaves a component that exceeded its threshold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum DumpReinit {
+    /// The opposite sign at dump.reinitFraction of the threshold.
+    Opposite = 1,
+    /// The component of dump.target.
+    Target = 2,
+}

@@ -1,0 +1,273 @@
+//! From parameters and inputs to the physics' configuration; refuses what cannot be flown, by name.
+
+use fmi_export::{Failure, Values};
+use nalgebra::Matrix3;
+use physics::constants;
+use physics::environment::State;
+use physics::environment::eclipse::{Shadow, ShadowModel};
+use physics::environment::frames::{self, Frame};
+use physics::environment::orbit::{Elements, Flattening, Gravity, TwoBodyOrbit};
+use physics::environment::paper004::KeplerPlanet;
+use physics::guidance::{self, Guided, Schedule};
+use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
+use physics::plant::{self, Configuration, Motion, PanelSetting, SunLight};
+use physics::spacecraft;
+
+use super::choices::{
+    AttitudeSource, DumpReinit, EclipseModel, EphemerisSource, MomentumConvention, OrbitCenter, OrbitFrame,
+    OrbitModel, OrbitSource, PanelControl, PanelTilt, ScienceRule, SunshadeModel,
+};
+use super::state::PlantState;
+use super::variables::PlantVariables;
+use super::{Plan, physics_vector};
+
+/// The configuration that parameters, inputs and state describe.
+pub fn configuration(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+) -> Result<Configuration, Failure> {
+    refreshed(context, values, state, None)
+}
+
+/// The same, reusing the memory of `previous`.
+pub fn refreshed(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+    previous: Option<Configuration>,
+) -> Result<Configuration, Failure> {
+    let variables = context.variables;
+    let epoch_minus_time_s = values.real(variables.initial.epoch) - state.start_s;
+    let center = match values.choice(variables.orbit.center) {
+        Some(OrbitCenter::Sun) => plant::OrbitCenter::Sun,
+        Some(OrbitCenter::Mercury) | None => plant::OrbitCenter::Mercury,
+    };
+    let gm_m3_s2 = match center {
+        plant::OrbitCenter::Mercury => values.real(variables.planet.gravitational_parameter),
+        plant::OrbitCenter::Sun => constants::GM_SUN_M3_S2,
+    };
+    let orbit = orbit(variables, values, state, gm_m3_s2, epoch_minus_time_s)?;
+    let radius_m = values.real(variables.planet.radius);
+    let lowest_m = orbit.elements().periapsis_distance_m();
+    let from_elements = !matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
+    if center == plant::OrbitCenter::Mercury && from_elements && lowest_m <= radius_m {
+        return Err(Failure::new(format!(
+            "the orbit's periapsis at {lowest_m:.0} m lies inside the planet, whose planet.radius is {radius_m:.0} m"
+        )));
+    }
+    let inertia_body_kg_m2 = Matrix3::from(values.matrix(variables.spacecraft.inertia)).transpose();
+    spacecraft::check_inertia(&inertia_body_kg_m2)
+        .map_err(|problem| Failure::new(format!("spacecraft.inertia: {problem}")))?;
+    let mut panels = previous.map_or_else(|| Vec::with_capacity(variables.panel.len()), |old| old.panels);
+    panels.clear();
+    panels.extend(variables.panel.iter().map(|panel| {
+        if !values.boolean(panel.enabled) {
+            return PanelSetting::Disabled;
+        }
+        match values.choice(panel.control) {
+            Some(PanelControl::Angle) => PanelSetting::Angle(values.real(panel.angle)),
+            Some(PanelControl::SunOffset) | None => PanelSetting::SunOffset {
+                offset_rad: values.real(panel.sun_offset),
+                tilt_sign: match values.choice(panel.tilt) {
+                    Some(PanelTilt::Negative) => -1.0,
+                    Some(PanelTilt::Positive) | None => 1.0,
+                },
+            },
+        }
+    }));
+    Ok(Configuration {
+        epoch_minus_time_s,
+        center,
+        attitude: attitude(variables, values, state, center, &orbit)?,
+        orbit,
+        motion: motion(variables, values, center, gm_m3_s2),
+        ephemeris: ephemeris(variables, values)?,
+        light: if values.boolean(variables.solar.fixed_pressure) {
+            SunLight::Fixed { pressure_pa: values.real(variables.solar.pressure) }
+        } else {
+            SunLight::Distance { flux_w_m2: values.real(variables.solar.flux) }
+        },
+        shadow: shadow(variables, values, radius_m)?,
+        sunshade: match values.choice(variables.sunshade.model) {
+            Some(SunshadeModel::Cylinder) => spacecraft::SunshadeModel::Cylinder,
+            Some(SunshadeModel::Plates) | None => spacecraft::SunshadeModel::Plates,
+        },
+        panels,
+        center_of_mass_body_m: physics_vector(values.vector(variables.spacecraft.center_of_mass)),
+        mass_kg: values.real(variables.spacecraft.mass),
+        inertia_body_kg_m2,
+        gravity_gradient_m3_s2: if values.boolean(variables.gravity_gradient.enabled) {
+            gm_m3_s2
+        } else {
+            0.0
+        },
+        momentum: settings(variables, values),
+    })
+}
+
+fn shadow(variables: &PlantVariables, values: &Values, radius_m: f64) -> Result<Shadow, Failure> {
+    let model = match values.choice(variables.eclipse.model) {
+        Some(EclipseModel::Cone) => ShadowModel::AllOrNothingCone,
+        Some(EclipseModel::Cylinder) => ShadowModel::AllOrNothingCylinder,
+        Some(EclipseModel::Off) => ShadowModel::Off,
+        Some(EclipseModel::Discs) | None => ShadowModel::DiscOverlap,
+    };
+    Shadow::new(model, radius_m).map_err(|error| Failure::new(format!("planet.radius: {error}")))
+}
+
+fn orbit(
+    variables: &PlantVariables,
+    values: &Values,
+    state: &PlantState,
+    gm_m3_s2: f64,
+    epoch_minus_time_s: f64,
+) -> Result<TwoBodyOrbit, Failure> {
+    let orbit = &variables.orbit;
+    match values.choice(orbit.source) {
+        Some(OrbitSource::Inputs) => {
+            let start = State {
+                position_m: physics_vector(values.vector(orbit.position)),
+                velocity_m_s: physics_vector(values.vector(orbit.velocity)),
+            };
+            TwoBodyOrbit::from_state(&start, gm_m3_s2, state.orbit_since_s + epoch_minus_time_s)
+                .map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
+        }
+        Some(OrbitSource::Elements) | None => {
+            let elements = Elements {
+                semi_major_axis_m: values.real(orbit.semi_major_axis),
+                eccentricity: values.real(orbit.eccentricity),
+                inclination_rad: values.real(orbit.inclination),
+                ascending_node_rad: values.real(orbit.ascending_node),
+                periapsis_argument_rad: values.real(orbit.periapsis_argument),
+                true_anomaly_rad: values.real(orbit.true_anomaly),
+            };
+            let frame = match values.choice(orbit.frame) {
+                Some(OrbitFrame::MercuryEquator) => Frame::MercuryEquator,
+                Some(OrbitFrame::Eme2000) => Frame::Eme2000,
+                Some(OrbitFrame::Ecliptic) => Frame::EclipticJ2000,
+                Some(OrbitFrame::Paper004Mci) | None => Frame::Paper004Mci,
+            };
+            let epoch_s = values.real(variables.initial.epoch);
+            plant::orbit_from_elements(elements, frame, gm_m3_s2, epoch_s)
+                .map_err(|error| Failure::new(format!("orbit elements: {error}")))
+        }
+    }
+}
+
+fn motion(variables: &PlantVariables, values: &Values, center: plant::OrbitCenter, gm_m3_s2: f64) -> Motion {
+    let orbit = &variables.orbit;
+    if !matches!(values.choice(orbit.model), Some(OrbitModel::Disturbed)) {
+        return Motion::TwoBody;
+    }
+    let planet = &variables.planet;
+    let (gravity, radius_m) = match center {
+        plant::OrbitCenter::Sun => (Gravity::point_mass(gm_m3_s2), constants::RADIUS_SUN_M),
+        plant::OrbitCenter::Mercury => {
+            let (right_ascension_rad, declination_rad) =
+                (values.real(planet.pole_right_ascension), values.real(planet.pole_declination));
+            let flattening = Flattening {
+                j2: values.real(planet.j2),
+                reference_radius_m: values.real(planet.j2_radius),
+                pole: frames::direction(right_ascension_rad, declination_rad),
+            };
+            let gravity = Gravity {
+                mu_m3_s2: gm_m3_s2,
+                flattening: (flattening.j2 != 0.0).then_some(flattening),
+                tide_mu_m3_s2: values.boolean(orbit.sun_tide).then_some(constants::GM_SUN_M3_S2),
+            };
+            (gravity, values.real(planet.radius))
+        }
+    };
+    let feedback = values.boolean(orbit.radiation_feedback);
+    Motion::Disturbed { gravity, cell_s: values.real(orbit.step), radius_m, feedback }
+}
+
+fn ephemeris(variables: &PlantVariables, values: &Values) -> Result<plant::EphemerisSource, Failure> {
+    let ephemeris = &variables.ephemeris;
+    Ok(match values.choice(ephemeris.source) {
+        Some(EphemerisSource::Inputs) => plant::EphemerisSource::Given {
+            sun_m: physics_vector(values.vector(variables.sun.position)),
+            earth_m: physics_vector(values.vector(variables.earth.position)),
+        },
+        Some(EphemerisSource::KeplerAsPrinted) => {
+            let elements = Elements {
+                semi_major_axis_m: values.real(ephemeris.semi_major_axis),
+                eccentricity: values.real(ephemeris.eccentricity),
+                inclination_rad: values.real(ephemeris.inclination),
+                ascending_node_rad: values.real(ephemeris.ascending_node),
+                periapsis_argument_rad: values.real(ephemeris.periapsis_argument),
+                true_anomaly_rad: values.real(ephemeris.true_anomaly),
+            };
+            let planet = KeplerPlanet::new(elements, values.real(variables.initial.epoch))
+                .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))?;
+            plant::EphemerisSource::Kepler(planet)
+        }
+        Some(EphemerisSource::Vsop87) | None => plant::EphemerisSource::Vsop87,
+    })
+}
+
+fn attitude(
+    variables: &PlantVariables,
+    values: &Values,
+    state: &PlantState,
+    center: plant::OrbitCenter,
+    orbit: &TwoBodyOrbit,
+) -> Result<plant::AttitudeSource, Failure> {
+    match values.choice(variables.attitude.source) {
+        Some(AttitudeSource::Commanded) => Ok(plant::AttitudeSource::Commanded(state.command)),
+        Some(AttitudeSource::Guided) | None => {
+            let guided = &variables.guided;
+            let planet = center == plant::OrbitCenter::Mercury;
+            Ok(plant::AttitudeSource::Guided(Guided {
+                schedule: Schedule {
+                    periapsis_s: orbit.periapsis_epoch_s(0),
+                    period_s: if planet { orbit.period_s() } else { f64::INFINITY },
+                    downlink_start_s: values.real(guided.downlink_start),
+                    downlink_end_s: values.real(guided.downlink_end),
+                    every: values.integer(guided.downlink_every).unsigned_abs(),
+                },
+                science: match values.choice(guided.science_rule) {
+                    Some(ScienceRule::Nadir) => guidance::ScienceRule::Nadir,
+                    Some(ScienceRule::Paper004) => guidance::ScienceRule::PlanetOrbit,
+                    Some(ScienceRule::Scaled) | None => {
+                        guidance::ScienceRule::Scaled { gain: values.real(guided.science_gain) }
+                    }
+                },
+                elevation_limit_rad: values.real(variables.keep_in.elevation),
+                slew_rate_rad_s: values.real(guided.slew_rate),
+            }))
+        }
+        Some(AttitudeSource::Controlled) => Err(refused("controlled")),
+        Some(AttitudeSource::Free) => Err(refused("free")),
+    }
+}
+
+fn refused(item: &str) -> Failure {
+    Failure::new(format!(
+        "attitude.source = {item} is not in this version of MomentumPlant; allowed are guided (1) and commanded (2)"
+    ))
+}
+
+fn settings(variables: &PlantVariables, values: &Values) -> Settings {
+    let dump = &variables.dump;
+    Settings {
+        grid_s: values.real(variables.solver.step),
+        tolerance: values.real(variables.solver.tolerance),
+        convention: match values.choice(variables.momentum.convention) {
+            Some(MomentumConvention::BodyIntegral) => Convention::BodyIntegral,
+            Some(MomentumConvention::Inertial) | None => Convention::Inertial,
+        },
+        policy: DumpPolicy {
+            threshold_body_n_m_s: physics_vector(values.vector(dump.threshold)),
+            reinitialise: match values.choice(dump.reinit) {
+                Some(DumpReinit::Target) => {
+                    Reinitialise::Target { momentum_body_n_m_s: physics_vector(values.vector(dump.target)) }
+                }
+                Some(DumpReinit::Opposite) | None => {
+                    Reinitialise::Opposite { fraction: values.real(dump.reinit_fraction) }
+                }
+            },
+        },
+    }
+}

@@ -1,0 +1,160 @@
+//! From a snapshot to the output variables.
+
+use fmi_export::{Real, Values};
+use nalgebra::Vector3;
+use physics::attitude::{Attitude, SunAngles};
+use physics::momentum::{Convention, Totals};
+use physics::plant::{Configuration, Snapshot};
+use physics::radiation::{TorquePolynomial, polynomial_valid};
+use physics::spacecraft::guaranteed_threshold_of;
+
+use super::Plan;
+use super::state::PlantState;
+
+/// Writes every output at `time_s`.
+pub fn write(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &PlantState,
+    configuration: &Configuration,
+    snapshot: &Snapshot,
+    totals: &Totals,
+    time_s: f64,
+) {
+    let variables = context.variables;
+    let rotation = &snapshot.frame.inertial_from_body;
+    let rate_body_rad_s = snapshot.frame.rate_body_rad_s;
+    values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
+    values.set_vector(variables.attitude.rate, rate_body_rad_s.into());
+
+    values.set_vector(variables.torque.solar, snapshot.solar.torque_body_n_m.into());
+    values.set_vector(variables.torque.gravity_gradient, snapshot.gravity_gradient_body_n_m.into());
+    values.set_vector(variables.torque.total, snapshot.torque_body_n_m().into());
+    let force_inertial_n = rotation * snapshot.force_body_n();
+    values.set_vector(variables.force.solar, snapshot.solar.force_body_n.into());
+    values.set_vector(variables.force.total, snapshot.force_body_n().into());
+    values.set_vector(variables.force.inertial, force_inertial_n.into());
+    values.set_vector(variables.acceleration, (force_inertial_n / configuration.mass_kg).into());
+    values.set_vector(variables.delta_v, totals.delta_v_inertial_m_s.into());
+
+    let sun = SunAngles::of(&snapshot.sun_body);
+    values.set_vector(variables.sun.direction, snapshot.sun_body.into());
+    values.set_real(variables.sun.azimuth, sun.azimuth_rad);
+    values.set_real(variables.sun.elevation, sun.elevation_rad);
+    values.set_real(variables.sun.lit_fraction, snapshot.lit_fraction);
+    values.set_real(variables.sun.distance, snapshot.geometry.to_sun.position_m.norm());
+    let earth = SunAngles::of(&snapshot.earth_body);
+    values.set_real(variables.earth.azimuth, earth.azimuth_rad);
+    values.set_real(variables.earth.elevation, earth.elevation_rad);
+    let (azimuth_limit_rad, elevation_limit_rad) =
+        (values.real(variables.keep_in.azimuth), values.real(variables.keep_in.elevation));
+    values.set_real(variables.keep_in.margin, sun.keep_in_margin_rad(azimuth_limit_rad, elevation_limit_rad));
+
+    let spacecraft = &snapshot.geometry.spacecraft;
+    values.set_vector(variables.position, spacecraft.position_m.into());
+    values.set_vector(variables.velocity, spacecraft.velocity_m_s.into());
+    values.set_vector(variables.heliocentric.position, (-snapshot.geometry.to_sun.position_m).into());
+    let since_s = state.course.trajectory.time_since_periapsis_s(configuration, time_s);
+    values.set_real(variables.orbit.time_since_periapsis, since_s);
+    values.set_real(variables.mass, configuration.mass_kg);
+    values.set_vector(variables.center_of_mass, configuration.center_of_mass_body_m.into());
+
+    let valid = context
+        .setup
+        .spacecraft
+        .sunshade
+        .as_ref()
+        .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &snapshot.sun_body));
+    values.set_boolean(variables.sunshade.polynomial_valid, valid);
+    let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
+    for (panel, (body, setting)) in variables.panel.iter().zip(panels) {
+        values.set_real(panel.angle_actual, setting.angle_rad(body, &snapshot.sun_body).unwrap_or(0.0));
+    }
+
+    values.set_vector(
+        variables.momentum.body,
+        totals.momentum_body_n_m_s(configuration.momentum.convention, rotation).into(),
+    );
+    values.set_vector(variables.momentum.inertial, totals.momentum_inertial_n_m_s.into());
+    write_wheels(context, values, configuration, totals, snapshot);
+    write_dumps(context, values, state);
+}
+
+/// Writes what follows from parameters alone.
+pub fn write_calculated(context: &Plan<'_>, values: &mut Values, configuration: &Configuration) {
+    let spacecraft = &context.setup.spacecraft;
+    let shade = spacecraft.sunshade.as_ref();
+    let polynomial = shade.and_then(|shade| {
+        TorquePolynomial::of_sunshade(shade, configuration.sunshade, &configuration.center_of_mass_body_m)
+            .ok()
+    });
+    values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
+    let spans = context.setup.wheel_array.is_some();
+    let wheels = spacecraft.wheels.iter().zip(&context.variables.wheel);
+    let wheels = wheels.map(|(wheel, variables)| (wheel.axis_body, values.real(variables.capacity)));
+    let guaranteed_n_m_s = if spans { guaranteed_threshold_of(wheels) } else { 0.0 };
+    values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
+}
+
+/// Ideal wheels hold the system's momentum less what the body's own rotation takes.
+fn write_wheels(
+    context: &Plan<'_>,
+    values: &mut Values,
+    configuration: &Configuration,
+    totals: &Totals,
+    snapshot: &Snapshot,
+) {
+    let Some(array) = &context.setup.wheel_array else { return };
+    let system = totals.momentum_body_n_m_s(Convention::Inertial, &snapshot.frame.inertial_from_body);
+    let wheels_body_n_m_s = system - configuration.inertia_body_kg_m2 * snapshot.frame.rate_body_rad_s;
+    for (number, variables) in context.variables.wheel.iter().enumerate() {
+        let momentum_n_m_s = array.momentum_n_m_s(number, &wheels_body_n_m_s);
+        values.set_real(variables.momentum, momentum_n_m_s);
+        values.set_boolean(variables.saturated, momentum_n_m_s.abs() > values.real(variables.capacity));
+    }
+}
+
+fn write_dumps(context: &Plan<'_>, values: &mut Values, state: &PlantState) {
+    let dump = &context.variables.dump;
+    let dumps = state.accumulator.dumps();
+    values.set_integer(dump.count, dumps.count);
+    values.set_real(dump.last_time, dumps.last.map_or(-1.0, |event| event.time_s));
+    values.set_real(dump.closest, state.spacing.closest_s.unwrap_or(-1.0));
+    let required_s = values.real(dump.required_spacing);
+    values
+        .set_boolean(dump.too_close, state.spacing.closest_s.is_some_and(|closest_s| closest_s < required_s));
+    values.set_vector(
+        dump.impulse,
+        dumps.last.map_or(Vector3::zeros(), |event| event.impulse_body_n_m_s()).into(),
+    );
+}
+
+/// First derivative of what the plant integrates, from the rates at the same time.
+pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, output: Real) -> Option<f64> {
+    let variables = context.variables;
+    let convention = state.configuration.as_ref()?.momentum.convention;
+    let within =
+        |first: u32| output.reference().checked_sub(first).filter(|&axis| axis < 3).map(|axis| axis as usize);
+    let torque_body = Vector3::from(values.vector(variables.torque.total));
+    if let Some(axis) = within(variables.momentum.body.reference()) {
+        let rate = match convention {
+            Convention::BodyIntegral => torque_body,
+            Convention::Inertial => {
+                let rate_body = Vector3::from(values.vector(variables.attitude.rate));
+                torque_body - rate_body.cross(&Vector3::from(values.vector(variables.momentum.body)))
+            }
+        };
+        return Some(rate[axis]);
+    }
+    if let Some(axis) = within(variables.momentum.inertial.reference()) {
+        let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
+        return Some((attitude.inertial_from_body() * torque_body)[axis]);
+    }
+    if let Some(axis) = within(variables.delta_v.reference()) {
+        return Some(values.vector(variables.acceleration)[axis]);
+    }
+    if let Some(axis) = within(variables.position.reference()) {
+        return Some(values.vector(variables.velocity)[axis]);
+    }
+    None
+}

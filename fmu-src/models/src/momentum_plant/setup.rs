@@ -1,0 +1,71 @@
+//! The plant's immutable setup: the spacecraft and what is computed from it once.
+
+use fmi_export::{Failure, SetupError};
+use physics::environment::orbit::OrbitMethod;
+use physics::momentum::WheelArray;
+use physics::plant::Craft;
+use physics::radiation::SolarModel;
+use physics::spacecraft::{Spacecraft, SunshadeModel};
+use serde::Serialize;
+
+/// The spacecraft of an instance.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlantSetup {
+    /// As read from the file.
+    pub spacecraft: Spacecraft,
+    /// Prepared for sunlight with the shade as plates; absent if the file describes it as a cylinder only.
+    #[serde(skip)]
+    plates: Option<SolarModel>,
+    /// The same with the shade as a cylinder.
+    #[serde(skip)]
+    cylinder: Option<SolarModel>,
+    /// Distribution of momentum over the wheels; absent unless they span all directions.
+    #[serde(skip)]
+    pub wheel_array: Option<WheelArray>,
+    /// How disturbed orbits are integrated.
+    #[serde(skip)]
+    orbit_method: OrbitMethod,
+}
+
+impl PlantSetup {
+    /// From TOML text.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
+        let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
+        let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+        let prepared = |model| SolarModel::with_sunshade_model(&spacecraft, model).ok();
+        Ok(Self {
+            plates: prepared(SunshadeModel::Plates),
+            cylinder: prepared(SunshadeModel::Cylinder),
+            wheel_array: WheelArray::new(&axes),
+            orbit_method: OrbitMethod::default(),
+            spacecraft,
+        })
+    }
+
+    /// What flies, with its shade modelled as asked for.
+    pub fn craft(&self, model: SunshadeModel) -> Result<Craft<'_>, Failure> {
+        Ok(Craft {
+            panels: &self.spacecraft.panels,
+            solar: self.solar(model)?,
+            orbit_method: &self.orbit_method,
+        })
+    }
+
+    fn solar(&self, model: SunshadeModel) -> Result<&SolarModel, Failure> {
+        let prepared = match model {
+            SunshadeModel::Plates => &self.plates,
+            SunshadeModel::Cylinder => &self.cylinder,
+        };
+        prepared.as_ref().ok_or_else(|| {
+            let (asked, other) = match model {
+                SunshadeModel::Plates => ("plates", "cylinder"),
+                SunshadeModel::Cylinder => ("cylinder", "plates"),
+            };
+            Failure::new(format!(
+                "sunshade.model: found {asked}, allowed: {other}, as which alone the spacecraft.toml of {} describes \
+                 the shade",
+                self.spacecraft.name
+            ))
+        })
+    }
+}

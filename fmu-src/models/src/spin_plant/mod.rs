@@ -1,0 +1,123 @@
+//! `SpinPlant`: a spin-stabilised spacecraft (ACE), its thruster pulses with exact edges, nutation and its damper, burn
+//! sequencing and sensors.
+
+mod choices;
+mod outputs;
+mod read;
+mod variables;
+
+use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values};
+use physics::spin::{plant::Plant, spinner::Spinner};
+
+use variables::SpinVariables;
+
+/// The spinner.
+pub struct SpinPlant;
+
+impl Model for SpinPlant {
+    const NAME: &'static str = "SpinPlant";
+    const STATE_VERSION: u32 = 1;
+    const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
+    const DEFAULT_SETUP: &'static str = include_str!("../../../resources/ace.toml");
+    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
+
+    type Setup = Spinner;
+    type Variables = SpinVariables;
+    type State = Plant;
+
+    fn parse_setup(file: &str, text: &str) -> Result<Spinner, SetupError> {
+        Spinner::parse(file, text).map_err(|error| SetupError(error.to_string()))
+    }
+
+    fn about(setup: &Spinner) -> About {
+        About {
+            description: format!(
+                "{}: a spin-stabilised spacecraft with exact thruster pulses, nutation and its damper, burn sequencing, Sun \
+                 and star sensing",
+                setup.name
+            ),
+            start_time_s: 0.0,
+            stop_time_s: 1400.0,
+            step_size_s: 0.5,
+            tolerance: 1e-12,
+            ..crate::about()
+        }
+    }
+
+    fn initialize(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        start_time_s: f64,
+    ) -> Result<Plant, Failure> {
+        let directions = read::directions(|handle| values.vector(handle), context);
+        let start = read::start(context, values);
+        let commands = read::commands(context, values);
+        let plant = Plant::start(context.setup, &start, directions, commands, start_time_s)
+            .map_err(|error| Failure::new(error.to_string()))?;
+        outputs::write_calculated(context, values, &plant);
+        outputs::write(context, values, &plant);
+        Ok(plant)
+    }
+
+    fn step(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        plant: &mut Plant,
+        step: &Step<'_>,
+    ) -> Result<(), Failure> {
+        if step.changed {
+            let mut commands = read::commands(context, values);
+            commands.torque = read::torque(context, values, step)?;
+            // Directions that move within the step are taken where it ends: they are read, not integrated.
+            let at_end = |handle| step.input_vector(values, handle, step.end_s);
+            if let Some(name) = cut_pulse(context, &commands, step.end_s - step.start_s) {
+                context.log.warning(&format!(
+                    "a pulse of thruster {name} reaches beyond the step from {} to {} s and is cut there",
+                    step.start_s, step.end_s
+                ));
+            }
+            plant.command(commands, read::directions(at_end, context));
+        }
+        let (fired, log) = (plant.sequencer().map_or(0, |s| s.fired()), context.log);
+        plant.advance(context.setup, step.end_s).map_err(|error| Failure::new(error.to_string()))?;
+        if log.events_enabled()
+            && let Some(sequencer) = plant.sequencer().filter(|s| s.fired() != fired)
+        {
+            let count = sequencer.burn().train.count();
+            log.event(step.end_s, &format!("burn: {} of {count} pulses fired", sequencer.fired()));
+        }
+        outputs::write(context, values, plant);
+        Ok(())
+    }
+
+    fn check_state(setup: &Spinner, state: &Plant) -> Result<(), Failure> {
+        if state.fits(setup) {
+            return Ok(());
+        }
+        Err(Failure::new(
+            "the state does not belong to this spacecraft or its numbers do not belong together",
+        ))
+    }
+
+    fn output_derivative(
+        context: &Context<'_, Self>,
+        _values: &Values,
+        state: &Plant,
+        output: Real,
+    ) -> Option<f64> {
+        outputs::derivative(context, state, output)
+    }
+}
+
+/// Name of a thruster whose commanded pulse does not end within the step.
+fn cut_pulse<'a>(
+    context: &'a Context<'_, SpinPlant>,
+    commands: &physics::spin::plant::Commands,
+    length_s: f64,
+) -> Option<&'a str> {
+    let late = commands.pulses.iter().position(|pulse| {
+        // Rounding of times is no cut.
+        pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s * (1.0 + 1e-9) + 1e-9
+    })?;
+    context.setup.thrusters.get(late).map(|thruster| thruster.name.as_str())
+}

@@ -1,0 +1,116 @@
+//! From what the physics shows to the master's variables.
+
+use fmi_export::{Context, Real, RealVector, Values};
+use nalgebra::Vector3;
+use physics::spin::{outputs::Rates, plant::Plant};
+
+use super::SpinPlant;
+
+type Plan<'a> = Context<'a, SpinPlant>;
+
+/// Writes what holds for the whole flight.
+pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
+    let v = context.variables;
+    let seen = plant.predictions();
+    values.set_integer(v.burn.planned_count, i32::try_from(seen.count).unwrap_or(i32::MAX));
+    values.set_real(v.burn.planned_duration, seen.duration_s);
+    values.set_real(v.burn.planned_angle, seen.manoeuvre_rad);
+    values.set_real(v.burn.pulse_angle, seen.manoeuvre_per_pulse_rad);
+    values.set_real(v.nutation.ratio, seen.nutation_ratio);
+    values.set_real(v.nutation.kick, seen.kick_rad);
+    values.set_real(v.nutation.envelope, seen.envelope_rad);
+    values.set_real(v.nutation.envelope_printed, seen.printed_envelope_rad);
+    values.set_real(v.star_tracker.observation_time, seen.observation_time_s);
+    values.set_real(v.star_tracker.observation_time_eq20, seen.observation_time_eq20_s);
+}
+
+/// Writes what changes from step to step.
+pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
+    let v = context.variables;
+    let spinner = context.setup;
+    let seen = plant.outputs(spinner);
+    values.set_vector(v.attitude.q, seen.state.attitude.0);
+    values.set_vector(v.attitude.rate, seen.rate_rad_s.into());
+    values.set_vector(v.momentum.inertial, seen.state.momentum_inertial.into());
+    values.set_vector(v.momentum.body, seen.state.momentum_body.into());
+    values.set_real(v.momentum.displacement, seen.momentum_displacement_rad);
+    values.set_vector(v.spin_axis.inertial, seen.spin_axis_inertial.into());
+    values.set_real(v.spin_axis.displacement, seen.spin_axis_displacement_rad);
+    values.set_real(v.nutation.angle, seen.nutation_rad);
+    values.set_real(v.nutation.phase, seen.state.momentum_body.y.atan2(seen.state.momentum_body.x));
+    values.set_real(v.nutation.predicted, seen.predicted_nutation_rad);
+    values.set_real(v.spin.rate, seen.rate_rad_s.z);
+    values.set_real(v.spin.period, seen.period_s);
+    values.set_real(v.spin.period_change, seen.period_change_s);
+    values.set_real(v.spin.period_variation, seen.period_variation_s);
+    values.set_real(v.spin.sector_error, seen.sector_error);
+    values.set_integer(v.spin.sun_crossings, i32::try_from(plant.sun_watch().count()).unwrap_or(i32::MAX));
+    values.set_vector(v.sun.inertial, seen.sun_inertial.into());
+    values.set_real(v.sun.angle, seen.sun_angle_rad);
+    values.set_vector(v.earth.inertial, seen.earth_inertial.into());
+    values.set_real(v.earth.angle, seen.earth_angle_rad);
+    values.set_real(v.sun_sensor.angle, seen.sun_angle_measured_rad);
+    values.set_real(v.star_tracker.declination, seen.sample.declination_rad);
+    values.set_real(v.star_tracker.declination_true, seen.declination_rad);
+    values.set_real(v.star_tracker.sample_time, seen.sample.time_s);
+    values.set_integer(v.star_tracker.sample_count, i32::try_from(seen.sample.count).unwrap_or(i32::MAX));
+    values.set_real(v.star_tracker.nutation, seen.estimate.nutation_rad);
+    values.set_real(v.star_tracker.nutation_sigma, seen.estimate.sigma_rad);
+    values.set_integer(v.burn.pulses_fired, i32::try_from(seen.pulses_fired).unwrap_or(i32::MAX));
+    values.set_boolean(v.burn.active, seen.burn_active);
+    values.set_boolean(v.burn.done, seen.burn_done);
+    values.set_real(v.burn.next_edge, seen.next_edge_s);
+    values.set_vector(v.inertia_now.current, seen.inertia_kg_m2);
+    values.set_real(v.inertia_now.ratio, seen.inertia_ratio);
+    for (k, thruster) in v.thruster.iter().enumerate() {
+        values.set_boolean(thruster.active, seen.thrusters_on >> k & 1 == 1);
+    }
+    values.set_vector(v.force.thruster, seen.force_body_n.into());
+    values.set_vector(v.torque.thruster, seen.torque_body_n_m.into());
+    values.set_vector(v.delta_v, seen.delta_v_inertial_m_s.into());
+    values.set_real(v.propellant.used, seen.propellant_used_kg);
+    values.set_real(v.propellant.left, seen.propellant_left_kg);
+    values.set_real(v.mass, spinner.mass_properties.dry_mass_kg + seen.propellant_left_kg);
+    values.set_real(v.energy, seen.energy_j);
+    let beyond = |value: f64, limit: Real| value > values.real(limit);
+    let sun = beyond(seen.sun_angle_rad, v.limit.sun_angle);
+    let earth = beyond(seen.earth_angle_rad, v.limit.earth_angle);
+    let off_rad_s = (seen.rate_rad_s.z - values.real(v.limit.spin_rate)).abs();
+    let spin = beyond(off_rad_s, v.limit.spin_rate_tolerance);
+    let period = beyond(seen.period_variation_s, v.limit.period_variation);
+    values.set_boolean(v.limit.sun_angle_violated, sun);
+    values.set_boolean(v.limit.earth_angle_violated, earth);
+    values.set_boolean(v.limit.spin_rate_violated, spin);
+    values.set_boolean(v.limit.period_variation_violated, period);
+    values.set_boolean(v.limit.any_violated, sun || earth || spin || period);
+}
+
+/// First time derivative of an output that is continuous in time.
+pub fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
+    let v = context.variables;
+    let rates: Rates = plant.rates(context.setup);
+    let reference = output.reference();
+    let of = |handle: Real, value: f64| (handle.reference() == reference).then_some(value);
+    let of_vector = |handle: RealVector<3>, value: &Vector3<f64>| {
+        (0..3).find(|&i| handle.element(i).reference() == reference).map(|i| value[i])
+    };
+    let of_q =
+        (0..4).find(|&i| v.attitude.q.element(i).reference() == reference).map(|i| rates.attitude_1_s[i]);
+    of_q.or_else(|| of_vector(v.attitude.rate, &rates.rate_rad_s2))
+        .or_else(|| of_vector(v.momentum.inertial, &rates.momentum_inertial_n_m))
+        .or_else(|| of_vector(v.momentum.body, &rates.momentum_body_n_m))
+        .or_else(|| of_vector(v.spin_axis.inertial, &rates.spin_axis_1_s))
+        .or_else(|| of_vector(v.delta_v, &rates.delta_v_m_s2))
+        .or_else(|| of(v.spin.rate, rates.rate_rad_s2.z))
+        .or_else(|| of(v.nutation.angle, rates.nutation_rad_s))
+        .or_else(|| of(v.nutation.phase, rates.nutation_phase_rad_s))
+        .or_else(|| of(v.sun.angle, rates.sun_angle_rad_s))
+        .or_else(|| of(v.earth.angle, rates.earth_angle_rad_s))
+        .or_else(|| of(v.spin_axis.displacement, rates.spin_axis_displacement_rad_s))
+        .or_else(|| of(v.momentum.displacement, rates.momentum_displacement_rad_s))
+        .or_else(|| of(v.star_tracker.declination_true, rates.declination_rad_s))
+        .or_else(|| of(v.energy, rates.power_w))
+        .or_else(|| of(v.propellant.used, rates.flow_kg_s))
+        .or_else(|| of(v.propellant.left, -rates.flow_kg_s))
+        .or_else(|| of(v.mass, -rates.flow_kg_s))
+}

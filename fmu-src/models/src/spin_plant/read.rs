@@ -1,0 +1,153 @@
+//! From the master's parameters and inputs to what the physics takes.
+
+use fmi_export::{Context, Failure, Real, RealVector, Step, Values};
+use nalgebra::Vector3;
+use physics::spin::{
+    burn::BurnRequest,
+    forecast::Timing,
+    geometry::{L1Flight, L1Phases},
+    plant::{self, Commands, Directions, PulseCommand, Start},
+    series::{BodyTorque, TORQUE_TERMS},
+    train::Shape,
+};
+
+use super::{
+    SpinPlant,
+    choices::{BurnPlan, BurnTiming, GeometrySource, MassSource, StarSampling},
+};
+
+type Plan<'a> = Context<'a, SpinPlant>;
+
+/// How the flight starts.
+pub fn start(context: &Plan<'_>, values: &Values) -> Start {
+    let v = context.variables;
+    Start {
+        inertia_kg_m2: values.vector(v.inertia),
+        mass_source: match values.choice(v.mass_properties.source) {
+            Some(MassSource::Propellant) => plant::MassSource::Propellant,
+            Some(MassSource::Fixed) | None => plant::MassSource::Fixed,
+        },
+        propellant_kg: values.real(v.propellant.initial),
+        spin_rate_rad_s: values.real(v.spin.initial_rate),
+        attitude: values.vector(v.initial.q),
+        nutation_rad: values.real(v.initial.nutation),
+        nutation_phase_rad: values.real(v.initial.nutation_phase),
+        damper_time_constant_s: values.real(v.damper.time_constant),
+        burn: burn(context, values),
+        l1: match values.choice(v.geometry.source) {
+            Some(GeometrySource::L1Orbit) => {
+                let (line_rate, amplitude) = (v.geometry.line_rate, v.geometry.amplitude);
+                Some(L1Flight {
+                    orbit: context.setup.l1_orbit.changed(values.real(line_rate), values.vector(amplitude)),
+                    phases: L1Phases {
+                        longitude_rad: values.real(v.geometry.longitude),
+                        in_plane_rad: values.real(v.geometry.in_plane_phase),
+                        out_of_plane_rad: values.real(v.geometry.out_of_plane_phase),
+                    },
+                })
+            }
+            Some(GeometrySource::Inputs) | None => None,
+        },
+        sampling: match values.choice(v.star_tracker.sampling) {
+            Some(StarSampling::Clock) => plant::Sampling::Clock,
+            Some(StarSampling::Spins) | None => plant::Sampling::Spins,
+        },
+        nominal_rate_rad_s: values.real(v.limit.spin_rate),
+        seed: i64::from(values.integer(v.seed)) as u64,
+    }
+}
+
+fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
+    let v = &context.variables.burn;
+    let shape = match values.choice(v.plan) {
+        Some(BurnPlan::Uniform) => Shape::Uniform,
+        Some(BurnPlan::Tapered) => {
+            Shape::Tapered { order: u32::try_from(values.integer(v.taper_order)).unwrap_or(0) }
+        }
+        Some(BurnPlan::Split) => Shape::Split,
+        Some(BurnPlan::External) | None => return None,
+    };
+    Some(BurnRequest {
+        shape,
+        timing: match values.choice(v.timing) {
+            Some(BurnTiming::SunCrossing) => Timing::SunCrossing,
+            Some(BurnTiming::TruePhase) => Timing::TruePhase,
+            Some(BurnTiming::Clock) | None => Timing::Clock,
+        },
+        start_s: values.real(v.start),
+        thruster: values.integer(v.thruster),
+        opposite_thruster: values.integer(v.opposite_thruster),
+        group: values.text(v.group).to_owned(),
+        pulse_width_s: values.real(v.pulse_width),
+        turns_per_pulse: values.real(v.turns_per_pulse),
+        count: values.integer(v.count),
+        angle_rad: values.real(v.angle),
+        resolution_s: values.real(context.variables.pulse.resolution),
+        target_inertial: values.vector(v.target_direction).into(),
+        spin_rate_error: values.real(v.spin_rate_error),
+        ratio_uncertainty: values.real(v.ratio_uncertainty),
+        max_nutation_rad: values.real(v.max_nutation),
+        max_duration_s: values.real(v.max_duration),
+    })
+}
+
+/// What the master commands from now on.
+pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
+    let v = context.variables;
+    let resolution_s = values.real(v.pulse.resolution);
+    let rounded = |handle: Real| {
+        let time_s = values.real(handle).max(0.0);
+        if resolution_s > 0.0 { (time_s / resolution_s).round() * resolution_s } else { time_s }
+    };
+    let mut commands = Commands {
+        torque: BodyTorque::constant(values.vector(v.torque.external).into()),
+        ..Commands::none()
+    };
+    for (k, (thruster, pulse)) in v.thruster.iter().zip(&mut commands.pulses).enumerate() {
+        if values.boolean(thruster.fire) {
+            commands.fire |= 1 << k;
+        }
+        *pulse = PulseCommand { delay_s: rounded(thruster.on_delay), on_s: rounded(thruster.on_time) };
+        commands.any_pulse |= pulse.on_s > 0.0;
+    }
+    commands
+}
+
+/// The outside torque of a step whose input derivatives make it a polynomial in time.
+pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<BodyTorque, Failure> {
+    let handle = context.variables.torque.external;
+    let mut torque = BodyTorque::constant(values.vector(handle).into());
+    for &(reference, order, derivative) in step.input_derivatives {
+        for axis in 0..3 {
+            if reference == handle.element(axis).reference() {
+                let k = order as usize;
+                if k >= TORQUE_TERMS {
+                    return Err(Failure::new(format!(
+                        "torque.external[{}]: a derivative of order {order} was given; orders 1 to {} are used",
+                        axis + 1,
+                        TORQUE_TERMS - 1
+                    )));
+                }
+                torque.origin_s = step.start_s;
+                let factorial: f64 = (1..=order).map(f64::from).product();
+                torque.coefficients_n_m[k][axis] = derivative / factorial;
+            }
+        }
+    }
+    Ok(torque)
+}
+
+/// Where Sun, Earth and star stand, as unit vectors; 0 where the master gave none.
+pub fn directions(read: impl Fn(RealVector<3>) -> [f64; 3], context: &Plan<'_>) -> Directions {
+    let unit = |handle| {
+        let direction = Vector3::from(read(handle));
+        let norm = direction.norm();
+        if norm > 0.0 && norm.is_finite() { direction / norm } else { Vector3::zeros() }
+    };
+    let v = context.variables;
+    Directions {
+        sun_inertial: unit(v.sun.direction),
+        earth_inertial: unit(v.earth.direction),
+        star_inertial: unit(v.star.direction),
+    }
+}

@@ -1,0 +1,189 @@
+//! Drives a model by its trait, with variables by name.
+
+use fmi_export::model::Log;
+use fmi_export::model_description::{Causality, Variability, VariableKind};
+use fmi_export::{Context, Declare, Failure, Model, Step, Values, Variables};
+use physics::numerics::stretches::next_multiple_s;
+
+struct Silent;
+
+impl Log for Silent {
+    fn events_enabled(&self) -> bool {
+        false
+    }
+    fn event(&self, _time_s: f64, _message: &str) {}
+    fn warning(&self, _message: &str) {}
+}
+
+/// A model with everything that does not change in flight.
+pub struct Hangar<M: Model> {
+    setup: M::Setup,
+    handles: M::Variables,
+    names: Vec<Named>,
+    start: Values,
+}
+
+struct Named {
+    name: String,
+    kind: Kind,
+    reference: usize,
+    output: bool,
+    varies: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Real,
+    Integer,
+    Boolean,
+    Text,
+}
+
+impl<M: Model> Hangar<M> {
+    /// With the compiled-in setup.
+    pub fn shipped() -> Self {
+        Self::with("default", M::DEFAULT_SETUP)
+    }
+
+    /// With a setup text.
+    pub fn with(file: &str, text: &str) -> Self {
+        let setup = M::parse_setup(file, text).unwrap();
+        let mut scope = Declare::new();
+        let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
+        let table = scope.finish();
+        let names = table.variables.iter().map(|variable| Named {
+            name: variable.name.clone(),
+            kind: match variable.kind {
+                VariableKind::Real { .. } => Kind::Real,
+                VariableKind::Boolean { .. } => Kind::Boolean,
+                VariableKind::String { .. } => Kind::Text,
+                _ => Kind::Integer,
+            },
+            reference: variable.value_reference as usize,
+            output: variable.causality == Causality::Output,
+            varies: variable.variability == Variability::Continuous,
+        });
+        Self { names: names.collect(), setup, handles, start: table.start }
+    }
+
+    fn find(&self, name: &str, kind: Kind) -> usize {
+        let found = self.names.iter().find(|named| named.name == name);
+        let found = found.unwrap_or_else(|| panic!("no variable {name}"));
+        assert_eq!(found.kind, kind, "{name}");
+        found.reference
+    }
+
+    fn context(&self) -> Context<'_, M> {
+        Context { setup: &self.setup, variables: &self.handles, log: &Silent }
+    }
+
+    /// A flight from `start_s` with these start values.
+    pub fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<Pilot<'_, M>, Failure> {
+        let mut values = self.start.clone();
+        for (name, value) in sets {
+            self.set(&mut values, name, *value);
+        }
+        let state = M::initialize(&self.context(), &mut values, start_s)?;
+        Ok(Pilot { hangar: self, values, state, time_s: start_s, changed: false })
+    }
+
+    fn set(&self, values: &mut Values, name: &str, value: f64) {
+        let found = self.names.iter().find(|named| named.name == name);
+        let found = found.unwrap_or_else(|| panic!("no variable {name}"));
+        let mut tables = Tables::of(values);
+        match found.kind {
+            Kind::Real => tables.reals[found.reference] = value,
+            Kind::Integer => tables.integers[found.reference] = value as i32,
+            Kind::Boolean => tables.booleans[found.reference] = value != 0.0,
+            Kind::Text => panic!("{name} is text"),
+        }
+        *values = tables.back();
+    }
+}
+
+/// The value tables, reached through their serialised form: no author of a model can write them by reference.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Tables {
+    reals: Vec<f64>,
+    integers: Vec<i32>,
+    booleans: Vec<bool>,
+    strings: Vec<String>,
+}
+
+impl Tables {
+    fn of(values: &Values) -> Self {
+        postcard::from_bytes(&postcard::to_stdvec(values).unwrap()).unwrap()
+    }
+
+    fn back(&self) -> Values {
+        postcard::from_bytes(&postcard::to_stdvec(self).unwrap()).unwrap()
+    }
+}
+
+/// One flight.
+pub struct Pilot<'a, M: Model> {
+    hangar: &'a Hangar<M>,
+    values: Values,
+    state: M::State,
+    time_s: f64,
+    changed: bool,
+}
+
+impl<M: Model> Pilot<'_, M> {
+    /// Now, in s.
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// One step.
+    pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
+        let step = Step { start_s: self.time_s, end_s, changed: self.changed, input_derivatives: &[] };
+        M::step(&self.hangar.context(), &mut self.values, &mut self.state, &step)?;
+        self.time_s = end_s;
+        self.changed = false;
+        Ok(())
+    }
+
+    /// Steps of equal length.
+    pub fn fly_to(&mut self, end_s: f64, step_s: f64) -> Result<(), Failure> {
+        while self.time_s < end_s {
+            self.step_to(next_multiple_s(self.time_s, step_s).min(end_s))?;
+        }
+        Ok(())
+    }
+
+    /// Sets an input or tunable.
+    pub fn set(&mut self, name: &str, value: f64) {
+        self.hangar.set(&mut self.values, name, value);
+        self.changed = true;
+    }
+
+    /// A Real.
+    pub fn real(&self, name: &str) -> f64 {
+        Tables::of(&self.values).reals[self.hangar.find(name, Kind::Real)]
+    }
+
+    /// An Integer.
+    pub fn integer(&self, name: &str) -> i32 {
+        Tables::of(&self.values).integers[self.hangar.find(name, Kind::Integer)]
+    }
+
+    /// `name[1]`..`name[3]`.
+    pub fn vector(&self, name: &str) -> nalgebra::Vector3<f64> {
+        nalgebra::Vector3::from_fn(|i, _| self.real(&format!("{name}[{}]", i + 1)))
+    }
+
+    /// The bits of every output that varies continuously.
+    pub fn output_bits(&self) -> Vec<(String, u64)> {
+        let tables = Tables::of(&self.values);
+        let reals = self.hangar.names.iter().filter(|it| it.kind == Kind::Real && it.output && it.varies);
+        reals.map(|it| (it.name.clone(), tables.reals[it.reference].to_bits())).collect()
+    }
+
+    /// Another flight that knows nothing but what is serialised.
+    pub fn restored(&self) -> Self {
+        let bytes = postcard::to_stdvec(&(&self.values, &self.state)).unwrap();
+        let (values, state) = postcard::from_bytes(&bytes).unwrap();
+        Self { hangar: self.hangar, values, state, time_s: self.time_s, changed: self.changed }
+    }
+}

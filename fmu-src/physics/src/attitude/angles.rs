@@ -1,0 +1,64 @@
+//! Directions in the body frame as azimuth and elevation (paper 000, "Spacecraft coordinate system").
+
+use nalgebra::Vector3;
+
+/// Azimuth A and elevation E of a direction: u = [cos E sin A, -cos E cos A, -sin E].
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct SunAngles {
+    /// From the -Y axis toward +X, -pi..pi, in rad.
+    pub azimuth_rad: f64,
+    /// Positive toward -Z, -pi/2..pi/2, in rad.
+    pub elevation_rad: f64,
+}
+
+impl SunAngles {
+    /// Of a body-frame direction of any length; along the Z axis the azimuth is 0.
+    pub fn of(direction_body: &Vector3<f64>) -> Self {
+        let across = direction_body.x.hypot(direction_body.y);
+        let azimuth_rad = if across == 0.0 { 0.0 } else { direction_body.x.atan2(-direction_body.y) };
+        Self { azimuth_rad, elevation_rad: (-direction_body.z).atan2(across) }
+    }
+
+    /// Distance inside a keep-in zone that is symmetric in both angles, in rad; negative outside.
+    pub fn keep_in_margin_rad(&self, azimuth_limit_rad: f64, elevation_limit_rad: f64) -> f64 {
+        (azimuth_limit_rad - self.azimuth_rad.abs()).min(elevation_limit_rad - self.elevation_rad.abs())
+    }
+}
+
+/// Body-frame unit vector of azimuth and elevation.
+pub fn direction_from_angles(angles: SunAngles) -> Vector3<f64> {
+    let (sin_a, cos_a) = angles.azimuth_rad.sin_cos();
+    let (sin_e, cos_e) = angles.elevation_rad.sin_cos();
+    Vector3::new(cos_e * sin_a, -cos_e * cos_a, -sin_e)
+}
+
+#[cfg(test)]
+mod tests {
+    //! The angles of the axes are stated in words by the paper.
+    use super::*;
+    use approx::assert_relative_eq;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    #[test]
+    fn the_axes_have_the_angles_the_paper_says() {
+        let of = |x, y, z| SunAngles::of(&Vector3::new(x, y, z));
+        assert_eq!(of(0.0, -1.0, 0.0), SunAngles { azimuth_rad: 0.0, elevation_rad: 0.0 });
+        assert_relative_eq!(of(1.0, 0.0, 0.0).azimuth_rad, FRAC_PI_2);
+        assert_relative_eq!(of(0.0, 1.0, 0.0).azimuth_rad.abs(), PI);
+        assert_relative_eq!(of(0.0, 0.0, -1.0).elevation_rad, FRAC_PI_2);
+        assert_relative_eq!(of(0.0, 0.0, 1.0).elevation_rad, -FRAC_PI_2);
+    }
+
+    #[test]
+    fn there_and_back() {
+        for a in -8..=8 {
+            for e in -7..=7 {
+                let angles =
+                    SunAngles { azimuth_rad: f64::from(a) * 0.39, elevation_rad: f64::from(e) * 0.22 };
+                let back = SunAngles::of(&(3.0 * direction_from_angles(angles)));
+                assert_relative_eq!(back.azimuth_rad, angles.azimuth_rad, epsilon = 1e-14);
+                assert_relative_eq!(back.elevation_rad, angles.elevation_rad, epsilon = 1e-14);
+            }
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! Quaternions, kinematics, directions in the body frame.
+//!
+//! An attitude quaternion is scalar-last and takes EME2000 components to body components in Wertz' passive
+//! order. Its four numbers are at the same time those of the active rotation that carries the inertial axes onto
+//! the body axes, which is how [`Attitude`] holds it.
+
+mod angles;
+mod frame;
+mod gravity_gradient;
+mod rotation;
+
+pub use angles::{SunAngles, direction_from_angles};
+pub use frame::{MovingFrame, MovingUnit};
+pub use gravity_gradient::gravity_gradient_n_m;
+pub(crate) use rotation::rotation_vector;
+pub use rotation::{Attitude, QuaternionError};

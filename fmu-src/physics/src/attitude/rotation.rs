@@ -1,0 +1,128 @@
+//! The attitude: a rotation between the inertial and the body frame, and its motion under a constant rate.
+
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Orientation of the body frame in EME2000.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attitude {
+    inertial_from_body: UnitQuaternion<f64>,
+}
+
+/// Four numbers that are no rotation.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("quaternion [{}, {}, {}, {}] has norm {norm}, needed is 1 (within 1e-3)", .found[0], .found[1], .found[2], .found[3])]
+pub struct QuaternionError {
+    /// What was given, scalar last.
+    pub found: [f64; 4],
+    /// Its norm.
+    pub norm: f64,
+}
+
+impl Default for Attitude {
+    fn default() -> Self {
+        Self { inertial_from_body: UnitQuaternion::identity() }
+    }
+}
+
+impl Attitude {
+    /// From a scalar-last quaternion (EME2000 to body); its norm may be off by 1e-3 and is restored to 1.
+    pub fn from_quaternion(q: [f64; 4]) -> Result<Self, QuaternionError> {
+        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !(norm - 1.0).abs().le(&1e-3) {
+            return Err(QuaternionError { found: q, norm });
+        }
+        Ok(Self {
+            inertial_from_body: UnitQuaternion::from_quaternion(Quaternion::new(q[3], q[0], q[1], q[2])),
+        })
+    }
+
+    /// From the body axes as columns in inertial components.
+    pub fn from_rotation(inertial_from_body: &Rotation3<f64>) -> Self {
+        Self { inertial_from_body: UnitQuaternion::from_rotation_matrix(inertial_from_body) }
+    }
+
+    /// Scalar-last quaternion (EME2000 to body), of the two signs the one nearest to `near`.
+    pub fn quaternion(&self, near: Option<[f64; 4]>) -> [f64; 4] {
+        let q = self.inertial_from_body.coords;
+        let flip = match near {
+            Some(near) => q.iter().zip(near).map(|(a, b)| a * b).sum::<f64>() < 0.0,
+            None => q.w < 0.0,
+        };
+        let sign = if flip { -1.0 } else { 1.0 };
+        [sign * q.x, sign * q.y, sign * q.z, sign * q.w]
+    }
+
+    /// Matrix that takes body components to inertial components.
+    pub fn inertial_from_body(&self) -> Rotation3<f64> {
+        self.inertial_from_body.to_rotation_matrix()
+    }
+
+    /// The attitude after `duration_s` at the constant body rate `rate_body_rad_s`.
+    pub fn propagated(&self, rate_body_rad_s: Vector3<f64>, duration_s: f64) -> Self {
+        self.turned(rate_body_rad_s * duration_s)
+    }
+
+    /// The attitude after a rotation by the body-fixed vector `angle_body_rad`.
+    pub fn turned(&self, angle_body_rad: Vector3<f64>) -> Self {
+        Self {
+            inertial_from_body: self.inertial_from_body * UnitQuaternion::from_scaled_axis(angle_body_rad),
+        }
+    }
+
+    /// The attitude after the rotation `by` (from this body frame to the new one).
+    pub fn then(&self, by: &Self) -> Self {
+        Self { inertial_from_body: self.inertial_from_body * by.inertial_from_body }
+    }
+}
+
+/// Rotation vector, in rad, that carries `from` onto `to`, in components of `to`.
+pub(crate) fn rotation_vector(from: &Rotation3<f64>, to: &Rotation3<f64>) -> Vector3<f64> {
+    let relative: Matrix3<f64> = from.matrix().transpose() * to.matrix();
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(relative)).scaled_axis()
+}
+
+#[cfg(test)]
+mod tests {
+    //! A rotation about one axis is known in closed form, and a passive rotation shows fixed vectors backwards.
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn passive_quaternion_of_a_quarter_turn_about_z() {
+        // Wertz (12-13a): C(q) of a +90 deg turn about z takes inertial x to body -y.
+        let half = std::f64::consts::FRAC_PI_4;
+        let attitude = Attitude::from_quaternion([0.0, 0.0, half.sin(), half.cos()]).unwrap();
+        let body = attitude.inertial_from_body().inverse() * Vector3::x();
+        assert_relative_eq!(body, -Vector3::y(), epsilon = 1e-15);
+    }
+
+    #[test]
+    fn constant_rate_turns_about_the_rate_axis() {
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let attitude = Attitude::default().propagated(axis * 0.01, 100.0);
+        let q = attitude.quaternion(None);
+        let expected = axis * 0.5f64.sin();
+        assert_relative_eq!(Vector3::new(q[0], q[1], q[2]), expected, epsilon = 1e-15);
+        assert_relative_eq!(q[3], 0.5f64.cos(), epsilon = 1e-15);
+    }
+
+    #[test]
+    fn cutting_a_constant_rate_motion_changes_nothing() {
+        let rate = Vector3::new(1e-3, -2e-3, 3e-3);
+        let start = Attitude::from_quaternion([0.5, -0.5, 0.5, 0.5]).unwrap();
+        let whole = start.propagated(rate, 700.0).quaternion(None);
+        let cut = start.propagated(rate, 300.0).propagated(rate, 400.0).quaternion(Some(whole));
+        for (a, b) in whole.iter().zip(cut) {
+            assert_relative_eq!(*a, b, epsilon = 1e-14);
+        }
+    }
+
+    #[test]
+    fn what_is_no_rotation_is_refused() {
+        assert!(Attitude::from_quaternion([0.0; 4]).is_err());
+        assert!(Attitude::from_quaternion([f64::NAN, 0.0, 0.0, 1.0]).is_err());
+        let error = Attitude::from_quaternion([0.0, 0.0, 0.0, 2.0]).unwrap_err();
+        assert!(error.to_string().contains("norm 2"));
+    }
+}

@@ -1,0 +1,37 @@
+//! Named physical constants, each with unit and source.
+
+/// Speed of light in vacuum, m/s (exact, SI).
+pub const SPEED_OF_LIGHT_M_S: f64 = 299_792_458.0;
+/// Astronomical unit, m (exact, IAU 2012 Resolution B2).
+pub const ASTRONOMICAL_UNIT_M: f64 = 149_597_870_700.0;
+/// Stefan-Boltzmann constant, W m-2 K-4 (exact in the SI of 2019, rounded to 10 digits).
+pub const STEFAN_BOLTZMANN_W_M2_K4: f64 = 5.670_374_419e-8;
+/// Seconds in a day.
+pub const DAY_S: f64 = 86_400.0;
+/// Days in a Julian year.
+pub const JULIAN_YEAR_D: f64 = 365.25;
+/// Standard acceleration of gravity, m/s2 (exact, CGPM 1901); turns specific impulse into exhaust speed.
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
+
+/// Gravitational parameter of the Sun, m3/s2 (JPL DE440).
+pub const GM_SUN_M3_S2: f64 = 1.327_124_400_412_793_9e20;
+/// Gravitational parameter of Mercury, m3/s2 (JPL DE440, from MESSENGER).
+pub const GM_MERCURY_M3_S2: f64 = 2.203_186_855_1e13;
+/// Gravitational parameter of Venus, m3/s2 (JPL DE440).
+pub const GM_VENUS_M3_S2: f64 = 3.248_585_920_0e14;
+/// Gravitational parameter of the Earth without the Moon, m3/s2 (JPL DE440).
+pub const GM_EARTH_M3_S2: f64 = 3.986_004_355_07e14;
+
+/// Nominal radius of the Sun, m (IAU 2015 Resolution B3).
+pub const RADIUS_SUN_M: f64 = 6.957e8;
+/// Mean radius of Mercury, m (IAU Working Group on Cartographic Coordinates, 2015).
+pub const RADIUS_MERCURY_M: f64 = 2.439_4e6;
+/// Mean radius of Venus, m (IAU Working Group on Cartographic Coordinates, 2015).
+pub const RADIUS_VENUS_M: f64 = 6.051_8e6;
+/// Mean radius of the Earth, m (IAU Working Group on Cartographic Coordinates, 2015).
+pub const RADIUS_EARTH_M: f64 = 6.371_008_4e6;
+
+/// Second zonal harmonic J2 of Mercury, dimensionless, unnormalised (Mazarico et al. 2014, HgM005).
+pub const J2_MERCURY: f64 = 5.032_3e-5;
+/// Radius to which [`J2_MERCURY`] refers, m (HgM005).
+pub const J2_REFERENCE_RADIUS_MERCURY_M: f64 = 2.44e6;

@@ -1,0 +1,270 @@
+//! How much of the Sun's disc a spacecraft sees past a planet, and when that changes.
+//!
+//! Sun and planet are spheres; seen from the spacecraft they are circles on the sky of angular radii
+//! `asin(R / distance)` (paper 004 eq 26). The lit fraction is the part of the Sun's circle outside the planet's, by
+//! solid angle. Both are treated as circles on the sphere, not on a flat sky: close to the planet, whose circle
+//! spans a good part of the sky, the flat formula is off by up to 1e-3.
+
+mod discs;
+mod edges;
+#[cfg(test)]
+mod tests;
+
+use core::f64::consts::FRAC_PI_2;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{
+    constants::RADIUS_SUN_M,
+    numerics::{
+        events,
+        scalar::{Scalar, vector_value},
+    },
+};
+
+pub use discs::Discs;
+pub use edges::{Edge, EdgeKind, Edges, MOST_EDGES};
+
+/// How a planet's shadow dims the Sun.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum ShadowModel {
+    /// Visible fraction of the Sun's disc: umbra, penumbra, annular.
+    #[default]
+    DiscOverlap,
+    /// Paper 004: no light at all as soon as the discs touch (total, partial or annular), the annular condition
+    /// corrected.
+    AllOrNothingCone,
+    /// No light in the cylinder of the planet's radius behind it (paper 004's analytical model).
+    AllOrNothingCylinder,
+    /// The planet casts no shadow.
+    Off,
+}
+
+/// A geometry without a lit fraction.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum EclipseError {
+    /// The spacecraft is below the planet's surface.
+    #[error(
+        "the spacecraft is {distance_m} m from the planet's centre, inside the planet of radius {radius_m} m"
+    )]
+    InsidePlanet {
+        /// Distance from the planet's centre, m.
+        distance_m: f64,
+        /// Radius of the planet, m.
+        radius_m: f64,
+    },
+    /// The spacecraft is inside the Sun.
+    #[error(
+        "the spacecraft is {distance_m} m from the Sun's centre, allowed is more than its radius of {radius_m} m"
+    )]
+    InsideSun {
+        /// Distance from the Sun's centre, m.
+        distance_m: f64,
+        /// Radius of the Sun, m.
+        radius_m: f64,
+    },
+    /// A position that is not finite.
+    #[error("position of {of} is not finite")]
+    NotFinite {
+        /// Of what.
+        of: &'static str,
+    },
+    /// A radius that cannot be.
+    #[error("radius of {of} is {found_m} m, allowed is a finite number above 0")]
+    Radius {
+        /// Of what.
+        of: &'static str,
+        /// What it was, m.
+        found_m: f64,
+    },
+}
+
+/// A planet's shadow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shadow {
+    model: ShadowModel,
+    planet_radius_m: f64,
+    sun_radius_m: f64,
+}
+
+impl Shadow {
+    /// The shadow of a planet of `planet_radius_m` in the light of a Sun of [`RADIUS_SUN_M`].
+    ///
+    /// # Errors
+    /// [`EclipseError::Radius`] unless the radius is finite and positive.
+    pub fn new(model: ShadowModel, planet_radius_m: f64) -> Result<Self, EclipseError> {
+        Self::with_sun_radius(model, planet_radius_m, RADIUS_SUN_M)
+    }
+
+    /// As [`Shadow::new`], with another radius of the Sun.
+    ///
+    /// # Errors
+    /// [`EclipseError::Radius`] unless both radii are finite and positive.
+    pub fn with_sun_radius(
+        model: ShadowModel,
+        planet_radius_m: f64,
+        sun_radius_m: f64,
+    ) -> Result<Self, EclipseError> {
+        for (of, found_m) in [("the planet", planet_radius_m), ("the Sun", sun_radius_m)] {
+            if !(found_m > 0.0 && found_m.is_finite()) {
+                return Err(EclipseError::Radius { of, found_m });
+            }
+        }
+        Ok(Self { model, planet_radius_m, sun_radius_m })
+    }
+
+    /// The model.
+    pub fn model(&self) -> ShadowModel {
+        self.model
+    }
+
+    /// What the spacecraft sees; positions relative to the planet's centre in any common frame, m.
+    ///
+    /// # Errors
+    /// [`EclipseError`] if the spacecraft is inside the planet or the Sun, or a position is not finite.
+    pub fn discs<T: Scalar>(
+        &self,
+        spacecraft_m: &Vector3<T>,
+        sun_m: &Vector3<T>,
+    ) -> Result<Discs<T>, EclipseError> {
+        let to_sun = sun_m - spacecraft_m;
+        let (planet_distance, sun_distance) = (spacecraft_m.norm(), to_sun.norm());
+        let (planet_distance_m, sun_distance_m) = (planet_distance.value(), sun_distance.value());
+        if !planet_distance_m.is_finite() {
+            return Err(EclipseError::NotFinite { of: "the spacecraft" });
+        }
+        if !sun_distance_m.is_finite() {
+            return Err(EclipseError::NotFinite { of: "the Sun" });
+        }
+        // Standing on the surface is allowed, with the rounding that comes with it.
+        let sin_planet = self.planet_radius_m / planet_distance_m;
+        if sin_planet > 1.0 + 1e-12 || planet_distance_m == 0.0 {
+            let radius_m = self.planet_radius_m;
+            return Err(EclipseError::InsidePlanet { distance_m: planet_distance_m, radius_m });
+        }
+        if sun_distance_m <= self.sun_radius_m {
+            let radius_m = self.sun_radius_m;
+            return Err(EclipseError::InsideSun { distance_m: sun_distance_m, radius_m });
+        }
+        let planet_radius_rad = if sin_planet < 1.0 {
+            (T::constant(self.planet_radius_m) / planet_distance).asin()
+        } else {
+            T::constant(FRAC_PI_2)
+        };
+        // Cross and dot of the directions to the Sun and to the planet; no cancellation at any angle.
+        let cross = spacecraft_m.cross(sun_m).norm_squared();
+        let across = if cross.value() > 0.0 { cross.sqrt() } else { T::constant(0.0) };
+        Ok(Discs {
+            sun_radius_rad: (T::constant(self.sun_radius_m) / sun_distance).asin(),
+            planet_radius_rad,
+            separation_rad: across.atan2(-spacecraft_m.dot(&to_sun)),
+            planet_in_front: planet_distance_m < sun_distance_m,
+        })
+    }
+
+    /// The share of sunlight that arrives, 0 to 1; positions relative to the planet's centre, m.
+    ///
+    /// # Errors
+    /// See [`Shadow::discs`].
+    pub fn lit_fraction<T: Scalar>(
+        &self,
+        spacecraft_m: &Vector3<T>,
+        sun_m: &Vector3<T>,
+    ) -> Result<T, EclipseError> {
+        if self.model == ShadowModel::Off {
+            return Ok(T::constant(1.0));
+        }
+        let discs = self.discs(spacecraft_m, sun_m)?;
+        let all_or_nothing = |gap_rad: f64| T::constant(f64::from(gap_rad >= 0.0));
+        Ok(match self.model {
+            ShadowModel::DiscOverlap => discs.lit_fraction(),
+            ShadowModel::AllOrNothingCone => all_or_nothing(discs.outer_gap_rad().value()),
+            ShadowModel::AllOrNothingCylinder => {
+                all_or_nothing(self.cylinder_gap_rad(&vector_value(spacecraft_m), &vector_value(sun_m)))
+            }
+            ShadowModel::Off => T::constant(1.0),
+        })
+    }
+
+    /// The functions of the geometry whose roots are this model's edges, in rad, positive in full light: outer edge
+    /// of the shadow, and inner edge where there is a penumbra (infinity where there is none).
+    ///
+    /// # Errors
+    /// See [`Shadow::discs`].
+    pub fn gaps_rad(
+        &self,
+        spacecraft_m: &Vector3<f64>,
+        sun_m: &Vector3<f64>,
+    ) -> Result<[f64; 2], EclipseError> {
+        let none = f64::INFINITY;
+        Ok(match self.model {
+            ShadowModel::DiscOverlap => {
+                let discs = self.discs(spacecraft_m, sun_m)?;
+                [discs.outer_gap_rad(), discs.inner_gap_rad()]
+            }
+            ShadowModel::AllOrNothingCone => [self.discs(spacecraft_m, sun_m)?.outer_gap_rad(), none],
+            ShadowModel::AllOrNothingCylinder => {
+                self.discs(spacecraft_m, sun_m)?;
+                [self.cylinder_gap_rad(spacecraft_m, sun_m), none]
+            }
+            ShadowModel::Off => [none, none],
+        })
+    }
+
+    /// Every edge of the shadow in `(from_s, to_s]`, in order of time, of more than [`MOST_EDGES`] the first ones.
+    /// `geometry` gives the positions of spacecraft and Sun relative to the planet's centre, m, at a time: usually a
+    /// cell's dense output. An interval that starts on an edge may report that edge again, by rounding. Located to 1e-12 of the angle's range, far below a microsecond for an orbit.
+    ///
+    /// # Errors
+    /// See [`Shadow::discs`].
+    pub fn edges(
+        &self,
+        from_s: f64,
+        to_s: f64,
+        mut geometry: impl FnMut(f64) -> (Vector3<f64>, Vector3<f64>),
+    ) -> Result<Edges, EclipseError> {
+        let mut edges = Edges::default();
+        if self.model == ShadowModel::Off {
+            return Ok(edges);
+        }
+        let kinds = if self.model == ShadowModel::DiscOverlap { 2 } else { 1 };
+        for (kind, edge_kind) in [EdgeKind::Outer, EdgeKind::Inner].into_iter().enumerate().take(kinds) {
+            let mut failure = None;
+            let mut gap_rad = |at_s: f64| {
+                let (spacecraft_m, sun_m) = geometry(at_s);
+                match self.gaps_rad(&spacecraft_m, &sun_m) {
+                    Ok(gaps) => gaps[kind],
+                    Err(error) => {
+                        failure.get_or_insert(error);
+                        f64::NAN
+                    }
+                }
+            };
+            let roots = events::sign_changes::<MOST_EDGES>(from_s, to_s, &mut gap_rad);
+            let roots = roots.unwrap_or_default();
+            // In full light all along: the inner edge lies within the outer one.
+            let stays_bright = kind == 0 && roots.is_empty() && gap_rad(to_s) > 0.0;
+            for (i, &at_s) in roots.as_slice().iter().enumerate() {
+                let next_s = roots.as_slice().get(i + 1).copied().unwrap_or(to_s);
+                let into_shadow = gap_rad(0.5 * (at_s + next_s)) < 0.0;
+                edges.insert(Edge { at_s, kind: edge_kind, into_shadow });
+            }
+            if let Some(error) = failure {
+                return Err(error);
+            }
+            if stays_bright {
+                break;
+            }
+        }
+        Ok(edges)
+    }
+
+    /// Angle between the antisolar direction and the spacecraft, seen from the planet's centre, beyond the shadow
+    /// cylinder's.
+    fn cylinder_gap_rad(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> f64 {
+        let from_axis_rad = spacecraft_m.cross(sun_m).norm().atan2(-spacecraft_m.dot(sun_m));
+        from_axis_rad - (self.planet_radius_m / spacecraft_m.norm()).min(1.0).asin()
+    }
+}

@@ -1,0 +1,233 @@
+//! An integrated orbit agrees with the closed form where there is one, and drifts as celestial mechanics says.
+
+use core::f64::consts::TAU;
+
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+use super::*;
+use crate::{
+    constants::{GM_MERCURY_M3_S2 as MU, GM_SUN_M3_S2, RADIUS_MERCURY_M},
+    environment::{State, paper004::MESSENGER_AS_PRINTED},
+};
+
+const SUN: Vector3<f64> = Vector3::new(3.5e10, 4.5e10, 1.0e10);
+
+/// Flies until `end_s` at a whole number of cells and returns the state there.
+fn fly(elements: Elements, cell_s: f64, end_s: f64, gravity: &Gravity) -> (State, DisturbedOrbit) {
+    let method = OrbitMethod::default();
+    let start = elements.state(gravity.mu_m3_s2).unwrap();
+    let mut orbit = DisturbedOrbit::new(&start, 0.0, cell_s, RADIUS_MERCURY_M).unwrap();
+    while orbit.end_s() < end_s {
+        orbit.advance(&method, gravity, |_| SUN, |_, _| Vector3::zeros()).unwrap();
+    }
+    (orbit.state_at(end_s), orbit)
+}
+
+#[test]
+fn agrees_with_the_closed_form_between_the_edges_too() {
+    let closed = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, MU, 0.0).unwrap();
+    let method = OrbitMethod::default();
+    for (cell_s, stated_m) in [(60.0, 1e-5), (300.0, 1e-4), (600.0, 1.0)] {
+        let start = closed.state_at(0.0);
+        let mut orbit = DisturbedOrbit::new(&start, 0.0, cell_s, RADIUS_MERCURY_M).unwrap();
+        let mut worst_m = 0.0_f64;
+        while orbit.end_s() < closed.period_s() {
+            orbit.advance(&method, &Gravity::point_mass(MU), |_| SUN, |_, _| Vector3::zeros()).unwrap();
+            for i in 0..7 {
+                let at_s = orbit.start_s() + cell_s * f64::from(i) / 7.0;
+                let off_m = (orbit.state_at(at_s).position_m - closed.state_at(at_s).position_m).norm();
+                worst_m = worst_m.max(off_m);
+            }
+        }
+        assert!(worst_m < stated_m, "{cell_s} s: {worst_m} m");
+    }
+}
+
+#[test]
+fn flattening_turns_node_and_periapsis_at_the_known_rates() {
+    // First-order secular rates: node -3/2 J2 (R/p)^2 n cos i, periapsis 3/4 J2 (R/p)^2 n (5 cos^2 i - 1). The body is
+    // made as flat as the Earth, its pole along z.
+    let flattening = Flattening { j2: 1e-4, reference_radius_m: 2.44e6, pole: Vector3::z() };
+    let gravity = Gravity { mu_m3_s2: MU, flattening: Some(flattening), tide_mu_m3_s2: None };
+    let elements =
+        Elements { eccentricity: 0.3, inclination_rad: 0.9, semi_major_axis_m: 6e6, ..MESSENGER_AS_PRINTED };
+    let two_body = TwoBodyOrbit::from_elements(elements, MU, 0.0).unwrap();
+    // Elements averaged over ten revolutions at the start and, 200 revolutions later, over ten again.
+    let method = OrbitMethod::default();
+    let mut orbit = DisturbedOrbit::new(&two_body.state_at(0.0), 0.0, 120.0, 1e6).unwrap();
+    let mut mean = [[0.0; 2]; 2];
+    let (period_s, samples) = (two_body.period_s(), 1000);
+    for (window, mean) in mean.iter_mut().enumerate() {
+        for i in 0..samples {
+            let at_s = period_s * (200.0 * window as f64 + 10.0 * (f64::from(i) + 0.5) / f64::from(samples));
+            while orbit.end_s() < at_s {
+                orbit.advance(&method, &gravity, |_| SUN, |_, _| Vector3::zeros()).unwrap();
+            }
+            let found = Elements::from_state(&orbit.state_at(at_s), MU).unwrap();
+            mean[0] += found.ascending_node_rad / f64::from(samples);
+            mean[1] += found.periapsis_argument_rad / f64::from(samples);
+        }
+    }
+    let elapsed_s = 200.0 * period_s;
+    let factor = 1e-4 * (2.44e6 / elements.semi_latus_rectum_m()).powi(2) * two_body.mean_motion_rad_s();
+    let cos = elements.inclination_rad.cos();
+    let expected = [-1.5 * factor * cos, 0.75 * factor * (5.0 * cos * cos - 1.0)];
+    for k in 0..2 {
+        let rate = (mean[1][k] - mean[0][k]) / elapsed_s;
+        assert!((rate / expected[k] - 1.0).abs() < 5e-3, "{k}: {rate:e} {:e}", expected[k]);
+    }
+}
+
+#[test]
+fn flattening_is_the_gradient_of_its_potential() {
+    let flattening =
+        Flattening { j2: 1e-3, reference_radius_m: 2.44e6, pole: Vector3::new(2.0, -1.0, 2.0) / 3.0 };
+    let gravity = Gravity { mu_m3_s2: MU, flattening: Some(flattening), tide_mu_m3_s2: None };
+    let potential = |r: Vector3<f64>| {
+        let (d, s) = (r.norm(), r.dot(&flattening.pole) / r.norm());
+        MU / d * (1.0 - 1e-3 * (2.44e6 / d).powi(2) * (3.0 * s * s - 1.0) / 2.0)
+    };
+    for r in [Vector3::new(3e6, 1e6, -2e6), Vector3::new(-1e6, 4e6, 2e6)] {
+        let found = gravity.acceleration_m_s2(&r, &SUN);
+        let gradient = Vector3::from_fn(|i, _| {
+            let mut step = Vector3::zeros();
+            step[i] = 300.0;
+            (8.0 * (potential(r + step) - potential(r - step)) - potential(r + step * 2.0)
+                + potential(r - step * 2.0))
+                / 3600.0
+        });
+        assert!((found - gradient).norm() < 1e-9 * found.norm(), "{found} {gradient}");
+    }
+}
+
+#[test]
+fn cells_keep_the_jacobi_like_energy_of_flattening() {
+    // Point mass and flattening are conservative, and the momentum along the pole is constant.
+    let flattening = Flattening::mercury();
+    let gravity = Gravity { flattening: Some(flattening), ..Gravity::point_mass(MU) };
+    let energy = |s: &State| {
+        let (d, sin) = (s.position_m.norm(), s.position_m.normalize().dot(&flattening.pole));
+        let j2 = flattening.j2 * (flattening.reference_radius_m / d).powi(2) * (3.0 * sin * sin - 1.0) / 2.0;
+        s.velocity_m_s.norm_squared() / 2.0 - MU / d * (1.0 - j2)
+    };
+    let momentum = |s: &State| s.position_m.cross(&s.velocity_m_s).dot(&flattening.pole);
+    let start = MESSENGER_AS_PRINTED.state(MU).unwrap();
+    let (end, _) = fly(MESSENGER_AS_PRINTED, 300.0, 30.0 * 86_400.0, &gravity);
+    assert!((energy(&end) / energy(&start) - 1.0).abs() < 1e-11);
+    assert!((momentum(&end) / momentum(&start) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_tide_is_the_difference_of_two_pulls() {
+    // Far out the plain difference is accurate; close in the tide is the linear field 3 s (s.r) - r over s^3.
+    let pull = |d: Vector3<f64>| d * (GM_SUN_M3_S2 / d.norm().powi(3));
+    let far = Vector3::new(1e10, -8e9, 5e9);
+    let plain = pull(SUN - far) - pull(SUN);
+    assert!((tide_m_s2(&far, &SUN, GM_SUN_M3_S2) - plain).norm() < 1e-14 * pull(SUN).norm());
+    let close = Vector3::new(300.0, -200.0, 500.0);
+    let unit = SUN.normalize();
+    let linear = (unit * 3.0 * unit.dot(&close) - close) * (GM_SUN_M3_S2 / SUN.norm().powi(3));
+    assert!((tide_m_s2(&close, &SUN, GM_SUN_M3_S2) - linear).norm() < 1e-7 * linear.norm());
+}
+
+#[test]
+fn a_constant_push_moves_the_orbit_as_it_should() {
+    // In free fall without gravity to speak of, a constant acceleration is a parabola.
+    let gravity = Gravity::point_mass(1e-3);
+    let start = State { position_m: Vector3::new(1e9, 0.0, 0.0), velocity_m_s: Vector3::new(0.0, 10.0, 0.0) };
+    let push = Vector3::new(1e-6, 2e-6, -3e-6);
+    let method = OrbitMethod::default();
+    let mut orbit = DisturbedOrbit::new(&start, 50.0, 600.0, 0.0).unwrap();
+    while orbit.end_s() < 6000.0 {
+        orbit.advance(&method, &gravity, |_| SUN, |_, _| push).unwrap();
+    }
+    let elapsed_s = 5950.0;
+    let expected = start.position_m + start.velocity_m_s * elapsed_s + push * (0.5 * elapsed_s * elapsed_s);
+    assert!((orbit.state_at(6000.0).position_m - expected).norm() < 1e-6);
+    orbit.cut(5700.0, &Vector3::new(0.0, 0.0, 1.0));
+    let kicked = orbit.state_at(5700.0).velocity_m_s;
+    assert!((kicked - (start.velocity_m_s + push * 5650.0 + Vector3::z())).norm() < 1e-12);
+    orbit.advance(&method, &gravity, |_| SUN, |_, _| push).unwrap();
+    assert_eq!((orbit.start_s(), orbit.end_s()), (5700.0, 6000.0));
+}
+
+#[test]
+fn halving_the_cell_changes_nothing_that_matters() {
+    let (coarse, _) = fly(MESSENGER_AS_PRINTED, 300.0, 864_000.0, &Gravity::mercury());
+    let (fine, orbit) = fly(MESSENGER_AS_PRINTED, 150.0, 864_000.0, &Gravity::mercury());
+    assert!((coarse.position_m - fine.position_m).norm() < 0.02);
+    // The disturbances are no more than they should be: the undisturbed spacecraft is some tens of kilometres away.
+    let plain = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, MU, 0.0).unwrap().state_at(864_000.0);
+    let apart_m = (plain.position_m - fine.position_m).norm();
+    assert!((1e3..1e6).contains(&apart_m), "{apart_m}");
+    let text = toml::to_string(&orbit).unwrap();
+    assert_eq!(toml::from_str::<DisturbedOrbit>(&text).unwrap(), orbit);
+}
+
+#[test]
+fn impact_and_bad_starts_are_named() {
+    let falling =
+        Elements { semi_major_axis_m: 5e6, eccentricity: 0.6, true_anomaly_rad: 3.0, ..MESSENGER_AS_PRINTED };
+    let start = falling.state(MU).unwrap();
+    let mut orbit = DisturbedOrbit::new(&start, 0.0, 60.0, RADIUS_MERCURY_M).unwrap();
+    let method = OrbitMethod::default();
+    let error = loop {
+        if let Err(error) = orbit.advance(&method, &Gravity::point_mass(MU), |_| SUN, |_, _| Vector3::zeros())
+        {
+            break error;
+        }
+    };
+    assert!(error.to_string().contains("inside the planet of radius 2439400 m"), "{error}");
+    // The orbit still stands where it was, above the surface.
+    assert!(orbit.state_at(orbit.end_s()).position_m.norm() > RADIUS_MERCURY_M);
+    let say = |state: &State, cell_s| DisturbedOrbit::new(state, 0.0, cell_s, 2e6).unwrap_err().to_string();
+    assert!(say(&State::default(), 60.0).contains("inside the planet"));
+    assert!(say(&start, 0.0).contains("cell length in s is 0"));
+    let lost = State { position_m: Vector3::new(f64::NAN, 0.0, 0.0), ..start };
+    assert!(say(&lost, 60.0).contains("position or velocity is NaN"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    #[test]
+    fn asking_often_changes_no_bit(at in prop::collection::vec(0.0..5000.0f64, 1..20)) {
+        let (expected, _) = fly(MESSENGER_AS_PRINTED, 60.0, 5000.0, &Gravity::mercury());
+        let method = OrbitMethod::default();
+        let mut at = at;
+        at.sort_by(f64::total_cmp);
+        at.push(5000.0);
+        let start = MESSENGER_AS_PRINTED.state(MU).unwrap();
+        let mut orbit = DisturbedOrbit::new(&start, 0.0, 60.0, RADIUS_MERCURY_M).unwrap();
+        for at_s in at {
+            while orbit.end_s() < at_s {
+                orbit.advance(&method, &Gravity::mercury(), |_| SUN, |_, _| Vector3::zeros()).unwrap();
+            }
+            orbit.state_at(at_s);
+        }
+        prop_assert_eq!(orbit.state_at(5000.0), expected);
+    }
+
+    #[test]
+    fn rotating_everything_rotates_the_orbit(angle in 0.0..TAU) {
+        let turn = nalgebra::Rotation3::from_axis_angle(&Vector3::y_axis(), angle);
+        let turned_gravity = |g: Gravity| Gravity {
+            flattening: g.flattening.map(|f| Flattening { pole: turn * f.pole, ..f }),
+            ..g
+        };
+        let start = MESSENGER_AS_PRINTED.state(MU).unwrap();
+        let turned = State { position_m: turn * start.position_m, velocity_m_s: turn * start.velocity_m_s };
+        let method = OrbitMethod::default();
+        let end = |start: &State, gravity: &Gravity, sun: Vector3<f64>| {
+            let mut orbit = DisturbedOrbit::new(start, 0.0, 120.0, RADIUS_MERCURY_M).unwrap();
+            for _ in 0..60 {
+                orbit.advance(&method, gravity, |_| sun, |_, _| Vector3::zeros()).unwrap();
+            }
+            orbit.state_at(7200.0).position_m
+        };
+        let plain = end(&start, &Gravity::mercury(), SUN);
+        let other = end(&turned, &turned_gravity(Gravity::mercury()), turn * SUN);
+        prop_assert!((turn * plain - other).norm() < 1e-5);
+    }
+}

@@ -1,0 +1,345 @@
+//! Keplerian elements to state and back (paper 004 eqs 9-21, with all quadrants).
+
+use core::f64::consts::TAU;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::environment::State;
+
+/// Below this eccentricity an orbit counts as circular, below this sine of inclination as equatorial.
+const DEGENERATE: f64 = 1e-13;
+
+/// Osculating Keplerian elements in some inertial frame; ellipse (`a > 0`, `0 <= e < 1`) or hyperbola (`a < 0`, `e > 1`).
+///
+/// Angles from [`Elements::from_state`] lie in `[0, 2 pi)`, the inclination in `[0, pi]`, a hyperbola's true anomaly
+/// in `(-pi, pi)`. Where an angle has no meaning it is defined so: *equatorial* orbits (inclination 0 or pi within
+/// 1e-13) have their ascending node on +x (node 0); *circular* orbits (eccentricity below 1e-13) have their periapsis at the
+/// ascending node (argument 0). The state is the same to 1e-13 of its length either way.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Elements {
+    /// Semi-major axis, m; negative for a hyperbola.
+    pub semi_major_axis_m: f64,
+    /// Eccentricity.
+    pub eccentricity: f64,
+    /// Inclination, rad.
+    pub inclination_rad: f64,
+    /// Right ascension (longitude) of the ascending node, rad.
+    pub ascending_node_rad: f64,
+    /// Argument of periapsis, rad.
+    pub periapsis_argument_rad: f64,
+    /// True anomaly, rad.
+    pub true_anomaly_rad: f64,
+}
+
+/// Elements or a state that are no orbit this module can fly.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum OrbitError {
+    /// A number outside its range.
+    #[error("{what} is {found}, allowed is {allowed}")]
+    OutOfRange {
+        /// Which quantity, with its unit.
+        what: &'static str,
+        /// What it was.
+        found: f64,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// Position and velocity are parallel, or one is zero: a fall along a line has no orbital plane.
+    #[error(
+        "position ({distance_m} m from the centre) and velocity ({speed_m_s} m/s) are parallel or zero: \
+         no orbital plane, give the state some angular momentum"
+    )]
+    Rectilinear {
+        /// Distance from the centre, m.
+        distance_m: f64,
+        /// Speed, m/s.
+        speed_m_s: f64,
+    },
+    /// The energy is that of a parabola, whose semi-major axis is infinite.
+    #[error(
+        "the eccentricity is {eccentricity}: a parabola has no semi-major axis, allowed is below or above 1"
+    )]
+    Parabolic {
+        /// Eccentricity.
+        eccentricity: f64,
+    },
+}
+
+impl Elements {
+    /// Checks that these elements are an ellipse or a hyperbola with the true anomaly on its branch.
+    ///
+    /// # Errors
+    /// The first element that cannot be, with what is allowed.
+    pub fn check(&self) -> Result<(), OrbitError> {
+        let check = |what, found: f64, ok: bool, allowed| {
+            if ok { Ok(()) } else { Err(OrbitError::OutOfRange { what, found, allowed }) }
+        };
+        let (a, e) = (self.semi_major_axis_m, self.eccentricity);
+        check("eccentricity", e, e.is_finite() && e >= 0.0, "0 or more")?;
+        if e == 1.0 {
+            return Err(OrbitError::Parabolic { eccentricity: e });
+        }
+        if e < 1.0 {
+            check("semi-major axis in m", a, a.is_finite() && a > 0.0, "above 0 for an ellipse (e < 1)")?;
+        } else {
+            check("semi-major axis in m", a, a.is_finite() && a < 0.0, "below 0 for a hyperbola (e > 1)")?;
+        }
+        for (what, found) in [
+            ("inclination in rad", self.inclination_rad),
+            ("ascending node in rad", self.ascending_node_rad),
+            ("argument of periapsis in rad", self.periapsis_argument_rad),
+            ("true anomaly in rad", self.true_anomaly_rad),
+        ] {
+            check(what, found, found.is_finite(), "a finite number")?;
+        }
+        let on_branch = 1.0 + e * self.true_anomaly_rad.cos() > 0.0;
+        check("true anomaly in rad", self.true_anomaly_rad, on_branch, "between the hyperbola's asymptotes")
+    }
+
+    /// Position and velocity (paper 004 eqs 9-11) about a centre of gravitational parameter `mu_m3_s2`, in the frame
+    /// of the elements.
+    ///
+    /// # Errors
+    /// See [`Elements::check`]; `mu_m3_s2` must be positive.
+    pub fn state(&self, mu_m3_s2: f64) -> Result<State, OrbitError> {
+        self.check()?;
+        check_mu(mu_m3_s2)?;
+        let (sin_anomaly, cos_anomaly) = self.true_anomaly_rad.sin_cos();
+        let e = self.eccentricity;
+        let parameter_m = self.semi_latus_rectum_m();
+        let distance_m = parameter_m / (1.0 + e * cos_anomaly);
+        let speed_m_s = (mu_m3_s2 / parameter_m).sqrt();
+        let [to_periapsis, to_latus] = self.in_plane_axes();
+        Ok(State {
+            position_m: (to_periapsis * cos_anomaly + to_latus * sin_anomaly) * distance_m,
+            velocity_m_s: (to_latus * (e + cos_anomaly) - to_periapsis * sin_anomaly) * speed_m_s,
+        })
+    }
+
+    /// Elements of a state (paper 004 eqs 13-21, angles by atan2) about a centre of gravitational parameter `mu_m3_s2`.
+    ///
+    /// # Errors
+    /// [`OrbitError::Rectilinear`], [`OrbitError::Parabolic`], or a number that is not finite.
+    pub fn from_state(state: &State, mu_m3_s2: f64) -> Result<Self, OrbitError> {
+        check_mu(mu_m3_s2)?;
+        let (position, velocity) = (state.position_m, state.velocity_m_s);
+        for (what, vector) in [("position in m", position), ("velocity in m/s", velocity)] {
+            if let Some(&found) = vector.iter().find(|x| !x.is_finite()) {
+                return Err(OrbitError::OutOfRange { what, found, allowed: "finite numbers" });
+            }
+        }
+        let (distance_m, speed_m_s) = (position.norm(), velocity.norm());
+        let momentum = position.cross(&velocity);
+        let momentum_norm = momentum.norm();
+        if momentum_norm <= 1e-14 * distance_m * speed_m_s {
+            return Err(OrbitError::Rectilinear { distance_m, speed_m_s });
+        }
+        let to_spacecraft = position / distance_m;
+        let eccentricity_vector = velocity.cross(&momentum) / mu_m3_s2 - to_spacecraft;
+        let eccentricity = eccentricity_vector.norm();
+        // 1 - e^2 from the energy: no cancellation for nearly circular orbits.
+        let inverse_axis = 2.0 / distance_m - speed_m_s * speed_m_s / mu_m3_s2;
+        if inverse_axis.abs() * distance_m < 1e-14 || eccentricity == 1.0 {
+            return Err(OrbitError::Parabolic { eccentricity });
+        }
+        let normal = momentum / momentum_norm;
+        let sin_inclination = normal.x.hypot(normal.y);
+        let to_node = if sin_inclination < DEGENERATE {
+            Vector3::x()
+        } else {
+            Vector3::new(-normal.y, normal.x, 0.0) / sin_inclination
+        };
+        let across_node = normal.cross(&to_node);
+        let (to_periapsis, periapsis_argument_rad) = if eccentricity < DEGENERATE {
+            (to_node, 0.0)
+        } else {
+            let direction = eccentricity_vector / eccentricity;
+            (direction, positive(direction.dot(&across_node).atan2(direction.dot(&to_node))))
+        };
+        let to_latus = normal.cross(&to_periapsis);
+        let anomaly_rad = to_spacecraft.dot(&to_latus).atan2(to_spacecraft.dot(&to_periapsis));
+        Ok(Self {
+            semi_major_axis_m: 1.0 / inverse_axis,
+            eccentricity,
+            inclination_rad: sin_inclination.atan2(normal.z),
+            ascending_node_rad: positive(to_node.y.atan2(to_node.x)),
+            periapsis_argument_rad,
+            true_anomaly_rad: if eccentricity < 1.0 { positive(anomaly_rad) } else { anomaly_rad },
+        })
+    }
+
+    /// Semi-latus rectum p = a (1 - e^2), m.
+    pub fn semi_latus_rectum_m(&self) -> f64 {
+        self.semi_major_axis_m * (1.0 - self.eccentricity) * (1.0 + self.eccentricity)
+    }
+
+    /// Distance of periapsis from the centre, m.
+    pub fn periapsis_distance_m(&self) -> f64 {
+        self.semi_major_axis_m * (1.0 - self.eccentricity)
+    }
+
+    /// Unit vectors in the orbital plane: toward periapsis, and a quarter turn ahead of it.
+    pub(super) fn in_plane_axes(&self) -> [Vector3<f64>; 2] {
+        let (sin_node, cos_node) = self.ascending_node_rad.sin_cos();
+        let (sin_inc, cos_inc) = self.inclination_rad.sin_cos();
+        let (sin_arg, cos_arg) = self.periapsis_argument_rad.sin_cos();
+        let to_node = Vector3::new(cos_node, sin_node, 0.0);
+        let across_node = Vector3::new(-sin_node * cos_inc, cos_node * cos_inc, sin_inc);
+        [to_node * cos_arg + across_node * sin_arg, across_node * cos_arg - to_node * sin_arg]
+    }
+}
+
+pub(super) fn check_mu(mu_m3_s2: f64) -> Result<(), OrbitError> {
+    if mu_m3_s2.is_finite() && mu_m3_s2 > 0.0 {
+        return Ok(());
+    }
+    Err(OrbitError::OutOfRange {
+        what: "gravitational parameter in m3/s2",
+        found: mu_m3_s2,
+        allowed: "a finite number above 0",
+    })
+}
+
+/// The same angle in `[0, 2 pi)`.
+fn positive(angle_rad: f64) -> f64 {
+    let angle = if angle_rad < 0.0 { angle_rad + TAU } else { angle_rad };
+    if angle >= TAU { 0.0 } else { angle }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Elements and state are two names of one orbit: in every quadrant, and where angles lose their meaning.
+
+    use core::f64::consts::{FRAC_PI_2, PI};
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::constants::GM_MERCURY_M3_S2 as MU;
+
+    fn elements(a: f64, e: f64, i: f64, node: f64, arg: f64, anomaly: f64) -> Elements {
+        Elements {
+            semi_major_axis_m: a,
+            eccentricity: e,
+            inclination_rad: i,
+            ascending_node_rad: node,
+            periapsis_argument_rad: arg,
+            true_anomaly_rad: anomaly,
+        }
+    }
+
+    fn close(state: &State, other: &State, tolerance: f64) -> bool {
+        (state.position_m - other.position_m).norm() < tolerance * state.position_m.norm()
+            && (state.velocity_m_s - other.velocity_m_s).norm() < tolerance * state.velocity_m_s.norm()
+    }
+
+    fn angle_between(a: f64, b: f64) -> f64 {
+        ((a - b + PI).rem_euclid(TAU) - PI).abs()
+    }
+
+    #[test]
+    fn hand_solved_states() {
+        // Circle in the xy plane, a quarter turn on; polar orbit at periapsis over the pole.
+        let circle = elements(1e7, 0.0, 0.0, 0.0, 0.0, FRAC_PI_2).state(MU).unwrap();
+        let speed = (MU / 1e7).sqrt();
+        assert!((circle.position_m - Vector3::new(0.0, 1e7, 0.0)).norm() < 1e-8);
+        assert!((circle.velocity_m_s - Vector3::new(-speed, 0.0, 0.0)).norm() < 1e-12);
+        let polar = elements(1e7, 0.5, FRAC_PI_2, 0.0, FRAC_PI_2, 0.0).state(MU).unwrap();
+        let speed = (MU / 1e7 * 3.0).sqrt();
+        assert!((polar.position_m - Vector3::new(0.0, 0.0, 5e6)).norm() < 1e-8);
+        assert!((polar.velocity_m_s - Vector3::new(-speed, 0.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn degenerate_orbits_follow_the_convention() {
+        let at = |e, i, node, arg, anomaly| elements(2e7, e, i, node, arg, anomaly);
+        // (given, expected): angles that mean nothing move into the next one.
+        for (given, expected) in [
+            (at(0.0, 1.0, 2.0, 0.5, 0.25), at(0.0, 1.0, 2.0, 0.0, 0.75)),
+            (at(0.3, 0.0, 2.0, 0.5, 0.25), at(0.3, 0.0, 0.0, 2.5, 0.25)),
+            (at(0.3, PI, 2.0, 0.5, 0.25), at(0.3, PI, 0.0, TAU - 1.5, 0.25)),
+            (at(0.0, 0.0, 2.0, 0.5, 0.25), at(0.0, 0.0, 0.0, 0.0, 2.75)),
+        ] {
+            let found = Elements::from_state(&given.state(MU).unwrap(), MU).unwrap();
+            assert!((found.eccentricity - expected.eccentricity).abs() < 1e-13);
+            for (f, x) in [
+                (found.inclination_rad, expected.inclination_rad),
+                (found.ascending_node_rad, expected.ascending_node_rad),
+                (found.periapsis_argument_rad, expected.periapsis_argument_rad),
+                (found.true_anomaly_rad, expected.true_anomaly_rad),
+            ] {
+                assert!(angle_between(f, x) < 1e-12, "{found:?} {expected:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_orbits_are_named() {
+        let good = elements(1e7, 0.5, 1.0, 1.0, 1.0, 1.0);
+        let say = |e: Elements| e.check().unwrap_err().to_string();
+        assert!(
+            say(Elements { eccentricity: -0.1, ..good })
+                .contains("eccentricity is -0.1, allowed is 0 or more")
+        );
+        assert!(say(Elements { eccentricity: 1.0, ..good }).contains("parabola"));
+        assert!(say(Elements { eccentricity: 1.5, ..good }).contains("below 0 for a hyperbola"));
+        assert!(say(Elements { semi_major_axis_m: -1.0, ..good }).contains("above 0 for an ellipse"));
+        assert!(say(Elements { inclination_rad: f64::NAN, ..good }).contains("inclination in rad is NaN"));
+        let hyperbola = elements(-1e7, 1.5, 1.0, 1.0, 1.0, 3.0);
+        assert!(say(hyperbola).contains("asymptotes"));
+        assert!(good.state(0.0).unwrap_err().to_string().contains("gravitational parameter"));
+        let fall = State { position_m: Vector3::x() * 1e7, velocity_m_s: Vector3::x() * 10.0 };
+        assert!(matches!(Elements::from_state(&fall, MU), Err(OrbitError::Rectilinear { .. })));
+        assert!(matches!(Elements::from_state(&State::default(), MU), Err(OrbitError::Rectilinear { .. })));
+        let escape =
+            State { position_m: Vector3::x() * 1e7, velocity_m_s: Vector3::y() * (2.0 * MU / 1e7).sqrt() };
+        assert!(matches!(Elements::from_state(&escape, MU), Err(OrbitError::Parabolic { .. })));
+    }
+
+    proptest! {
+        #[test]
+        fn round_trip_in_all_quadrants(
+            a in 3e6..1e9f64, e in 0.01..0.95f64, i in 0.01..3.13f64,
+            node in 0.0..TAU, arg in 0.0..TAU, anomaly in 0.0..TAU,
+        ) {
+            let given = elements(a, e, i, node, arg, anomaly);
+            let state = given.state(MU).unwrap();
+            let found = Elements::from_state(&state, MU).unwrap();
+            prop_assert!((found.semi_major_axis_m / a - 1.0).abs() < 1e-11);
+            prop_assert!((found.eccentricity - e).abs() < 1e-12);
+            prop_assert!((found.inclination_rad - i).abs() < 1e-12);
+            prop_assert!(angle_between(found.ascending_node_rad, node) < 1e-12);
+            prop_assert!(angle_between(found.periapsis_argument_rad, arg) < 1e-11);
+            prop_assert!(angle_between(found.true_anomaly_rad, anomaly) < 1e-11);
+            prop_assert!(close(&found.state(MU).unwrap(), &state, 1e-11));
+        }
+
+        #[test]
+        fn hyperbolas_too(a in -1e9..-3e6f64, e in 1.05..6.0f64, i in 0.01..3.13f64, share in -0.95..0.95f64) {
+            let asymptote = (-1.0 / e).acos();
+            let given = elements(a, e, i, 4.0, 5.0, share * asymptote);
+            let state = given.state(MU).unwrap();
+            let found = Elements::from_state(&state, MU).unwrap();
+            prop_assert!((found.true_anomaly_rad - share * asymptote).abs() < 1e-11);
+            prop_assert!(close(&found.state(MU).unwrap(), &state, 1e-10));
+        }
+
+        #[test]
+        fn any_state_survives(p in prop::array::uniform3(-1e7..1e7f64), v in prop::array::uniform3(-4e3..4e3f64)) {
+            let state = State { position_m: p.into(), velocity_m_s: v.into() };
+            let momentum = state.position_m.cross(&state.velocity_m_s).norm();
+            prop_assume!(state.position_m.norm() > 1e5);
+            prop_assume!(momentum > 0.01 * state.position_m.norm() * state.velocity_m_s.norm());
+            if let Ok(found) = Elements::from_state(&state, MU) {
+                prop_assume!((found.eccentricity - 1.0).abs() > 1e-3);
+                prop_assert!(close(&found.state(MU).unwrap(), &state, 1e-9));
+                // Vis-viva energy and momentum are those of the state.
+                let energy = state.velocity_m_s.norm_squared() / 2.0 - MU / state.position_m.norm();
+                prop_assert!((-MU / (2.0 * found.semi_major_axis_m) / energy - 1.0).abs() < 1e-9);
+                prop_assert!(((MU * found.semi_latus_rectum_m()).sqrt() / momentum - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, disturbed motion integrated.
+
+mod disturbed;
+#[cfg(test)]
+mod disturbed_tests;
+mod elements;
+pub mod kepler;
+mod two_body;
+
+pub use disturbed::{DisturbedOrbit, Flattening, FlightError, Gravity, OrbitMethod, tide_m_s2};
+pub use elements::{Elements, OrbitError};
+pub use two_body::TwoBodyOrbit;

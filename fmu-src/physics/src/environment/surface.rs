@@ -1,0 +1,265 @@
+//! The planet's surface: how much light leaves each square metre of it, reflected and infrared.
+//!
+//! Exitance is power per area leaving the surface into the half space above it, by Lambert's law, in W/m2. All
+//! models here depend on the place only through the Sun's zenith angle z there: lit where cos z > 0.
+
+use serde::{Deserialize, Serialize};
+
+use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
+use crate::numerics::scalar::Scalar;
+
+/// How the day side's temperature is distributed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DayTemperature {
+    /// One temperature for the whole day side (paper 004 eq 32): the hemisphere 2 pi R2 radiates what the disc
+    /// pi R2 absorbs.
+    Uniform,
+    /// Every place radiates what it absorbs; the fourth power of temperature goes with cos z from the
+    /// night's at the terminator to that of local equilibrium below the Sun.
+    Cosine,
+}
+
+/// Optical and thermal properties of a spherical planet whose surface is everywhere of one kind.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlanetSurface {
+    /// Radius of the sphere in m.
+    pub radius_m: f64,
+    /// Absorbed fraction of sunlight (alpha_pl).
+    pub absorptivity: f64,
+    /// Diffusely reflected fraction of sunlight (gamma_D,pl).
+    pub diffuse_reflectivity: f64,
+    /// Infrared emissivity.
+    pub emissivity: f64,
+    /// Temperature of the night side in K.
+    pub night_temperature_k: f64,
+    /// Distribution of the day side's temperature.
+    pub day_temperature: DayTemperature,
+}
+
+/// A planet surface that cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("planet surface: `{quantity}` is {found}, allowed: {allowed}")]
+pub struct SurfaceError {
+    /// What is wrong.
+    pub quantity: &'static str,
+    /// The value found.
+    pub found: f64,
+    /// What is allowed.
+    pub allowed: &'static str,
+}
+
+/// What leaves one square metre of the surface in W/m2, as a function of c = cos z: reflected light
+/// `reflected_cosine * c` where lit; infrared `day_constant + day_cosine * c` where lit, `night` elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceExitance<T: Scalar> {
+    /// Reflected sunlight below the Sun.
+    pub reflected_cosine_w_m2: T,
+    /// Infrared at the day side's edge.
+    pub day_constant_w_m2: T,
+    /// Infrared below the Sun beyond that at the edge.
+    pub day_cosine_w_m2: T,
+    /// Infrared at night.
+    pub night_w_m2: T,
+}
+
+impl PlanetSurface {
+    /// Checks every property.
+    ///
+    /// # Errors
+    /// Names the first property outside its range, or a sum of absorptivity and reflectivity above 1.
+    pub fn validate(&self) -> Result<(), SurfaceError> {
+        let fraction = |quantity, found| in_range(quantity, found, 0.0, 1.0, "a number from 0 to 1");
+        in_range("radius", self.radius_m, 1.0, 1e9, "1 to 1e9 m")?;
+        fraction("absorptivity", self.absorptivity)?;
+        fraction("diffuseReflectivity", self.diffuse_reflectivity)?;
+        fraction("emissivity", self.emissivity)?;
+        in_range("nightTemperature", self.night_temperature_k, 0.0, 1e4, "0 to 10000 K")?;
+        let sum = self.absorptivity + self.diffuse_reflectivity;
+        in_range("absorptivity + diffuseReflectivity", sum, 0.0, 1.0 + 1e-9, "at most 1")?;
+        if self.emissivity == 0.0 && self.absorptivity > 0.0 {
+            return Err(SurfaceError {
+                quantity: "emissivity",
+                found: 0.0,
+                allowed: "above 0 where light is absorbed",
+            });
+        }
+        Ok(())
+    }
+
+    /// Infrared exitance of the night side in W/m2.
+    pub fn night_exitance_w_m2(&self) -> f64 {
+        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.night_temperature_k.powi(4)
+    }
+
+    /// The day side's temperature in K at cos z, `solar_flux_w_m2` being the Sun's at the planet (eq 32).
+    pub fn day_temperature_k(&self, solar_flux_w_m2: f64, cos_zenith: f64) -> f64 {
+        let exitance = self.exitance(solar_flux_w_m2);
+        let infrared_w_m2 = exitance.day_constant_w_m2 + exitance.day_cosine_w_m2 * cos_zenith.max(0.0);
+        if self.emissivity == 0.0 {
+            return 0.0;
+        }
+        (infrared_w_m2 / (self.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).powf(0.25)
+    }
+
+    /// What leaves the surface while `solar_flux_w_m2` arrives at the planet.
+    #[inline]
+    pub fn exitance<T: Scalar>(&self, solar_flux_w_m2: T) -> SurfaceExitance<T> {
+        let night_w_m2 = T::constant(self.night_exitance_w_m2());
+        let absorbed_w_m2 = solar_flux_w_m2 * self.absorptivity;
+        let (day_constant_w_m2, day_cosine_w_m2) = match self.day_temperature {
+            DayTemperature::Uniform => (absorbed_w_m2 * 0.5, T::constant(0.0)),
+            DayTemperature::Cosine => (night_w_m2, absorbed_w_m2 - night_w_m2),
+        };
+        SurfaceExitance {
+            reflected_cosine_w_m2: solar_flux_w_m2 * self.diffuse_reflectivity,
+            day_constant_w_m2,
+            day_cosine_w_m2,
+            night_w_m2,
+        }
+    }
+}
+
+impl<T: Scalar> SurfaceExitance<T> {
+    /// Infrared exitance in W/m2 at a place whose Sun stands at `cos_zenith`.
+    #[inline]
+    pub fn infrared_w_m2(&self, cos_zenith: T) -> T {
+        if cos_zenith.value() > 0.0 {
+            self.day_constant_w_m2 + self.day_cosine_w_m2 * cos_zenith
+        } else {
+            self.night_w_m2
+        }
+    }
+
+    /// Reflected exitance in W/m2 at a place whose Sun stands at `cos_zenith`.
+    #[inline]
+    pub fn reflected_w_m2(&self, cos_zenith: T) -> T {
+        if cos_zenith.value() > 0.0 { self.reflected_cosine_w_m2 * cos_zenith } else { T::constant(0.0) }
+    }
+}
+
+fn in_range(
+    quantity: &'static str,
+    found: f64,
+    low: f64,
+    high: f64,
+    allowed: &'static str,
+) -> Result<(), SurfaceError> {
+    if (low..=high).contains(&found) { Ok(()) } else { Err(SurfaceError { quantity, found, allowed }) }
+}
+
+/// One cell of a planet with a surface that differs from place to place (paper 004 Table 2).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceCell {
+    /// Diffusely reflected fraction of sunlight.
+    pub diffuse_reflectivity: f64,
+    /// Infrared emissivity.
+    pub emissivity: f64,
+    /// Temperature in K.
+    pub temperature_k: f64,
+}
+
+impl SurfaceCell {
+    /// Reflected exitance in W/m2 with the Sun's flux at the planet and the cosine of its zenith angle (eq 39).
+    pub fn reflected_w_m2(&self, solar_flux_w_m2: f64, cos_zenith: f64) -> f64 {
+        self.diffuse_reflectivity * solar_flux_w_m2 * cos_zenith.max(0.0)
+    }
+
+    /// Infrared exitance in W/m2 (eq 34).
+    pub fn infrared_w_m2(&self) -> f64 {
+        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.temperature_k.powi(4)
+    }
+}
+
+/// Properties of every cell of a planet grid, belt by belt from the south, westernmost first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CellMap {
+    cells: Vec<SurfaceCell>,
+}
+
+impl CellMap {
+    /// A checked map.
+    ///
+    /// # Errors
+    /// Names the first property outside its range.
+    pub fn new(cells: Vec<SurfaceCell>) -> Result<Self, SurfaceError> {
+        for cell in &cells {
+            let fraction = "a number from 0 to 1";
+            in_range("cell diffuseReflectivity", cell.diffuse_reflectivity, 0.0, 1.0, fraction)?;
+            in_range("cell emissivity", cell.emissivity, 0.0, 1.0, fraction)?;
+            in_range("cell temperature", cell.temperature_k, 0.0, 1e4, "0 to 10000 K")?;
+        }
+        Ok(Self { cells })
+    }
+
+    /// The cells in order.
+    pub fn cells(&self) -> &[SurfaceCell] {
+        &self.cells
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The planet radiates what it absorbs, and impossible planets are refused by name.
+
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn mercury(day_temperature: DayTemperature) -> PlanetSurface {
+        PlanetSurface {
+            radius_m: 2.44e6,
+            absorptivity: 0.88,
+            diffuse_reflectivity: 0.12,
+            emissivity: 0.9,
+            night_temperature_k: 100.0,
+            day_temperature,
+        }
+    }
+
+    /// Power through the day hemisphere by rings of equal zenith angle, per pi R2.
+    fn day_power_w_m2(surface: &PlanetSurface, flux_w_m2: f64) -> f64 {
+        let exitance = surface.exitance(flux_w_m2);
+        let n = 20_000;
+        let ring = |i: i32| exitance.infrared_w_m2((f64::from(i) + 0.5) / f64::from(n)) * 2.0 / f64::from(n);
+        (0..n).map(ring).sum()
+    }
+
+    #[test]
+    fn the_day_side_radiates_what_the_disc_absorbs() {
+        let flux_w_m2 = 9000.0;
+        let absorbed = 0.88 * flux_w_m2;
+        let uniform = mercury(DayTemperature::Uniform);
+        assert_relative_eq!(day_power_w_m2(&uniform, flux_w_m2), absorbed, max_relative = 1e-12);
+        // The cosine profile adds the night's heat, which comes from inside, half of it on average.
+        let cosine = mercury(DayTemperature::Cosine);
+        let expected = absorbed + cosine.night_exitance_w_m2();
+        assert_relative_eq!(day_power_w_m2(&cosine, flux_w_m2), expected, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn temperatures_are_mercurys() {
+        let flux_w_m2 = 1365.0 / (0.387_f64 * 0.387);
+        let uniform = mercury(DayTemperature::Uniform).day_temperature_k(flux_w_m2, 0.5);
+        assert!((500.0..560.0).contains(&uniform), "{uniform}");
+        let subsolar = mercury(DayTemperature::Cosine).day_temperature_k(flux_w_m2, 1.0);
+        assert_relative_eq!(subsolar / uniform, 2_f64.powf(0.25), max_relative = 1e-12);
+        let edge = mercury(DayTemperature::Cosine).day_temperature_k(flux_w_m2, 0.0);
+        assert_relative_eq!(edge, 100.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn impossible_surfaces_are_refused_by_name() {
+        let good = mercury(DayTemperature::Uniform);
+        assert_eq!(good.validate(), Ok(()));
+        let name = |surface: PlanetSurface| surface.validate().unwrap_err().quantity;
+        assert_eq!(name(PlanetSurface { radius_m: 0.0, ..good }), "radius");
+        assert_eq!(name(PlanetSurface { emissivity: f64::NAN, ..good }), "emissivity");
+        assert_eq!(name(PlanetSurface { emissivity: 0.0, ..good }), "emissivity");
+        assert_eq!(name(PlanetSurface { night_temperature_k: -1.0, ..good }), "nightTemperature");
+        let sum = PlanetSurface { diffuse_reflectivity: 0.2, ..good };
+        assert_eq!(name(sum), "absorptivity + diffuseReflectivity");
+        let cell = SurfaceCell { diffuse_reflectivity: 0.1, emissivity: 1.5, temperature_k: 300.0 };
+        assert_eq!(CellMap::new(vec![cell]).unwrap_err().quantity, "cell emissivity");
+    }
+}

@@ -1,0 +1,254 @@
+//! The two attitudes of paper 000: science (pitched about X toward the planet) and default downlink (eq 18).
+
+use nalgebra::Vector3;
+
+use crate::attitude::{MovingFrame, MovingUnit};
+use crate::environment::State;
+
+/// Directions from the spacecraft, in EME2000, with their rates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinesOfSight {
+    /// To the Sun.
+    pub sun: MovingUnit,
+    /// To the planet it orbits, if it orbits one.
+    pub planet: Option<MovingUnit>,
+    /// To the Earth.
+    pub earth: MovingUnit,
+    /// From the centre of that planet to the Sun, position and velocity.
+    pub sun_from_planet: Option<State>,
+}
+
+/// How far science observations pitch the spacecraft, as Sun elevation over (Sun-nadir angle - 90 deg).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ScienceRule {
+    /// E = clip(gain (angle - 90 deg)): the project science rule; 0.25 is fitted to paper 000's Table 2.
+    Scaled {
+        /// Sun elevation per angle.
+        gain: f64,
+    },
+    /// +Z to nadir as far as the keep-in zone allows (gain 1).
+    Nadir,
+    /// Paper 004's attitude (its eq 4): -Y from the planet's centre to the Sun, -Z to the north of the planet's orbit. It
+    /// knows no keep-in zone; from the spacecraft the Sun stands off -Y by its parallax.
+    PlanetOrbit,
+}
+
+/// A wanted attitude, and which branch of the law it came from: the attitude is smooth while the branch stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wanted {
+    /// Body frame and rate.
+    pub frame: MovingFrame,
+    /// Branch number.
+    pub branch: u8,
+}
+
+/// Which law an attitude came from; part of the branch number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointingLaw {
+    /// Sun to -Y, Z toward the planet, pitched by the science rule.
+    Science,
+    /// Sun to -Y, Earth in an antenna quadrant of the XY plane.
+    Downlink,
+}
+
+const CLIPPED_LOW: u8 = 1;
+const CLIPPED_HIGH: u8 = 2;
+const EARTH_BEHIND: u8 = 1;
+const DEGENERATE: u8 = 4;
+
+/// Science attitude: -Y toward the Sun, +Z on the planet's side of it, then pitched about X until the Sun stands
+/// at the elevation of `rule`, within +-`elevation_limit_rad`.
+pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64) -> Wanted {
+    let gain = match rule {
+        ScienceRule::Scaled { gain } => gain,
+        ScienceRule::Nadir => 1.0,
+        ScienceRule::PlanetOrbit => return planet_orbit(lines),
+    };
+    let Some((side, angle_rad, angle_rate_rad_s)) =
+        lines.planet.as_ref().and_then(|planet| lines.sun.perpendicular_part(planet))
+    else {
+        return sun_pointing(lines);
+    };
+    let elevation_rad = gain * (angle_rad - core::f64::consts::FRAC_PI_2);
+    let base = MovingFrame::from_yz(&opposite(&lines.sun), &side);
+    let (elevation_rad, rate_rad_s, branch) = if elevation_rad > elevation_limit_rad {
+        (elevation_limit_rad, 0.0, CLIPPED_HIGH)
+    } else if elevation_rad < -elevation_limit_rad {
+        (-elevation_limit_rad, 0.0, CLIPPED_LOW)
+    } else {
+        (elevation_rad, gain * angle_rate_rad_s, 0)
+    };
+    // A positive pitch lifts the Sun toward +Z, which is negative elevation.
+    Wanted { frame: base.pitched(-elevation_rad, -rate_rad_s), branch }
+}
+
+/// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].
+fn planet_orbit(lines: &LinesOfSight) -> Wanted {
+    let frame = lines.sun_from_planet.as_ref().and_then(|sun| {
+        let toward = MovingUnit::of(sun.position_m, sun.velocity_m_s)?;
+        // The normal stands still as long as the Sun alone moves the planet.
+        let north = MovingUnit::of(sun.position_m.cross(&sun.velocity_m_s), Vector3::zeros())?;
+        Some(MovingFrame::from_yz(&opposite(&toward), &opposite(&north)))
+    });
+    frame.map_or_else(|| sun_pointing(lines), |frame| Wanted { frame, branch: 0 })
+}
+
+/// Default downlink attitude (eq 18): -Y toward the Sun, the Earth in the -X,-Y quadrant of the XY plane while it
+/// is less than 90 deg from the Sun, in the +X,+Y quadrant otherwise.
+pub fn downlink(lines: &LinesOfSight) -> Wanted {
+    let cosine = lines.sun.direction.dot(&lines.earth.direction);
+    let (sun, earth) = (&lines.sun, &lines.earth);
+    let (normal, normal_rate, branch) = if cosine > 0.0 {
+        (
+            earth.direction.cross(&sun.direction),
+            earth.rate_1_s.cross(&sun.direction) + earth.direction.cross(&sun.rate_1_s),
+            0,
+        )
+    } else {
+        (
+            sun.direction.cross(&earth.direction),
+            sun.rate_1_s.cross(&earth.direction) + sun.direction.cross(&earth.rate_1_s),
+            EARTH_BEHIND,
+        )
+    };
+    if normal.norm() < 1e-9 {
+        return sun_pointing(lines);
+    }
+    match MovingUnit::of(normal, normal_rate) {
+        Some(z) => Wanted { frame: MovingFrame::from_yz(&opposite(sun), &z), branch },
+        None => sun_pointing(lines),
+    }
+}
+
+/// Fallback with nothing but the Sun: -Y toward it, +Z toward the north of EME2000 as far as possible (toward the
+/// equinox where the Sun stands at the pole).
+pub fn sun_pointing(lines: &LinesOfSight) -> Wanted {
+    let y = opposite(&lines.sun);
+    let toward = |direction| {
+        let fixed = MovingUnit { direction, rate_1_s: Vector3::zeros() };
+        lines.sun.perpendicular_part(&fixed)
+    };
+    let side = toward(Vector3::z()).or_else(|| toward(Vector3::x()));
+    let z = side.map_or(lines.sun, |(side, _, _)| side);
+    Wanted { frame: MovingFrame::from_yz(&y, &z), branch: DEGENERATE }
+}
+
+fn opposite(unit: &MovingUnit) -> MovingUnit {
+    MovingUnit { direction: -unit.direction, rate_1_s: -unit.rate_1_s }
+}
+
+#[cfg(test)]
+mod tests {
+    //! What the paper demands of each attitude: where the Sun, the planet and the Earth stand in the body frame.
+    use super::*;
+    use crate::attitude::SunAngles;
+    use approx::assert_relative_eq;
+
+    const LIMIT_RAD: f64 = 13.0 * std::f64::consts::PI / 180.0;
+
+    fn unit(x: f64, y: f64, z: f64) -> MovingUnit {
+        MovingUnit::of(Vector3::new(x, y, z), Vector3::new(0.1 * y, -0.2 * z, 0.3 * x)).unwrap()
+    }
+
+    fn many() -> impl Iterator<Item = LinesOfSight> {
+        (0..200).map(|i| {
+            let t = f64::from(i) * 0.37;
+            LinesOfSight {
+                sun: unit(t.cos(), t.sin(), 0.4 * (2.0 * t).sin()),
+                planet: Some(unit((3.0 * t).sin(), 0.7, (1.7 * t).cos())),
+                earth: unit((0.9 * t).cos(), (1.3 * t).sin(), 0.2),
+                sun_from_planet: Some(State {
+                    position_m: Vector3::new(t.cos(), t.sin(), 0.1 * t.sin()) * 5e10,
+                    velocity_m_s: Vector3::new(-t.sin(), t.cos(), 0.1 * t.cos()) * 4e4,
+                }),
+            }
+        })
+    }
+
+    fn in_body(wanted: &Wanted, unit: &MovingUnit) -> Vector3<f64> {
+        wanted.frame.inertial_from_body.inverse() * unit.direction
+    }
+
+    #[test]
+    fn nadir_rule_points_z_at_the_planet_inside_the_zone() {
+        let mut free = 0;
+        for lines in many() {
+            let wanted = science(&lines, ScienceRule::Nadir, LIMIT_RAD);
+            let sun = SunAngles::of(&in_body(&wanted, &lines.sun));
+            let planet = in_body(&wanted, lines.planet.as_ref().unwrap());
+            assert_relative_eq!(sun.azimuth_rad, 0.0, epsilon = 1e-12);
+            assert!(sun.elevation_rad.abs() <= LIMIT_RAD + 1e-12);
+            assert!(planet.z > 0.0, "the instruments are on the planet's side");
+            assert_relative_eq!(planet.x, 0.0, epsilon = 1e-12);
+            if wanted.branch == 0 {
+                free += 1;
+                assert_relative_eq!(planet.z, 1.0, epsilon = 1e-12);
+            }
+        }
+        assert!(free > 10);
+    }
+
+    #[test]
+    fn scaled_rule_shows_the_sun_at_a_quarter_of_the_angle() {
+        for lines in many() {
+            let wanted = science(&lines, ScienceRule::Scaled { gain: 0.25 }, LIMIT_RAD);
+            let angle_rad = lines.sun.direction.angle(&lines.planet.unwrap().direction);
+            let expected = (0.25 * (angle_rad - std::f64::consts::FRAC_PI_2)).clamp(-LIMIT_RAD, LIMIT_RAD);
+            let sun = SunAngles::of(&in_body(&wanted, &lines.sun));
+            assert_relative_eq!(sun.elevation_rad, expected, epsilon = 1e-12);
+        }
+    }
+
+    #[test]
+    fn paper_004_shows_the_sun_on_minus_y_and_north_on_minus_z() {
+        for lines in many() {
+            let sun = lines.sun_from_planet.unwrap();
+            let to_body = science(&lines, ScienceRule::PlanetOrbit, 0.0).frame.inertial_from_body.inverse();
+            assert_relative_eq!(to_body * sun.position_m.normalize(), -Vector3::y(), epsilon = 1e-12);
+            // Seen from the planet the Sun moves toward north x Sun, which is -Z x -Y = -X.
+            let velocity = to_body * sun.velocity_m_s.normalize();
+            assert!(velocity.x < -0.99 && velocity.z.abs() < 1e-12, "{velocity}");
+        }
+    }
+
+    #[test]
+    fn downlink_puts_the_earth_in_an_antenna_quadrant() {
+        for lines in many() {
+            let wanted = downlink(&lines);
+            assert_relative_eq!(in_body(&wanted, &lines.sun), -Vector3::y(), epsilon = 1e-12);
+            let earth = in_body(&wanted, &lines.earth);
+            assert_relative_eq!(earth.z, 0.0, epsilon = 1e-12);
+            let behind = lines.sun.direction.dot(&lines.earth.direction) <= 0.0;
+            if behind {
+                assert!(earth.x > 0.0 && earth.y >= 0.0);
+            } else {
+                assert!(earth.x < 0.0 && earth.y < 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn every_law_gives_a_proper_rotation_even_when_degenerate() {
+        let mut all: Vec<Wanted> = Vec::new();
+        for lines in many() {
+            all.push(science(&lines, ScienceRule::Nadir, LIMIT_RAD));
+            all.push(downlink(&lines));
+            let blind = LinesOfSight {
+                planet: Some(lines.sun),
+                earth: lines.sun,
+                sun_from_planet: Some(State::default()),
+                ..lines
+            };
+            all.push(science(&blind, ScienceRule::Nadir, LIMIT_RAD));
+            all.push(science(&blind, ScienceRule::PlanetOrbit, LIMIT_RAD));
+            all.push(downlink(&blind));
+        }
+        let pole = MovingUnit { direction: Vector3::z(), rate_1_s: Vector3::zeros() };
+        all.push(sun_pointing(&LinesOfSight { sun: pole, planet: None, earth: pole, sun_from_planet: None }));
+        for wanted in all {
+            let matrix = wanted.frame.inertial_from_body.matrix();
+            assert_relative_eq!(matrix.determinant(), 1.0, epsilon = 1e-12);
+            assert_relative_eq!(matrix * matrix.transpose(), nalgebra::Matrix3::identity(), epsilon = 1e-12);
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! The guided attitude over a whole orbit phase: science, downlink, and the slews between them.
+
+use crate::attitude::{MovingFrame, rotation_vector};
+
+use super::attitudes::{LinesOfSight, ScienceRule, Wanted, downlink, science};
+use super::schedule::{Activity, Schedule, Window};
+
+/// The guidance law of the orbital phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guided {
+    /// Science and downlink windows.
+    pub schedule: Schedule,
+    /// Pitch during science.
+    pub science: ScienceRule,
+    /// Keep-in limit of the Sun's elevation, in rad.
+    pub elevation_limit_rad: f64,
+    /// Turn rate between the two attitudes, in rad/s; 0 = at once, as in paper 000.
+    pub slew_rate_rad_s: f64,
+}
+
+/// The guided attitude at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GuidedAttitude {
+    /// Body frame and rate.
+    pub frame: MovingFrame,
+    /// What the spacecraft is doing.
+    pub activity: Activity,
+    /// Whether it is turning from one attitude to the other.
+    pub slewing: bool,
+    /// Smooth while this number stays the same.
+    pub branch: u8,
+}
+
+impl Guided {
+    /// Attitude at `time_s` (time scale of the schedule). `lines_at` gives the lines of sight at any time.
+    pub fn at(&self, time_s: f64, lines_at: impl FnMut(f64) -> LinesOfSight) -> GuidedAttitude {
+        self.within(self.schedule.window(time_s), time_s, lines_at)
+    }
+
+    /// The same in a window found by other means than the schedule's own counting.
+    pub fn within(
+        &self,
+        window: Window,
+        time_s: f64,
+        mut lines_at: impl FnMut(f64) -> LinesOfSight,
+    ) -> GuidedAttitude {
+        let target = self.wanted(window.activity, &lines_at(time_s));
+        let held = GuidedAttitude {
+            frame: target.frame,
+            activity: window.activity,
+            slewing: false,
+            branch: target.branch | if window.activity == Activity::Downlink { 8 } else { 0 },
+        };
+        if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
+            return held;
+        }
+        let before = match window.activity {
+            Activity::Science => Activity::Downlink,
+            Activity::Downlink => Activity::Science,
+        };
+        let lines_then = lines_at(window.since_s);
+        let from = self.wanted(before, &lines_then).frame;
+        let to = self.wanted(window.activity, &lines_then).frame;
+        // The rotation that leads back from the new attitude to the old one, shrinking to nothing.
+        let back_body_rad = rotation_vector(&to.inertial_from_body, &from.inertial_from_body);
+        let duration_s = back_body_rad.norm() / self.slew_rate_rad_s;
+        let elapsed_s = time_s - window.since_s;
+        if elapsed_s >= duration_s {
+            return held;
+        }
+        let left = 1.0 - elapsed_s / duration_s;
+        GuidedAttitude {
+            frame: target.frame.offset(&back_body_rad, left, -1.0 / duration_s),
+            slewing: true,
+            branch: held.branch | 16,
+            ..held
+        }
+    }
+
+    fn wanted(&self, activity: Activity, lines: &LinesOfSight) -> Wanted {
+        match activity {
+            Activity::Science => science(lines, self.science, self.elevation_limit_rad),
+            Activity::Downlink => downlink(lines),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
+    use super::*;
+    use crate::attitude::MovingUnit;
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    fn lines(t: f64) -> LinesOfSight {
+        let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::of(p, v).unwrap();
+        let w = 2e-4;
+        LinesOfSight {
+            sun: moving(Vector3::new(1.0, 1e-7 * t, 0.1), Vector3::new(0.0, 1e-7, 0.0)),
+            planet: Some(moving(
+                Vector3::new((w * t).cos(), 0.5, (w * t).sin()),
+                Vector3::new(-w * (w * t).sin(), 0.0, w * (w * t).cos()),
+            )),
+            earth: moving(Vector3::new(-0.3, 1.0, 0.2), Vector3::zeros()),
+            sun_from_planet: None,
+        }
+    }
+
+    fn guided(slew_rate_rad_s: f64) -> Guided {
+        Guided {
+            schedule: Schedule {
+                periapsis_s: 0.0,
+                period_s: 43_200.0,
+                downlink_start_s: 7200.0,
+                downlink_end_s: 36_000.0,
+                every: 2,
+            },
+            science: ScienceRule::Nadir,
+            elevation_limit_rad: 0.2,
+            slew_rate_rad_s,
+        }
+    }
+
+    #[test]
+    fn a_slew_is_continuous_and_arrives() {
+        let law = guided(3e-3);
+        let just_before = guided(0.0).at(7200.0 - 1e-6, lines).frame.inertial_from_body;
+        let at_edge = law.at(7200.0, lines);
+        assert!(at_edge.slewing);
+        assert_relative_eq!(just_before.matrix(), at_edge.frame.inertial_from_body.matrix(), epsilon = 1e-8);
+        let angle_rad =
+            rotation_vector(&just_before, &guided(0.0).at(7200.0, lines).frame.inertial_from_body).norm();
+        let end_s = 7200.0 + angle_rad / 3e-3;
+        assert!(law.at(end_s - 0.1, lines).slewing);
+        assert!(!law.at(end_s + 0.1, lines).slewing);
+        assert_eq!(law.at(end_s + 0.1, lines).frame, guided(0.0).at(end_s + 0.1, lines).frame);
+    }
+
+    #[test]
+    fn rate_is_the_derivative_of_the_axes_everywhere() {
+        let law = guided(2e-3);
+        for t in [100.0, 7300.0, 7500.0, 20_000.0, 36_100.0, 50_000.0] {
+            let dt = 0.01;
+            let at = |t| law.at(t, lines).frame.inertial_from_body;
+            let turned = rotation_vector(&at(t - dt), &at(t + dt)) / (2.0 * dt);
+            assert_relative_eq!(turned, law.at(t, lines).frame.rate_body_rad_s, epsilon = 1e-8);
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! When a Mercury orbiter observes and when it talks to Earth: downlink windows counted from periapsis.
+//!
+//! Windows follow the orbit, never the clock: an orbit that takes 12.07 h instead of 12 would drift through all
+//! phases of a clock schedule in 90 days.
+
+/// What the spacecraft is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Activity {
+    /// Instruments look at the planet.
+    Science,
+    /// An antenna looks at the Earth.
+    Downlink,
+}
+
+/// Downlink windows after periapsis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schedule {
+    /// A periapsis; the first window belongs to it.
+    pub periapsis_s: f64,
+    /// Orbital period, in s; infinite where there is no orbit to count.
+    pub period_s: f64,
+    /// Begin of downlink, in s after periapsis.
+    pub downlink_start_s: f64,
+    /// End of downlink, in s after periapsis.
+    pub downlink_end_s: f64,
+    /// A window after every how many periapses; 0 = never.
+    pub every: u32,
+}
+
+/// The activity at a time and when it began.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// What is being done.
+    pub activity: Activity,
+    /// Since when, in the schedule's time scale; minus infinity where it never changes.
+    pub since_s: f64,
+}
+
+impl Schedule {
+    /// Activity at `time_s`, in the time scale of `periapsis_s`. Edges belong to what follows them.
+    pub fn window(&self, time_s: f64) -> Window {
+        let cycle_s = f64::from(self.every) * self.period_s;
+        let length_s = (self.downlink_end_s - self.downlink_start_s).min(cycle_s);
+        if self.every == 0 || !cycle_s.is_finite() || length_s.is_nan() || length_s <= 0.0 {
+            return Window { activity: Activity::Science, since_s: f64::NEG_INFINITY };
+        }
+        let first_start_s = self.periapsis_s + self.downlink_start_s;
+        let start_of = |cycle: f64| first_start_s + cycle * cycle_s;
+        let mut cycle = ((time_s - first_start_s) / cycle_s).floor();
+        // The division may round across an edge that the sum below puts exactly.
+        if time_s < start_of(cycle) {
+            cycle -= 1.0;
+        } else if time_s >= start_of(cycle + 1.0) {
+            cycle += 1.0;
+        }
+        Window::of(start_of(cycle), length_s, time_s)
+    }
+
+    /// The same for periapses that were met instead of computed: every `every`-th one, the latest first. A window is
+    /// as long as asked for; the next one ends it. Before the first window all is science.
+    pub fn window_after(&self, periapses_s: &[f64], time_s: f64) -> Window {
+        let length_s = self.downlink_end_s - self.downlink_start_s;
+        let never = Window { activity: Activity::Science, since_s: f64::NEG_INFINITY };
+        if self.every == 0 || length_s.is_nan() || length_s <= 0.0 {
+            return never;
+        }
+        let starts_s = periapses_s.iter().map(|at_s| at_s + self.downlink_start_s);
+        let last_s = starts_s.filter(|start_s| *start_s <= time_s).reduce(f64::max);
+        last_s.map_or(never, |start_s| Window::of(start_s, length_s, time_s))
+    }
+}
+
+impl Window {
+    /// The window at `time_s` when the last downlink began at `start_s`.
+    fn of(start_s: f64, length_s: f64, time_s: f64) -> Self {
+        let end_s = start_s + length_s;
+        if time_s < end_s {
+            Self { activity: Activity::Downlink, since_s: start_s }
+        } else {
+            Self { activity: Activity::Science, since_s: end_s }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Over a whole cycle the share of downlink is the window's share, and edges stand where they are counted.
+    use super::*;
+
+    const HOUR_S: f64 = 3600.0;
+
+    fn paper() -> Schedule {
+        Schedule {
+            periapsis_s: 0.0,
+            period_s: 12.0 * HOUR_S,
+            downlink_start_s: 2.0 * HOUR_S,
+            downlink_end_s: 10.0 * HOUR_S,
+            every: 2,
+        }
+    }
+
+    #[test]
+    fn eight_of_twenty_four_hours_are_downlink() {
+        let minutes = (0..90 * 24 * 60)
+            .filter(|minute| paper().window(f64::from(*minute) * 60.0).activity == Activity::Downlink)
+            .count();
+        assert_eq!(minutes, 90 * 8 * 60);
+    }
+
+    #[test]
+    fn edges_belong_to_what_follows() {
+        let window = paper().window(2.0 * HOUR_S);
+        assert_eq!(window, Window { activity: Activity::Downlink, since_s: 2.0 * HOUR_S });
+        let window = paper().window(10.0 * HOUR_S);
+        assert_eq!(window, Window { activity: Activity::Science, since_s: 10.0 * HOUR_S });
+        let window = paper().window(2.0 * HOUR_S - 1e-6);
+        assert_eq!(window, Window { activity: Activity::Science, since_s: -14.0 * HOUR_S });
+    }
+
+    #[test]
+    fn periapses_met_on_time_give_the_computed_windows() {
+        for minute in 0..6 * 24 * 60 {
+            let time_s = f64::from(minute) * 60.0 + 30.0;
+            let last = (time_s / 86_400.0).floor();
+            let met_s = [0.0, 1.0, 2.0].map(|back| (last - back) * 86_400.0);
+            assert_eq!(paper().window_after(&met_s, time_s), paper().window(time_s));
+        }
+        let before = paper().window_after(&[50_000.0], 50_000.0);
+        assert_eq!(before, Window { activity: Activity::Science, since_s: f64::NEG_INFINITY });
+    }
+
+    #[test]
+    fn no_orbit_or_no_window_is_all_science() {
+        for schedule in [
+            Schedule { period_s: f64::INFINITY, ..paper() },
+            Schedule { every: 0, ..paper() },
+            Schedule { downlink_end_s: 2.0 * HOUR_S, ..paper() },
+        ] {
+            assert_eq!(schedule.window(3.0 * HOUR_S).activity, Activity::Science);
+        }
+    }
+
+    #[test]
+    fn a_window_longer_than_its_cycle_never_ends() {
+        let schedule = Schedule { downlink_end_s: 40.0 * HOUR_S, ..paper() };
+        assert!(
+            (0..100).all(|hour| schedule.window(f64::from(hour) * HOUR_S).activity == Activity::Downlink)
+        );
+    }
+}

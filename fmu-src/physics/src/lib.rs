@@ -1,0 +1,26 @@
+//! Spacecraft disturbance physics: what sunlight, planet light, heat, wheels and thrusters do to force, torque
+//! and stored momentum. Knows nothing of FMI.
+//!
+//! One way through the house: a module uses only modules listed before it. All quantities are SI, angles in
+//! radians; frames and units stand in the identifiers.
+
+#![forbid(unsafe_code)]
+
+pub mod constants;
+pub mod numerics;
+
+pub mod spacecraft;
+
+pub mod environment;
+
+pub mod radiation;
+
+pub mod attitude;
+
+pub mod momentum;
+
+pub mod guidance;
+
+pub mod plant;
+
+pub mod spin;

@@ -1,0 +1,258 @@
+//! A cell: a stretch of flight on which the rates are smooth, with its totals as a polynomial in time.
+
+use nalgebra::{Rotation3, SVector, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::Segment;
+use crate::numerics::stretches::{first_change_s, next_multiple_s};
+
+use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
+use super::{Convention, Settings};
+
+/// Sampled quantities that are integrated: torque (inertial), torque (body), acceleration (inertial).
+const RATES: usize = 9;
+/// Chebyshev nodes a cell.
+const NODES: usize = 8;
+/// No cell is halved below this, in s.
+const SHORTEST_S: f64 = 1e-3;
+/// Terms of a series this much below its largest are rounding; halving the cell does not make them smaller.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// What a flight gives at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Matrix that takes body components to inertial components.
+    pub inertial_from_body: Rotation3<f64>,
+    /// Total external torque about the centre of mass, body frame, in N m.
+    pub torque_body_n_m: Vector3<f64>,
+    /// Acceleration by non-gravitational forces, inertial frame, in m/s2.
+    pub acceleration_inertial_m_s2: Vector3<f64>,
+    /// The sample is a smooth function of time while this number stays the same.
+    pub branch: u32,
+}
+
+/// Anything that has an attitude and disturbances at any time.
+pub trait Flight {
+    /// Why a flight cannot go on.
+    type Failure;
+
+    /// Makes the flight ready for samples from `start_s` on, and tells up to where: a cell that starts there ends at
+    /// that time or before. Called with rising times, and again with the same one.
+    ///
+    /// # Errors
+    /// Whatever ends a flight.
+    fn prepare(&mut self, start_s: f64) -> Result<f64, Self::Failure>;
+
+    /// Sample at `time_s`; a pure function of time within what was prepared.
+    fn sample(&mut self, time_s: f64) -> Sample;
+}
+
+/// What is accumulated over time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Totals {
+    /// Angular momentum of the whole spacecraft in the inertial frame, in N m s: dH/dt = T.
+    pub momentum_inertial_n_m_s: Vector3<f64>,
+    /// Integral of the body components of torque, in N m s (paper 000's eq 13, read component by component).
+    pub torque_integral_body_n_m_s: Vector3<f64>,
+    /// Velocity change by non-gravitational forces, inertial frame, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+}
+
+impl Totals {
+    /// System momentum in the body frame by `convention`, in N m s.
+    pub fn momentum_body_n_m_s(
+        &self,
+        convention: Convention,
+        inertial_from_body: &Rotation3<f64>,
+    ) -> Vector3<f64> {
+        match convention {
+            Convention::Inertial => inertial_from_body.inverse() * self.momentum_inertial_n_m_s,
+            Convention::BodyIntegral => self.torque_integral_body_n_m_s,
+        }
+    }
+
+    fn to_vector(self) -> SVector<f64, RATES> {
+        pack(self.momentum_inertial_n_m_s, self.torque_integral_body_n_m_s, self.delta_v_inertial_m_s)
+    }
+
+    fn from_vector(v: &SVector<f64, RATES>) -> Self {
+        Self {
+            momentum_inertial_n_m_s: Vector3::new(v[0], v[1], v[2]),
+            torque_integral_body_n_m_s: Vector3::new(v[3], v[4], v[5]),
+            delta_v_inertial_m_s: Vector3::new(v[6], v[7], v[8]),
+        }
+    }
+}
+
+fn pack(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> SVector<f64, RATES> {
+    SVector::from([a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z])
+}
+
+/// One smooth stretch of flight.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    start_s: f64,
+    end_s: f64,
+    at_start: Totals,
+    /// Length the tolerance will probably allow the next cell, in s.
+    next_longest_s: f64,
+    /// Absent for a cell without length.
+    totals: Option<Segment<RATES, { NODES + 1 }>>,
+}
+
+impl Cell {
+    /// A cell without length at `time_s`.
+    pub fn point(time_s: f64, totals: Totals) -> Self {
+        Self { start_s: time_s, end_s: time_s, at_start: totals, next_longest_s: f64::INFINITY, totals: None }
+    }
+
+    /// Builds the cell that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
+    /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, where the branch changes, where
+    /// the last Chebyshev terms of a total would exceed the tolerance, or where momentum exceeds a dump threshold.
+    ///
+    /// `longest_s` is the length that the cell before expects the tolerance to allow: trying more would be work for
+    /// nothing.
+    pub fn build(
+        flight: &mut impl Flight,
+        settings: &Settings,
+        start_s: f64,
+        horizon_s: f64,
+        at_start: Totals,
+        first: &Sample,
+        longest_s: f64,
+    ) -> Self {
+        // Never without length, whatever a restored state expects.
+        let limit_s = next_multiple_s(start_s, settings.grid_s)
+            .min(start_s + longest_s)
+            .min(horizon_s)
+            .max(start_s.next_up());
+        let mut end_s = limit_s;
+        if flight.sample(limit_s).branch != first.branch {
+            end_s = first_change_s(start_s, limit_s, |at_s| flight.sample(at_s).branch == first.branch);
+        }
+        let mut samples = [*first; NODES];
+        let mut shortened = false;
+        let (nodes, totals, growth) = loop {
+            let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
+            // Nodes fall in time: the earliest change is the last one met.
+            let mut changed_s = None;
+            for (sample, &time_s) in samples.iter_mut().zip(&nodes) {
+                *sample = flight.sample(time_s);
+                if sample.branch != first.branch && time_s > start_s && time_s < end_s {
+                    changed_s = Some(time_s);
+                }
+            }
+            if let Some(time_s) = changed_s {
+                end_s = first_change_s(start_s, time_s, |at_s| flight.sample(at_s).branch == first.branch);
+                continue;
+            }
+            let rates = samples.map(|s| {
+                let torque_inertial_n_m = s.inertial_from_body * s.torque_body_n_m;
+                pack(torque_inertial_n_m, s.torque_body_n_m, s.acceleration_inertial_m_s2)
+            });
+            let totals: Segment<RATES, { NODES + 1 }> =
+                Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates).integral(at_start.to_vector());
+            let terms = totals.coefficients();
+            let unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
+            let tolerance = settings.tolerance.max(ROUNDING * terms.amax());
+            // The terms fall with the length to this power, as long as everything is smooth.
+            let growth = 0.9 * (tolerance / unresolved).powf(1.0 / (NODES as f64));
+            let shorter_s = start_s + (end_s - start_s) * growth.clamp(0.1, 0.7);
+            // A number that is not finite cannot be resolved by shortening; it shows in the outputs.
+            if unresolved <= tolerance
+                || !unresolved.is_finite()
+                || end_s - start_s < SHORTEST_S
+                || shorter_s <= start_s
+            {
+                break (nodes, totals, growth);
+            }
+            end_s = shorter_s;
+            shortened = true;
+        };
+        let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
+        let next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
+        let mut cell = Self { start_s, end_s, at_start, next_longest_s, totals: Some(totals) };
+        if let Some(dump_s) = cell.first_excess_s(settings, &nodes, &samples) {
+            cell.end_s = dump_s;
+        }
+        cell
+    }
+
+    /// Start, in s.
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// End, in s.
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// Length the tolerance will probably allow the next cell, in s.
+    pub fn next_longest_s(&self) -> f64 {
+        self.next_longest_s
+    }
+
+    /// Totals at a time inside the cell.
+    pub fn totals(&self, time_s: f64) -> Totals {
+        match &self.totals {
+            Some(totals) if time_s > self.start_s => Totals::from_vector(&totals.value(time_s)),
+            _ => self.at_start,
+        }
+    }
+
+    /// The first time inside the cell at which a momentum component exceeds its threshold.
+    fn first_excess_s(
+        &self,
+        settings: &Settings,
+        nodes: &[f64; NODES],
+        samples: &[Sample; NODES],
+    ) -> Option<f64> {
+        let totals = self.totals.as_ref()?;
+        match settings.convention {
+            Convention::BodyIntegral => first_crossing_s(totals, 3, &settings.policy, self),
+            Convention::Inertial => {
+                let spread: f64 =
+                    totals.coefficients().fixed_rows::<3>(0).column_iter().map(|c| c.norm()).sum();
+                if spread < settings.policy.threshold_body_n_m_s.min() {
+                    return None;
+                }
+                let body: [SVector<f64, 3>; NODES] = core::array::from_fn(|j| {
+                    let momentum = Totals::from_vector(&totals.value(nodes[j])).momentum_inertial_n_m_s;
+                    samples[j].inertial_from_body.inverse() * momentum
+                });
+                let body = Segment::<3, NODES>::from_samples(totals.start(), totals.end(), &body);
+                first_crossing_s(&body, 0, &settings.policy, self)
+            }
+        }
+    }
+}
+
+/// First crossing of a threshold by rows `row`..`row + 3` of `momentum` inside `cell`.
+fn first_crossing_s<const D: usize, const N: usize>(
+    momentum: &Segment<D, N>,
+    row: usize,
+    policy: &DumpPolicy,
+    cell: &Cell,
+) -> Option<f64> {
+    let mut first: Option<f64> = None;
+    for axis in 0..3 {
+        let limit_n_m_s = policy.threshold_body_n_m_s[axis] + 2.0 * EXCEEDED_N_M_S;
+        let terms = momentum.coefficients().row(row + axis);
+        let bound: f64 = terms.iter().map(|c| c.abs()).sum();
+        if bound.is_nan() || bound < limit_n_m_s {
+            continue;
+        }
+        for sign in [1.0, -1.0] {
+            let mut direction = SVector::<f64, D>::zeros();
+            direction[row + axis] = sign;
+            let excess = momentum.project(&direction, -limit_n_m_s);
+            let crossing = excess.sign_changes(cell.start_s, cell.end_s).first();
+            first = match (first, crossing) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+        }
+    }
+    first.filter(|&time_s| time_s > cell.start_s && time_s < cell.end_s)
+}

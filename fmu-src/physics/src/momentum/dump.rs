@@ -1,0 +1,91 @@
+//! When thrusters take momentum off the wheels, and what they leave (paper 000, "Simulation").
+
+use nalgebra::Vector3;
+
+/// A component re-initialised exactly at the opposite threshold hovers there within rounding; only more than this
+/// counts as exceeding, in N m s.
+pub(super) const EXCEEDED_N_M_S: f64 = 0.5e-9;
+
+/// What a component is set to that exceeded its threshold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reinitialise {
+    /// The opposite sign at this fraction of the threshold; the paper uses 1.
+    Opposite {
+        /// Between 0 (to zero) and 1 (to the opposite threshold).
+        fraction: f64,
+    },
+    /// The component of a chosen vector (zero, or biased against what is coming), in N m s.
+    Target {
+        /// Body frame.
+        momentum_body_n_m_s: Vector3<f64>,
+    },
+}
+
+/// Thresholds and what follows when one is exceeded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DumpPolicy {
+    /// Magnitude that triggers a dump, per body axis, in N m s; infinite = never.
+    pub threshold_body_n_m_s: Vector3<f64>,
+    /// Where a component goes that exceeded its threshold.
+    pub reinitialise: Reinitialise,
+}
+
+impl DumpPolicy {
+    /// Whether a component exceeds its threshold, by more than rounding does.
+    pub fn exceeded(&self, momentum_body_n_m_s: &Vector3<f64>) -> bool {
+        self.excess_n_m_s(momentum_body_n_m_s) > EXCEEDED_N_M_S
+    }
+
+    /// How far the worst component lies above its threshold, in N m s; negative while none does.
+    pub fn excess_n_m_s(&self, momentum_body_n_m_s: &Vector3<f64>) -> f64 {
+        (momentum_body_n_m_s.abs() - self.threshold_body_n_m_s).max()
+    }
+
+    /// The momentum after a dump at `momentum_body_n_m_s`: components above their threshold are set anew, the
+    /// others stay.
+    pub fn after(&self, momentum_body_n_m_s: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::from_fn(|axis, _| {
+            let (now, threshold) = (momentum_body_n_m_s[axis], self.threshold_body_n_m_s[axis]);
+            if now.abs() - threshold <= EXCEEDED_N_M_S {
+                return now;
+            }
+            match self.reinitialise {
+                Reinitialise::Opposite { fraction } => -now.signum() * fraction * threshold,
+                Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Only the component that exceeded moves, and it moves where the policy says.
+    use super::*;
+
+    const POLICY: DumpPolicy = DumpPolicy {
+        threshold_body_n_m_s: Vector3::new(4.0, 5.0, f64::INFINITY),
+        reinitialise: Reinitialise::Opposite { fraction: 0.9 },
+    };
+
+    #[test]
+    fn only_what_exceeded_is_set_anew() {
+        let after = POLICY.after(&Vector3::new(-4.1, 3.0, 1e6));
+        assert_eq!(after, Vector3::new(3.6, 3.0, 1e6));
+    }
+
+    #[test]
+    fn a_target_replaces_the_opposite_threshold() {
+        let policy = DumpPolicy {
+            reinitialise: Reinitialise::Target { momentum_body_n_m_s: Vector3::new(0.5, -1.0, 2.0) },
+            ..POLICY
+        };
+        assert_eq!(policy.after(&Vector3::new(4.1, 5.5, 0.0)), Vector3::new(0.5, -1.0, 0.0));
+    }
+
+    #[test]
+    fn excess_changes_sign_at_the_threshold() {
+        assert!(POLICY.excess_n_m_s(&Vector3::new(3.999, -4.999, 1e9)) < 0.0);
+        assert_eq!(POLICY.excess_n_m_s(&Vector3::new(0.0, -5.0, 0.0)), 0.0);
+        assert!(POLICY.excess_n_m_s(&Vector3::new(-4.001, 0.0, 0.0)) > 0.0);
+    }
+}

@@ -1,0 +1,459 @@
+//! Gauss collocation: an implicit Runge-Kutta integrator of any order whose dense output is the solution itself.
+//!
+//! On one cell the solution is the polynomial of degree `S` whose derivative equals the right-hand side at the `S`
+//! Gauss-Legendre nodes. At the cell's end the order is `2 S`; within the cell the error is of order `h^(S+1)`,
+//! uniformly. Quadratic invariants (the norm of a quaternion, angular momentum, rotational energy) are kept to
+//! rounding for any cell length (Hairer, Lubich, Wanner, Geometric Numerical Integration, IV.2). The equations are
+//! solved by Gauss-Seidel sweeps, which suits smooth, non-stiff motion: cells should be shorter than the time in which the
+//! motion changes direction.
+//!
+//! [`Collocation`] holds the method's coefficients (computed, no state). [`Cells`] is the state of one integration:
+//! a chain of cells with edges at whole multiples of their length, serialisable, of which the last is kept.
+
+use nalgebra::{SMatrix, SVector};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::{chebyshev::Segment, quadrature::Rule};
+
+/// Why a cell could not be integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum IntegrationError {
+    /// The sweeps do not converge.
+    #[error(
+        "the integration from {from_s} s to {to_s} s does not converge (last relative change {change:e}): \
+         the motion is too fast for a cell of this length, make it shorter"
+    )]
+    NotConverged {
+        /// Start of the cell, s.
+        from_s: f64,
+        /// End of the cell, s.
+        to_s: f64,
+        /// Last change of a stage relative to its size.
+        change: f64,
+    },
+    /// The right-hand side or the start is not a finite number.
+    #[error("the motion is not finite at {at_s} s")]
+    NotFinite {
+        /// Where, s.
+        at_s: f64,
+    },
+}
+
+/// Coefficients of Gauss collocation with `S` nodes; `M` must be `S + 1`, the coefficients of the dense output.
+#[derive(Clone, Debug)]
+pub struct Collocation<const S: usize, const M: usize> {
+    /// Nodes on [-1, 1].
+    rule: Rule<S>,
+    /// Row i: weights of the integral from -1 to node i.
+    to_node: SMatrix<f64, S, S>,
+    /// Column k: how the values at the nodes make the k-th Chebyshev coefficient of the integral from -1.
+    to_integral: SMatrix<f64, S, M>,
+}
+
+impl<const S: usize, const M: usize> Default for Collocation<S, M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const S: usize, const M: usize> Collocation<S, M> {
+    /// Rounds until the sweeps count as diverging.
+    const SWEEPS: usize = 60;
+
+    /// Computes the coefficients.
+    pub fn new() -> Self {
+        const { assert!(M == S + 1 && S > 0, "dense output has one coefficient more than there are nodes") }
+        let rule = Rule::<S>::gauss_legendre();
+        // Each Lagrange basis polynomial of the nodes, integrated from -1.
+        let basis = Segment::<S, S>::fit(-1.0, 1.0, |x| {
+            SVector::from_fn(|i, _| {
+                let others = rule.nodes.iter().enumerate().filter(|(j, _)| *j != i);
+                others.map(|(_, node)| (x - node) / (rule.nodes[i] - node)).product()
+            })
+        });
+        let integral: Segment<S, M> = basis.integral(SVector::zeros());
+        let mut to_node = SMatrix::<f64, S, S>::zeros();
+        for (i, &node) in rule.nodes.iter().enumerate() {
+            to_node.set_row(i, &integral.value(node).transpose());
+        }
+        Self { rule, to_node, to_integral: *integral.coefficients() }
+    }
+
+    /// The solution of `y' = rhs(t, y)`, `y(start_s) = start`, on `[start_s, end_s]`, and its value at the end.
+    ///
+    /// `guess`, usually the cell before, is extrapolated as the first approximation; it changes the result by
+    /// rounding only. Costs `S` evaluations a sweep, 3 to 8 sweeps.
+    ///
+    /// # Errors
+    /// [`IntegrationError`]; the sweeps must settle to rounding (a few 1e-16 of each component's size or change).
+    pub fn solve<const D: usize>(
+        &self,
+        start_s: f64,
+        end_s: f64,
+        start: &SVector<f64, D>,
+        guess: Option<&Segment<D, M>>,
+        mut rhs: impl FnMut(f64, &SVector<f64, D>) -> SVector<f64, D>,
+    ) -> Result<(Segment<D, M>, SVector<f64, D>), IntegrationError> {
+        let half_s = 0.5 * (end_s - start_s);
+        let center_s = 0.5 * (start_s + end_s);
+        let node_s: [f64; S] = self.rule.nodes.map(|x| center_s + half_s * x);
+        let first = rhs(start_s, start);
+        if !is_finite(&first) || !is_finite(start) {
+            return Err(IntegrationError::NotFinite { at_s: start_s });
+        }
+        let mut rates = [first; S];
+        if let Some(guess) = guess {
+            for (rate, &at_s) in rates.iter_mut().zip(&node_s) {
+                let guessed = guess.value_and_derivative(at_s).1;
+                if is_finite(&guessed) {
+                    *rate = guessed;
+                }
+            }
+        }
+        let mut last = Change { own: f64::INFINITY, whole: f64::INFINITY };
+        let mut idle_sweeps = 0;
+        for sweep in 0..Self::SWEEPS {
+            let change = match self.sweep(half_s, start, &node_s, &mut rates, &mut rhs) {
+                Ok(change) => change,
+                // Sweeps that had been growing ran into infinity.
+                Err(_) if sweep > 0 && last.whole > 0.1 => break,
+                Err(error) => return Err(error),
+            };
+            idle_sweeps = if change.own > 0.5 * last.own { idle_sweeps + 1 } else { 0 };
+            last = change;
+            // Rounding: nothing moves, or what moves no longer shrinks and is nothing to the whole.
+            if change.own < 4.0 * f64::EPSILON || (idle_sweeps >= 2 && change.whole < 1e-13) {
+                return Ok(self.dense(start_s, end_s, start, &rates));
+            }
+        }
+        Err(IntegrationError::NotConverged { from_s: start_s, to_s: end_s, change: last.own })
+    }
+
+    /// One Gauss-Seidel sweep over the nodes.
+    fn sweep<const D: usize>(
+        &self,
+        half_s: f64,
+        start: &SVector<f64, D>,
+        node_s: &[f64; S],
+        rates: &mut [SVector<f64, D>; S],
+        rhs: &mut impl FnMut(f64, &SVector<f64, D>) -> SVector<f64, D>,
+    ) -> Result<Change, IntegrationError> {
+        let mut moved = SVector::<f64, D>::zeros();
+        let mut size = start.abs();
+        for (i, &at_s) in node_s.iter().enumerate() {
+            let mut y = *start;
+            for (j, rate) in rates.iter().enumerate() {
+                y += rate * (half_s * self.to_node[(i, j)]);
+            }
+            let rate = rhs(at_s, &y);
+            if !is_finite(&rate) {
+                return Err(IntegrationError::NotFinite { at_s });
+            }
+            moved = moved.sup(&((rate - rates[i]) * half_s).abs());
+            size = size.sup(&(rate * half_s).abs());
+            rates[i] = rate;
+        }
+        let ratios = moved.zip_map(&size, |m, s| if m > 0.0 { m / s } else { 0.0 });
+        let whole = if moved.max() > 0.0 { moved.max() / size.max() } else { 0.0 };
+        Ok(Change { own: ratios.max(), whole })
+    }
+
+    fn dense<const D: usize>(
+        &self,
+        start_s: f64,
+        end_s: f64,
+        start: &SVector<f64, D>,
+        rates: &[SVector<f64, D>; S],
+    ) -> (Segment<D, M>, SVector<f64, D>) {
+        let half_s = 0.5 * (end_s - start_s);
+        let mut coefficients = SMatrix::<f64, D, M>::zeros();
+        let mut end = *start;
+        for (i, rate) in rates.iter().enumerate() {
+            end += rate * (half_s * self.rule.weights[i]);
+            for (k, mut column) in coefficients.column_iter_mut().enumerate() {
+                column += rate * (half_s * self.to_integral[(i, k)]);
+            }
+        }
+        let mut mean = coefficients.column_mut(0);
+        mean += start;
+        (Segment::from_coefficients(start_s, end_s, coefficients), end)
+    }
+}
+
+/// How far a sweep moved the stages: the worst component relative to its own size, and to the largest component.
+#[derive(Clone, Copy)]
+struct Change {
+    own: f64,
+    whole: f64,
+}
+
+fn is_finite<const D: usize>(vector: &SVector<f64, D>) -> bool {
+    vector.iter().all(|x| x.is_finite())
+}
+
+/// A chain of cells with edges at `k * length_s`, of which the last one is kept with its dense output: the state of an
+/// integration. Everything a restored copy needs is in here.
+///
+/// The first cell starts wherever the integration starts, and a [`Cells::cut`] ends a cell early; after both, edges
+/// are whole multiples again. Cells depend on nothing but their start: asking more or less often changes no bit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cells<const D: usize, const M: usize> {
+    length_s: f64,
+    /// Number of the edge the last cell ends at.
+    edge: i64,
+    start_s: f64,
+    end_s: f64,
+    end: SVector<f64, D>,
+    segment: Segment<D, M>,
+}
+
+impl<const D: usize, const M: usize> Cells<D, M> {
+    /// An integration that stands at `start` at `start_s`, with cells of `length_s` (above 0, like all times finite).
+    pub fn new(length_s: f64, start_s: f64, start: SVector<f64, D>) -> Self {
+        let mut coefficients = SMatrix::<f64, D, M>::zeros();
+        if M > 0 {
+            coefficients.set_column(0, &start);
+        }
+        Self {
+            length_s,
+            edge: (start_s / length_s).floor() as i64,
+            start_s,
+            end_s: start_s,
+            end: start,
+            segment: Segment::from_coefficients(start_s, start_s + length_s, coefficients),
+        }
+    }
+
+    /// Length of the cells, s.
+    pub fn length_s(&self) -> f64 {
+        self.length_s
+    }
+
+    /// Where the cell at hand starts, s.
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// How far the integration has come, s.
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// The solution at [`Cells::end_s`].
+    pub fn end(&self) -> &SVector<f64, D> {
+        &self.end
+    }
+
+    /// Dense output between [`Cells::start_s`] and [`Cells::end_s`].
+    pub fn segment(&self) -> &Segment<D, M> {
+        &self.segment
+    }
+
+    /// The solution at a time of the cell at hand.
+    pub fn value(&self, at_s: f64) -> SVector<f64, D> {
+        if at_s >= self.end_s { self.end } else { self.segment.value(at_s) }
+    }
+
+    /// Integrates one more cell, to the next edge.
+    ///
+    /// # Errors
+    /// See [`Collocation::solve`]; the cells stay as they were.
+    pub fn advance<const S: usize>(
+        &mut self,
+        method: &Collocation<S, M>,
+        rhs: impl FnMut(f64, &SVector<f64, D>) -> SVector<f64, D>,
+    ) -> Result<(), IntegrationError> {
+        self.advance_to(method, f64::INFINITY, rhs)
+    }
+
+    /// Integrates one more cell, to the next edge or to `limit_s` if that comes first; later cells end at the edges
+    /// again.
+    ///
+    /// # Errors
+    /// See [`Collocation::solve`]; the cells stay as they were.
+    pub fn advance_to<const S: usize>(
+        &mut self,
+        method: &Collocation<S, M>,
+        limit_s: f64,
+        rhs: impl FnMut(f64, &SVector<f64, D>) -> SVector<f64, D>,
+    ) -> Result<(), IntegrationError> {
+        // Counted from where the cells end, not from the number kept: restored bytes may hold any number.
+        let mut edge = ((self.end_s / self.length_s).floor() as i64).saturating_add(1);
+        // A start within rounding of an edge is that edge.
+        if edge as f64 * self.length_s - self.end_s <= 1e-12 * self.end_s.abs().max(self.length_s) {
+            edge = edge.saturating_add(1);
+        }
+        let mut end_s = edge as f64 * self.length_s;
+        if limit_s < end_s {
+            (edge, end_s) = (edge.saturating_sub(1), limit_s);
+        }
+        // A short cell says nothing of a long one.
+        let known = self.end_s - self.start_s >= 0.1 * (end_s - self.end_s);
+        let guess = (self.end_s > self.start_s && known).then_some(&self.segment);
+        let (segment, end) = method.solve(self.end_s, end_s, &self.end, guess, rhs)?;
+        *self = Self { length_s: self.length_s, edge, start_s: self.end_s, end_s, end, segment };
+        Ok(())
+    }
+
+    /// Ends the cell at hand at `at_s`, within it: what was computed beyond is void because the right-hand side
+    /// changes there, or the state jumps to `value`.
+    pub fn cut(&mut self, at_s: f64, value: SVector<f64, D>) {
+        *self = Self::new(self.length_s, at_s, value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Collocation has the order the theory gives it, keeps quadratic invariants, and forgets nothing when saved.
+
+    use nalgebra::{Vector2, Vector3, Vector4};
+
+    use super::*;
+
+    fn oscillator(_: f64, y: &Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(y[1], -y[0])
+    }
+
+    fn end_error<const S: usize, const M: usize>(h: f64) -> f64 {
+        let method = Collocation::<S, M>::new();
+        let (_, end) = method.solve(0.0, h, &Vector2::new(1.0, 0.0), None, oscillator).unwrap();
+        (end - Vector2::new(h.cos(), -h.sin())).norm()
+    }
+
+    #[test]
+    fn order_is_twice_the_nodes() {
+        // One step's error falls with h^(2S+1).
+        let order = |coarse: f64, fine: f64| (coarse / fine).log2();
+        assert!((order(end_error::<2, 3>(0.4), end_error::<2, 3>(0.2)) - 5.0).abs() < 0.1);
+        assert!((order(end_error::<3, 4>(0.8), end_error::<3, 4>(0.4)) - 7.0).abs() < 0.1);
+        assert!((order(end_error::<4, 5>(0.9), end_error::<4, 5>(0.45)) - 9.0).abs() < 0.1);
+    }
+
+    #[test]
+    fn the_midpoint_rule_is_the_simplest_case() {
+        // S = 1 is the implicit midpoint rule, solved by hand for y' = -y: (1 - h/2) / (1 + h/2).
+        let method = Collocation::<1, 2>::new();
+        let rhs = |_: f64, y: &SVector<f64, 1>| -y;
+        let (_, end) = method.solve(0.0, 0.5, &SVector::from([1.0]), None, rhs).unwrap();
+        assert!((end[0] - 0.75 / 1.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn dense_output_is_the_solution_between() {
+        let method = Collocation::<10, 11>::new();
+        let mut cells = Cells::new(0.5, 0.2, Vector2::new(0.2_f64.cos(), -(0.2_f64.sin())));
+        let mut edges = vec![];
+        while cells.end_s() < 20.0 {
+            cells.advance(&method, oscillator).unwrap();
+            edges.push(cells.end_s());
+            for i in 0..=10 {
+                let t = cells.start_s() + (cells.end_s() - cells.start_s()) * f64::from(i) / 10.0;
+                let (value, rate) = cells.segment().value_and_derivative(t);
+                assert!((value - Vector2::new(t.cos(), -t.sin())).norm() < 1e-13);
+                assert!((cells.value(t) - value).norm() < 1e-14);
+                assert!((rate - oscillator(t, &value)).norm() < 1e-12);
+            }
+        }
+        assert_eq!(edges[..3], [0.5, 1.0, 1.5]);
+    }
+
+    #[test]
+    fn a_limit_ends_a_cell_and_the_next_one_ends_at_the_edge() {
+        let method = Collocation::<10, 11>::new();
+        let mut cells = Cells::new(0.5, 0.0, Vector2::new(1.0, 0.0));
+        let mut edges = vec![];
+        for limit in [0.7, 0.7, 0.7 + 1e-15, 9.0, 1.5, f64::INFINITY] {
+            cells.advance_to(&method, limit, oscillator).unwrap();
+            let t = cells.end_s();
+            edges.push(t);
+            assert!((cells.end() - Vector2::new(t.cos(), -t.sin())).norm() < 1e-13);
+        }
+        assert_eq!(edges, [0.5, 0.7, 0.7 + 1e-15, 1.0, 1.5, 2.0]);
+    }
+
+    #[test]
+    fn quadratic_invariants_survive_coarse_cells() {
+        // A tumbling triaxial body with its quaternion: |q|, |H| and the energy are quadratic, cells are far too long
+        // for accuracy.
+        let inertia = Vector3::new(1.0, 2.0, 3.0);
+        let rhs = |_: f64, y: &SVector<f64, 7>| {
+            let w = Vector3::new(y[0], y[1], y[2]);
+            let q = Vector4::new(y[3], y[4], y[5], y[6]);
+            let dw = -w.cross(&inertia.component_mul(&w)).component_div(&inertia);
+            let v = q.xyz();
+            let dv = (w * q.w - w.cross(&v)) * 0.5;
+            SVector::from([dw.x, dw.y, dw.z, dv.x, dv.y, dv.z, -0.5 * w.dot(&v)])
+        };
+        let method = Collocation::<3, 4>::new();
+        let start = SVector::from([0.3, 1.0, 0.4, 0.0, 0.0, 0.0, 1.0]);
+        let mut cells = Cells::new(0.4, 0.0, start);
+        let invariants = |y: &SVector<f64, 7>| {
+            let w = Vector3::new(y[0], y[1], y[2]);
+            let h = inertia.component_mul(&w);
+            (h.norm_squared(), h.dot(&w), y.fixed_rows::<4>(3).norm_squared())
+        };
+        let before = invariants(&start);
+        for _ in 0..5000 {
+            cells.advance(&method, rhs).unwrap();
+        }
+        let after = invariants(cells.end());
+        assert!((after.0 / before.0 - 1.0).abs() < 1e-12);
+        assert!((after.1 / before.1 - 1.0).abs() < 1e-12);
+        assert!((after.2 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn saved_and_restored_to_the_bit() {
+        let method = Collocation::<6, 7>::new();
+        let mut cells = Cells::new(0.3, 0.1, Vector2::new(1.0, 0.0));
+        for _ in 0..5 {
+            cells.advance(&method, oscillator).unwrap();
+        }
+        let text = toml::to_string(&cells).unwrap();
+        let mut restored: Cells<2, 7> = toml::from_str(&text).unwrap();
+        assert_eq!(restored, cells);
+        for _ in 0..20 {
+            cells.advance(&method, oscillator).unwrap();
+            restored.advance(&method, oscillator).unwrap();
+        }
+        assert_eq!(restored, cells);
+    }
+
+    #[test]
+    fn edges_are_whole_multiples_after_a_cut() {
+        let method = Collocation::<6, 7>::new();
+        let mut cells = Cells::new(60.0, 0.0, Vector2::new(1.0, 0.0));
+        let rhs = |_: f64, y: &Vector2<f64>| -y * 0.01;
+        cells.advance(&method, rhs).unwrap();
+        let at = cells.value(17.0);
+        // Within a cell the error of degree 6 is about 0.3^7 / (2^6 7!), at its end next to none.
+        assert!((at[0] - (-0.17_f64).exp()).abs() < 1e-9);
+        cells.cut(17.0, at);
+        assert_eq!((cells.end_s(), cells.value(17.0)), (17.0, at));
+        cells.advance(&method, rhs).unwrap();
+        assert_eq!((cells.start_s(), cells.end_s()), (17.0, 60.0));
+        cells.cut(60.0, cells.value(60.0));
+        cells.advance(&method, rhs).unwrap();
+        assert_eq!(cells.end_s(), 120.0);
+        assert!((cells.end()[0] - (-1.2_f64).exp()).abs() < 1e-9);
+        // A start a hair before an edge, and negative times.
+        let mut cells = Cells::new(0.1, 0.3, Vector2::new(1.0, 0.0));
+        cells.advance(&method, rhs).unwrap();
+        assert_eq!(cells.end_s(), 0.4);
+        let mut cells = Cells::new(60.0, -30.0, Vector2::new(1.0, 0.0));
+        cells.advance(&method, rhs).unwrap();
+        assert_eq!(cells.end_s(), 0.0);
+    }
+
+    #[test]
+    fn what_cannot_be_integrated_is_named() {
+        let method = Collocation::<4, 5>::new();
+        let stiff = |_: f64, y: &SVector<f64, 1>| -y * 1e4;
+        let error = method.solve(0.0, 1.0, &SVector::from([1.0]), None, stiff).unwrap_err();
+        assert!(error.to_string().contains("make it shorter"), "{error}");
+        let broken = |t: f64, y: &SVector<f64, 1>| y * if t > 0.5 { f64::NAN } else { 1.0 };
+        let error = method.solve(0.0, 1.0, &SVector::from([1.0]), None, broken).unwrap_err();
+        assert!(matches!(error, IntegrationError::NotFinite { .. }));
+    }
+}

@@ -1,0 +1,9 @@
+//! Numerical tools: Chebyshev segments, quadrature, roots, integrator with dense output, the scalar of the kernels.
+
+pub mod chebyshev;
+pub mod collocation;
+pub mod events;
+pub mod quadrature;
+pub mod roots;
+pub mod scalar;
+pub mod stretches;

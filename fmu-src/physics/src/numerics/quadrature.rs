@@ -1,0 +1,183 @@
+//! Gauss-Legendre and Gauss-Lobatto quadrature of any size, nodes computed to the last bits.
+
+use core::f64::consts::PI;
+
+use nalgebra::SVector;
+
+/// An `N`-point rule on `[-1, 1]`, nodes rising.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rule<const N: usize> {
+    /// Abscissae, rising.
+    pub nodes: [f64; N],
+    /// Weights; they sum to 2.
+    pub weights: [f64; N],
+}
+
+impl<const N: usize> Rule<N> {
+    /// Gauss-Legendre, exact up to degree `2N - 1`.
+    pub fn gauss_legendre() -> Self {
+        let mut rule = Self { nodes: [0.0; N], weights: [0.0; N] };
+        gauss_legendre(&mut rule.nodes, &mut rule.weights);
+        rule
+    }
+
+    /// Gauss-Lobatto (both ends are nodes), exact up to degree `2N - 3`; needs `N >= 2`.
+    pub fn gauss_lobatto() -> Self {
+        const { assert!(N >= 2, "Gauss-Lobatto has both ends as nodes") }
+        let mut rule = Self { nodes: [0.0; N], weights: [0.0; N] };
+        gauss_lobatto(&mut rule.nodes, &mut rule.weights);
+        rule
+    }
+
+    /// The abscissae and weights on `[from, to]`.
+    pub fn on(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
+        self.nodes.iter().zip(&self.weights).map(move |(x, w)| (center + half * x, half * w))
+    }
+
+    /// The integral of a scalar `function` from `from` to `to`.
+    pub fn integrate(&self, from: f64, to: f64, mut function: impl FnMut(f64) -> f64) -> f64 {
+        self.on(from, to).map(|(x, w)| w * function(x)).sum()
+    }
+
+    /// The integral of a vector `function` from `from` to `to`.
+    pub fn integrate_vector<const D: usize>(
+        &self,
+        from: f64,
+        to: f64,
+        mut function: impl FnMut(f64) -> SVector<f64, D>,
+    ) -> SVector<f64, D> {
+        self.on(from, to).fold(SVector::zeros(), |sum, (x, w)| sum + function(x) * w)
+    }
+}
+
+/// Fills `nodes` (rising) and `weights` with the Gauss-Legendre rule of `nodes.len()` points on `[-1, 1]`.
+///
+/// Newton's method on the Legendre polynomial from Tricomi's estimate; error of a node or weight below 4e-16 up to
+/// 64 points. Of two slices with different lengths the shorter counts.
+pub fn gauss_legendre(nodes: &mut [f64], weights: &mut [f64]) {
+    let n = nodes.len().min(weights.len());
+    for i in 0..n.div_ceil(2) {
+        let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+        for _ in 0..8 {
+            let (p, derivative) = legendre(n, x);
+            let change = p / derivative;
+            x -= change;
+            if change.abs() < 1e-16 {
+                break;
+            }
+        }
+        if 2 * i + 1 == n {
+            x = 0.0;
+        }
+        let (_, derivative) = legendre(n, x);
+        let weight = 2.0 / ((1.0 - x * x) * derivative * derivative);
+        set_pair(nodes, weights, i, n, x, weight);
+    }
+}
+
+/// Fills `nodes` (rising, both ends included) and `weights` with the Gauss-Lobatto rule on `[-1, 1]`; fewer than two
+/// points leave the slices as they are.
+///
+/// Newton's method on `(1 - x^2) P'(x)` of degree `n - 1`; error below 4e-16 up to 64 points.
+pub fn gauss_lobatto(nodes: &mut [f64], weights: &mut [f64]) {
+    let n = nodes.len().min(weights.len());
+    if n < 2 {
+        return;
+    }
+    let degree = n - 1;
+    let scale = (degree * n) as f64;
+    for i in 0..n.div_ceil(2) {
+        let mut x = -(PI * i as f64 / degree as f64).cos();
+        if i > 0 {
+            for _ in 0..50 {
+                let (p, derivative) = legendre(degree, x);
+                // (1 - x^2) P'' = 2 x P' - n (n + 1) P: Newton on P'.
+                let second = (2.0 * x * derivative - scale * p) / (1.0 - x * x);
+                let change = derivative / second;
+                x -= change;
+                if change.abs() < 1e-16 {
+                    break;
+                }
+            }
+        }
+        if 2 * i + 1 == n {
+            x = 0.0;
+        }
+        let (p, _) = legendre(degree, x);
+        set_pair(nodes, weights, i, n, x, 2.0 / (scale * p * p));
+    }
+}
+
+fn set_pair(nodes: &mut [f64], weights: &mut [f64], i: usize, n: usize, x: f64, weight: f64) {
+    nodes[i] = x;
+    nodes[n - 1 - i] = -x;
+    weights[i] = weight;
+    weights[n - 1 - i] = weight;
+}
+
+/// The Legendre polynomial of degree `n` and its derivative at `|x| < 1` (the derivative at the ends is not finite).
+fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut previous, mut current) = (0.0, 1.0);
+    for k in 0..n {
+        let k = k as f64;
+        (previous, current) = (current, ((2.0 * k + 1.0) * x * current - k * previous) / (k + 1.0));
+    }
+    (current, n as f64 * (previous - x * current) / (1.0 - x * x))
+}
+
+#[cfg(test)]
+mod tests {
+    //! A Gauss rule of n points is exact for every polynomial its theory promises and for no more.
+
+    use super::*;
+
+    fn monomial_error(nodes: &[f64], weights: &[f64], power: usize) -> f64 {
+        let exact = if power.is_multiple_of(2) { 2.0 / (power as f64 + 1.0) } else { 0.0 };
+        let sum: f64 = nodes.iter().zip(weights).map(|(x, w)| w * x.powi(power as i32)).sum();
+        (sum - exact).abs()
+    }
+
+    #[test]
+    fn exact_to_the_promised_degree_and_not_beyond() {
+        for n in 1..=40 {
+            let (mut nodes, mut weights) = (vec![0.0; n], vec![0.0; n]);
+            gauss_legendre(&mut nodes, &mut weights);
+            assert!(nodes.windows(2).all(|w| w[0] < w[1]));
+            for power in 0..2 * n {
+                assert!(monomial_error(&nodes, &weights, power) < 3e-15, "n {n} power {power}");
+            }
+            if n < 12 {
+                assert!(monomial_error(&nodes, &weights, 2 * n) > 1e-8);
+            }
+            if n >= 2 {
+                gauss_lobatto(&mut nodes, &mut weights);
+                assert!(nodes[0] == -1.0 && nodes[n - 1] == 1.0 && nodes.windows(2).all(|w| w[0] < w[1]));
+                for power in 0..2 * n - 2 {
+                    assert!(monomial_error(&nodes, &weights, power) < 3e-15, "Lobatto n {n} power {power}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn closed_forms() {
+        // Two points at 1/sqrt 3; Lobatto's five at sqrt(3/7) with weights 1/10, 49/90, 32/45.
+        let two = Rule::<2>::gauss_legendre();
+        assert!((two.nodes[1] - 1.0 / 3.0_f64.sqrt()).abs() < 2e-16 && (two.weights[0] - 1.0).abs() < 4e-16);
+        let five = Rule::<5>::gauss_lobatto();
+        assert!((five.nodes[3] - (3.0_f64 / 7.0).sqrt()).abs() < 3e-16);
+        assert!(
+            (five.weights[1] - 49.0 / 90.0).abs() < 4e-16 && (five.weights[2] - 32.0 / 45.0).abs() < 4e-16
+        );
+    }
+
+    #[test]
+    fn integrates_an_exponential_on_an_interval() {
+        let rule = Rule::<12>::gauss_legendre();
+        let exact = 3.0_f64.exp() - 0.5_f64.exp();
+        assert!((rule.integrate(0.5, 3.0, f64::exp) - exact).abs() < 1e-14 * exact);
+        let vector = rule.integrate_vector(0.5, 3.0, |x| nalgebra::Vector2::new(x.exp(), x));
+        assert!((vector[0] - exact).abs() < 1e-14 * exact && (vector[1] - 4.375).abs() < 1e-14);
+    }
+}

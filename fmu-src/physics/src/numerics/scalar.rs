@@ -1,0 +1,113 @@
+//! The number type of the radiation kernels: a plain `f64`, or a dual number that carries one exact derivative.
+//!
+//! This module is the only one that knows the dual-number library.
+
+use core::ops::{Add, Div, Mul, Sub};
+
+use nalgebra::{RealField, Vector3};
+
+/// A number with its derivative along one seed direction: `Dual64::new(value, derivative)`.
+///
+/// Comparisons look at the value only, so that a kernel takes the same branches as with plain numbers. The
+/// rounding functions (`floor`, `round` ...) have no derivative and must not be called in generic kernels.
+pub use num_dual::Dual64;
+
+/// What a radiation kernel computes with: real arithmetic, also directly with `f64` on the right-hand side.
+pub trait Scalar:
+    RealField
+    + Copy
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+    /// A number that does not depend on the seed.
+    fn constant(value: f64) -> Self;
+
+    /// The number without its derivative.
+    fn value(self) -> f64;
+
+    /// Whether two numbers agree, derivatives included.
+    fn same(self, other: Self) -> bool;
+}
+
+impl Scalar for f64 {
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn value(self) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn same(self, other: Self) -> bool {
+        self == other
+    }
+}
+
+impl Scalar for Dual64 {
+    #[inline]
+    fn constant(value: f64) -> Self {
+        Self::from_re(value)
+    }
+
+    #[inline]
+    fn value(self) -> f64 {
+        self.re
+    }
+
+    #[inline]
+    fn same(self, other: Self) -> bool {
+        self.re == other.re && self.eps == other.eps
+    }
+}
+
+/// A constant vector as kernel numbers.
+#[inline]
+pub fn constant_vector<T: Scalar>(vector: &Vector3<f64>) -> Vector3<T> {
+    vector.map(T::constant)
+}
+
+/// The values of a vector of kernel numbers.
+#[inline]
+pub fn vector_value<T: Scalar>(vector: &Vector3<T>) -> Vector3<f64> {
+    vector.map(T::value)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Derivatives carried along agree with derivatives known in closed form.
+
+    use super::*;
+
+    fn length_of_sum<T: Scalar>(x: T) -> T {
+        let v = Vector3::new(x, x * x, T::constant(2.0)) * (x.sin() + 1.0);
+        v.dot(&v).sqrt() / 3.0 - 1.0
+    }
+
+    #[test]
+    fn plain_and_dual_numbers_take_the_same_values() {
+        for x in [-2.0, -0.3, 0.1, 1.7] {
+            let dual = length_of_sum(Dual64::new(x, 1.0));
+            assert_eq!(dual.value(), length_of_sum(x));
+        }
+    }
+
+    #[test]
+    fn the_derivative_of_a_cube_is_three_squares() {
+        let x = Dual64::new(1.5, 1.0);
+        assert_eq!((x * x * x).eps, 3.0 * 1.5 * 1.5);
+        assert_eq!(Dual64::constant(4.0).eps, 0.0);
+    }
+
+    #[test]
+    fn comparisons_look_at_the_value_only() {
+        assert!(Dual64::new(1.0, 5.0) == Dual64::new(1.0, -5.0));
+        assert!(Dual64::new(1.0, 5.0) < Dual64::new(2.0, -5.0));
+        assert!(!Dual64::new(1.0, 5.0).same(Dual64::new(1.0, -5.0)));
+        assert!(Dual64::new(1.0, 5.0).same(Dual64::new(1.0, 5.0)));
+    }
+}

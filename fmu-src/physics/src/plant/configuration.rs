@@ -1,0 +1,180 @@
+//! What flies, where, and under which light: constant between two changes of a parameter or input.
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::Attitude;
+use crate::environment::State;
+use crate::environment::eclipse::Shadow;
+use crate::environment::frames::Frame;
+use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
+use crate::environment::paper004::KeplerPlanet;
+use crate::guidance::Guided;
+use crate::momentum::Settings;
+use crate::spacecraft::{Panel, SunshadeModel};
+
+/// Where the attitude comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AttitudeSource {
+    /// The orbit phase's own guidance; its schedule runs in epochs (s past J2000 TDB).
+    Guided(Guided),
+    /// A command, followed ideally.
+    Commanded(Command),
+}
+
+/// A commanded attitude, turning on at a constant rate.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Command {
+    /// Attitude at `since_s`.
+    pub attitude: Attitude,
+    /// Body rate, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// When the command took effect, in s.
+    pub since_s: f64,
+}
+
+impl Command {
+    /// The attitude at `time_s`.
+    pub fn attitude_at(&self, time_s: f64) -> Attitude {
+        self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
+    }
+}
+
+/// What the spacecraft flies around.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OrbitCenter {
+    /// Mercury.
+    Mercury,
+    /// The Sun.
+    Sun,
+}
+
+/// Where Sun and Earth stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EphemerisSource {
+    /// VSOP87.
+    Vsop87,
+    /// The planet on an ellipse about the Sun; the Earth by VSOP87.
+    Kepler(KeplerPlanet),
+    /// Fixed until they are given anew, from the orbit's centre, in m.
+    Given {
+        /// Sun, EME2000.
+        sun_m: Vector3<f64>,
+        /// Earth, EME2000.
+        earth_m: Vector3<f64>,
+    },
+}
+
+/// What moves the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// The centre's gravity alone: the orbit in closed form.
+    TwoBody,
+    /// The same orbit at the start, then integrated.
+    Disturbed {
+        /// The centre's gravity with its flattening and the Sun's tide.
+        gravity: Gravity,
+        /// Length of the integrator's cells, in s.
+        cell_s: f64,
+        /// Radius of the centre, in m: a flight below it ends.
+        radius_m: f64,
+        /// Whether light, heat and external forces accelerate the spacecraft.
+        feedback: bool,
+    },
+}
+
+/// Radiation pressure of sunlight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SunLight {
+    /// The same everywhere, in Pa.
+    Fixed {
+        /// Pressure, in Pa.
+        pressure_pa: f64,
+    },
+    /// Falling with the square of the distance.
+    Distance {
+        /// Flux at 1 AU, in W/m2.
+        flux_w_m2: f64,
+    },
+}
+
+/// How one panel stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PanelSetting {
+    /// Left out.
+    Disabled,
+    /// Cell normal at a constant angle from the Sun.
+    SunOffset {
+        /// That angle, in rad.
+        offset_rad: f64,
+        /// +1 or -1: the sense of the tilt about the axis.
+        tilt_sign: f64,
+    },
+    /// At this angle about its axis, in rad.
+    Angle(f64),
+}
+
+impl PanelSetting {
+    /// Angle about the panel's axis, in rad, with the Sun at `sun_body` (unit vector); `None` when left out.
+    pub fn angle_rad(&self, panel: &Panel, sun_body: &Vector3<f64>) -> Option<f64> {
+        match *self {
+            Self::Disabled => None,
+            Self::Angle(angle_rad) => Some(angle_rad),
+            Self::SunOffset { offset_rad, tilt_sign } => {
+                Some(panel.angle_for_sun_offset(sun_body, offset_rad, tilt_sign))
+            }
+        }
+    }
+}
+
+/// Two-body orbit, in EME2000, of `elements` given in `frame`.
+///
+/// # Errors
+/// Elements that are no orbit.
+pub fn orbit_from_elements(
+    elements: Elements,
+    frame: Frame,
+    gm_m3_s2: f64,
+    epoch_s: f64,
+) -> Result<TwoBodyOrbit, OrbitError> {
+    let to_eme2000 = frame.dcm_eme2000_from_frame();
+    let state = elements.state(gm_m3_s2)?;
+    let state =
+        State { position_m: to_eme2000 * state.position_m, velocity_m_s: to_eme2000 * state.velocity_m_s };
+    TwoBodyOrbit::from_state(&state, gm_m3_s2, epoch_s)
+}
+
+/// Everything a flight needs besides the spacecraft itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration {
+    /// Epoch (s past J2000 TDB) minus time, in s.
+    pub epoch_minus_time_s: f64,
+    /// Central body.
+    pub center: OrbitCenter,
+    /// Orbit about it, in EME2000, by epoch; of an integrated orbit the one it starts on.
+    pub orbit: TwoBodyOrbit,
+    /// What moves the spacecraft along or off that orbit.
+    pub motion: Motion,
+    /// Sun and Earth.
+    pub ephemeris: EphemerisSource,
+    /// Sunlight.
+    pub light: SunLight,
+    /// Shadow of the planet.
+    pub shadow: Shadow,
+    /// Attitude.
+    pub attitude: AttitudeSource,
+    /// Model of the shade.
+    pub sunshade: SunshadeModel,
+    /// One setting a panel.
+    pub panels: Vec<PanelSetting>,
+    /// Centre of mass, body frame, in m.
+    pub center_of_mass_body_m: Vector3<f64>,
+    /// Mass, in kg.
+    pub mass_kg: f64,
+    /// Inertia about the centre of mass, body frame, in kg m2.
+    pub inertia_body_kg_m2: Matrix3<f64>,
+    /// Gravitational parameter whose gradient turns the body, in m3/s2; 0 = left out.
+    pub gravity_gradient_m3_s2: f64,
+    /// Accumulation of momentum.
+    pub momentum: Settings,
+}

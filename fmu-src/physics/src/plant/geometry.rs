@@ -1,0 +1,89 @@
+//! Where everything is at one time, as seen from the spacecraft.
+
+use nalgebra::Vector3;
+
+use crate::attitude::MovingUnit;
+use crate::environment::State;
+use crate::environment::ephemeris::{Body, Ephemeris};
+use crate::guidance::LinesOfSight;
+
+use super::configuration::{Configuration, EphemerisSource, OrbitCenter};
+
+/// Positions and velocities in EME2000.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Geometry {
+    /// Spacecraft about the orbit's centre.
+    pub spacecraft: State,
+    /// From the spacecraft to the Sun.
+    pub to_sun: State,
+    /// From the spacecraft to the planet, if it orbits one.
+    pub to_planet: Option<State>,
+    /// From the spacecraft to the Earth.
+    pub to_earth: State,
+}
+
+impl Geometry {
+    /// At `time_s` of the flight, the spacecraft being there about the orbit's centre.
+    pub fn at(
+        configuration: &Configuration,
+        ephemeris: &mut Ephemeris,
+        time_s: f64,
+        spacecraft: State,
+    ) -> Self {
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let (sun, earth) = sun_and_earth(configuration, ephemeris, epoch_s);
+        let planet = configuration.center == OrbitCenter::Mercury;
+        Self {
+            spacecraft,
+            to_sun: difference(&sun, &spacecraft),
+            to_planet: planet.then(|| difference(&fixed(Vector3::zeros()), &spacecraft)),
+            to_earth: difference(&earth, &spacecraft),
+        }
+    }
+
+    /// Directions with their rates; a body at zero distance counts as lying toward +X.
+    pub fn lines_of_sight(&self) -> LinesOfSight {
+        let unit = |to: &State| {
+            MovingUnit::of(to.position_m, to.velocity_m_s)
+                .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
+        };
+        LinesOfSight {
+            sun: unit(&self.to_sun),
+            planet: self.to_planet.as_ref().map(unit),
+            earth: unit(&self.to_earth),
+            sun_from_planet: self.to_planet.as_ref().map(|to_planet| difference(&self.to_sun, to_planet)),
+        }
+    }
+}
+
+/// Sun and Earth from the orbit's centre.
+pub(super) fn sun_and_earth(
+    configuration: &Configuration,
+    ephemeris: &mut Ephemeris,
+    epoch_s: f64,
+) -> (State, State) {
+    let planet = match configuration.ephemeris {
+        EphemerisSource::Given { sun_m, earth_m } => return (fixed(sun_m), fixed(earth_m)),
+        EphemerisSource::Vsop87 => None,
+        EphemerisSource::Kepler(planet) => Some(planet),
+    };
+    let earth = ephemeris.state(Body::Earth, epoch_s);
+    match configuration.center {
+        OrbitCenter::Sun => (fixed(Vector3::zeros()), earth),
+        OrbitCenter::Mercury => {
+            let center = match planet {
+                Some(planet) => planet.state(epoch_s),
+                None => ephemeris.state(Body::Mercury, epoch_s),
+            };
+            (difference(&fixed(Vector3::zeros()), &center), difference(&earth, &center))
+        }
+    }
+}
+
+fn fixed(position_m: Vector3<f64>) -> State {
+    State { position_m, velocity_m_s: Vector3::zeros() }
+}
+
+fn difference(a: &State, b: &State) -> State {
+    State { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
+}

@@ -1,0 +1,20 @@
+//! The three-axis spacecraft put together: orbit, attitude, light and gravity gradient in one flight.
+//!
+//! [`Configuration`] says what flies where; [`Plant`] evaluates it and is the [`crate::momentum::Flight`] that momentum
+//! accumulates over. What it has to remember between two evaluations is a [`Course`]: an integrated orbit, and the
+//! [`stretch`] of time at hand.
+
+mod configuration;
+mod flight;
+mod geometry;
+mod stretch;
+mod trajectory;
+
+pub use configuration::{
+    AttitudeSource, Command, Configuration, EphemerisSource, Motion, OrbitCenter, PanelSetting, SunLight,
+    orbit_from_elements,
+};
+pub use flight::{Craft, ExternalLoad, Plant, Snapshot};
+pub use geometry::Geometry;
+pub use stretch::{Course, PlantError};
+pub use trajectory::Trajectory;

@@ -1,0 +1,114 @@
+//! The stretch of time at hand: on it the orbit is known, the attitude law and the shadow keep their branch.
+//!
+//! An orbit that light and heat act on has to be known before they can be computed, and they before it. A stretch begins
+//! with the orbit under gravity alone. Within a cell it is off by centimetres, which changes light and heat by less than
+//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the stretch's end.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::environment::orbit::FlightError;
+use crate::momentum::Flight;
+use crate::numerics::chebyshev::Segment;
+use crate::numerics::stretches::first_change_s;
+
+use super::configuration::{Configuration, Motion};
+use super::flight::{ExternalLoad, Plant};
+use super::trajectory::Trajectory;
+
+/// Nodes at which the acceleration of a stretch is taken.
+const NODES: usize = 8;
+
+/// Light and heat move the edge of a shadow by less than this within one cell, in s.
+const MOVED_S: f64 = 1e-4;
+
+/// Why a flight ends.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum PlantError {
+    /// The orbit.
+    #[error(transparent)]
+    Orbit(#[from] FlightError),
+    /// An orbit that goes no further: restored bytes that belong to another kind of motion.
+    #[error(
+        "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.model"
+    )]
+    Stuck {
+        /// Where it should go on, in s.
+        start_s: f64,
+        /// Where it ends, in s.
+        end_s: f64,
+    },
+}
+
+/// What a flight remembers of itself, beside what it accumulates. Serialisable and complete: together with the
+/// configuration it fixes everything that follows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Course {
+    /// Where the spacecraft is.
+    pub trajectory: Trajectory,
+}
+
+impl Course {
+    /// At the start of a flight.
+    ///
+    /// # Errors
+    /// A start below the surface.
+    pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, PlantError> {
+        Ok(Self { trajectory: Trajectory::new(configuration, time_s)? })
+    }
+
+    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far.
+    pub fn cut(&mut self, configuration: &Configuration, time_s: f64) {
+        self.trajectory.cut(configuration, time_s);
+    }
+}
+
+impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
+    /// Makes sure that `start_s` lies in the stretch at hand, and tells where that ends.
+    pub(super) fn reach(&mut self, start_s: f64) -> Result<f64, PlantError> {
+        if self.course.trajectory.end_s() > start_s {
+            return Ok(self.course.trajectory.end_s());
+        }
+        self.course.trajectory.leave(self.configuration, start_s);
+        let before = self.course.trajectory;
+        self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
+        if let Motion::Disturbed { feedback: true, .. } = self.configuration.motion {
+            let end_s = self.smooth_until(start_s, self.course.trajectory.end_s());
+            let acceleration_m_s2 =
+                Segment::<3, NODES>::fit(start_s, end_s, |at_s| self.sample(at_s).acceleration_inertial_m_s2);
+            let predicted = core::mem::replace(&mut self.course.trajectory, before);
+            self.course.trajectory.take_passages(&predicted, end_s);
+            self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
+        }
+        let end_s = self.course.trajectory.end_s();
+        // Written so that a NaN is stuck too.
+        if end_s > start_s { Ok(end_s) } else { Err(PlantError::Stuck { start_s, end_s }) }
+    }
+
+    fn integrate(
+        &mut self,
+        limit_s: f64,
+        extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
+    ) -> Result<(), PlantError> {
+        let (configuration, method) = (self.configuration, self.craft.orbit_method);
+        let trajectory = &mut self.course.trajectory;
+        Ok(trajectory.advance(configuration, self.ephemeris, method, limit_s, extra_m_s2)?)
+    }
+
+    /// The latest time up to `limit_s` until which the branch just after `start_s` lasts.
+    fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+        // The edge this stretch starts at was found on an orbit that has been computed anew since.
+        let start_s = (start_s + MOVED_S).min(limit_s);
+        let branch = self.branch(start_s);
+        // From the end back: the earliest change is the last one met.
+        let mut changed_s = None;
+        for at_s in core::iter::once(limit_s).chain(Segment::<3, NODES>::nodes(start_s, limit_s)) {
+            if self.branch(at_s) != branch {
+                changed_s = Some(at_s);
+            }
+        }
+        let Some(changed_s) = changed_s else { return limit_s };
+        first_change_s(start_s, changed_s, |at_s| self.branch(at_s) == branch)
+    }
+}

@@ -1,0 +1,159 @@
+//! Sunlight on the outside of a cylindrical section in closed form (paper 000, eqs 4-5, re-derived), clipped exactly
+//! where the Sun lights it in part.
+//!
+//! In the shade frame the outward normal at angle theta from -Y is n = [sin theta, -cos theta, 0] and the surface
+//! r = R n + z Z. With c = n.s, the light a strip receives, force and torque need only int c, int c n and int c^2 n over the
+//! lit angles; terms odd in z vanish.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::flat_plate::Beam;
+use super::force_torque::ForceTorque;
+use crate::numerics::scalar::Scalar;
+use crate::spacecraft::Cylinder;
+
+/// How much of a section the Sun lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lit {
+    /// All of it.
+    Whole,
+    /// Some of it.
+    Part,
+    /// None of it.
+    None,
+}
+
+/// A cylindrical section with its orientation in the body.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CylinderFace {
+    pub cylinder: Cylinder,
+    pub dcm_body_from_shade: Matrix3<f64>,
+}
+
+impl CylinderFace {
+    /// Force, and torque about the body frame's origin.
+    pub fn force_torque_about_origin<T: Scalar>(&self, beam: &Beam<T>) -> ForceTorque<T> {
+        let rotation = self.dcm_body_from_shade.map(T::constant);
+        let beam_shade = Beam { source_body: rotation.transpose() * beam.source_body, ..*beam };
+        let shade = cylinder_force_torque(&self.cylinder, &beam_shade);
+        ForceTorque {
+            force_body_n: rotation * shade.force_body_n,
+            torque_body_n_m: rotation * shade.torque_body_n_m,
+        }
+    }
+}
+
+/// Which part of the section a Sun in this direction (shade frame) lights.
+pub fn lit(cylinder: &Cylinder, sun_shade: &Vector3<f64>) -> Lit {
+    let half = cylinder.half_angle_rad;
+    let total: f64 = lit_arcs::<f64>(half, sun_shade).iter().flatten().map(|[from, to]| to - from).sum();
+    if total <= 0.0 {
+        Lit::None
+    } else if total < 2.0 * half {
+        Lit::Part
+    } else {
+        Lit::Whole
+    }
+}
+
+/// Force and torque about the shade frame's origin, both in the shade frame, as is the beam.
+pub fn cylinder_force_torque<T: Scalar>(cylinder: &Cylinder, beam: &Beam<T>) -> ForceTorque<T> {
+    let sun = &beam.source_body;
+    let moments = lit_arcs(cylinder.half_angle_rad, sun)
+        .iter()
+        .flatten()
+        .map(|[from, to]| Moments::over(*from, *to, sun))
+        .fold(Moments::zero(), Moments::plus);
+    let optics = &cylinder.optics;
+    // P times the area of a strip of one radian.
+    let strip_n = beam.pressure_pa * (cylinder.radius_m * cylinder.height_m);
+    let along_light = moments.light * (optics.absorptivity + optics.diffuse);
+    let along_normal = moments.light_normal * T::constant(2.0 / 3.0 * optics.diffuse)
+        + moments.light_squared_normal * T::constant(2.0 * optics.specular);
+    let moment = moments.light_normal.cross(sun)
+        * T::constant(cylinder.radius_m * (optics.absorptivity + optics.diffuse));
+    ForceTorque {
+        force_body_n: -(sun * along_light + along_normal) * strip_n,
+        torque_body_n_m: -moment * strip_n,
+    }
+}
+
+/// The lit angles from -Y, within +-`half_angle`: the Sun lights the half turn about its own azimuth, which a section of
+/// more than half a turn can meet twice.
+fn lit_arcs<T: Scalar>(half_angle_rad: f64, sun: &Vector3<T>) -> [Option<[T; 2]>; 3] {
+    if sun.x.value() == 0.0 && sun.y.value() == 0.0 {
+        return [None; 3];
+    }
+    let azimuth = sun.x.atan2(-sun.y);
+    [-TAU, 0.0, TAU].map(|turn| {
+        let from = later(azimuth + (turn - FRAC_PI_2), -half_angle_rad);
+        let to = -later(-(azimuth + (turn + FRAC_PI_2)), -half_angle_rad);
+        (from.value() < to.value()).then_some([from, to])
+    })
+}
+
+fn later<T: Scalar>(angle: T, bound: f64) -> T {
+    if angle.value() > bound { angle } else { T::constant(bound) }
+}
+
+/// Integrals over an arc of angles.
+#[derive(Clone, Copy)]
+struct Moments<T: Scalar> {
+    /// int c dtheta
+    light: T,
+    /// int c n dtheta
+    light_normal: Vector3<T>,
+    /// int c^2 n dtheta
+    light_squared_normal: Vector3<T>,
+}
+
+impl<T: Scalar> Moments<T> {
+    fn zero() -> Self {
+        Self {
+            light: T::constant(0.0),
+            light_normal: Vector3::zeros(),
+            light_squared_normal: Vector3::zeros(),
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            light: self.light + other.light,
+            light_normal: self.light_normal + other.light_normal,
+            light_squared_normal: self.light_squared_normal + other.light_squared_normal,
+        }
+    }
+
+    fn over(from: T, to: T, sun: &Vector3<T>) -> Self {
+        let (sin_to, cos_to) = to.sin_cos();
+        let (sin_from, cos_from) = from.sin_cos();
+        // c = u sin + v cos
+        let u = sun.x;
+        let v = -sun.y;
+        let between = |antiderivative: fn(T, T) -> T| {
+            antiderivative(sin_to, cos_to) - antiderivative(sin_from, cos_from)
+        };
+        let sin = between(|_, c| -c);
+        let cos = between(|s, _| s);
+        let half = (to - from) / 2.0;
+        let sin_sin = half - between(|s, c| s * c / 2.0);
+        let sin_cos = between(|s, _| s * s / 2.0);
+        let cos_cos = half + between(|s, c| s * c / 2.0);
+        let sin_sin_sin = between(|_, c| c * c * c / 3.0 - c);
+        let sin_sin_cos = between(|s, _| s * s * s / 3.0);
+        let sin_cos_cos = between(|_, c| -c * c * c / 3.0);
+        let cos_cos_cos = between(|s, _| s - s * s * s / 3.0);
+        let zero = T::constant(0.0);
+        let normal = |along_sin: T, along_cos: T| Vector3::new(along_sin, -along_cos, zero);
+        Self {
+            light: u * sin + v * cos,
+            light_normal: normal(u * sin_sin + v * sin_cos, u * sin_cos + v * cos_cos),
+            light_squared_normal: normal(
+                u * u * sin_sin_sin + u * v * sin_sin_cos * 2.0 + v * v * sin_cos_cos,
+                u * u * sin_sin_cos + u * v * sin_cos_cos * 2.0 + v * v * cos_cos_cos,
+            ),
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! The spacecraft taken apart into faces.
+
+use nalgebra::Vector3;
+
+use crate::spacecraft::{Cylinder, FaceThermal, Optics, Panel, Plate, Spacecraft, SunshadeModel, Thermal};
+
+/// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
+const CYLINDER_STRIPS: u32 = 24;
+
+/// One side of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Face {
+    /// Which of the distinct normals.
+    pub normal: usize,
+    /// Which of the surfaces.
+    pub surface: usize,
+    /// Sunlight's optics.
+    pub optics: Optics,
+    /// Infrared optics and emission.
+    pub thermal: FaceThermal,
+    /// Heat from inside, in W.
+    pub internal_heat_w: f64,
+}
+
+/// A plate, panel or strip with one or two faces.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Surface {
+    pub name: String,
+    pub area_m2: f64,
+    pub center_body_m: Vector3<f64>,
+    /// First of its faces; the rear follows the front.
+    pub first_face: usize,
+    pub two_sided: bool,
+    pub thermal: Thermal,
+    /// Whether sunlight's force on it is computed elsewhere, in closed form.
+    pub closed_form_sun: bool,
+    /// Index of its outline among the outlines, if it has one.
+    pub outline: Option<usize>,
+}
+
+/// Where a normal comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Normal {
+    /// Fixed in the body.
+    Fixed(Vector3<f64>),
+    /// Cell side of a panel.
+    Front(usize),
+    /// Back of a panel.
+    Rear(usize),
+}
+
+/// Surfaces, faces and distinct normals of a spacecraft: plates, sunshade, panels, in this order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Faces {
+    pub surfaces: Vec<Surface>,
+    pub faces: Vec<Face>,
+    pub normals: Vec<Normal>,
+    /// Outlines: surface and, for panels, which.
+    pub outlines: Vec<(usize, Option<usize>)>,
+}
+
+impl Faces {
+    pub fn new(spacecraft: &Spacecraft, sunshade_model: Option<SunshadeModel>) -> Self {
+        let mut faces = Self::default();
+        for plate in &spacecraft.plates {
+            faces.add_plate(plate, false);
+        }
+        if let Some(shade) = &spacecraft.sunshade {
+            match (sunshade_model.unwrap_or(shade.model), &shade.cylinder) {
+                (SunshadeModel::Cylinder, Some(cylinder)) => {
+                    for strip in strips(cylinder) {
+                        faces.add_plate(&strip.rotated(&shade.dcm_body_from_shade), true);
+                    }
+                }
+                _ => {
+                    for plate in &shade.plates {
+                        faces.add_plate(&plate.rotated(&shade.dcm_body_from_shade), false);
+                    }
+                }
+            }
+        }
+        for (index, panel) in spacecraft.panels.iter().enumerate() {
+            faces.add_panel(index, panel);
+        }
+        faces
+    }
+
+    fn add_plate(&mut self, plate: &Plate, closed_form_sun: bool) {
+        self.add(
+            Surface {
+                name: plate.name.clone(),
+                area_m2: plate.area_m2,
+                center_body_m: plate.center_m,
+                first_face: self.faces.len(),
+                two_sided: plate.rear_optics.is_some(),
+                thermal: plate.thermal,
+                closed_form_sun,
+                outline: plate.polygon.as_ref().map(|_| self.outlines.len()),
+            },
+            [plate.optics, plate.rear_optics.unwrap_or(plate.optics)],
+            [Normal::Fixed(plate.normal), Normal::Fixed(-plate.normal)],
+            None,
+        );
+    }
+
+    fn add_panel(&mut self, index: usize, panel: &Panel) {
+        self.add(
+            Surface {
+                name: panel.name.clone(),
+                area_m2: panel.area_m2,
+                center_body_m: panel.center_body_m,
+                first_face: self.faces.len(),
+                two_sided: panel.rear_optics.is_some(),
+                thermal: panel.thermal,
+                closed_form_sun: false,
+                outline: panel.polygon.as_ref().map(|_| self.outlines.len()),
+            },
+            [panel.optics, panel.rear_optics.unwrap_or(panel.optics)],
+            [Normal::Front(index), Normal::Rear(index)],
+            Some(index),
+        );
+    }
+
+    fn add(&mut self, surface: Surface, optics: [Optics; 2], normals: [Normal; 2], panel: Option<usize>) {
+        let index = self.surfaces.len();
+        let thermals = [surface.thermal.front, surface.thermal.rear.unwrap_or(surface.thermal.front)];
+        for side in 0..if surface.two_sided { 2 } else { 1 } {
+            let normal = self.normal(normals[side]);
+            self.faces.push(Face {
+                normal,
+                surface: index,
+                optics: optics[side],
+                thermal: thermals[side],
+                internal_heat_w: surface.thermal.internal_heat_w[side],
+            });
+        }
+        if surface.outline.is_some() {
+            self.outlines.push((index, panel));
+        }
+        self.surfaces.push(surface);
+    }
+
+    fn normal(&mut self, normal: Normal) -> usize {
+        self.normals.iter().position(|known| *known == normal).unwrap_or_else(|| {
+            self.normals.push(normal);
+            self.normals.len() - 1
+        })
+    }
+}
+
+/// Flat strips of a cylinder in the shade frame, of its area and with its mean normal.
+fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
+    let width_rad = 2.0 * cylinder.half_angle_rad / f64::from(CYLINDER_STRIPS);
+    (0..CYLINDER_STRIPS).map(move |i| {
+        let angle_rad = (f64::from(i) + 0.5) * width_rad - cylinder.half_angle_rad;
+        let normal = Vector3::new(angle_rad.sin(), -angle_rad.cos(), 0.0);
+        Plate {
+            name: format!("shade strip {}", i + 1),
+            area_m2: cylinder.radius_m * width_rad * cylinder.height_m,
+            center_m: normal * cylinder.radius_m,
+            normal,
+            optics: cylinder.optics,
+            rear_optics: None,
+            thermal: Thermal::insulated(&cylinder.optics, None),
+            polygon: None,
+        }
+    })
+}

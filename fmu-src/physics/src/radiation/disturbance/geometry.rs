@@ -1,0 +1,141 @@
+//! Where Sun, planet and panels are when light and heat are computed.
+
+use nalgebra::Vector3;
+
+use crate::constants::ASTRONOMICAL_UNIT_M;
+use crate::numerics::scalar::Scalar;
+use crate::radiation::ring::ViewError;
+
+/// One moment's geometry, in the body frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Geometry<'a, T: Scalar> {
+    /// Unit vector toward the Sun.
+    pub sun_direction_body: Vector3<T>,
+    /// The Sun's flux at the spacecraft were nothing in between, in W/m2.
+    pub sun_flux_w_m2: T,
+    /// Visible fraction of the Sun's disc (of its light), 1 outside eclipses.
+    pub lit_fraction: T,
+    /// The planet, if one is near.
+    pub planet: Option<PlanetGeometry<T>>,
+    /// Angle of every panel about its axis, in rad.
+    pub panel_angles_rad: &'a [T],
+    /// Centre of mass from the body frame's origin, in m.
+    pub center_of_mass_body_m: Vector3<T>,
+}
+
+/// The planet as seen from the spacecraft.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanetGeometry<T: Scalar> {
+    /// From the spacecraft to the planet's centre, body frame, in m.
+    pub position_body_m: Vector3<T>,
+    /// From the planet's centre to the Sun, body frame, in m; only the direction counts.
+    pub sun_from_planet_body_m: Vector3<T>,
+    /// The Sun's flux at the planet, in W/m2.
+    pub sun_flux_w_m2: T,
+}
+
+/// Which temperatures heat is radiated at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Recoil<'a> {
+    /// Every surface is in balance with the light it receives.
+    Balance,
+    /// Faces that store heat have these temperatures (in K, one for every face of the model); others are in balance.
+    Stored(&'a [f64]),
+}
+
+/// A geometry light and heat cannot be computed for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GeometryError {
+    /// The Sun has no direction.
+    #[error("the Sun is at a distance of {distance_m} m, allowed: a finite distance above 0 m")]
+    Sun {
+        /// Distance found.
+        distance_m: f64,
+    },
+    /// Not one angle for each panel.
+    #[error("{found} panel angles, allowed: {allowed}, one for each panel")]
+    PanelAngles {
+        /// How many were given.
+        found: usize,
+        /// How many panels there are.
+        allowed: usize,
+    },
+    /// Not one temperature for each face.
+    #[error("{found} face temperatures, allowed: {allowed}, one for each face")]
+    Temperatures {
+        /// How many were given.
+        found: usize,
+        /// How many faces there are.
+        allowed: usize,
+    },
+    /// Something is not a number or infinite.
+    #[error("{what} is not finite, allowed: finite numbers")]
+    NotFinite {
+        /// What.
+        what: &'static str,
+    },
+    /// The planet.
+    #[error(transparent)]
+    Planet(#[from] ViewError),
+}
+
+impl<'a, T: Scalar> Geometry<'a, T> {
+    /// Geometry from positions: fluxes follow the inverse square of the distance (paper 004 eq 22).
+    ///
+    /// `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres.
+    ///
+    /// # Errors
+    /// The Sun at no distance from spacecraft or planet, or not finite.
+    pub fn at(
+        flux_at_1_au_w_m2: f64,
+        sun_position_body_m: &Vector3<T>,
+        planet_position_body_m: Option<&Vector3<T>>,
+        lit_fraction: T,
+        panel_angles_rad: &'a [T],
+        center_of_mass_body_m: Vector3<T>,
+    ) -> Result<Self, GeometryError> {
+        let flux = |position_m: &Vector3<T>| {
+            let squared = position_m.dot(position_m);
+            let distance_m = squared.value().sqrt();
+            if !(distance_m > 0.0 && distance_m.is_finite()) {
+                return Err(GeometryError::Sun { distance_m });
+            }
+            let au_squared = ASTRONOMICAL_UNIT_M * ASTRONOMICAL_UNIT_M;
+            Ok((T::constant(flux_at_1_au_w_m2 * au_squared) / squared, squared.sqrt()))
+        };
+        let (sun_flux_w_m2, distance_m) = flux(sun_position_body_m)?;
+        let planet = match planet_position_body_m {
+            None => None,
+            Some(position_body_m) => {
+                let sun_from_planet_body_m = sun_position_body_m - position_body_m;
+                let (sun_flux_w_m2, _) = flux(&sun_from_planet_body_m)?;
+                Some(PlanetGeometry {
+                    position_body_m: *position_body_m,
+                    sun_from_planet_body_m,
+                    sun_flux_w_m2,
+                })
+            }
+        };
+        Ok(Self {
+            sun_direction_body: sun_position_body_m / distance_m,
+            sun_flux_w_m2,
+            lit_fraction,
+            planet,
+            panel_angles_rad,
+            center_of_mass_body_m,
+        })
+    }
+
+    pub(super) fn check(&self, panels: usize) -> Result<(), GeometryError> {
+        if self.panel_angles_rad.len() != panels {
+            return Err(GeometryError::PanelAngles { found: self.panel_angles_rad.len(), allowed: panels });
+        }
+        let finite = |what, good: bool| if good { Ok(()) } else { Err(GeometryError::NotFinite { what }) };
+        let vector = |v: &Vector3<T>| v.iter().all(|x| x.value().is_finite());
+        finite("the Sun's direction", vector(&self.sun_direction_body))?;
+        finite("the Sun's flux", self.sun_flux_w_m2.value().is_finite())?;
+        finite("the lit fraction", self.lit_fraction.value().is_finite())?;
+        finite("the centre of mass", vector(&self.center_of_mass_body_m))?;
+        finite("a panel's angle", self.panel_angles_rad.iter().all(|x| x.value().is_finite()))
+    }
+}

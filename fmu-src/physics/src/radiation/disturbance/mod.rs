@@ -1,0 +1,19 @@
+//! Everything light and heat do to a spacecraft, by effect: solar, albedo, infrared, thermal recoil.
+//!
+//! [`DisturbanceModel::evaluate`] is the one call: geometry in, force and torque by effect and by face out. It is
+//! generic over the number type, so that dual numbers give exact derivatives by any part of the geometry.
+
+mod evaluate;
+mod faces;
+mod geometry;
+mod model;
+mod workspace;
+
+#[cfg(test)]
+mod paper_tests;
+#[cfg(test)]
+mod tests;
+
+pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
+pub use model::{DisturbanceModel, ModelError, Options};
+pub use workspace::{Disturbance, FaceState, Workspace};

@@ -1,0 +1,133 @@
+//! What the rings add up to: moments of the planet's radiance over directions.
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use super::arcs::{EvenMoments, Moments};
+use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::numerics::scalar::Scalar;
+use crate::radiation::flat_plate::ReceivedLight;
+
+/// First and second moments of a radiance over directions s in the local frame.
+#[derive(Clone, Copy)]
+pub(super) struct Tensors<T: Scalar> {
+    /// Integral of s.
+    first: Vector3<T>,
+    /// Integrals of s s^T: xx, xy, yy, xz, yz, zz.
+    second: [T; 6],
+}
+impl<T: Scalar> Tensors<T> {
+    pub fn zero() -> Self {
+        let zero = T::constant(0.0);
+        Self { first: Vector3::repeat(zero), second: [zero; 6] }
+    }
+
+    /// Adds a ring's azimuth integrals.
+    #[inline]
+    pub fn add(&mut self, sin_eta: T, cos_eta: T, w: &Weighted<T>) {
+        let (c, s, one) = (sin_eta * w.c, sin_eta * w.s, cos_eta * w.one);
+        let sin_squared = sin_eta * sin_eta;
+        self.first.x += c;
+        self.first.y += s;
+        self.first.z += one;
+        self.second[0] += sin_squared * w.cc;
+        self.second[1] += sin_squared * w.cs;
+        self.second[2] += sin_squared * w.ss;
+        self.second[3] += cos_eta * c;
+        self.second[4] += cos_eta * s;
+        self.second[5] += cos_eta * one;
+    }
+
+    /// What a plate of this normal receives, all in one frame: E = n.V / pi, I = M n / pi, over the speed of light.
+    pub fn on(&self, n: &Vector3<T>) -> ReceivedLight<T> {
+        const PER_LAMBERT_S_M: f64 = 1.0 / (PI * SPEED_OF_LIGHT_M_S);
+        let [xx, xy, yy, xz, yz, zz] = self.second;
+        let moment = Vector3::new(
+            xx * n.x + xy * n.y + xz * n.z,
+            xy * n.x + yy * n.y + yz * n.z,
+            xz * n.x + yz * n.y + zz * n.z,
+        );
+        ReceivedLight {
+            pressure_pa: self.first.dot(n) * PER_LAMBERT_S_M,
+            vector_pa: moment * T::constant(PER_LAMBERT_S_M),
+        }
+    }
+}
+
+/// Azimuth integrals of 1, cos, sin, cos2, cos sin, sin2 under one weight.
+pub(super) struct Weighted<T> {
+    one: T,
+    c: T,
+    s: T,
+    cc: T,
+    cs: T,
+    ss: T,
+}
+
+impl<T: Scalar> Weighted<T> {
+    /// Weight 1.
+    #[inline]
+    pub fn flat(m: &Moments<T>) -> Self {
+        Self { one: m.angle, c: m.c1, s: m.s1, cc: m.c2, cs: m.c1s1, ss: m.s2 }
+    }
+
+    /// Weight 1 over an arc about azimuth 0.
+    #[inline]
+    pub fn flat_even(m: &EvenMoments<T>) -> Self {
+        let zero = T::constant(0.0);
+        Self { one: m.angle, c: m.c1, s: zero, cc: m.c2, cs: zero, ss: m.s2 }
+    }
+
+    /// Weight `level + x cos + y sin` over an arc about azimuth 0.
+    #[inline]
+    pub fn slanted_even(m: &EvenMoments<T>, (level, x, y): (T, T, T)) -> Self {
+        Self {
+            one: level * m.angle + x * m.c1,
+            c: level * m.c1 + x * m.c2,
+            s: y * m.s2,
+            cc: level * m.c2 + x * m.c3,
+            cs: y * m.c1s2,
+            ss: level * m.s2 + x * m.c1s2,
+        }
+    }
+
+    /// Times a factor.
+    #[inline]
+    pub fn scaled(&self, by: T) -> Self {
+        Self {
+            one: by * self.one,
+            c: by * self.c,
+            s: by * self.s,
+            cc: by * self.cc,
+            cs: by * self.cs,
+            ss: by * self.ss,
+        }
+    }
+
+    /// Plus another times a factor.
+    #[inline]
+    pub fn plus(self, factor: T, other: &Self) -> Self {
+        Self {
+            one: self.one + factor * other.one,
+            c: self.c + factor * other.c,
+            s: self.s + factor * other.s,
+            cc: self.cc + factor * other.cc,
+            cs: self.cs + factor * other.cs,
+            ss: self.ss + factor * other.ss,
+        }
+    }
+
+    /// Weight `level + x cos + y sin`.
+    #[inline]
+    pub fn slanted(m: &Moments<T>, (level, x, y): (T, T, T)) -> Self {
+        Self {
+            one: level * m.angle + x * m.c1 + y * m.s1,
+            c: level * m.c1 + x * m.c2 + y * m.c1s1,
+            s: level * m.s1 + x * m.c1s1 + y * m.s2,
+            cc: level * m.c2 + x * m.c3 + y * m.c2s1,
+            cs: level * m.c1s1 + x * m.c2s1 + y * m.c1s2,
+            ss: level * m.s2 + x * m.c1s2 + y * m.s3,
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! All outlines together: who can shadow whom, and what is lit.
+
+use nalgebra::{Unit, Vector2, Vector3};
+
+use super::clip::{Pieces, cross};
+use super::convex::FlatParts;
+use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::spacecraft::Polygon;
+
+/// What lies nearer to a plane than this part of the scene's size is in it and casts no shadow on it.
+const IN_PLANE: f64 = 1e-9;
+
+/// A surface that shadows and is shadowed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Outline in the body frame, at angle 0 if it turns.
+    pub polygon: Polygon,
+    /// What it turns about; `None` if it is fixed.
+    pub hinge: Option<Hinge>,
+    /// Whether light on its rear counts. The outline casts its shadow either way.
+    pub two_sided: bool,
+}
+
+/// The axis of a panel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge {
+    /// Which panel's angle counts, from 0.
+    pub panel: usize,
+    /// A point on the axis, body frame, in m.
+    pub point_body_m: Vector3<f64>,
+    /// Unit vector of the axis, body frame.
+    pub axis_body: Vector3<f64>,
+}
+
+/// Outlines prepared for any direction of the Sun and any angles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShadowScene {
+    surfaces: Vec<ShadowSurface>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct ShadowSurface {
+    flat: FlatParts,
+    hinge: Option<Hinge>,
+    two_sided: bool,
+    area_m2: f64,
+    /// Of the sphere about the centre that holds the outline, in m.
+    radius_m: f64,
+    /// Surfaces that can stand before the front, and before the rear.
+    before: [Vec<usize>; 2],
+}
+
+/// Where a surface is at the panels' present angles.
+#[derive(Clone, Copy, Debug)]
+struct Pose<T: Scalar> {
+    origin: Vector3<T>,
+    east: Vector3<T>,
+    north: Vector3<T>,
+    normal: Vector3<T>,
+}
+
+/// Scratch space of [`ShadowScene::evaluate`] and its results; grows when needed and is kept.
+#[derive(Clone, Debug)]
+pub struct ShadowWorkspace<T: Scalar> {
+    poses: Vec<Pose<T>>,
+    lit: Vec<Option<(T, Vector3<T>)>>,
+    pieces: [Pieces<T>; 2],
+    scratch: [Vec<Vector2<T>>; 2],
+    space: [Vec<(Vector3<T>, T)>; 2],
+    hole: Vec<Vector2<T>>,
+    pairs: usize,
+}
+
+impl<T: Scalar> Default for ShadowWorkspace<T> {
+    fn default() -> Self {
+        Self {
+            poses: Vec::new(),
+            lit: Vec::new(),
+            pieces: Default::default(),
+            scratch: Default::default(),
+            space: Default::default(),
+            hole: Vec::new(),
+            pairs: 0,
+        }
+    }
+}
+
+impl<T: Scalar> ShadowWorkspace<T> {
+    /// Lit area in m2 and its centre (body frame, m) of the side that looks at the Sun, as of the last evaluation;
+    /// `None` where nothing shadows the outline or there is no such outline.
+    pub fn lit(&self, outline: usize) -> Option<(T, Vector3<T>)> {
+        self.lit.get(outline).copied().flatten()
+    }
+
+    /// How many pairs of outlines survived the culling in the last evaluation and were clipped.
+    pub fn clipped_pairs(&self) -> usize {
+        self.pairs
+    }
+}
+
+impl ShadowScene {
+    /// Prepares outlines: convex parts, and who can ever shadow whom.
+    pub fn new(outlines: Vec<Outline>) -> Self {
+        let mut surfaces: Vec<ShadowSurface> = outlines
+            .into_iter()
+            .map(|outline| {
+                let flat = FlatParts::new(&outline.polygon);
+                let away = |v: &Vector3<f64>| (v - flat.origin).norm();
+                ShadowSurface {
+                    area_m2: outline.polygon.area_m2(),
+                    radius_m: outline.polygon.vertices_m().iter().map(away).fold(0.0, f64::max),
+                    flat,
+                    hinge: outline.hinge,
+                    two_sided: outline.two_sided,
+                    before: [Vec::new(), Vec::new()],
+                }
+            })
+            .collect();
+        let size_m = surfaces.iter().map(|s| s.flat.origin.norm() + s.radius_m).fold(0.0, f64::max);
+        let before: Vec<[Vec<usize>; 2]> = surfaces
+            .iter()
+            .map(|surface| {
+                let candidates = |sign: f64| {
+                    let can = |other: &ShadowSurface| surface.highest(other, sign) > IN_PLANE * size_m;
+                    (0..surfaces.len())
+                        .filter(|&j| !core::ptr::eq(&surfaces[j], surface) && can(&surfaces[j]))
+                        .filter(|&j| !surfaces[..j].iter().any(|known| known.covers(&surfaces[j], size_m)))
+                        .collect()
+                };
+                [candidates(1.0), if surface.two_sided { candidates(-1.0) } else { Vec::new() }]
+            })
+            .collect();
+        for (surface, before) in surfaces.iter_mut().zip(before) {
+            surface.before = before;
+        }
+        Self { surfaces }
+    }
+
+    /// Whether any surface can shadow another at some direction and some angles.
+    pub fn has_pairs(&self) -> bool {
+        self.surfaces.iter().any(|surface| surface.before.iter().any(|list| !list.is_empty()))
+    }
+
+    /// Ordered pairs in which the second surface can shadow a side of the first.
+    pub fn candidate_pairs(&self) -> usize {
+        self.surfaces.iter().flat_map(|surface| &surface.before).map(Vec::len).sum()
+    }
+
+    /// Finds what the Sun lights of every outline's sunward side.
+    ///
+    /// `sun_body` is the unit vector toward the Sun; angles beyond those given count as 0.
+    pub fn evaluate<T: Scalar>(
+        &self,
+        sun_body: &Vector3<T>,
+        panel_angles_rad: &[T],
+        workspace: &mut ShadowWorkspace<T>,
+    ) {
+        workspace.pairs = 0;
+        workspace.poses.clear();
+        workspace.poses.extend(self.surfaces.iter().map(|surface| surface.pose(panel_angles_rad)));
+        workspace.lit.clear();
+        workspace.lit.resize(self.surfaces.len(), None);
+        let sun = sun_body.map(T::value);
+        for (index, surface) in self.surfaces.iter().enumerate() {
+            let cos = workspace.poses[index].normal.map(T::value).dot(&sun);
+            if cos == 0.0 {
+                continue;
+            }
+            let mut touched = false;
+            let center = workspace.poses[index].origin.map(T::value);
+            for &other in &surface.before[usize::from(cos < 0.0)] {
+                let away = workspace.poses[other].origin.map(T::value) - center;
+                let reach = surface.radius_m + self.surfaces[other].radius_m;
+                let along = away.dot(&sun);
+                if along < -reach || away.norm_squared() - along * along > reach * reach {
+                    continue;
+                }
+                if !touched {
+                    touched = true;
+                    let [pieces, _] = &mut workspace.pieces;
+                    pieces.clear();
+                    for part in &surface.flat.parts {
+                        pieces.push(part.iter().map(|p| p.map(T::constant)));
+                    }
+                }
+                workspace.pairs += 1;
+                self.cut(index, other, sun_body, cos.signum(), workspace);
+                if workspace.pieces[0].is_empty() {
+                    break;
+                }
+            }
+            if touched {
+                workspace.lit[index] = Some(surface.summed(index, workspace));
+            }
+        }
+    }
+
+    /// Cuts the shadow of `other` out of the lit pieces of `index`.
+    fn cut<T: Scalar>(
+        &self,
+        index: usize,
+        other: usize,
+        sun: &Vector3<T>,
+        side: f64,
+        workspace: &mut ShadowWorkspace<T>,
+    ) {
+        let ShadowWorkspace { poses, pieces, scratch, space, hole, .. } = workspace;
+        let (pose, caster) = (&poses[index], &poses[other]);
+        let height = |p: &Vector3<T>| (p - pose.origin).dot(&pose.normal) * side;
+        let per_cos = (sun.dot(&pose.normal) * side).recip();
+        for part in &self.surfaces[other].flat.parts {
+            let [whole, above] = &mut *space;
+            whole.clear();
+            whole.extend(part.iter().map(|p| {
+                let point = caster.origin + caster.east * T::constant(p.x) + caster.north * T::constant(p.y);
+                (point, height(&point))
+            }));
+            keep_above(whole, above);
+            if above.len() < 3 {
+                continue;
+            }
+            hole.clear();
+            hole.extend(above.iter().map(|(point, height)| {
+                let foot = point - sun * (*height * per_cos) - pose.origin;
+                Vector2::new(foot.dot(&pose.east), foot.dot(&pose.north))
+            }));
+            let doubled_area: f64 = hole
+                .windows(2)
+                .skip(1)
+                .map(|pair| cross(&(pair[0] - hole[0]), &(pair[1] - hole[0])).value())
+                .sum();
+            if doubled_area == 0.0 {
+                continue;
+            }
+            if doubled_area < 0.0 {
+                hole.reverse();
+            }
+            let [lit, left] = pieces;
+            lit.subtract_into(hole, scratch, left);
+            core::mem::swap(lit, left);
+        }
+    }
+}
+
+impl ShadowSurface {
+    fn pose<T: Scalar>(&self, panel_angles_rad: &[T]) -> Pose<T> {
+        let flat = &self.flat;
+        let fixed = [flat.origin, flat.east, flat.north, flat.normal].map(|v| constant_vector::<T>(&v));
+        let [origin, east, north, normal] = fixed;
+        let turned =
+            self.hinge.and_then(|hinge| panel_angles_rad.get(hinge.panel).map(|angle| (hinge, angle)));
+        let Some((hinge, angle_rad)) = turned else { return Pose { origin, east, north, normal } };
+        let (sin, cos) = angle_rad.sin_cos();
+        let axis = constant_vector::<T>(&hinge.axis_body);
+        // Rodrigues' formula.
+        let turn = |v: Vector3<T>| v * cos + axis.cross(&v) * sin + axis * (axis.dot(&v) * (-cos + 1.0));
+        let point = constant_vector::<T>(&hinge.point_body_m);
+        Pose {
+            origin: turn(origin - point) + point,
+            east: turn(east),
+            north: turn(north),
+            normal: turn(normal),
+        }
+    }
+
+    /// Lit area and centre from the pieces left; the whole surface's centre where nothing is left.
+    fn summed<T: Scalar>(&self, index: usize, workspace: &ShadowWorkspace<T>) -> (T, Vector3<T>) {
+        let pose = &workspace.poses[index];
+        let (area, moments) = workspace.pieces[0].area_and_moments();
+        if area.value() <= f64::EPSILON * self.area_m2 {
+            return (T::constant(0.0), pose.origin);
+        }
+        (area, pose.origin + pose.east * (moments.x / area) + pose.north * (moments.y / area))
+    }
+
+    /// How far `other` rises above this surface's plane at most, on the side of `sign`, over all angles.
+    fn highest(&self, other: &Self, sign: f64) -> f64 {
+        let points = other.flat.parts.iter().flat_map(|part| other.flat.in_space(part));
+        let height = |point: Vector3<f64>| match (&self.hinge, &other.hinge) {
+            (None, None) => sign * self.flat.normal.dot(&(point - self.flat.origin)),
+            // The point circles about its axis.
+            (None, Some(hinge)) => {
+                let axis = Unit::new_unchecked(hinge.axis_body);
+                let arm = point - hinge.point_body_m;
+                let along = axis.into_inner() * axis.dot(&arm);
+                let center = hinge.point_body_m + along;
+                let radius = (arm - along).norm();
+                let across = self.flat.normal - axis.into_inner() * axis.dot(&self.flat.normal);
+                sign * self.flat.normal.dot(&(center - self.flat.origin)) + radius * across.norm()
+            }
+            // The plane turns about its axis: seen from it the point circles.
+            (Some(hinge), None) => {
+                let axis = hinge.axis_body;
+                let arm = point - hinge.point_body_m;
+                let across = arm - axis * axis.dot(&arm);
+                let normal_across = self.flat.normal - axis * axis.dot(&self.flat.normal);
+                let fixed = axis.dot(&self.flat.normal) * axis.dot(&arm)
+                    - self.flat.normal.dot(&(self.flat.origin - hinge.point_body_m));
+                sign * fixed + across.norm() * normal_across.norm()
+            }
+            (Some(a), Some(b)) if a.panel == b.panel => {
+                sign * self.flat.normal.dot(&(point - self.flat.origin))
+            }
+            (Some(_), Some(_)) => f64::INFINITY,
+        };
+        points.map(height).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether `other` is the same outline again, as the back of a plate that is given as a plate of its own.
+    fn covers(&self, other: &Self, size_m: f64) -> bool {
+        let near = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).norm() <= IN_PLANE * size_m;
+        let points = |s: &Self| -> Vec<Vector3<f64>> {
+            s.flat.parts.iter().flat_map(|part| s.flat.in_space(part)).collect()
+        };
+        let (mine, theirs) = (points(self), points(other));
+        self.hinge == other.hinge
+            && mine.len() == theirs.len()
+            && self.flat.parts.len() == 1
+            && other.flat.parts.len() == 1
+            && mine.iter().all(|a| theirs.iter().any(|b| near(a, b)))
+    }
+}
+
+/// The part of a convex outline in space with a height above 0.
+fn keep_above<T: Scalar>(whole: &[(Vector3<T>, T)], above: &mut Vec<(Vector3<T>, T)>) {
+    above.clear();
+    let Some(mut from) = whole.last() else { return };
+    for to in whole {
+        let (before, after) = (from.1.value(), to.1.value());
+        if (before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0) {
+            let share = from.1 / (from.1 - to.1);
+            above.push((from.0 + (to.0 - from.0) * share, T::constant(0.0)));
+        }
+        if after >= 0.0 {
+            above.push(*to);
+        }
+        from = to;
+    }
+}

@@ -1,0 +1,230 @@
+//! Sunlight on the whole spacecraft: direct sum over plates, cylinder and panels (paper 000, eqs 1, 2, 10, 12).
+//!
+//! No surface shadows another here; a face is lit when the Sun is in front of it.
+
+use nalgebra::Vector3;
+
+use super::cylinder::CylinderFace;
+use super::flat_plate::{Beam, force_per_area_pa};
+use super::force_torque::ForceTorque;
+use crate::constants::{ASTRONOMICAL_UNIT_M, SPEED_OF_LIGHT_M_S};
+use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::spacecraft::{Optics, Panel, Plate, Spacecraft, Sunshade, SunshadeModel};
+
+/// Pressure of sunlight on a black surface square to it, P = F / (c D^2) (paper 000, eq 1), in Pa.
+///
+/// `flux_w_m2` is the solar flux at 1 AU, `distance_m` the distance from the Sun's centre.
+pub fn solar_pressure_pa<T: Scalar>(flux_w_m2: f64, distance_m: T) -> T {
+    let distance_au = distance_m / ASTRONOMICAL_UNIT_M;
+    (distance_au * distance_au).recip() * (flux_w_m2 / SPEED_OF_LIGHT_M_S)
+}
+
+/// A spacecraft prepared for sunlight: whatever does not change is computed once.
+///
+/// Evaluation does not allocate and costs a few nanoseconds a face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolarModel {
+    body: FaceSet,
+    sunshade: Shade,
+    panels: Vec<Panel>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Shade {
+    None,
+    Plates(FaceSet),
+    Cylinder(CylinderFace),
+}
+
+/// A sunshade was asked for in a form its file does not describe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the spacecraft's file does not describe its sunshade as {0:?}")]
+pub struct NoSuchSunshade(pub SunshadeModel);
+
+impl SolarModel {
+    /// Prepares a spacecraft, with the sunshade in the form its file chooses.
+    pub fn new(spacecraft: &Spacecraft) -> Self {
+        let sunshade = spacecraft.sunshade.as_ref();
+        Self::with_shade(spacecraft, sunshade.map_or(Shade::None, |shade| Shade::new(shade, shade.model)))
+    }
+
+    /// Prepares a spacecraft with the sunshade in another form; a spacecraft without a sunshade takes any.
+    ///
+    /// # Errors
+    ///
+    /// The file has a sunshade but not in this form.
+    pub fn with_sunshade_model(
+        spacecraft: &Spacecraft,
+        model: SunshadeModel,
+    ) -> Result<Self, NoSuchSunshade> {
+        match &spacecraft.sunshade {
+            Some(shade) if !shade.has(model) => Err(NoSuchSunshade(model)),
+            shade => Ok(Self::with_shade(
+                spacecraft,
+                shade.as_ref().map_or(Shade::None, |shade| Shade::new(shade, model)),
+            )),
+        }
+    }
+
+    fn with_shade(spacecraft: &Spacecraft, sunshade: Shade) -> Self {
+        Self { body: FaceSet::new(&spacecraft.plates), sunshade, panels: spacecraft.panels.clone() }
+    }
+
+    /// Number of panels, hence of angles [`SolarModel::total`] takes.
+    pub fn panel_count(&self) -> usize {
+        self.panels.len()
+    }
+
+    /// On the sunshade, about the centre of mass (body frame, m).
+    pub fn sunshade<T: Scalar>(&self, beam: &Beam<T>, center_of_mass_body_m: &Vector3<T>) -> ForceTorque<T> {
+        match &self.sunshade {
+            Shade::None => ForceTorque::zero(),
+            Shade::Plates(faces) => faces.force_torque_about_origin(beam),
+            Shade::Cylinder(cylinder) => cylinder.force_torque_about_origin(beam),
+        }
+        .about(center_of_mass_body_m)
+    }
+
+    /// On the plates that do not belong to the sunshade, about the centre of mass.
+    pub fn body<T: Scalar>(&self, beam: &Beam<T>, center_of_mass_body_m: &Vector3<T>) -> ForceTorque<T> {
+        self.body.force_torque_about_origin(beam).about(center_of_mass_body_m)
+    }
+
+    /// On panel `index` (from 0) at an angle about its axis, about the centre of mass; nothing if there is no such panel.
+    pub fn panel<T: Scalar>(
+        &self,
+        index: usize,
+        beam: &Beam<T>,
+        angle_rad: T,
+        center_of_mass_body_m: &Vector3<T>,
+    ) -> ForceTorque<T> {
+        self.panels.get(index).map_or_else(ForceTorque::zero, |panel| {
+            panel_force_torque(panel, beam, angle_rad, center_of_mass_body_m)
+        })
+    }
+
+    /// On everything, about the centre of mass; one angle about its axis, in rad, for each panel.
+    pub fn total<T: Scalar>(
+        &self,
+        beam: &Beam<T>,
+        panel_angles_rad: &[T],
+        center_of_mass_body_m: &Vector3<T>,
+    ) -> ForceTorque<T> {
+        debug_assert_eq!(panel_angles_rad.len(), self.panels.len());
+        let panels: ForceTorque<T> = self
+            .panels
+            .iter()
+            .zip(panel_angles_rad)
+            .map(|(panel, angle)| panel_force_torque(panel, beam, *angle, center_of_mass_body_m))
+            .sum();
+        self.sunshade(beam, center_of_mass_body_m) + self.body(beam, center_of_mass_body_m) + panels
+    }
+}
+
+impl Shade {
+    fn new(shade: &Sunshade, model: SunshadeModel) -> Self {
+        match (model, shade.cylinder) {
+            (SunshadeModel::Cylinder, Some(cylinder)) => {
+                Self::Cylinder(CylinderFace { cylinder, dcm_body_from_shade: shade.dcm_body_from_shade })
+            }
+            _ => {
+                let plates: Vec<Plate> =
+                    shade.plates.iter().map(|plate| plate.rotated(&shade.dcm_body_from_shade)).collect();
+                Self::Plates(FaceSet::new(&plates))
+            }
+        }
+    }
+}
+
+fn panel_force_torque<T: Scalar>(
+    panel: &Panel,
+    beam: &Beam<T>,
+    angle_rad: T,
+    center_of_mass_body_m: &Vector3<T>,
+) -> ForceTorque<T> {
+    let cell_normal = panel.normal_body(angle_rad);
+    let on_cells = cell_normal.dot(&beam.source_body).value() > 0.0;
+    let (normal, optics) = match (on_cells, panel.rear_optics) {
+        (true, _) => (cell_normal, panel.optics),
+        (false, Some(rear)) => (-cell_normal, rear),
+        (false, None) => return ForceTorque::zero(),
+    };
+    let force_n = force_per_area_pa(&optics, &normal, &beam.received(&normal)) * T::constant(panel.area_m2);
+    ForceTorque::at_arm(&(constant_vector::<T>(&panel.center_body_m) - center_of_mass_body_m), force_n)
+}
+
+/// Faces fixed in the body frame, rear faces listed as faces of their own.
+#[derive(Clone, Debug, PartialEq)]
+struct FaceSet(Vec<Face>);
+
+/// The flat-plate law with everything constant multiplied out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Face {
+    normal: Vector3<f64>,
+    center_m: Vector3<f64>,
+    /// center x normal, in m.
+    arm_m: Vector3<f64>,
+    /// A (alpha + gD): along the light, per cos.
+    light_area_m2: f64,
+    /// (2/3) A gD: along the normal, per cos.
+    diffuse_area_m2: f64,
+    /// 2 A gS: along the normal, per cos^2.
+    specular_area_m2: f64,
+}
+
+impl Face {
+    fn new(plate: &Plate, normal: Vector3<f64>, optics: &Optics) -> Self {
+        Self {
+            normal,
+            center_m: plate.center_m,
+            arm_m: plate.center_m.cross(&normal),
+            light_area_m2: plate.area_m2 * (optics.absorptivity + optics.diffuse),
+            diffuse_area_m2: plate.area_m2 * optics.diffuse * 2.0 / 3.0,
+            specular_area_m2: plate.area_m2 * optics.specular * 2.0,
+        }
+    }
+}
+
+impl FaceSet {
+    fn new(plates: &[Plate]) -> Self {
+        let faces = plates.iter().flat_map(|plate| {
+            let front = Face::new(plate, plate.normal, &plate.optics);
+            let rear = plate.rear_optics.map(|optics| Face::new(plate, -plate.normal, &optics));
+            [Some(front), rear].into_iter().flatten()
+        });
+        Self(faces.collect())
+    }
+
+    /// Force, and torque about the body frame's origin. The cross product with the light's direction is the same for
+    /// every face and waits until after the sum.
+    fn force_torque_about_origin<T: Scalar>(&self, beam: &Beam<T>) -> ForceTorque<T> {
+        let sun = &beam.source_body;
+        let mut light_area = T::constant(0.0);
+        let mut light_moment = Vector3::<T>::zeros();
+        let mut normal_area = Vector3::<T>::zeros();
+        let mut normal_moment = Vector3::<T>::zeros();
+        for face in &self.0 {
+            let cos = sun.x * face.normal.x + sun.y * face.normal.y + sun.z * face.normal.z;
+            if cos.value() <= 0.0 {
+                continue;
+            }
+            let along_light = cos * face.light_area_m2;
+            let along_normal = cos * (cos * face.specular_area_m2 + face.diffuse_area_m2);
+            light_area += along_light;
+            add_scaled(&mut light_moment, &face.center_m, along_light);
+            add_scaled(&mut normal_area, &face.normal, along_normal);
+            add_scaled(&mut normal_moment, &face.arm_m, along_normal);
+        }
+        ForceTorque {
+            force_body_n: -(sun * light_area + normal_area) * beam.pressure_pa,
+            torque_body_n_m: -(light_moment.cross(sun) + normal_moment) * beam.pressure_pa,
+        }
+    }
+}
+
+#[inline]
+fn add_scaled<T: Scalar>(sum: &mut Vector3<T>, constant: &Vector3<f64>, factor: T) {
+    sum.x += factor * constant.x;
+    sum.y += factor * constant.y;
+    sum.z += factor * constant.z;
+}

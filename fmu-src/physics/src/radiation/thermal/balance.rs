@@ -1,0 +1,249 @@
+//! Temperatures at which a surface gives off what it takes in.
+
+use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
+use crate::numerics::scalar::Scalar;
+use crate::spacecraft::{Conduction, Emission};
+
+/// Newton's method stops when it changes no temperature by more than this part.
+const TOLERANCE: f64 = 1e-13;
+
+/// From an isothermal start ten iterations are many; damping needs more only for extreme materials.
+const MOST_ITERATIONS: usize = 100;
+
+/// Power per area a face radiates at a temperature, in W/m2, and its derivative by temperature.
+#[inline]
+pub fn exitance_w_m2<T: Scalar>(emission: &Emission, temperature_k: T) -> (T, T) {
+    let (emissivity, slope) = emission.at(temperature_k);
+    let cube = temperature_k * temperature_k * temperature_k * STEFAN_BOLTZMANN_W_M2_K4;
+    let fourth = cube * temperature_k;
+    (emissivity * fourth, emissivity * cube * 4.0 + slope * fourth)
+}
+
+/// Temperature of an insulated face that takes in `heat_w_m2` (eq 43).
+pub fn insulated_temperature_k<T: Scalar>(emission: &Emission, heat_w_m2: T) -> T {
+    let heat = heat_w_m2.value();
+    if heat <= 0.0 {
+        return T::constant(0.0);
+    }
+    let mut temperature_k = (heat / (emission.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).sqrt().sqrt();
+    if emission.slope_per_k != 0.0 {
+        for _ in 0..MOST_ITERATIONS {
+            let (radiated, slope) = exitance_w_m2(emission, temperature_k);
+            let change = damped((heat - radiated) / slope, temperature_k);
+            temperature_k += change;
+            if change.abs() <= TOLERANCE * temperature_k {
+                break;
+            }
+        }
+    }
+    // One more step in the kernel's numbers carries the derivative over exactly.
+    let (radiated, slope) = exitance_w_m2(emission, temperature_k);
+    (heat_w_m2 - radiated) / slope + temperature_k
+}
+
+/// Temperatures of front and rear of a thin structure that take in `heat_w_m2` each (eqs 44-49).
+///
+/// Newton's method on the two energy balances, from the temperature both faces had in common; the balances close to
+/// 1e-12 of the heat. No heat gives 0 K. Heat must not be negative; radiative exchange or conductance may be 0, not both.
+pub fn conducting_temperatures_k<T: Scalar>(
+    emission: &[Emission; 2],
+    conduction: &Conduction,
+    heat_w_m2: [T; 2],
+) -> [T; 2] {
+    let heat = heat_w_m2.map(T::value);
+    let total = heat[0] + heat[1];
+    if total <= 0.0 {
+        return [T::constant(0.0); 2];
+    }
+    let emissivity = emission[0].emissivity + emission[1].emissivity;
+    let mut temperatures_k = [(total / (emissivity * STEFAN_BOLTZMANN_W_M2_K4)).sqrt().sqrt(); 2];
+    for _ in 0..MOST_ITERATIONS {
+        let balance = Balance::at(emission, conduction, temperatures_k);
+        let change = balance.solve([heat[0] - balance.outflow[0], heat[1] - balance.outflow[1]]);
+        let mut small = true;
+        for (temperature_k, change) in temperatures_k.iter_mut().zip(change) {
+            let change = damped(change, *temperature_k);
+            *temperature_k += change;
+            small &= change.abs() <= TOLERANCE * *temperature_k;
+        }
+        if small {
+            break;
+        }
+    }
+    // One more step in the kernel's numbers carries the derivative over exactly.
+    let balance = Balance::at(emission, conduction, temperatures_k);
+    let change = balance.solve([0, 1].map(|i| heat_w_m2[i] - balance.outflow[i]));
+    [0, 1].map(|i| change[i] + temperatures_k[i])
+}
+
+/// A change that neither halves nor doubles the temperature more than once.
+fn damped(change_k: f64, temperature_k: f64) -> f64 {
+    change_k.clamp(-0.5 * temperature_k, temperature_k)
+}
+
+/// Heat flow out of each face, into space and to the other face, with its slopes.
+struct Balance {
+    /// In W/m2.
+    outflow: [f64; 2],
+    /// d(radiated) / dT of each face, in W/m2/K.
+    radiation_slope: [f64; 2],
+    /// d(exchange) / dT of each face, in W/m2/K.
+    exchange_slope: [f64; 2],
+}
+
+impl Balance {
+    #[inline]
+    fn at(emission: &[Emission; 2], conduction: &Conduction, temperatures_k: [f64; 2]) -> Self {
+        let [front, rear] = temperatures_k;
+        let (front_radiated, front_slope) = exitance_w_m2(&emission[0], front);
+        let (rear_radiated, rear_slope) = exitance_w_m2(&emission[1], rear);
+        let (exchange, exchange_slope) = exchange_w_m2(conduction, temperatures_k);
+        Self {
+            outflow: [front_radiated + exchange, rear_radiated - exchange],
+            radiation_slope: [front_slope, rear_slope],
+            exchange_slope,
+        }
+    }
+
+    /// Changes of temperature that raise the outflow by `missing`.
+    #[inline]
+    fn solve<T: Scalar>(&self, missing: [T; 2]) -> [T; 2] {
+        let [a1, a2] = self.radiation_slope;
+        let [b1, b2] = self.exchange_slope;
+        let determinant = a1 * a2 + a1 * b2 + a2 * b1;
+        [
+            (missing[0] * (a2 + b2) + missing[1] * b2) / determinant,
+            (missing[1] * (a1 + b1) + missing[0] * b1) / determinant,
+        ]
+    }
+}
+
+/// Heat flow from front to rear (Q_C + Q_R of eqs 46, 47) in W/m2, and the slopes of its two terms.
+#[inline]
+pub fn exchange_w_m2(conduction: &Conduction, [front_k, rear_k]: [f64; 2]) -> (f64, [f64; 2]) {
+    let radiative = conduction.radiative_exchange * STEFAN_BOLTZMANN_W_M2_K4;
+    let [front_cube, rear_cube] = [front_k, rear_k].map(|t| radiative * t * t * t);
+    let flow = front_cube * front_k - rear_cube * rear_k + conduction.conductance_w_m2_k * (front_k - rear_k);
+    (flow, [front_cube, rear_cube].map(|cube| 4.0 * cube + conduction.conductance_w_m2_k))
+}
+
+#[cfg(test)]
+mod tests {
+    //! What goes in comes out, warm faces warm their backs, and limits known by heart are met.
+
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::numerics::scalar::Dual64;
+    use crate::spacecraft::Honeycomb;
+
+    const SIGMA: f64 = STEFAN_BOLTZMANN_W_M2_K4;
+
+    fn link(conductance_w_m2_k: f64, radiative_exchange: f64) -> Conduction {
+        Conduction { conductance_w_m2_k, radiative_exchange }
+    }
+
+    fn emissions() -> impl Strategy<Value = Emission> {
+        (0.02..1.0_f64, -1e-4..3e-4_f64).prop_map(|(emissivity, slope)| Emission {
+            // Falling emissivities stay high enough to have one answer.
+            emissivity: if slope < 0.0 { emissivity.max(0.5) } else { emissivity },
+            slope_per_k: slope,
+            reference_temperature_k: 300.0,
+        })
+    }
+
+    #[test]
+    fn a_face_at_room_temperature_radiates_its_textbook_power() {
+        let (black, slope) = exitance_w_m2(&Emission::constant(1.0), 300.0);
+        assert_relative_eq!(black, 459.3, max_relative = 1e-4);
+        assert_relative_eq!(slope, 4.0 * black / 300.0, max_relative = 1e-14);
+        // The Sun at 1 AU on a black insulated plate: 394 K.
+        let plate = insulated_temperature_k(&Emission::constant(1.0), 1361.0);
+        assert_relative_eq!(plate, 393.6, max_relative = 1e-3);
+    }
+
+    #[test]
+    fn strong_conduction_makes_faces_equal_and_weak_leaves_them_alone() {
+        let emission = [Emission::constant(0.75), Emission::constant(0.7)];
+        let heat = [7000.0, 100.0];
+        let [front, rear] = conducting_temperatures_k(&emission, &link(1e9, 0.0), heat);
+        let together = (7100.0 / (1.45 * SIGMA)).powf(0.25);
+        assert_relative_eq!(front, together, max_relative = 1e-7);
+        assert_relative_eq!(rear, together, max_relative = 1e-7);
+        let [front, rear] = conducting_temperatures_k(&emission, &link(1e-12, 0.0), heat);
+        assert_relative_eq!(front, (7000.0 / (0.75 * SIGMA)).powf(0.25), max_relative = 1e-9);
+        assert_relative_eq!(rear, (100.0 / (0.7 * SIGMA)).powf(0.25), max_relative = 1e-9);
+    }
+
+    /// Radiation between the faces alone is linear in the fourth powers: solved by hand.
+    #[test]
+    fn radiative_exchange_alone_has_a_closed_form() {
+        let (e1, e2, h) = (0.8, 0.6, 0.11);
+        let emission = [Emission::constant(e1), Emission::constant(e2)];
+        let [front, rear] = conducting_temperatures_k(&emission, &link(0.0, h), [5000.0, 0.0]);
+        // (e1 + h) x1 - h x2 = 5000 / sigma, (e2 + h) x2 = h x1
+        let x1 = 5000.0 / SIGMA / (e1 + h - h * h / (e2 + h));
+        assert_relative_eq!(front.powi(4), x1, max_relative = 1e-11);
+        assert_relative_eq!(rear.powi(4), h * x1 / (e2 + h), max_relative = 1e-11);
+    }
+
+    #[test]
+    fn no_heat_is_absolute_zero() {
+        let emission = [Emission::constant(0.8); 2];
+        assert_eq!(conducting_temperatures_k(&emission, &link(18.0, 0.11), [0.0, 0.0]), [0.0, 0.0]);
+        assert_eq!(insulated_temperature_k(&emission[0], 0.0), 0.0);
+    }
+
+    #[test]
+    fn a_honeycomb_has_the_papers_conduction() {
+        let aluminium = Honeycomb {
+            conductivity_w_m_k: 120.0,
+            thickness_m: 0.02,
+            wall_area_ratio: 0.01,
+            packing_factor: 0.9,
+            internal_emissivity: 0.2,
+        };
+        let conduction = aluminium.conduction();
+        assert_relative_eq!(conduction.conductance_w_m2_k, 54.0, max_relative = 1e-14);
+        assert_relative_eq!(conduction.radiative_exchange, 0.11, max_relative = 1e-14);
+    }
+
+    proptest! {
+        #[test]
+        fn energy_balances_close(
+            front in emissions(), rear in emissions(), q in 0.0..200.0_f64, h in 1e-6..1.0_f64,
+            heats in prop::array::uniform2(0.0..15000.0_f64),
+        ) {
+            let emission = [front, rear];
+            let link = link(q, h);
+            let temperatures_k = conducting_temperatures_k(&emission, &link, heats);
+            let (flow, _) = exchange_w_m2(&link, temperatures_k);
+            let radiated = [0, 1].map(|i| exitance_w_m2(&emission[i], temperatures_k[i]).0);
+            let total = heats[0] + heats[1];
+            prop_assert!((heats[0] - flow - radiated[0]).abs() <= 1e-9 * total);
+            prop_assert!((heats[1] + flow - radiated[1]).abs() <= 1e-9 * total);
+            let alone = insulated_temperature_k(&front, heats[0]);
+            prop_assert!((exitance_w_m2(&front, alone).0 - heats[0]).abs() <= 1e-9 * heats[0]);
+        }
+
+        #[test]
+        fn derivatives_are_slopes(
+            front in emissions(), rear in emissions(), q in 0.0..200.0_f64, h in 1e-3..1.0_f64,
+            heats in prop::array::uniform2(10.0..15000.0_f64),
+        ) {
+            let emission = [front, rear];
+            let link = link(q, h);
+            let at = |x: f64| conducting_temperatures_k(&emission, &link, [heats[0] + x, heats[1] - 0.3 * x]);
+            let seeded = [Dual64::new(heats[0], 1.0), Dual64::new(heats[1], -0.3)];
+            let exact = conducting_temperatures_k(&emission, &link, seeded);
+            let step = 1e-4 * heats[0].min(heats[1]);
+            for i in 0..2 {
+                let slope = (at(step)[i] - at(-step)[i]) / (2.0 * step);
+                let scale = exact[0].eps.abs() + exact[1].eps.abs();
+                prop_assert!((slope - exact[i].eps).abs() < 1e-6 * scale, "{slope} {}", exact[i].eps);
+                prop_assert!((exact[i].re - at(0.0)[i]).abs() <= 1e-12 * exact[i].re);
+            }
+        }
+    }
+}

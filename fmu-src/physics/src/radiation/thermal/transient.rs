@@ -1,0 +1,236 @@
+//! Temperatures that take time: each face stores heat, so that it stays warm into an eclipse.
+//!
+//! Every surface is one or two heat balances C dT/dt = absorbed - exchanged - radiated, independent of the other surfaces.
+//! They are stiff (thin layers follow their light in seconds) and are integrated by the extrapolated linearly implicit
+//! Euler method (Deuflhard 1985), which damps what is fast. A step depends on its arguments only, so the temperatures
+//! are all the state there is.
+
+use nalgebra::{Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
+
+use super::balance::{exchange_w_m2, exitance_w_m2};
+use crate::spacecraft::{Conduction, Emission};
+
+/// Allowed error of one step relative to the temperature.
+const TOLERANCE: f64 = 1e-9;
+
+/// Columns of the extrapolation table: the order reached.
+const MOST_COLUMNS: usize = 8;
+
+/// A step is halved at most this often.
+const MOST_HALVINGS: u32 = 40;
+
+/// Temperatures of every face, in the order of the model's faces.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThermalState {
+    /// In K.
+    pub temperatures_k: Vec<f64>,
+}
+
+/// One surface that stores heat in each of its faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeatStore {
+    /// Emission of front and rear; the rear of a one-sided surface is not used.
+    pub emission: [Emission; 2],
+    /// Heat flow between the faces.
+    pub conduction: Option<Conduction>,
+    /// Heat capacity of each face in J/m2/K, above 0.
+    pub heat_capacity_j_m2_k: f64,
+}
+
+impl HeatStore {
+    /// Temperatures `duration_s` later. `heat_w_m2` is what each face takes in at the start and at the end; in between
+    /// it runs along a straight line. A one-sided surface has no heat and 0 K behind.
+    ///
+    /// The error stays near 1e-9 of the temperature. Without light a face cools for ever but never below 0 K.
+    pub fn advance(&self, temperatures_k: [f64; 2], heat_w_m2: [[f64; 2]; 2], duration_s: f64) -> [f64; 2] {
+        let [from, to] = heat_w_m2.map(Vector2::from);
+        let mut temperatures_k = Vector2::from(temperatures_k);
+        if !(duration_s > 0.0 && duration_s.is_finite()) {
+            return temperatures_k.into();
+        }
+        let heat_at = |time_s: f64| from + (to - from) * (time_s / duration_s);
+        let shortest_s = duration_s * 0.5_f64.powi(MOST_HALVINGS as i32);
+        let (mut time_s, mut step_s) = (0.0, duration_s);
+        while time_s < duration_s {
+            let last = time_s + step_s >= duration_s;
+            let end_s = if last { duration_s } else { time_s + step_s };
+            match self.extrapolate(&temperatures_k, time_s, end_s, &heat_at) {
+                Some(next) => {
+                    temperatures_k = next;
+                    time_s = end_s;
+                    step_s *= 2.0;
+                }
+                None if step_s > shortest_s => step_s = 0.5 * (end_s - time_s),
+                // Beyond any physical stiffness: take the plain first-order step and go on.
+                None => {
+                    temperatures_k = self.substeps(&temperatures_k, time_s, end_s, 1, &heat_at);
+                    time_s = end_s;
+                }
+            }
+        }
+        temperatures_k.into()
+    }
+
+    /// One step, with more and more substeps until two columns agree; `None` if they do not.
+    fn extrapolate(
+        &self,
+        start_k: &Vector2<f64>,
+        from_s: f64,
+        to_s: f64,
+        heat_at: &impl Fn(f64) -> Vector2<f64>,
+    ) -> Option<Vector2<f64>> {
+        let mut row = [Vector2::zeros(); MOST_COLUMNS];
+        for k in 0..MOST_COLUMNS {
+            let mut diagonal = self.substeps(start_k, from_s, to_s, k + 1, heat_at);
+            // Aitken-Neville: row[j] holds column j of the row before.
+            for (j, before) in row.iter_mut().enumerate().take(k) {
+                let ratio = (k + 1) as f64 / (k - j) as f64;
+                let next = diagonal + (diagonal - *before) / (ratio - 1.0);
+                *before = diagonal;
+                diagonal = next;
+            }
+            row[k] = diagonal;
+            if k >= 3 {
+                let error = (diagonal - row[k - 1]).amax();
+                if error <= TOLERANCE * diagonal.amax() && diagonal.min() >= 0.0 {
+                    return Some(diagonal);
+                }
+            }
+        }
+        None
+    }
+
+    /// Linearly implicit Euler steps of equal length.
+    fn substeps(
+        &self,
+        start_k: &Vector2<f64>,
+        from_s: f64,
+        to_s: f64,
+        count: usize,
+        heat_at: &impl Fn(f64) -> Vector2<f64>,
+    ) -> Vector2<f64> {
+        let step_s = (to_s - from_s) / count as f64;
+        let (_, slopes) = self.outflow(start_k);
+        let matrix = Matrix2::identity() + slopes * (step_s / self.heat_capacity_j_m2_k);
+        let Some(inverse) = matrix.try_inverse() else { return *start_k };
+        let mut temperatures_k = *start_k;
+        for i in 0..count {
+            let heat = heat_at(from_s + step_s * (i + 1) as f64);
+            let (outflow, _) = self.outflow(&temperatures_k);
+            temperatures_k += inverse * (heat - outflow) * (step_s / self.heat_capacity_j_m2_k);
+        }
+        temperatures_k.map(|t| t.max(0.0))
+    }
+
+    /// Heat flow out of each face in W/m2, and its slopes by the temperatures.
+    fn outflow(&self, temperatures_k: &Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
+        let (front, front_slope) = exitance_w_m2(&self.emission[0], temperatures_k.x);
+        let (rear, rear_slope) = exitance_w_m2(&self.emission[1], temperatures_k.y);
+        let (flow, [b1, b2]) = self
+            .conduction
+            .as_ref()
+            .map_or((0.0, [0.0; 2]), |link| exchange_w_m2(link, (*temperatures_k).into()));
+        (Vector2::new(front + flow, rear - flow), Matrix2::new(front_slope + b1, -b2, -b1, rear_slope + b2))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Cooling has a closed form, energy is kept, and cutting a step changes nothing beyond the tolerance.
+
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
+    use crate::radiation::thermal::balance::conducting_temperatures_k;
+
+    fn panel() -> HeatStore {
+        HeatStore {
+            emission: [Emission::constant(0.75), Emission::constant(0.7)],
+            conduction: Some(Conduction { conductance_w_m2_k: 18.0, radiative_exchange: 0.11 }),
+            heat_capacity_j_m2_k: 3500.0,
+        }
+    }
+
+    fn blanket(heat_capacity_j_m2_k: f64) -> HeatStore {
+        HeatStore {
+            emission: [Emission::constant(0.7), Emission::constant(0.0)],
+            conduction: None,
+            heat_capacity_j_m2_k,
+        }
+    }
+
+    /// dT/dt = -eps sigma T^4 / C gives 1/T^3 = 1/T0^3 + 3 eps sigma t / C.
+    #[test]
+    fn a_face_in_the_dark_cools_by_the_closed_form() {
+        for (capacity, seconds) in [(3500.0, 10.0), (3500.0, 3600.0), (40.0, 3600.0), (1.0, 86_400.0)] {
+            let [found, behind] = blanket(capacity).advance([450.0, 0.0], [[0.0; 2]; 2], seconds);
+            let cubed = 450_f64.powi(-3) + 3.0 * 0.7 * STEFAN_BOLTZMANN_W_M2_K4 * seconds / capacity;
+            assert_relative_eq!(found, cubed.powf(-1.0 / 3.0), max_relative = 1e-8);
+            assert_eq!(behind, 0.0);
+        }
+    }
+
+    #[test]
+    fn after_long_the_temperatures_are_those_of_balance() {
+        let (panel, heat) = (panel(), [9000.0, 400.0]);
+        let found = panel.advance([200.0, 350.0], [heat, heat], 1e6);
+        let link = panel.conduction.unwrap();
+        let balanced = conducting_temperatures_k(&panel.emission, &link, heat);
+        assert_relative_eq!(found[0], balanced[0], max_relative = 1e-8);
+        assert_relative_eq!(found[1], balanced[1], max_relative = 1e-8);
+    }
+
+    /// Energy stored = energy in - energy out, the latter summed by Simpson's rule over many short steps.
+    #[test]
+    fn stored_heat_is_what_came_in_less_what_went_out() {
+        let (panel, seconds, steps) = (panel(), 600.0, 600);
+        let heat = |t: f64| [9000.0 - 12.0 * t, 300.0 + t];
+        let outflow = |t: [f64; 2]| {
+            exitance_w_m2(&panel.emission[0], t[0]).0 + exitance_w_m2(&panel.emission[1], t[1]).0
+        };
+        let start = [330.0, 300.0];
+        let (mut temperatures, mut stored, step) = (start, 0.0, seconds / f64::from(steps));
+        for i in 0..steps {
+            let at = step * f64::from(i);
+            let middle = panel.advance(temperatures, [heat(at), heat(at + step / 2.0)], step / 2.0);
+            let end = panel.advance(middle, [heat(at + step / 2.0), heat(at + step)], step / 2.0);
+            let inflow: f64 = heat(at + step / 2.0).iter().sum();
+            let out = (outflow(temperatures) + 4.0 * outflow(middle) + outflow(end)) / 6.0;
+            stored += (inflow - out) * step;
+            temperatures = end;
+        }
+        let expected = start[0] + start[1] + stored / panel.heat_capacity_j_m2_k;
+        assert_relative_eq!(temperatures[0] + temperatures[1], expected, max_relative = 1e-8);
+        let at_once = panel.advance(start, [heat(0.0), heat(seconds)], seconds);
+        assert_relative_eq!(at_once[0], temperatures[0], max_relative = 1e-8);
+        assert_relative_eq!(at_once[1], temperatures[1], max_relative = 1e-8);
+    }
+
+    #[test]
+    fn a_step_of_no_length_changes_nothing() {
+        for seconds in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(panel().advance([300.0, 200.0], [[1.0; 2]; 2], seconds), [300.0, 200.0]);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn cutting_a_step_changes_nothing(
+            start in prop::array::uniform2(0.0..700.0_f64), heat in prop::array::uniform4(0.0..12_000.0_f64),
+            capacity in 1.0..2e4_f64, seconds in 0.1..5000.0_f64, cut in 0.05..0.95_f64,
+        ) {
+            let store = HeatStore { heat_capacity_j_m2_k: capacity, ..panel() };
+            let (from, to) = ([heat[0], heat[1]], [heat[2], heat[3]]);
+            let middle = [0, 1].map(|i| from[i] + (to[i] - from[i]) * cut);
+            let whole = store.advance(start, [from, to], seconds);
+            let half = store.advance(start, [from, middle], seconds * cut);
+            let cut = store.advance(half, [middle, to], seconds * (1.0 - cut));
+            for i in 0..2 {
+                prop_assert!((whole[i] - cut[i]).abs() <= 1e-7 * whole[i].max(cut[i]), "{whole:?} {cut:?}");
+            }
+        }
+    }
+}

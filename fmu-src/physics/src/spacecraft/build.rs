@@ -1,0 +1,253 @@
+//! From the file's shape to a spacecraft: checks every value, resolves materials, turns parts into their frames.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::build_thermal::Material;
+use super::checker::Checker;
+use super::description::{
+    CylinderDescription, Description, MassDescription, OpticsDescription, PanelDescription, PlateDescription,
+    SunshadeDescription, WheelDescription,
+};
+use super::document::{Document, Place, nearest};
+use super::error::SpacecraftError;
+use super::mass::{MassProperties, check_inertia};
+use super::panel::{Panel, PanelControl};
+use super::surface::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
+use super::wheels::Wheel;
+use super::{Spacecraft, SunKeepIn};
+
+/// How far absorptivity + specular + diffuse may be off 1.
+const OPTICS_SUM_TOLERANCE: f64 = 1e-9;
+
+/// Reads and checks a spacecraft file.
+pub(super) fn spacecraft(file: &str, text: &str) -> Result<Spacecraft, SpacecraftError> {
+    let document = Document::parse(file, text)?;
+    let description: Description = document.read()?;
+    let mut builder = Builder { check: Checker::new(&document), materials: BTreeMap::new() };
+    let spacecraft = builder.spacecraft(&description);
+    builder.check.finish(spacecraft)
+}
+
+/// Gathers problems and materials on the way through the file.
+pub(super) struct Builder<'d> {
+    pub(super) check: Checker<'d>,
+    materials: BTreeMap<String, Material>,
+}
+
+impl Builder<'_> {
+    fn spacecraft(&mut self, description: &Description) -> Spacecraft {
+        let root = Place::root();
+        if description.name.trim().is_empty() {
+            self.check.report(&root.key("name"), "an empty name", "a name");
+        }
+        for (name, optics) in &description.optics {
+            let place = root.key("optics").key(name);
+            let sunlight = self.optics(&place, optics);
+            let thermal = self.face_thermal(&place, optics, &sunlight);
+            self.materials.insert(name.clone(), Material { optics: sunlight, thermal });
+        }
+        if let (None, None, None) = (&description.plates, &description.sunshade, &description.panels) {
+            self.check.report(&root, "no surface", "at least one of `plates`, `sunshade`, `panels`");
+        }
+        let keep_in = root.key("sun_keep_in");
+        let threshold = root.key("momentum").key("dump_threshold_n_m_s");
+        Spacecraft {
+            name: description.name.clone(),
+            mass_properties: self.mass(&root.key("mass_properties"), &description.mass_properties),
+            plates: self.list(&root.key("plates"), description.plates.as_deref(), Self::plate),
+            sunshade: description.sunshade.as_ref().map(|s| self.sunshade(&root.key("sunshade"), s)),
+            panels: self.list(&root.key("panels"), description.panels.as_deref(), Self::panel),
+            wheels: self.list(&root.key("wheels"), description.wheels.as_deref(), Self::wheel),
+            dump_threshold_n_m_s: description.momentum.as_ref().map(|momentum| {
+                let mut axis = 0;
+                Vector3::from(momentum.dump_threshold_n_m_s.map(|value| {
+                    axis += 1;
+                    self.check.positive(&threshold.item(axis - 1), value)
+                }))
+            }),
+            per_plate_outputs: description.per_plate_outputs.unwrap_or(false),
+            sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
+                azimuth_rad: self.check.angle(&keep_in.key("azimuth_deg"), limits.azimuth_deg, 0.0, 180.0),
+                elevation_rad: self.check.angle(
+                    &keep_in.key("elevation_deg"),
+                    limits.elevation_deg,
+                    0.0,
+                    90.0,
+                ),
+            }),
+        }
+    }
+
+    /// A list that may be left out but not be empty.
+    fn list<D, S>(
+        &mut self,
+        at: &Place,
+        items: Option<&[D]>,
+        mut build: impl FnMut(&mut Self, &Place, usize, &D) -> S,
+    ) -> Vec<S> {
+        if items.is_some_and(<[D]>::is_empty) {
+            self.check.report(at, "an empty list", "at least one item, or no such key");
+        }
+        items.unwrap_or_default().iter().enumerate().map(|(i, d)| build(self, &at.item(i), i, d)).collect()
+    }
+
+    fn mass(&mut self, at: &Place, description: &MassDescription) -> MassProperties {
+        let [x, y, z] = description.inertia_kg_m2.map(|row| Vector3::from(row).transpose());
+        let inertia_body_kg_m2 = Matrix3::from_rows(&[x, y, z]);
+        if let Err(allowed) = check_inertia(&inertia_body_kg_m2) {
+            let found = format!("{:?}", description.inertia_kg_m2);
+            self.check.report(&at.key("inertia_kg_m2"), found, allowed);
+        }
+        MassProperties {
+            mass_kg: self.check.positive(&at.key("mass_kg"), description.mass_kg),
+            center_of_mass_body_m: self
+                .check
+                .vector(&at.key("center_of_mass_m"), description.center_of_mass_m),
+            inertia_body_kg_m2,
+        }
+    }
+
+    fn optics(&mut self, at: &Place, description: &OpticsDescription) -> Optics {
+        let specular = self.check.fraction(&at.key("specular"), description.specular);
+        let diffuse = self.check.fraction(&at.key("diffuse"), description.diffuse);
+        let reflected = specular + diffuse;
+        let Some(absorptivity) = description.absorptivity else {
+            if reflected > 1.0 + OPTICS_SUM_TOLERANCE {
+                let found = format!("specular + diffuse = {reflected}");
+                self.check.report(&at.key("specular"), found, "a sum of at most 1");
+            }
+            let absorptivity = (1.0 - reflected).max(0.0);
+            return Optics { absorptivity, specular, diffuse };
+        };
+        self.check.fraction(&at.key("absorptivity"), absorptivity);
+        let sum = absorptivity + reflected;
+        if (sum - 1.0).abs() > OPTICS_SUM_TOLERANCE {
+            let found = format!("absorptivity + specular + diffuse = {sum}");
+            self.check.report(&at.key("absorptivity"), found, "a sum of 1 within 1e-9");
+        }
+        Optics { absorptivity, specular, diffuse }
+    }
+
+    fn material(&mut self, at: &Place, name: &str) -> Material {
+        if let Some(material) = self.materials.get(name) {
+            return *material;
+        }
+        let known: Vec<&str> = self.materials.keys().map(String::as_str).collect();
+        let hint = nearest(name, &known).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
+        let allowed = format!("a material under [optics]: {}", known.join(", "));
+        self.check.report(at, format_args!("the unknown material `{name}`{hint}"), allowed);
+        Material::BLACK
+    }
+
+    fn plate(&mut self, at: &Place, index: usize, description: &PlateDescription) -> Plate {
+        let front = self.material(&at.key("optics"), &description.optics);
+        let rear = description.rear_optics.as_ref().map(|name| self.material(&at.key("rear_optics"), name));
+        let normal = description.normal.map(|normal| self.check.unit_vector(&at.key("normal"), normal));
+        let outline = self.outline(at, description.polygon_m.as_deref(), normal.as_ref());
+        Plate {
+            name: name_or_number(description.name.as_deref(), "plate", index),
+            area_m2: self.area(at, description.area_m2, outline.as_ref()),
+            center_m: self.center(at, description.center_m, outline.as_ref()),
+            normal: self.normal(at, normal, outline.as_ref()),
+            optics: front.optics,
+            rear_optics: rear.map(|rear| rear.optics),
+            thermal: self.thermal(at, description.thermal.as_ref(), front, rear),
+            polygon: outline,
+        }
+    }
+
+    fn sunshade(&mut self, at: &Place, description: &SunshadeDescription) -> Sunshade {
+        let sunshade = Sunshade {
+            model: description.model,
+            dcm_body_from_shade: self.check.rotation(
+                at,
+                ("rotation_deg", description.rotation_deg),
+                ("dcm_body_from_shade", description.dcm_body_from_shade),
+            ),
+            plates: self.list(&at.key("plates"), description.plates.as_deref(), Self::plate),
+            cylinder: description.cylinder.as_ref().map(|c| self.cylinder(&at.key("cylinder"), c)),
+        };
+        if !sunshade.has(description.model) {
+            let (found, allowed) = match description.model {
+                SunshadeModel::Plates => ("`plates` without plates", "[[sunshade.plates]] or \"cylinder\""),
+                SunshadeModel::Cylinder => {
+                    ("`cylinder` without a cylinder", "[sunshade.cylinder] or \"plates\"")
+                }
+            };
+            self.check.report(&at.key("model"), found, allowed);
+        }
+        sunshade
+    }
+
+    fn cylinder(&mut self, at: &Place, description: &CylinderDescription) -> Cylinder {
+        let angle = at.key("subtended_angle_deg");
+        let angle_deg = self.check.positive(&angle, description.subtended_angle_deg);
+        Cylinder {
+            radius_m: self.check.positive(&at.key("radius_m"), description.radius_m),
+            height_m: self.check.positive(&at.key("height_m"), description.height_m),
+            half_angle_rad: self.check.angle(&angle, angle_deg.max(0.0), 0.0, 360.0) / 2.0,
+            optics: self.material(&at.key("optics"), &description.optics).optics,
+        }
+    }
+
+    fn panel(&mut self, at: &Place, index: usize, description: &PanelDescription) -> Panel {
+        let dcm_body_from_panel = self.check.rotation(
+            at,
+            ("rotation_deg", description.rotation_deg),
+            ("dcm_body_from_panel", description.dcm_body_from_panel),
+        );
+        let axis = self.check.unit_vector(&at.key("axis"), description.axis.unwrap_or([1.0, 0.0, 0.0]));
+        let zero_normal = self.check.perpendicular(
+            &at.key("zero_normal"),
+            description.zero_normal.unwrap_or([0.0, -1.0, 0.0]),
+            &axis,
+            "axis",
+        );
+        let tilt_sign = description.tilt_sign.unwrap_or(1);
+        if tilt_sign.abs() != 1 {
+            self.check.report(&at.key("tilt_sign"), tilt_sign, "1 or -1");
+        }
+        let front = self.material(&at.key("optics"), &description.optics);
+        let rear = description.rear_optics.as_ref().map(|name| self.material(&at.key("rear_optics"), name));
+        let outline = self.outline(at, description.polygon_m.as_deref(), Some(&zero_normal));
+        Panel {
+            name: name_or_number(description.name.as_deref(), "panel", index),
+            area_m2: self.area(at, description.area_m2, outline.as_ref()),
+            center_body_m: dcm_body_from_panel * self.center(at, description.center_m, outline.as_ref()),
+            axis_body: dcm_body_from_panel * axis,
+            zero_normal_body: dcm_body_from_panel * zero_normal,
+            optics: front.optics,
+            rear_optics: rear.map(|rear| rear.optics),
+            thermal: self.thermal(at, description.thermal.as_ref(), front, rear),
+            polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
+            control: description.control.unwrap_or(PanelControl::SunOffset),
+            sun_offset_rad: self.check.angle(
+                &at.key("sun_offset_deg"),
+                description.sun_offset_deg.unwrap_or(0.0),
+                0.0,
+                180.0,
+            ),
+            tilt_sign: if tilt_sign < 0 { -1.0 } else { 1.0 },
+            angle_rad: self.check.angle(
+                &at.key("angle_deg"),
+                description.angle_deg.unwrap_or(0.0),
+                -360.0,
+                360.0,
+            ),
+        }
+    }
+
+    fn wheel(&mut self, at: &Place, index: usize, description: &WheelDescription) -> Wheel {
+        Wheel {
+            name: name_or_number(description.name.as_deref(), "wheel", index),
+            axis_body: self.check.unit_vector(&at.key("axis"), description.axis),
+            capacity_n_m_s: self.check.positive(&at.key("capacity_n_m_s"), description.capacity_n_m_s),
+        }
+    }
+}
+
+fn name_or_number(name: Option<&str>, kind: &str, index: usize) -> String {
+    name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
+}

@@ -1,0 +1,167 @@
+//! Checks of single values: each reports a problem and hands the value on, so that one run finds every problem.
+
+use core::fmt::Display;
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use super::document::{Document, Place};
+use super::error::{Problem, SpacecraftError};
+
+/// Greatest magnitude of any number in a file: keeps products of several numbers far from overflow.
+const GREATEST: f64 = 1e12;
+
+/// How far a direction's length, or a matrix's orthonormality, may be off before it is refused.
+///
+/// Printed tables round to three or four digits; what is off by more is a mistake, not rounding.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// Gathers the problems of one document.
+pub(crate) struct Checker<'d> {
+    document: &'d Document<'d>,
+    problems: Vec<Problem>,
+}
+
+impl<'d> Checker<'d> {
+    /// No problems so far.
+    pub fn new(document: &'d Document<'d>) -> Self {
+        Self { document, problems: Vec::new() }
+    }
+
+    /// The value if nothing was reported, all problems otherwise.
+    pub fn finish<T>(self, value: T) -> Result<T, SpacecraftError> {
+        if self.problems.is_empty() { Ok(value) } else { Err(self.document.error(self.problems)) }
+    }
+
+    /// Reports one problem.
+    pub fn report(&mut self, at: &Place, found: impl Display, allowed: impl Display) {
+        self.problems.push(Problem {
+            line: Some(self.document.line(at)),
+            key: at.to_string(),
+            found: found.to_string(),
+            allowed: allowed.to_string(),
+        });
+    }
+
+    /// A number, not NaN, infinite or beyond all measure.
+    pub fn finite(&mut self, at: &Place, value: f64) -> f64 {
+        self.within(at, value, -GREATEST, GREATEST, "a finite number up to 1e12 in magnitude")
+    }
+
+    /// A finite number above zero.
+    pub fn positive(&mut self, at: &Place, value: f64) -> f64 {
+        self.within(at, value, f64::MIN_POSITIVE, GREATEST, "a number above 0")
+    }
+
+    /// A number from 0 to 1.
+    pub fn fraction(&mut self, at: &Place, value: f64) -> f64 {
+        self.within(at, value, 0.0, 1.0, "a number from 0 to 1")
+    }
+
+    /// A number between two bounds, both included; NaN is outside.
+    pub fn within(&mut self, at: &Place, value: f64, low: f64, high: f64, allowed: &str) -> f64 {
+        if !(low..=high).contains(&value) {
+            self.report(at, value, allowed);
+        }
+        value
+    }
+
+    /// An angle in degrees between two bounds, handed on in rad.
+    pub fn angle(&mut self, at: &Place, value_deg: f64, low_deg: f64, high_deg: f64) -> f64 {
+        let allowed = format!("an angle from {low_deg} to {high_deg} deg");
+        self.within(at, value_deg, low_deg, high_deg, &allowed).to_radians()
+    }
+
+    /// Three finite numbers.
+    pub fn vector(&mut self, at: &Place, value: [f64; 3]) -> Vector3<f64> {
+        for (i, component) in value.into_iter().enumerate() {
+            self.finite(&at.item(i), component);
+        }
+        Vector3::from(value)
+    }
+
+    /// A direction: refused when its length is off 1 by more than 1e-3, renormalised otherwise.
+    pub fn unit_vector(&mut self, at: &Place, value: [f64; 3]) -> Vector3<f64> {
+        let vector = Vector3::from(value);
+        let norm = vector.norm();
+        if (norm - 1.0).abs() <= UNIT_TOLERANCE {
+            return vector / norm;
+        }
+        self.report(
+            at,
+            format_args!("{value:?} of length {norm}"),
+            "a unit vector (length 1 within 1e-3; it is then renormalised)",
+        );
+        Vector3::x()
+    }
+
+    /// A direction perpendicular to another: refused when off by more than 1e-3 rad, squared up otherwise.
+    pub fn perpendicular(
+        &mut self,
+        at: &Place,
+        value: [f64; 3],
+        to: &Vector3<f64>,
+        to_key: &str,
+    ) -> Vector3<f64> {
+        let unit = self.unit_vector(at, value);
+        let along = unit.dot(to);
+        let square = unit - to * along;
+        if along.abs() <= UNIT_TOLERANCE {
+            return square / square.norm();
+        }
+        self.report(
+            at,
+            format_args!("{value:?}, whose component along `{to_key}` is {along}"),
+            format_args!("a direction perpendicular to `{to_key}` within 1e-3"),
+        );
+        unit
+    }
+
+    /// A rotation given by angles or by a matrix, or neither (identity).
+    ///
+    /// Angles are turns of the part about the body's X, then Y, then Z axis: Rz Ry Rx takes components in the part's
+    /// frame to components in the body frame.
+    pub fn rotation(
+        &mut self,
+        at: &Place,
+        (angles_key, angles_deg): (&str, Option<[f64; 3]>),
+        (matrix_key, matrix): (&str, Option<[[f64; 3]; 3]>),
+    ) -> Matrix3<f64> {
+        match (angles_deg, matrix) {
+            (None, None) => Matrix3::identity(),
+            (Some(angles_deg), None) => {
+                let place = at.key(angles_key);
+                for (i, angle_deg) in angles_deg.into_iter().enumerate() {
+                    self.angle(&place.item(i), angle_deg, -360.0, 360.0);
+                }
+                let [x, y, z] = angles_deg.map(f64::to_radians);
+                Rotation3::from_euler_angles(x, y, z).into_inner()
+            }
+            (None, Some(rows)) => self.rotation_matrix(&at.key(matrix_key), rows),
+            (Some(_), Some(_)) => {
+                self.report(
+                    &at.key(matrix_key),
+                    format_args!("both `{angles_key}` and `{matrix_key}`"),
+                    "one of them",
+                );
+                Matrix3::identity()
+            }
+        }
+    }
+
+    fn rotation_matrix(&mut self, at: &Place, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+        let [x, y, z] = rows.map(Vector3::from);
+        let square = [x.dot(&y), y.dot(&z), z.dot(&x)].iter().all(|dot| dot.abs() <= UNIT_TOLERANCE);
+        let unit = [x, y, z].iter().all(|row| (row.norm() - 1.0).abs() <= UNIT_TOLERANCE);
+        if !(square && unit && x.cross(&y).dot(&z) > 0.0) {
+            self.report(
+                at,
+                format_args!("{rows:?}"),
+                "a rotation matrix (orthonormal rows within 1e-3, determinant 1; it is then squared up)",
+            );
+            return Matrix3::identity();
+        }
+        let x = x.normalize();
+        let y = (y - x * x.dot(&y)).normalize();
+        Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()])
+    }
+}

@@ -1,0 +1,267 @@
+//! The shape of a spacecraft file, as people write it: SI units named in the keys, angles in degrees (`_deg`).
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::panel::PanelControl;
+use super::surface::SunshadeModel;
+
+/// A spacecraft: what light falls on, what it weighs, what stores its momentum.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(title = "heliotorque spacecraft"))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Description {
+    /// Name of the spacecraft.
+    pub name: String,
+    /// Whether models that can report temperature and force of every plate; false unless given.
+    pub per_plate_outputs: Option<bool>,
+    pub mass_properties: MassDescription,
+    /// Surface materials by name; plates, cylinder and panels refer to them.
+    pub optics: BTreeMap<String, OpticsDescription>,
+    /// Flat surfaces fixed in the body frame, other than a sunshade.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub plates: Option<Vec<PlateDescription>>,
+    pub sunshade: Option<SunshadeDescription>,
+    /// Panels that turn about one axis.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub panels: Option<Vec<PanelDescription>>,
+    /// Reaction wheels.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub wheels: Option<Vec<WheelDescription>>,
+    pub momentum: Option<MomentumDescription>,
+    pub sun_keep_in: Option<SunKeepInDescription>,
+}
+
+/// Mass properties of the whole spacecraft.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MassDescription {
+    /// Mass, in kg.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub mass_kg: f64,
+    /// Centre of mass from the body frame's origin, in m.
+    pub center_of_mass_m: [f64; 3],
+    /// Inertia about the centre of mass, body axes, row by row, in kg m2.
+    pub inertia_kg_m2: [[f64; 3]; 3],
+}
+
+/// What a surface does with sunlight: absorptivity + specular + diffuse = 1.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OpticsDescription {
+    /// Mirrored fraction.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub specular: f64,
+    /// Fraction scattered by Lambert's law.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub diffuse: f64,
+    /// Absorbed fraction; whatever is not reflected unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub absorptivity: Option<f64>,
+    /// Infrared emissivity; the absorptivity unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub emissivity: Option<f64>,
+    /// Change of the emissivity with temperature, per K; 0 unless given.
+    pub emissivity_per_k: Option<f64>,
+    /// Temperature at which `emissivity` holds, in K; 300 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 2000)))]
+    pub emissivity_temperature_k: Option<f64>,
+    /// Absorbed fraction of the planet's infrared light; the absorptivity unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub infrared_absorptivity: Option<f64>,
+}
+
+/// Heat flow through a thin structure: two numbers, or the honeycomb they follow from.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ConductionDescription {
+    /// Conductance from face to face, in W/m2/K.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub conductance_w_m2_k: Option<f64>,
+    /// Radiative exchange from face to face as a fraction of that between black plates.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub radiative_exchange: Option<f64>,
+    pub honeycomb: Option<HoneycombDescription>,
+}
+
+/// A honeycomb between face sheets.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HoneycombDescription {
+    /// Conductivity of the core's material, in W/m/K.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub conductivity_w_m_k: f64,
+    /// Thickness, in m.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub thickness_m: f64,
+    /// Cross-section of the walls over the panel's area.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub wall_area_ratio: f64,
+    /// Packing factor of the solar cells.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub packing_factor: f64,
+    /// Emissivity inside the honeycomb.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub internal_emissivity: f64,
+}
+
+/// Heat of a plate or panel.
+#[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ThermalDescription {
+    /// Heat flow between front and rear; insulated from each other unless given.
+    pub conduction: Option<ConductionDescription>,
+    /// Heat from inside that leaves through the front face, in W; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub internal_heat_w: Option<f64>,
+    /// Heat from inside that leaves through the rear face, in W; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub rear_internal_heat_w: Option<f64>,
+    /// Heat capacity of each face, in J/m2/K; used by the transient heat balance; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub heat_capacity_j_m2_k: Option<f64>,
+}
+
+/// A flat surface.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlateDescription {
+    /// Name for messages and pictures; numbered unless given.
+    pub name: Option<String>,
+    /// Area, in m2; may be left out where a polygon is given.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub area_m2: Option<f64>,
+    /// Centre of area, in m; may be left out where a polygon is given.
+    pub center_m: Option<[f64; 3]>,
+    /// Unit vector out of the front face; lengths off by at most 1e-3 are renormalised. Where a polygon is given it may be
+    /// left out: the vertices then run counter-clockwise seen from the front.
+    pub normal: Option<[f64; 3]>,
+    /// Outline, in m, for self-shadowing: at least 3 vertices in one plane, edges that do not cross. Only surfaces with an
+    /// outline shadow others and are shadowed.
+    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
+    pub polygon_m: Option<Vec<[f64; 3]>>,
+    /// Material of the front face.
+    pub optics: String,
+    /// Material of the rear face, if light can reach it.
+    pub rear_optics: Option<String>,
+    pub thermal: Option<ThermalDescription>,
+}
+
+/// A sunshade in its own frame: given as plates, as section of a cylinder, or both.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SunshadeDescription {
+    /// Which description is used.
+    pub model: SunshadeModel,
+    /// Misalignment: turns of the shade about the body's X, then Y, then Z axis, in deg.
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Misalignment as matrix, row by row: components in the shade frame to components in the body frame.
+    pub dcm_body_from_shade: Option<[[f64; 3]; 3]>,
+    /// Plates in the shade frame.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub plates: Option<Vec<PlateDescription>>,
+    pub cylinder: Option<CylinderDescription>,
+}
+
+/// Part of a cylinder's outside: axis along Z through the origin, symmetric about the XY plane and the -Y direction.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CylinderDescription {
+    /// Radius, in m.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub radius_m: f64,
+    /// Total height, in m.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub height_m: f64,
+    /// Total angle subtended at the axis, in deg; up to 360.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "maximum" = 360)))]
+    pub subtended_angle_deg: f64,
+    /// Material of the outside.
+    pub optics: String,
+}
+
+/// A flat panel that turns about one axis through its centre.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PanelDescription {
+    /// Name for messages and pictures; numbered unless given.
+    pub name: Option<String>,
+    /// Area of one side, in m2; may be left out where a polygon is given.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub area_m2: Option<f64>,
+    /// Centre in the panel frame, in m; may be left out where a polygon is given.
+    pub center_m: Option<[f64; 3]>,
+    /// Outline at angle 0 in the panel frame, in m, for self-shadowing; perpendicular to `zero_normal`.
+    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
+    pub polygon_m: Option<Vec<[f64; 3]>>,
+    /// Axis of rotation in the panel frame; +X unless given.
+    pub axis: Option<[f64; 3]>,
+    /// Normal of the cell side at angle 0 in the panel frame, perpendicular to the axis; -Y unless given.
+    pub zero_normal: Option<[f64; 3]>,
+    /// Material of the cell side.
+    pub optics: String,
+    /// Material of the back, if light can reach it.
+    pub rear_optics: Option<String>,
+    pub thermal: Option<ThermalDescription>,
+    /// How the angle comes about; `sun_offset` unless given.
+    pub control: Option<PanelControl>,
+    /// Angle between cell normal and Sun for `sun_offset`, in deg; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 180)))]
+    pub sun_offset_deg: Option<f64>,
+    /// Which way the panel tilts off the Sun about its axis: 1 or -1; 1 unless given.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1])))]
+    pub tilt_sign: Option<i64>,
+    /// Angle about the axis for `angle`, in deg; 0 unless given.
+    pub angle_deg: Option<f64>,
+    /// Misalignment: turns of the panel frame about the body's X, then Y, then Z axis, in deg.
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Misalignment as matrix, row by row: components in the panel frame to components in the body frame.
+    pub dcm_body_from_panel: Option<[[f64; 3]; 3]>,
+}
+
+/// A reaction wheel.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WheelDescription {
+    /// Name for messages; numbered unless given.
+    pub name: Option<String>,
+    /// Unit vector of the spin axis, body frame.
+    pub axis: [f64; 3],
+    /// Greatest momentum of the rotor, in N m s.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub capacity_n_m_s: f64,
+}
+
+/// Limits of the stored momentum; left out, they are what the wheels guarantee on all body axes at once.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MomentumDescription {
+    /// Magnitude of each body component at which thrusters dump it, in N m s.
+    pub dump_threshold_n_m_s: [f64; 3],
+}
+
+/// Directions the Sun may have, symmetric about -Y.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SunKeepInDescription {
+    /// Greatest azimuth in the XY plane from -Y toward +X, in deg.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 180)))]
+    pub azimuth_deg: f64,
+    /// Greatest elevation from the XY plane toward -Z, in deg.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 90)))]
+    pub elevation_deg: f64,
+}

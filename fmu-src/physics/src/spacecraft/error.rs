@@ -1,0 +1,49 @@
+//! What is wrong with a spacecraft file: file, line, key, what was found and what is allowed.
+
+use core::fmt;
+
+/// One thing wrong in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Line from 1, where it could be told.
+    pub line: Option<usize>,
+    /// The key with its tables, items counted from 1: `sunshade.plates[3].area_m2`.
+    pub key: String,
+    /// What stands there.
+    pub found: String,
+    /// What may stand there.
+    pub allowed: String,
+}
+
+/// A spacecraft file that cannot be used, with everything found wrong in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SpacecraftError {
+    /// The file as the caller named it.
+    pub file: String,
+    /// At least one.
+    pub problems: Vec<Problem>,
+}
+
+impl fmt::Display for SpacecraftError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, problem) in self.problems.iter().enumerate() {
+            if i > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{}", self.file)?;
+            if let Some(line) = problem.line {
+                write!(f, ":{line}")?;
+            }
+            if !problem.key.is_empty() {
+                write!(f, ": {}", problem.key)?;
+            }
+            write!(f, ": found {}", problem.found)?;
+            if !problem.allowed.is_empty() {
+                write!(f, ", allowed: {}", problem.allowed)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for SpacecraftError {}

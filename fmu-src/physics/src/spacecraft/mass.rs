@@ -1,0 +1,91 @@
+//! Mass, centre of mass and inertia, and which of them a body can have.
+
+use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
+
+/// Mass properties of the whole spacecraft.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MassProperties {
+    /// Mass in kg.
+    pub mass_kg: f64,
+    /// Centre of mass from the body frame's origin, body axes, in m.
+    pub center_of_mass_body_m: Vector3<f64>,
+    /// Inertia about the centre of mass, body axes, in kg m2.
+    pub inertia_body_kg_m2: Matrix3<f64>,
+}
+
+/// Relative slack of the checks below: a thin plate sits exactly on the triangle inequality's edge.
+const SLACK: f64 = 1e-9;
+
+/// Whether a body can have this inertia (kg m2): finite, symmetric, positive definite, and no principal moment
+/// above the sum of the two others. The error says which condition fails.
+pub fn check_inertia(inertia_kg_m2: &Matrix3<f64>) -> Result<(), &'static str> {
+    if !inertia_kg_m2.iter().all(|moment| moment.abs() < 1e100) {
+        return Err("finite numbers");
+    }
+    let scale = inertia_kg_m2.amax();
+    if (inertia_kg_m2 - inertia_kg_m2.transpose()).amax() > SLACK * scale {
+        return Err("a symmetric matrix");
+    }
+    if inertia_kg_m2.cholesky().is_none() {
+        return Err("a positive definite matrix (every principal moment above 0)");
+    }
+    // The second moments of the mass, int r r^T dm = (tr I / 2) 1 - I, are never negative along any direction: for
+    // principal axes that is the triangle inequality.
+    let slack = SLACK * scale;
+    let second_moments = Matrix3::from_diagonal_element(inertia_kg_m2.trace() / 2.0 + slack) - inertia_kg_m2;
+    if second_moments.cholesky().is_none() {
+        return Err(
+            "principal moments of which none exceeds the sum of the two others (triangle inequality)",
+        );
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    //! Inertias of real point masses pass, inertias no mass distribution has do not.
+
+    use nalgebra::Rotation3;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn a_thin_disc_is_a_body_and_a_thinner_one_is_not() {
+        assert_eq!(check_inertia(&Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0))), Ok(()));
+        let error = check_inertia(&Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0001))).unwrap_err();
+        assert!(error.contains("triangle"));
+    }
+
+    #[test]
+    fn the_verdict_does_not_depend_on_the_axes() {
+        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
+        let turned = |d: Vector3<f64>| turn * Matrix3::from_diagonal(&d) * turn.transpose();
+        assert_eq!(check_inertia(&turned(Vector3::new(3.0, 4.0, 6.9))), Ok(()));
+        assert!(check_inertia(&turned(Vector3::new(3.0, 4.0, 7.1))).unwrap_err().contains("triangle"));
+        assert!(check_inertia(&turned(Vector3::new(3.0, 4.0, -1.0))).unwrap_err().contains("positive"));
+    }
+
+    #[test]
+    fn torn_matrices_are_named() {
+        let mut inertia = Matrix3::from_diagonal_element(1.0);
+        inertia[(0, 1)] = 0.1;
+        assert!(check_inertia(&inertia).unwrap_err().contains("symmetric"));
+        inertia[(0, 1)] = f64::NAN;
+        assert!(check_inertia(&inertia).unwrap_err().contains("finite"));
+        inertia[(0, 1)] = f64::INFINITY;
+        assert!(check_inertia(&inertia).unwrap_err().contains("finite"));
+    }
+
+    proptest! {
+        #[test]
+        fn any_cloud_of_points_is_a_body(points in prop::collection::vec(prop::array::uniform3(-5.0..5.0_f64), 4..12)) {
+            let inertia = points.iter().fold(Matrix3::from_diagonal_element(1e-6), |sum, p| {
+                let r = Vector3::from(*p);
+                sum + Matrix3::from_diagonal_element(r.norm_squared()) - r * r.transpose()
+            });
+            prop_assert_eq!(check_inertia(&inertia), Ok(()));
+        }
+    }
+}

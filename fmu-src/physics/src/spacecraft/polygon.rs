@@ -1,0 +1,238 @@
+//! Flat outlines: checked to be plane and simple, with area, centroid and normal.
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// How far a vertex may lie off the plane of its polygon, relative to the polygon's size.
+const PLANE_TOLERANCE: f64 = 1e-6;
+
+/// Vertices nearer than this part of the polygon's size are one.
+const SAME_VERTEX: f64 = 1e-9;
+
+/// A plane polygon whose boundary does not cross itself; counter-clockwise seen from where the normal points.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Polygon {
+    vertices_m: Vec<Vector3<f64>>,
+}
+
+/// Points that are no polygon. Vertices and edges count from 1; edge k starts at vertex k.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PolygonError {
+    /// Fewer than three.
+    #[error("{found} vertices, allowed: at least 3")]
+    TooFew {
+        /// How many.
+        found: usize,
+    },
+    /// Not a number, or infinite.
+    #[error("vertex {vertex} that is not finite, allowed: finite numbers")]
+    NotFinite {
+        /// Which.
+        vertex: usize,
+    },
+    /// The same point twice.
+    #[error("vertices {first} and {second} in one place, allowed: distinct vertices")]
+    Repeated {
+        /// One of them.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// All on one line.
+    #[error("vertices on one line, allowed: an outline with an area")]
+    NoArea,
+    /// Off the plane of the others.
+    #[error("vertex {vertex} lies {distance_m:e} m off the plane of the polygon, allowed: {allowed_m:e} m")]
+    NotPlane {
+        /// Which.
+        vertex: usize,
+        /// How far.
+        distance_m: f64,
+        /// How far it may.
+        allowed_m: f64,
+    },
+    /// Crosses itself.
+    #[error("edges {first} and {second} cross or touch, allowed: an outline that does not cross itself")]
+    Crossing {
+        /// One of them.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+}
+
+impl Polygon {
+    /// Checks the outline; its normal follows the right-hand rule.
+    ///
+    /// # Errors
+    /// Fewer than three vertices, vertices that coincide, are not finite, or not in one plane (within 1e-6 of the
+    /// polygon's size), no area, or edges that cross.
+    pub fn new(vertices_m: Vec<Vector3<f64>>) -> Result<Self, PolygonError> {
+        let count = vertices_m.len();
+        if count < 3 {
+            return Err(PolygonError::TooFew { found: count });
+        }
+        if let Some(vertex) = vertices_m.iter().position(|v| !v.iter().all(|x| x.is_finite())) {
+            return Err(PolygonError::NotFinite { vertex: vertex + 1 });
+        }
+        let polygon = Self { vertices_m };
+        let size_m = polygon.size_m();
+        for (i, a) in polygon.vertices_m.iter().enumerate() {
+            for (j, b) in polygon.vertices_m.iter().enumerate().skip(i + 1) {
+                if (a - b).norm() <= SAME_VERTEX * size_m {
+                    return Err(PolygonError::Repeated { first: i + 1, second: j + 1 });
+                }
+            }
+        }
+        if polygon.area_vector_m2().norm() <= SAME_VERTEX * size_m * size_m {
+            return Err(PolygonError::NoArea);
+        }
+        let (normal, center) = (polygon.normal(), polygon.centroid_m());
+        let allowed_m = PLANE_TOLERANCE * size_m;
+        for (i, vertex) in polygon.vertices_m.iter().enumerate() {
+            let distance_m = normal.dot(&(vertex - center)).abs();
+            if distance_m > allowed_m {
+                return Err(PolygonError::NotPlane { vertex: i + 1, distance_m, allowed_m });
+            }
+        }
+        polygon.check_simple(&normal)?;
+        Ok(polygon)
+    }
+
+    /// Vertices in order, in m.
+    pub fn vertices_m(&self) -> &[Vector3<f64>] {
+        &self.vertices_m
+    }
+
+    /// Unit normal by the right-hand rule.
+    pub fn normal(&self) -> Vector3<f64> {
+        self.area_vector_m2().normalize()
+    }
+
+    /// Area in m2.
+    pub fn area_m2(&self) -> f64 {
+        self.area_vector_m2().norm()
+    }
+
+    /// Centre of area in m.
+    pub fn centroid_m(&self) -> Vector3<f64> {
+        let normal = self.normal();
+        let origin = self.vertices_m[0];
+        let mut sum = Vector3::zeros();
+        let mut area = 0.0;
+        for (a, b) in self.edges() {
+            let (a, b) = (a - origin, b - origin);
+            let part = normal.dot(&a.cross(&b)) / 2.0;
+            area += part;
+            sum += (a + b) * (part / 3.0);
+        }
+        origin + sum / area
+    }
+
+    /// The same outline seen from behind.
+    pub fn reversed(&self) -> Self {
+        Self { vertices_m: self.vertices_m.iter().rev().copied().collect() }
+    }
+
+    /// The outline after a motion that keeps lengths and angles.
+    pub fn moved(&self, motion: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Self {
+        Self { vertices_m: self.vertices_m.iter().map(motion).collect() }
+    }
+
+    fn edges(&self) -> impl Iterator<Item = (Vector3<f64>, Vector3<f64>)> + '_ {
+        let next = self.vertices_m.iter().cycle().skip(1);
+        self.vertices_m.iter().zip(next).map(|(a, b)| (*a, *b))
+    }
+
+    /// Newell's vector: area times normal.
+    fn area_vector_m2(&self) -> Vector3<f64> {
+        let origin = self.vertices_m[0];
+        self.edges().map(|(a, b)| (a - origin).cross(&(b - origin)) / 2.0).sum()
+    }
+
+    fn size_m(&self) -> f64 {
+        let first = self.vertices_m[0];
+        2.0 * self.vertices_m.iter().map(|v| (v - first).norm()).fold(0.0, f64::max)
+    }
+
+    fn check_simple(&self, normal: &Vector3<f64>) -> Result<(), PolygonError> {
+        let edges: Vec<_> = self.edges().collect();
+        let count = edges.len();
+        let side =
+            |(a, b): (Vector3<f64>, Vector3<f64>), p: Vector3<f64>| normal.dot(&(b - a).cross(&(p - a)));
+        let between = |(a, b): (Vector3<f64>, Vector3<f64>), p: Vector3<f64>| (p - a).dot(&(p - b)) <= 0.0;
+        for i in 0..count {
+            for j in i + 1..count {
+                let (first, second) = (edges[i], edges[j]);
+                let crossing = Err(PolygonError::Crossing { first: i + 1, second: j + 1 });
+                if j == i + 1 || (i == 0 && j == count - 1) {
+                    // Neighbours share a vertex; they must not fold back onto each other.
+                    let (before, after) = if j == i + 1 { (first, second) } else { (second, first) };
+                    let (u, v) = (before.0 - before.1, after.1 - after.0);
+                    let flat = u.cross(&v).norm() <= SAME_VERTEX * u.norm() * v.norm();
+                    if flat && u.dot(&v) > 0.0 {
+                        return crossing;
+                    }
+                    continue;
+                }
+                let (a, b) = (side(first, second.0), side(first, second.1));
+                let (c, d) = (side(second, first.0), side(second, first.1));
+                let proper = a * b < 0.0 && c * d < 0.0;
+                let touching = (a == 0.0 && between(first, second.0))
+                    || (b == 0.0 && between(first, second.1))
+                    || (c == 0.0 && between(second, first.0))
+                    || (d == 0.0 && between(second, first.1));
+                if proper || touching {
+                    return crossing;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Outlines known by heart have their area, centre and normal; points that are no outline are refused.
+
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn polygon(points: &[[f64; 3]]) -> Result<Polygon, PolygonError> {
+        Polygon::new(points.iter().map(|p| Vector3::from(*p)).collect())
+    }
+
+    #[test]
+    fn an_angle_iron_has_the_area_and_centre_of_its_two_squares() {
+        // Three unit squares in an L, in the plane x = 2, normal +x.
+        let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+        let l: Vec<[f64; 3]> = l.iter().map(|[y, z]| [2.0, *y, *z]).collect();
+        let polygon = polygon(&l).unwrap();
+        assert_relative_eq!(polygon.area_m2(), 3.0, epsilon = 1e-14);
+        assert_relative_eq!(polygon.normal(), Vector3::x(), epsilon = 1e-15);
+        let middle = (0.5 + 1.5 + 0.5) / 3.0;
+        assert_relative_eq!(polygon.centroid_m(), Vector3::new(2.0, middle, middle), epsilon = 1e-14);
+        assert_relative_eq!(polygon.reversed().normal(), -Vector3::x(), epsilon = 1e-15);
+    }
+
+    #[test]
+    fn what_is_no_outline_is_refused_with_the_reason() {
+        let says = |points: &[[f64; 3]], text: &str| {
+            let error = polygon(points).unwrap_err().to_string();
+            assert!(error.contains(text), "{error}");
+        };
+        says(&[[0.0; 3], [1.0, 0.0, 0.0]], "2 vertices, allowed: at least 3");
+        says(&[[0.0; 3], [1.0, 0.0, 0.0], [f64::NAN, 1.0, 0.0]], "vertex 3 that is not finite");
+        says(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], "vertices 1 and 3 in one place");
+        says(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]], "vertices on one line");
+        let bent = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0]];
+        says(&bent, "off the plane");
+        let bow_tie = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+        says(&bow_tie, "edges 1 and 3 cross");
+        let touching = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+        says(&touching, "cross or touch");
+        let spike = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+        says(&spike, "edges 1 and 2 cross");
+    }
+}

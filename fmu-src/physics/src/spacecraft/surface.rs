@@ -1,0 +1,106 @@
+//! Surfaces light falls on: optics, flat plates, the cylindrical section and the sunshade made of either.
+
+use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
+
+use super::polygon::Polygon;
+use super::thermal::Thermal;
+
+/// What a surface does with light; the three fractions sum to 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Optics {
+    /// Absorbed fraction (alpha).
+    pub absorptivity: f64,
+    /// Mirrored fraction (gamma_S; paper 000's C_s).
+    pub specular: f64,
+    /// Fraction scattered by Lambert's law (gamma_D; paper 000's C_d).
+    pub diffuse: f64,
+}
+
+impl Optics {
+    /// Optics that absorb whatever they do not reflect.
+    pub const fn from_reflectivities(specular: f64, diffuse: f64) -> Self {
+        Self { absorptivity: 1.0 - specular - diffuse, specular, diffuse }
+    }
+}
+
+/// A flat surface fixed in a frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Plate {
+    /// For messages and pictures.
+    pub name: String,
+    /// Area in m2.
+    pub area_m2: f64,
+    /// Centre of area from the frame's origin, in m.
+    pub center_m: Vector3<f64>,
+    /// Unit vector out of the front face.
+    pub normal: Vector3<f64>,
+    /// Optics of the front face.
+    pub optics: Optics,
+    /// Optics of the rear face; `None` where no light can reach it.
+    pub rear_optics: Option<Optics>,
+    /// Heat of both faces.
+    pub thermal: Thermal,
+    /// Outline, counter-clockwise seen from the front; surfaces without one neither shadow nor are shadowed.
+    pub polygon: Option<Polygon>,
+}
+
+impl Plate {
+    /// The same plate in another frame with the same origin.
+    pub fn rotated(&self, rotation: &Matrix3<f64>) -> Self {
+        Self {
+            center_m: rotation * self.center_m,
+            normal: rotation * self.normal,
+            polygon: self.polygon.as_ref().map(|polygon| polygon.moved(|v| rotation * v)),
+            ..self.clone()
+        }
+    }
+}
+
+/// Part of a cylinder's outside (paper 000, Figure 2a): axis along Z through the shade frame's origin, symmetric about
+/// the XY plane, and about the -Y direction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cylinder {
+    /// Radius R in m.
+    pub radius_m: f64,
+    /// Total height 2 h0 in m.
+    pub height_m: f64,
+    /// Half the angle subtended at the axis, theta0, in rad; up to pi.
+    pub half_angle_rad: f64,
+    /// Optics of the outside; the inside receives no light.
+    pub optics: Optics,
+}
+
+/// Which description of the sunshade is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum SunshadeModel {
+    /// Flat plates.
+    Plates,
+    /// The section of a cylinder.
+    Cylinder,
+}
+
+/// A sunshade in its own frame, which shares the body frame's origin.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sunshade {
+    /// The description used unless somebody chooses the other.
+    pub model: SunshadeModel,
+    /// Rotation Q_sh^sc: components in the shade frame to components in the body frame.
+    pub dcm_body_from_shade: Matrix3<f64>,
+    /// Plates in the shade frame; empty if the shade is described as cylinder only.
+    pub plates: Vec<Plate>,
+    /// The cylindrical section in the shade frame.
+    pub cylinder: Option<Cylinder>,
+}
+
+impl Sunshade {
+    /// Whether the shade is described this way.
+    pub fn has(&self, model: SunshadeModel) -> bool {
+        match model {
+            SunshadeModel::Plates => !self.plates.is_empty(),
+            SunshadeModel::Cylinder => self.cylinder.is_some(),
+        }
+    }
+}

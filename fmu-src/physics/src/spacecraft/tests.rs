@@ -1,0 +1,309 @@
+//! A good file gives the numbers it states; a bad one is refused by file, line, key, what was found and what is allowed.
+
+use approx::assert_relative_eq;
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+use super::*;
+
+const SMALL: &str = r#"
+name = "Small"
+[mass_properties]
+mass_kg = 100
+center_of_mass_m = [0.0, 0.1, 0.0]
+inertia_kg_m2 = [[10, 0, 0], [0, 12, 0], [0, 0, 15]]
+[optics.white]
+specular = 0.2
+diffuse = 0.5
+[[plates]]
+area_m2 = 2.0
+center_m = [0.0, -1.0, 0.0]
+normal = [0.0, -1.0, 0.0]
+optics = "white"
+[[panels]]
+area_m2 = 3.0
+center_m = [2.0, 0.0, 0.0]
+optics = "white"
+[[wheels]]
+axis = [1.0, 0.0, 0.0]
+capacity_n_m_s = 4.0
+"#;
+
+fn problems(text: &str) -> Vec<Problem> {
+    Spacecraft::from_toml("small.toml", text).unwrap_err().problems
+}
+
+/// The one problem of the small file after a replacement.
+fn problem(from: &str, to: &str) -> Problem {
+    assert!(SMALL.contains(from), "nothing to replace: {from}");
+    let problems = problems(&SMALL.replacen(from, to, 1));
+    assert_eq!(problems.len(), 1, "{problems:?}");
+    problems.into_iter().next().unwrap()
+}
+
+#[test]
+fn messenger_is_as_published() {
+    let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+    let shade = craft.sunshade.as_ref().unwrap();
+    assert_eq!(shade.plates.len(), 8);
+    assert_eq!(craft.panels.len(), 2);
+    assert_eq!(craft.wheels.len(), 4);
+    let area: f64 = shade.plates.iter().map(|plate| plate.area_m2).sum();
+    assert_relative_eq!(area, 2.0 * (1.169 + 0.8672 + 0.02052) + 1.068 + 0.06409, epsilon = 1e-12);
+    assert!(shade.plates.iter().all(|plate| (plate.normal.norm() - 1.0).abs() < 1e-15));
+    assert!(shade.plates.iter().all(|plate| (plate.optics.absorptivity - 0.5).abs() < 1e-15));
+    // Mirrored in X, plate by plate.
+    for plate in &shade.plates {
+        let mirror = |v: &Vector3<f64>| Vector3::new(-v.x, v.y, v.z);
+        assert!(shade.plates.iter().any(|other| other.center_m == mirror(&plate.center_m)
+            && other.normal == mirror(&plate.normal)
+            && other.area_m2 == plate.area_m2));
+    }
+    assert_relative_eq!(shade.cylinder.unwrap().half_angle_rad, 61_f64.to_radians());
+    assert_relative_eq!(craft.panels[0].sun_offset_rad, 65_f64.to_radians());
+    assert_relative_eq!(craft.sun_keep_in.unwrap().elevation_rad, 13_f64.to_radians());
+}
+
+#[test]
+fn the_example_is_a_good_file_of_another_spacecraft() {
+    let text = include_str!("../../../resources/examples/solar-sailer.toml");
+    let craft = Spacecraft::from_toml("solar-sailer.toml", text).unwrap();
+    assert_eq!((craft.plates.len(), craft.panels.len(), craft.wheels.len()), (9, 3, 3));
+    assert!(craft.sunshade.is_none());
+    // Its thresholds are ones its wheels can hold.
+    let guaranteed = guaranteed_threshold_n_m_s(&craft.wheels);
+    assert_relative_eq!(guaranteed, 2.0, epsilon = 1e-12);
+    assert!(craft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
+}
+
+#[test]
+fn messengers_assumed_wheels_guarantee_more_than_the_stated_threshold() {
+    let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+    // Equal components 1/sqrt 3 on all axes: along X, Y or Z four projections, for all three at once half of that.
+    assert_relative_eq!(
+        momentum_capacity_n_m_s(&craft.wheels, &Vector3::y()),
+        32.0 / 3_f64.sqrt(),
+        epsilon = 1e-4
+    );
+    let (_, stated) = PAPER_DUMP_THRESHOLDS_N_M_S[1];
+    assert!(guaranteed_threshold_n_m_s(&craft.wheels) > stated);
+    assert_eq!(craft.dump_threshold_n_m_s, Some(Vector3::repeat(stated)));
+}
+
+#[test]
+fn defaults_are_the_documented_ones() {
+    let craft = Spacecraft::from_toml("small.toml", SMALL).unwrap();
+    let panel = &craft.panels[0];
+    assert_eq!(panel.axis_body, Vector3::x());
+    assert_eq!(panel.zero_normal_body, -Vector3::y());
+    assert_eq!((panel.control, panel.sun_offset_rad, panel.tilt_sign), (PanelControl::SunOffset, 0.0, 1.0));
+    assert_eq!((panel.name.as_str(), craft.plates[0].name.as_str()), ("panel 1", "plate 1"));
+    assert_relative_eq!(craft.plates[0].optics.absorptivity, 0.3, epsilon = 1e-15);
+    assert!(craft.sunshade.is_none() && craft.sun_keep_in.is_none() && craft.dump_threshold_n_m_s.is_none());
+}
+
+#[test]
+fn a_bad_value_is_named_with_its_line() {
+    let negative = problem("area_m2 = 2.0", "area_m2 = -2.0");
+    assert_eq!(
+        negative,
+        Problem {
+            line: Some(11),
+            key: "plates[1].area_m2".to_owned(),
+            found: "-2".to_owned(),
+            allowed: "a number above 0".to_owned(),
+        }
+    );
+    let shown = Spacecraft::from_toml("small.toml", &SMALL.replacen("2.0", "-2.0", 1)).unwrap_err();
+    assert_eq!(shown.to_string(), "small.toml:11: plates[1].area_m2: found -2, allowed: a number above 0");
+}
+
+#[test]
+fn an_unknown_key_comes_with_the_nearest_allowed_one() {
+    let unknown = problem("area_m2 = 2.0", "arae_m2 = 2.0");
+    assert_eq!(unknown.line, Some(11));
+    assert_eq!(unknown.key, "plates[1].arae_m2");
+    assert_eq!(unknown.found, "the unknown key `arae_m2` (did you mean `area_m2`?)");
+    assert!(unknown.allowed.contains("center_m"));
+    assert_eq!(problem("[optics.white]", "[optic.white]").key, "optic");
+    let material = problem("optics = \"white\"", "optics = \"whyte\"");
+    assert_eq!(material.found, "the unknown material `whyte` (did you mean `white`?)");
+}
+
+#[test]
+fn every_rule_has_its_message() {
+    let cases = [
+        // replaced, by, key, part of what is allowed
+        ("area_m2 = 2.0", "area_m2 = nan", "plates[1].area_m2", "above 0"),
+        ("area_m2 = 2.0", "area_m2 = 0", "plates[1].area_m2", "above 0"),
+        ("area_m2 = 2.0", "area_m2 = inf", "plates[1].area_m2", "above 0"),
+        ("area_m2 = 2.0", "area_m2 = \"big\"", "plates[1].area_m2", "a number"),
+        ("center_m = [0.0, -1.0, 0.0]", "center_m = [0.0, inf, 0.0]", "plates[1].center_m[2]", "finite"),
+        ("center_m = [0.0, -1.0, 0.0]", "center_m = [0.0, 1.0]", "plates[1].center_m", "a list of length 3"),
+        ("normal = [0.0, -1.0, 0.0]", "normal = [0.0, -1.0, 0.05]", "plates[1].normal", "unit vector"),
+        ("normal = [0.0, -1.0, 0.0]", "normal = [0.0, nan, 0.0]", "plates[1].normal", "unit vector"),
+        ("diffuse = 0.5", "diffuse = -0.5", "optics.white.diffuse", "from 0 to 1"),
+        ("specular = 0.2", "specular = 0.7", "optics.white.specular", "at most 1"),
+        ("diffuse = 0.5", "diffuse = 0.5\nabsorptivity = 0.31", "optics.white.absorptivity", "sum of 1"),
+        ("mass_kg = 100", "mass_kg = -1", "mass_properties.mass_kg", "above 0"),
+        ("[0, 0, 15]", "[0, 0, 23]", "mass_properties.inertia_kg_m2", "triangle"),
+        ("[0, 0, 15]", "[0, 1, 15]", "mass_properties.inertia_kg_m2", "symmetric"),
+        ("[0, 0, 15]", "[0, 0, nan]", "mass_properties.inertia_kg_m2", "finite"),
+        ("axis = [1.0, 0.0, 0.0]", "axis = [1.1, 0.0, 0.0]", "wheels[1].axis", "unit vector"),
+        ("capacity_n_m_s = 4.0", "capacity_n_m_s = 0", "wheels[1].capacity_n_m_s", "above 0"),
+        ("area_m2 = 3.0", "area_m2 = 3.0\naxis = [0, 0.9999, 0]", "panels[1].zero_normal", "perpendicular"),
+        ("area_m2 = 3.0", "area_m2 = 3.0\ntilt_sign = 2", "panels[1].tilt_sign", "1 or -1"),
+        ("area_m2 = 3.0", "area_m2 = 3.0\ncontrol = \"sun\"", "panels[1].control", "sun_offset"),
+        ("area_m2 = 3.0", "area_m2 = 3.0\nsun_offset_deg = 181", "panels[1].sun_offset_deg", "0 to 180"),
+        ("name = \"Small\"", "name = \"\"", "name", "a name"),
+        ("name = \"Small\"", "name = \"S\"\nsun_keep_in = {azimuth_deg=9}", "sun_keep_in", "elevation_deg"),
+        (
+            "[[wheels]]",
+            "[momentum]\ndump_threshold_n_m_s = [1, 0, 1]\n[[wheels]]",
+            "momentum.dump_threshold_n_m_s[2]",
+            "above 0",
+        ),
+        ("[[wheels]]", "[sunshade]\nmodel = \"cylinder\"\n[[wheels]]", "sunshade.model", "sunshade.cylinder"),
+        (
+            "area_m2 = 3.0",
+            "area_m2 = 3.0\ndcm_body_from_panel = [[1,0,0],[0,1,0],[0,0,-1]]",
+            "panels[1].dcm_body_from_panel",
+            "rotation matrix",
+        ),
+    ];
+    for (from, to, key, allowed) in cases {
+        let problem = problem(from, to);
+        assert_eq!(problem.key, key, "{problem:?}");
+        assert!(problem.allowed.contains(allowed), "{problem:?}");
+        assert!(problem.line.is_some());
+    }
+}
+
+#[test]
+fn all_bad_values_are_reported_at_once() {
+    let text = SMALL.replace("area_m2 = ", "area_m2 = -").replace("mass_kg = 100", "mass_kg = inf");
+    assert_eq!(problems(&text).len(), 3);
+}
+
+#[test]
+fn a_file_without_surfaces_or_with_empty_lists_is_refused() {
+    let head = &SMALL[..SMALL.find("[[plates]]").unwrap()];
+    assert_eq!(problems(head)[0].found, "no surface");
+    assert_eq!(problems(&format!("plates = []\n{head}"))[0].found, "an empty list");
+}
+
+#[test]
+fn torn_text_names_the_line() {
+    let torn = &SMALL[..SMALL.find("-1.0, 0.0]").unwrap()];
+    let problems = problems(torn);
+    assert_eq!(problems[0].line, Some(12), "{problems:?}");
+    assert!(problems[0].found.contains("not TOML"));
+    assert!(Spacecraft::from_toml("empty.toml", "").is_err());
+}
+
+#[test]
+fn a_direction_written_with_four_digits_is_renormalised() {
+    let text = SMALL.replace("normal = [0.0, -1.0, 0.0]", "normal = [0.7071, -0.7071, 0.0]");
+    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    assert_relative_eq!(craft.plates[0].normal.x, 0.5_f64.sqrt(), epsilon = 1e-15);
+}
+
+#[test]
+fn a_misalignment_turns_a_panel_about_the_body_origin() {
+    let text = SMALL.replace("area_m2 = 3.0", "area_m2 = 3.0\nrotation_deg = [0.0, 0.0, 90.0]");
+    let by_angles = &Spacecraft::from_toml("small.toml", &text).unwrap().panels[0];
+    let matrix = "area_m2 = 3.0\ndcm_body_from_panel = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]";
+    let by_matrix =
+        &Spacecraft::from_toml("small.toml", &SMALL.replace("area_m2 = 3.0", matrix)).unwrap().panels[0];
+    for panel in [by_angles, by_matrix] {
+        assert_relative_eq!(panel.center_body_m, Vector3::new(0.0, 2.0, 0.0), epsilon = 1e-15);
+        assert_relative_eq!(panel.axis_body, Vector3::y(), epsilon = 1e-15);
+        assert_relative_eq!(panel.zero_normal_body, Vector3::x(), epsilon = 1e-15);
+    }
+}
+
+proptest! {
+    #[test]
+    fn no_text_panics(text in "\\PC{0,200}") {
+        let _ = Spacecraft::from_toml("any.toml", &text);
+    }
+
+    #[test]
+    fn no_damage_to_a_good_file_panics(at in 0..SMALL.len(), byte in prop::char::range(' ', '~')) {
+        let mut text = SMALL.to_owned();
+        text.replace_range(at..at + 1, &byte.to_string());
+        let _ = Spacecraft::from_toml("any.toml", &text).map_err(|error| error.to_string());
+    }
+}
+
+#[test]
+fn messenger_thermal_is_table_5() {
+    let craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
+    assert_eq!((craft.plates.len(), craft.panels.len()), (8, 2));
+    assert_eq!(craft.mass_properties.mass_kg, 700.0);
+    let plates: f64 = craft.plates.iter().map(|plate| plate.area_m2).sum();
+    assert_relative_eq!(plates, 2.122 + 1.264 + 2.121 + 2.0 * 2.35 + 2.0 * 1.803 + 4.612, epsilon = 1e-12);
+    // -127.2 and -52.8 deg of right ascension.
+    assert_relative_eq!(
+        craft.plates[0].normal.angle(&craft.plates[2].normal).to_degrees(),
+        74.4,
+        epsilon = 1e-6
+    );
+    for panel in &craft.panels {
+        assert_relative_eq!(panel.optics.absorptivity, 0.75);
+        assert_relative_eq!(panel.rear_optics.unwrap().absorptivity, 0.7, epsilon = 1e-15);
+        assert_eq!(panel.thermal.conduction.unwrap().conductance_w_m2_k, 18.0);
+        assert_eq!(panel.thermal.rear.unwrap().emission.emissivity, panel.rear_optics.unwrap().absorptivity);
+    }
+}
+
+#[test]
+fn outlines_give_area_centre_and_normal() {
+    let text = SMALL.replace(
+        "area_m2 = 2.0\ncenter_m = [0.0, -1.0, 0.0]\nnormal = [0.0, -1.0, 0.0]",
+        "polygon_m = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, -1.0, 3.0]]",
+    );
+    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    let plate = &craft.plates[0];
+    assert_relative_eq!(plate.area_m2, 3.0, epsilon = 1e-14);
+    assert_relative_eq!(plate.center_m, Vector3::new(0.0, -1.0, 1.0), epsilon = 1e-14);
+    assert_relative_eq!(plate.normal, -Vector3::y(), epsilon = 1e-14);
+    // The same vertices with the normal on the other side: the outline turns round.
+    let text = text.replace("polygon_m", "normal = [0.0, 1.0, 0.0]\npolygon_m");
+    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    assert_relative_eq!(craft.plates[0].normal, Vector3::y(), epsilon = 1e-14);
+}
+
+#[test]
+fn bad_outlines_and_heat_are_named() {
+    let plate = "normal = [0.0, -1.0, 0.0]\noptics = \"white\"";
+    let with = |more: &str| problem(plate, &format!("{plate}\n{more}"));
+    let bent = with("polygon_m = [[-1, -1, -0.5], [1, -1, -0.5], [1, -1.1, 0.5], [-1, -1, 0.5]]");
+    assert_eq!(bent.key, "plates[1].polygon_m");
+    assert!(bent.found.contains("off the plane"), "{bent:?}");
+    let crossing = with("polygon_m = [[-1, -1, -0.5], [1, -1, 0.5], [1, -1, -0.5], [-1, -1, 1.5]]");
+    assert!(crossing.found.contains("cross"), "{crossing:?}");
+    let small = with("polygon_m = [[-0.5, -1, -0.5], [0.5, -1, -0.5], [0.5, -1, 0.5], [-0.5, -1, 0.5]]");
+    assert_eq!((small.key.as_str(), small.found.as_str()), ("plates[1].area_m2", "2"));
+    let one_sided = with("thermal.conduction.conductance_w_m2_k = 3.0");
+    assert_eq!(one_sided.key, "plates[1].thermal.conduction");
+    let falling = problem("diffuse = 0.5", "diffuse = 0.5\nemissivity = 0.8\nemissivity_per_k = -1e-3");
+    assert_eq!(falling.key, "optics.white.emissivity_per_k");
+    let sum = problem("diffuse = 0.5", "diffuse = 0.5\nabsorptivity = 0.4");
+    assert!(sum.allowed.contains("a sum of 1"), "{sum:?}");
+    let nothing = problem("area_m2 = 2.0\n", "");
+    assert_eq!(nothing.found, "no key `area_m2`");
+}
+
+#[test]
+fn emissivity_and_infrared_absorptivity_stand_for_themselves() {
+    let text =
+        SMALL.replace("diffuse = 0.5", "diffuse = 0.5\nemissivity = 0.85\ninfrared_absorptivity = 0.9");
+    let thermal = Spacecraft::from_toml("small.toml", &text).unwrap().plates[0].thermal;
+    assert_eq!(thermal.front.emission.emissivity, 0.85);
+    let optics = thermal.front.infrared_optics;
+    assert_relative_eq!(optics.absorptivity, 0.9);
+    assert_relative_eq!(optics.diffuse / optics.specular, 2.5, epsilon = 1e-12);
+    let plain = Spacecraft::from_toml("small.toml", SMALL).unwrap().plates[0].thermal;
+    assert_relative_eq!(plain.front.emission.emissivity, 0.3, epsilon = 1e-15);
+}

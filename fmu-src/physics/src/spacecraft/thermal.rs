@@ -1,0 +1,151 @@
+//! How a surface gives off heat: emissivity, conduction between its faces, heat from inside, heat capacity.
+
+use serde::Serialize;
+
+use super::surface::Optics;
+use crate::numerics::scalar::Scalar;
+
+/// Temperature emissivities are stated at unless a file says otherwise, in K.
+pub const EMISSIVITY_REFERENCE_TEMPERATURE_K: f64 = 300.0;
+
+/// Up to here the power a face emits must grow with its temperature, in K.
+const HIGHEST_TEMPERATURE_K: f64 = 2000.0;
+
+/// Least emissivity at any temperature.
+const LEAST_EMISSIVITY: f64 = 1e-3;
+
+/// Emissivity of a face, linear in temperature and kept from 0.001 to 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Emission {
+    /// Emissivity at the reference temperature.
+    pub emissivity: f64,
+    /// Change with temperature per K.
+    pub slope_per_k: f64,
+    /// Reference temperature in K.
+    pub reference_temperature_k: f64,
+}
+
+/// What a face does in the infrared.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FaceThermal {
+    /// Optics for the planet's infrared light.
+    pub infrared_optics: Optics,
+    /// Emission of heat.
+    pub emission: Emission,
+}
+
+/// Heat flow through a thin structure from front to rear (paper 004 eqs 45-47).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Conduction {
+    /// Conductance q_SP = k/d r_HC r_C, in W/m2/K.
+    pub conductance_w_m2_k: f64,
+    /// Factor of sigma (T1^4 - T2^4): eps_int (1 - r_HC) / (2 - eps_int).
+    pub radiative_exchange: f64,
+}
+
+/// What a honeycomb panel is made of (paper 004 eqs 45, 47).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Honeycomb {
+    /// Conductivity of the core's material k_SP, in W/m/K.
+    pub conductivity_w_m_k: f64,
+    /// Thickness of the panel d_SP, in m.
+    pub thickness_m: f64,
+    /// Cross-section of the honeycomb's walls over the panel's area, r_HC.
+    pub wall_area_ratio: f64,
+    /// Packing factor of the solar cells, r_C.
+    pub packing_factor: f64,
+    /// Emissivity inside the honeycomb, eps_int.
+    pub internal_emissivity: f64,
+}
+
+/// Thermal properties of a plate or panel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Thermal {
+    /// The front face.
+    pub front: FaceThermal,
+    /// The rear face, if light can reach it.
+    pub rear: Option<FaceThermal>,
+    /// Heat flow between the faces; without it each is insulated.
+    pub conduction: Option<Conduction>,
+    /// Heat from inside that leaves through front and rear, in W.
+    pub internal_heat_w: [f64; 2],
+    /// Heat capacity of each face, in J/m2/K; 0 where the face follows its light at once.
+    pub heat_capacity_j_m2_k: f64,
+}
+
+impl Emission {
+    /// An emissivity that does not depend on temperature.
+    pub const fn constant(emissivity: f64) -> Self {
+        Self { emissivity, slope_per_k: 0.0, reference_temperature_k: EMISSIVITY_REFERENCE_TEMPERATURE_K }
+    }
+
+    /// Emissivity and its derivative by temperature.
+    #[inline]
+    pub fn at<T: Scalar>(&self, temperature_k: T) -> (T, T) {
+        let linear = (temperature_k - self.reference_temperature_k) * self.slope_per_k + self.emissivity;
+        if self.slope_per_k == 0.0 {
+            (T::constant(self.emissivity), T::constant(0.0))
+        } else if linear.value() < LEAST_EMISSIVITY {
+            (T::constant(LEAST_EMISSIVITY), T::constant(0.0))
+        } else if linear.value() > 1.0 {
+            (T::constant(1.0), T::constant(0.0))
+        } else {
+            (linear, T::constant(self.slope_per_k))
+        }
+    }
+
+    /// Whether a hotter face always emits more, up to 2000 K; otherwise a heat balance has several answers.
+    pub(super) fn grows(&self) -> bool {
+        // d(eps T^4)/dT = T^3 (4 eps + T eps'); with a falling emissivity it is least at the highest temperature.
+        let at_highest =
+            self.emissivity + self.slope_per_k * (HIGHEST_TEMPERATURE_K - self.reference_temperature_k);
+        self.slope_per_k >= 0.0
+            || (at_highest >= LEAST_EMISSIVITY
+                && 4.0 * at_highest + HIGHEST_TEMPERATURE_K * self.slope_per_k > 0.0)
+    }
+}
+
+impl FaceThermal {
+    /// As in paper 004: infrared light is treated as sunlight, emissivity equals absorptivity (but is at least 0.001).
+    pub const fn like_sunlight(optics: &Optics) -> Self {
+        let emissivity =
+            if optics.absorptivity > LEAST_EMISSIVITY { optics.absorptivity } else { LEAST_EMISSIVITY };
+        Self { infrared_optics: *optics, emission: Emission::constant(emissivity) }
+    }
+}
+
+impl Honeycomb {
+    /// Conductance and radiative exchange (eqs 45, 47).
+    pub fn conduction(&self) -> Conduction {
+        Conduction {
+            conductance_w_m2_k: self.conductivity_w_m_k / self.thickness_m
+                * self.wall_area_ratio
+                * self.packing_factor,
+            radiative_exchange: self.internal_emissivity * (1.0 - self.wall_area_ratio)
+                / (2.0 - self.internal_emissivity),
+        }
+    }
+}
+
+impl Thermal {
+    /// Insulated faces of these optics, with the paper's emissivities.
+    pub fn insulated(front: &Optics, rear: Option<&Optics>) -> Self {
+        Self {
+            front: FaceThermal::like_sunlight(front),
+            rear: rear.map(FaceThermal::like_sunlight),
+            conduction: None,
+            internal_heat_w: [0.0; 2],
+            heat_capacity_j_m2_k: 0.0,
+        }
+    }
+}
+
+impl Optics {
+    /// The same surface where it absorbs another fraction: what is reflected keeps its mix of mirror and scatter.
+    pub fn with_absorptivity(&self, absorptivity: f64) -> Self {
+        let reflected = self.specular + self.diffuse;
+        let specular_share = if reflected > 0.0 { self.specular / reflected } else { 0.0 };
+        let specular = (1.0 - absorptivity) * specular_share;
+        Self { absorptivity, specular, diffuse: 1.0 - absorptivity - specular }
+    }
+}

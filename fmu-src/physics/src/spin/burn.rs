@@ -1,0 +1,318 @@
+//! A burn: which thrusters, which train, timed how, toward what; checked before it is flown.
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    forecast::{Flight, Range, Timing},
+    nutation::Spin,
+    spinner::Spinner,
+    train::{MOST_ORDER, MOST_PULSES, Shape, Train, TrainError},
+};
+
+/// A transverse or axial torque below this share of the whole counts as none.
+const NO_TORQUE: f64 = 1e-9;
+/// Cosine of the greatest angle by which "opposite" may be off.
+const OPPOSITE: f64 = -0.996;
+
+/// What a burn is asked to be. Numbers that are 0 where the field says so mean "not given".
+#[derive(Clone, Debug, PartialEq)]
+pub struct BurnRequest {
+    /// Shape of the train.
+    pub shape: Shape,
+    /// Timing.
+    pub timing: Timing,
+    /// Not before, in s.
+    pub start_s: f64,
+    /// Thruster number from 1.
+    pub thruster: i32,
+    /// Opposite thruster number from 1; 0 for none.
+    pub opposite_thruster: i32,
+    /// Named group or thruster in place of the numbers; empty for none.
+    pub group: String,
+    /// Width of a pulse (of the outermost of a taper), in s.
+    pub pulse_width_s: f64,
+    /// Turns from pulse to pulse.
+    pub turns_per_pulse: f64,
+    /// Number of pulses; used where `angle_rad` is 0.
+    pub count: i32,
+    /// How far the momentum shall move, in rad; 0 to use `count`.
+    pub angle_rad: f64,
+    /// Smallest step of pulse width, in s: tapers of whole steps stay whole; 0 for none.
+    pub resolution_s: f64,
+    /// Direction toward which the momentum moves, inertial.
+    pub target_inertial: Vector3<f64>,
+    /// (assumed - true) / true spin rate.
+    pub spin_rate_error: f64,
+    /// Half width of the range of inertia ratios for which limits shall hold.
+    pub ratio_uncertainty: f64,
+    /// Limit on nutation at any time, in rad; 0 for none.
+    pub max_nutation_rad: f64,
+    /// Limit on the time from first to last edge, in s; 0 for none.
+    pub max_duration_s: f64,
+}
+
+/// Why a burn is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BurnError {
+    /// A parameter out of its range.
+    #[error("{name} is {found}; {allowed}")]
+    Parameter {
+        /// FMI name.
+        name: &'static str,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A train that cannot be flown.
+    #[error("the burn cannot be flown: {0}")]
+    Train(#[from] TrainError),
+    /// Limits that the plan breaks.
+    #[error("the burn does not fit its limits: {what} would be {found}, the limit is {limit}")]
+    Limit {
+        /// What.
+        what: &'static str,
+        /// What it would be.
+        found: String,
+        /// What is allowed.
+        limit: String,
+    },
+}
+
+/// A burn ready to fly.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Burn {
+    /// Thrusters of even half turns.
+    pub mask: u32,
+    /// Thrusters of odd half turns.
+    pub opposite_mask: u32,
+    /// Torque of `mask`, body components, in N m.
+    pub torque_body_n_m: Vector3<f64>,
+    /// Torque of `opposite_mask`.
+    pub opposite_torque_body_n_m: Vector3<f64>,
+    /// The pulses.
+    pub train: Train,
+    /// Timing.
+    pub timing: Timing,
+    /// Not before, in s.
+    pub start_s: f64,
+    /// Unit vector toward which the momentum moves; 0 for a spin manoeuvre, which points nowhere.
+    pub target_inertial: Vector3<f64>,
+    /// Spin rate by which delays are computed, in rad/s.
+    pub assumed_rate_rad_s: f64,
+}
+
+impl Burn {
+    /// Checks a request against hardware, physics and limits. `spin` is the true body.
+    pub fn new(spinner: &Spinner, request: &BurnRequest, spin: &Spin) -> Result<Self, BurnError> {
+        let (mask, opposite_mask) = masks(spinner, request)?;
+        let torque_body_n_m = spinner.thrust(mask).torque_body_n_m;
+        let opposite_torque_body_n_m = opposite_mask.map(|m| spinner.thrust(m).torque_body_n_m);
+        let across_n_m = torque_body_n_m.xy().norm();
+        let points = across_n_m > NO_TORQUE * torque_body_n_m.norm().max(NO_TORQUE);
+        if !points && torque_body_n_m.z.abs() < NO_TORQUE {
+            return Err(parameter(
+                "burn.thruster",
+                "a set of thrusters without torque",
+                "one that turns the body",
+            ));
+        }
+        if !(request.spin_rate_error > -0.5 && request.spin_rate_error < 0.5) {
+            return Err(parameter("burn.spinRateError", request.spin_rate_error, "allowed is -0.5 to 0.5"));
+        }
+        if !request.start_s.is_finite() {
+            return Err(parameter("burn.start", request.start_s, "it must be a time"));
+        }
+        let half_turn_s = 0.5 * spin.period_s();
+        if points && request.pulse_width_s > half_turn_s {
+            let allowed = format!(
+                "an attitude pulse is at most half a turn, {half_turn_s} s: beyond, it works against itself"
+            );
+            return Err(parameter("burn.pulseWidth", format!("{} s", request.pulse_width_s), &allowed));
+        }
+        let mut target_inertial = Vector3::zeros();
+        if points {
+            let norm = request.target_inertial.norm();
+            if !(norm.is_finite() && norm > 0.0) {
+                let found = format!("{:?}", request.target_inertial.as_slice());
+                return Err(parameter("burn.targetDirection", found, "it must be a direction"));
+            }
+            target_inertial = request.target_inertial / norm;
+        }
+        let assumed_rate_rad_s = spin.rate_rad_s * (1.0 + request.spin_rate_error);
+        let flight =
+            Flight { spin: *spin, assumed_rate_rad_s, timing: request.timing, torque_n_m: across_n_m };
+        let train = train(request, &flight, points)?;
+        if points && train.widest_s() > half_turn_s {
+            let allowed = format!(
+                "the plan's widest pulse is {} s, an attitude pulse at most half a turn",
+                train.widest_s()
+            );
+            return Err(parameter("burn.pulseWidth", format!("{} s", request.pulse_width_s), &allowed));
+        }
+        if points && train.alternates() {
+            let opposite = opposite_torque_body_n_m.unwrap_or_else(Vector3::zeros);
+            let cosine = torque_body_n_m.xy().dot(&opposite.xy()) / (across_n_m * opposite.xy().norm());
+            if cosine.is_nan() || cosine > OPPOSITE {
+                return Err(TrainError::Cancels { turns: train.turns_per_pulse() }.into());
+            }
+        }
+        check_limits(request, &flight, &train)?;
+        Ok(Self {
+            mask,
+            opposite_mask: opposite_mask.unwrap_or(mask),
+            torque_body_n_m,
+            opposite_torque_body_n_m: opposite_torque_body_n_m.unwrap_or(torque_body_n_m),
+            train,
+            timing: request.timing,
+            start_s: request.start_s,
+            target_inertial,
+            assumed_rate_rad_s,
+        })
+    }
+
+    /// Whether it moves the momentum's direction; a spin manoeuvre does not.
+    pub fn points(&self) -> bool {
+        self.target_inertial != Vector3::zeros()
+    }
+
+    /// Thrusters and torque of pulse `k`.
+    pub fn actuator(&self, k: u32) -> (u32, Vector3<f64>) {
+        if self.train.half_turns(k) % 2 == 1 {
+            (self.opposite_mask, self.opposite_torque_body_n_m)
+        } else {
+            (self.mask, self.torque_body_n_m)
+        }
+    }
+
+    /// Seconds a turn is taken to last.
+    pub fn assumed_period_s(&self) -> f64 {
+        2.0 * PI / self.assumed_rate_rad_s
+    }
+}
+
+fn parameter(name: &'static str, found: impl ToString, allowed: &str) -> BurnError {
+    BurnError::Parameter { name, found: found.to_string(), allowed: allowed.to_owned() }
+}
+
+fn masks(spinner: &Spinner, request: &BurnRequest) -> Result<(u32, Option<u32>), BurnError> {
+    if !request.group.is_empty() {
+        return spinner.named(&request.group).ok_or_else(|| {
+            let names: Vec<&str> = spinner
+                .groups
+                .iter()
+                .map(|group| group.name.as_str())
+                .chain(spinner.thrusters.iter().map(|thruster| thruster.name.as_str()))
+                .collect();
+            let allowed = format!("this spacecraft has {}", names.join(", "));
+            parameter("burn.group", format!("\"{}\"", request.group), &allowed)
+        });
+    }
+    let count = spinner.thrusters.len();
+    let bit = |name: &'static str, number: i32| match usize::try_from(number) {
+        Ok(k) if (1..=count).contains(&k) => Ok(1_u32 << (k - 1)),
+        _ => Err(parameter(name, number, &format!("this spacecraft has thrusters 1 to {count}"))),
+    };
+    let main = bit("burn.thruster", request.thruster)?;
+    let opposite = match request.opposite_thruster {
+        0 => None,
+        number => Some(bit("burn.oppositeThruster", number)?),
+    };
+    Ok((main, opposite))
+}
+
+fn train(request: &BurnRequest, flight: &Flight, points: bool) -> Result<Train, BurnError> {
+    let make = |count: u32| {
+        Train::new(
+            request.shape,
+            count,
+            request.pulse_width_s,
+            request.turns_per_pulse,
+            &flight.spin,
+            request.resolution_s,
+        )
+    };
+    if request.angle_rad.is_nan() || request.angle_rad < 0.0 {
+        return Err(parameter("burn.angle", request.angle_rad, "allowed is 0 (use burn.count) or an angle"));
+    }
+    if request.angle_rad == 0.0 || !points {
+        let count = u32::try_from(request.count)
+            .map_err(|_| parameter("burn.count", request.count, "allowed is 1 or more"))?;
+        return Ok(make(count)?);
+    }
+    sized(&make, flight, request.angle_rad)
+}
+
+/// The train whose move is nearest to `angle_rad`: a train long enough to have a plateau, and more plateau pulses.
+pub fn sized(
+    make: &impl Fn(u32) -> Result<Train, TrainError>,
+    flight: &Flight,
+    angle_rad: f64,
+) -> Result<Train, BurnError> {
+    let spin = &flight.spin;
+    let moved = |train: &Train| -> f64 {
+        (0..train.count()).map(|k| spin.manoeuvre_rad(flight.torque_n_m, train.width_s(k))).sum()
+    };
+    // Shapes have at most 13 pulses before the plateau, so one short train makes the general case.
+    let mut short = None;
+    for count in 1..=2 * MOST_ORDER + 2 {
+        if let Ok(train) = make(count) {
+            let miss = (moved(&train) - angle_rad).abs();
+            if short.is_none_or(|(_, best)| miss < best) {
+                short = Some((train, miss));
+            }
+        }
+    }
+    let Some((short, miss)) = short else {
+        return Err(make(2 * MOST_ORDER + 2).map_or_else(BurnError::Train, |_| too_long(angle_rad)));
+    };
+    let Ok(base) = make(2 * MOST_ORDER + 2) else { return Ok(short) };
+    let step = if base.shape() == Shape::Split { 2.0 } else { 1.0 };
+    let plateau = spin.manoeuvre_rad(flight.torque_n_m, base.plateau_width_s());
+    let more = ((angle_rad - moved(&base)) / (plateau * step)).round().max(0.0);
+    let count = f64::from(base.count()) + more * step;
+    if count.is_nan() || count > f64::from(MOST_PULSES) {
+        return Err(too_long(angle_rad));
+    }
+    let long = make(count as u32)?;
+    Ok(if (moved(&long) - angle_rad).abs() < miss { long } else { short })
+}
+
+fn too_long(angle_rad: f64) -> BurnError {
+    parameter("burn.angle", format!("{angle_rad} rad"), "no train of this shape and width reaches it")
+}
+
+fn check_limits(request: &BurnRequest, flight: &Flight, train: &Train) -> Result<(), BurnError> {
+    for (name, value) in [
+        ("burn.maxDuration", request.max_duration_s),
+        ("burn.maxNutation", request.max_nutation_rad),
+        ("burn.ratioUncertainty", request.ratio_uncertainty),
+    ] {
+        if value.is_nan() || value < 0.0 {
+            return Err(parameter(name, value, "allowed is 0 or a positive number"));
+        }
+    }
+    let duration_s = train.duration_s(flight.spin.period_s());
+    if request.max_duration_s > 0.0 && duration_s > request.max_duration_s {
+        return Err(BurnError::Limit {
+            what: "its duration",
+            found: format!("{duration_s:.3} s"),
+            limit: format!("burn.maxDuration = {} s", request.max_duration_s),
+        });
+    }
+    if request.max_nutation_rad > 0.0 {
+        let range = Range { ratio: request.ratio_uncertainty, rate_rad_s: 0.0 };
+        let peak_rad = range.worst(flight, train).peak_nutation_rad;
+        if peak_rad > request.max_nutation_rad {
+            return Err(BurnError::Limit {
+                what: "its greatest nutation",
+                found: format!("{:.6} deg", peak_rad.to_degrees()),
+                limit: format!("burn.maxNutation = {:.6} deg", request.max_nutation_rad.to_degrees()),
+            });
+        }
+    }
+    Ok(())
+}

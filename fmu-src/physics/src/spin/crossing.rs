@@ -1,0 +1,150 @@
+//! When a direction fixed in inertial space passes a direction fixed in the spinning body.
+
+use nalgebra::Vector3;
+
+use super::motion::{Motion, RigidState};
+
+/// About which axis the angle is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pole {
+    /// The body's third axis: what a sensor sees.
+    SpinAxis,
+    /// The angular momentum: what a thruster does.
+    Momentum,
+}
+
+/// A crossing to look for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Direction in the body.
+    pub body: Vector3<f64>,
+    /// Direction in inertial space.
+    pub inertial: Vector3<f64>,
+    /// Axis of the angle between them.
+    pub pole: Pole,
+}
+
+/// How many turns are searched before a crossing counts as absent.
+const TURNS_SEARCHED: f64 = 2.5;
+
+/// A body that is past a direction by no more than this has just reached it: cells meet to rounding only.
+const ROUNDING_RAD: f64 = 1e-12;
+/// A body slower than this is no spinner: nothing is searched for.
+const SLOWEST_RAD_S: f64 = 1e-4;
+
+impl Crossing {
+    /// Angle about the pole by which the body still has to turn, -pi..pi, in rad.
+    #[inline]
+    fn ahead_rad(&self, state: &RigidState) -> f64 {
+        let seen = state.attitude.body_from_inertial(&self.inertial);
+        if self.pole == Pole::SpinAxis {
+            let (x, y) = (self.body.x, self.body.y);
+            return (x * seen.y - y * seen.x).atan2(x * seen.x + y * seen.y);
+        }
+        let pole = state.momentum_body.normalize();
+        let sine = pole.dot(&self.body.cross(&seen));
+        let cosine = self.body.dot(&seen) - pole.dot(&self.body) * pole.dot(&seen);
+        sine.atan2(cosine)
+    }
+
+    /// First crossing at or after `from_s`, a time within the motion's present cell or after it; `None` if the body
+    /// does not bring the direction round within 2 1/2 turns.
+    pub fn next_s(&self, motion: &Motion, from_s: f64) -> Option<f64> {
+        let inertia = motion.inertia();
+        if motion.cell_end_s().is_infinite() {
+            let state = motion.at(from_s);
+            return self.on_closed_form(motion, from_s, &state, state.rate_rad_s(inertia).z);
+        }
+        let mut cell = motion.clone();
+        while cell.cell_end_s() < from_s && !cell.runs_away() {
+            cell.next_cell();
+        }
+        let rate = cell.at(from_s).rate_rad_s(inertia).z;
+        if rate.is_nan() || rate <= SLOWEST_RAD_S {
+            return None;
+        }
+        let give_up_s = from_s + TURNS_SEARCHED * 2.0 * core::f64::consts::PI / rate;
+        let mut start_s = from_s;
+        loop {
+            let end_s = cell.cell_end_s();
+            if let Some(time_s) = self.within(&cell, start_s, end_s) {
+                return Some(time_s);
+            }
+            if end_s > give_up_s || cell.runs_away() {
+                return None;
+            }
+            start_s = end_s;
+            cell.next_cell();
+        }
+    }
+
+    /// First crossing at or after `from_s` on the closed form, or within the present cell; `None` if there is none.
+    pub fn here_s(&self, motion: &Motion, from_s: f64) -> Option<f64> {
+        let end_s = motion.cell_end_s();
+        if end_s.is_infinite() {
+            return self.next_s(motion, from_s);
+        }
+        (from_s < end_s).then(|| self.within(motion, from_s, end_s)).flatten()
+    }
+
+    /// Secant iteration from the guess of a uniform turn.
+    fn on_closed_form(&self, motion: &Motion, from_s: f64, state: &RigidState, rate: f64) -> Option<f64> {
+        if rate.is_nan() || rate <= SLOWEST_RAD_S {
+            return None;
+        }
+        let turn = 2.0 * core::f64::consts::PI;
+        let mut ahead = self.ahead_rad(state);
+        if ahead < -ROUNDING_RAD {
+            ahead += turn;
+        }
+        let (mut last_s, mut last_ahead) = (from_s, ahead);
+        let mut time_s = from_s + ahead / rate;
+        for _ in 0..40 {
+            ahead = self.ahead_rad(&motion.at(time_s));
+            if ahead.abs() <= 2e-16 {
+                break;
+            }
+            let slope = (ahead - last_ahead) / (time_s - last_s);
+            let step_s = if slope < -0.2 * rate { -ahead / slope } else { ahead / rate };
+            (last_s, last_ahead) = (time_s, ahead);
+            time_s += step_s;
+            if step_s.abs() <= 1e-15 * time_s.abs().max(turn / rate) {
+                break;
+            }
+        }
+        let converged = ahead.abs() < 1e-9 && time_s - from_s < TURNS_SEARCHED * turn / rate;
+        (converged && time_s >= from_s - 1e-9 * turn / rate).then_some(time_s)
+    }
+
+    /// The crossing between two times of one cell, by bisection sharpened with secants.
+    fn within(&self, cell: &Motion, start_s: f64, end_s: f64) -> Option<f64> {
+        let (mut low_s, mut high_s) = (start_s, end_s);
+        let mut low = self.ahead_rad(&cell.at(low_s));
+        let mut high = self.ahead_rad(&cell.at(high_s));
+        // From ahead to behind, not through the far side where the angle wraps.
+        if !(low >= -ROUNDING_RAD && high < 0.0 && low - high < core::f64::consts::PI) {
+            return None;
+        }
+        if low <= 0.0 {
+            return Some(low_s);
+        }
+        for round in 0..80 {
+            let secant_s = low_s + (high_s - low_s) * (low / (low - high));
+            let middle_s = 0.5 * (low_s + high_s);
+            let time_s = if round % 3 == 2 { middle_s } else { secant_s };
+            if time_s <= low_s || time_s >= high_s {
+                break;
+            }
+            let ahead = self.ahead_rad(&cell.at(time_s));
+            if ahead >= 0.0 {
+                (low_s, low) = (time_s, ahead);
+            } else {
+                (high_s, high) = (time_s, ahead);
+            }
+            if low == 0.0 {
+                break;
+            }
+        }
+        Some(low_s)
+    }
+}

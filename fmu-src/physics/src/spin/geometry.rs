@@ -1,0 +1,80 @@
+//! Where Sun and Earth stand for a spacecraft on a Lissajous orbit about the Sun-Earth L1 point.
+//!
+//! The Earth-Sun line turns at a steady rate in the ecliptic; about L1 the motion is linear (paper 002 gives the rate,
+//! amplitudes are parameters).
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use super::spinner::L1Orbit;
+
+/// Unit vectors to Sun and Earth, EME2000.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunEarth {
+    /// Toward the Sun.
+    pub sun_inertial: Vector3<f64>,
+    /// Toward the Earth.
+    pub earth_inertial: Vector3<f64>,
+}
+
+/// Phases of the Lissajous motion and of the Earth-Sun line at time 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct L1Phases {
+    /// Ecliptic longitude of the Earth seen from the Sun, in rad.
+    pub longitude_rad: f64,
+    /// In-plane phase, in rad.
+    pub in_plane_rad: f64,
+    /// Out-of-plane phase, in rad.
+    pub out_of_plane_rad: f64,
+}
+
+/// An L1 orbit as a flight uses it: the setup's, with what the master may change.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct L1Flight {
+    /// The orbit.
+    pub orbit: L1Orbit,
+    /// Its phases.
+    pub phases: L1Phases,
+}
+
+impl L1Flight {
+    /// Directions at `time_s`.
+    pub fn sun_earth(&self, time_s: f64) -> SunEarth {
+        self.orbit.sun_earth(&self.phases, time_s)
+    }
+}
+
+impl L1Orbit {
+    /// Rate of the Earth-Sun line, in rad/s.
+    pub fn line_rate_rad_s(&self) -> f64 {
+        (self.line_rate_deg_day * (PI / 180.0)) / 86_400.0
+    }
+
+    /// The same orbit with another rate of the Earth-Sun line and other amplitudes.
+    #[must_use]
+    pub fn changed(self, line_rate_rad_s: f64, amplitude_m: [f64; 3]) -> Self {
+        Self { line_rate_deg_day: line_rate_rad_s * 86_400.0 / (PI / 180.0), amplitude_m, ..self }
+    }
+
+    /// Directions at `time_s`.
+    pub fn sun_earth(&self, phases: &L1Phases, time_s: f64) -> SunEarth {
+        let rate = self.line_rate_rad_s();
+        let line = phases.longitude_rad + rate * time_s;
+        let (sin_xy, cos_xy) = (phases.in_plane_rad + self.in_plane_frequency * rate * time_s).sin_cos();
+        let sin_z = (phases.out_of_plane_rad + self.out_of_plane_frequency * rate * time_s).sin();
+        // From L1: x away from the Sun, y along the Earth's motion, z to ecliptic north.
+        let [ax, ay, az] = self.amplitude_m;
+        let offset = Vector3::new(-ax * cos_xy, ay * sin_xy, az * sin_z);
+        let earth = Vector3::new(self.earth_l1_distance_m, 0.0, 0.0) - offset;
+        let sun = Vector3::new(self.earth_l1_distance_m - self.sun_earth_distance_m, 0.0, 0.0) - offset;
+        let (sin_line, cos_line) = line.sin_cos();
+        let (sin_obliquity, cos_obliquity) = (self.obliquity_deg * (PI / 180.0)).sin_cos();
+        let to_equator = |v: Vector3<f64>| {
+            let (x, y) = (v.x * cos_line - v.y * sin_line, v.x * sin_line + v.y * cos_line);
+            Vector3::new(x, y * cos_obliquity - v.z * sin_obliquity, y * sin_obliquity + v.z * cos_obliquity)
+                .normalize()
+        };
+        SunEarth { sun_inertial: to_equator(sun), earth_inertial: to_equator(earth) }
+    }
+}

@@ -1,0 +1,24 @@
+//! The spinner: exact pulses, nutation, damper, sequencing, observation (paper 002).
+
+pub mod burn;
+pub mod coast;
+pub mod crossing;
+pub mod damper;
+pub mod forecast;
+pub mod geometry;
+pub mod inertia;
+pub mod motion;
+pub mod noise;
+pub mod nutation;
+pub mod outputs;
+pub mod plant;
+pub mod rotation;
+pub mod sequencer;
+pub mod series;
+pub mod spinner;
+pub mod tracker;
+pub mod train;
+pub mod watch;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,190 @@
+//! Motion of the spinner between edges: anchored where torque last changed, evaluated anywhere after.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    coast::Coast,
+    damper::Damper,
+    inertia::Inertia,
+    rotation::Quaternion,
+    series::{BodyTorque, Cell},
+};
+
+/// A body faster than this is not followed.
+const GREATEST_RATE_RAD_S: f64 = 1e4;
+/// Nor is one that needs shorter cells.
+const SHORTEST_CELL_S: f64 = 1e-5;
+
+/// Where the body is and how it turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidState {
+    /// EME2000 to body.
+    pub attitude: Quaternion,
+    /// Angular momentum in inertial components, in N m s.
+    pub momentum_inertial: Vector3<f64>,
+    /// Angular momentum in body components, in N m s.
+    pub momentum_body: Vector3<f64>,
+}
+
+impl RigidState {
+    /// Angular rate J^-1 h, body components, in rad/s.
+    #[inline]
+    pub fn rate_rad_s(&self, inertia: &Inertia) -> Vector3<f64> {
+        let [i1, i2, i3] = inertia.principal_kg_m2();
+        Vector3::new(self.momentum_body.x / i1, self.momentum_body.y / i2, self.momentum_body.z / i3)
+    }
+
+    /// Angle from the momentum to the spin axis by atan2, 0..pi, in rad.
+    #[inline]
+    pub fn nutation_rad(&self) -> f64 {
+        self.momentum_body.x.hypot(self.momentum_body.y).atan2(self.momentum_body.z)
+    }
+
+    /// Rotational kinetic energy in J.
+    pub fn energy_j(&self, inertia: &Inertia) -> f64 {
+        0.5 * self.rate_rad_s(inertia).dot(&self.momentum_body)
+    }
+}
+
+/// How the motion after the anchor is represented.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::large_enum_variant, reason = "the state of a step must not allocate")]
+enum Path {
+    Coast(Coast),
+    Cell(Cell),
+}
+
+/// A stretch of motion with one inertia and one torque law.
+///
+/// The anchor moves only where the caller changes torque or inertia, and from cell to cell; never to where somebody
+/// looks. So the same edges give the same motion, to the bit, however it is sampled.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    inertia: Inertia,
+    damper: Damper,
+    torque: BodyTorque,
+    anchor_s: f64,
+    attitude: Quaternion,
+    momentum_inertial: Vector3<f64>,
+    path: Path,
+}
+
+impl Motion {
+    /// Motion from `anchor_s` on. `hint_s` is how long this torque will last, if known (infinite otherwise).
+    pub fn new(
+        inertia: Inertia,
+        damper: Damper,
+        torque: BodyTorque,
+        anchor_s: f64,
+        attitude: Quaternion,
+        momentum_inertial: Vector3<f64>,
+        hint_s: f64,
+    ) -> Self {
+        let path = if torque.is_zero() && inertia.is_axisymmetric() {
+            Path::Coast(Coast::new(&inertia, &damper, attitude, &momentum_inertial))
+        } else {
+            let momentum_body = attitude.body_from_inertial(&momentum_inertial);
+            Path::Cell(Cell::new(&inertia, &damper, &torque, anchor_s, attitude, &momentum_body, hint_s))
+        };
+        Self { inertia, damper, torque, anchor_s, attitude, momentum_inertial, path }
+    }
+
+    /// The body.
+    pub fn inertia(&self) -> &Inertia {
+        &self.inertia
+    }
+
+    /// The damper.
+    pub fn damper(&self) -> &Damper {
+        &self.damper
+    }
+
+    /// Where the present closed form or cell starts, in s.
+    pub fn anchor_s(&self) -> f64 {
+        self.anchor_s
+    }
+
+    /// Where the present cell ends, in s; infinite for a closed form.
+    pub fn cell_end_s(&self) -> f64 {
+        match &self.path {
+            Path::Coast(_) => f64::INFINITY,
+            Path::Cell(cell) => self.anchor_s + cell.length_s(),
+        }
+    }
+
+    /// Whether the body turns faster than cells can follow, or its numbers are not finite.
+    pub fn runs_away(&self) -> bool {
+        let length_s = self.cell_end_s() - self.anchor_s;
+        let finite = self.momentum_inertial.iter().chain(&self.attitude.0).all(|x| x.is_finite());
+        let sound = finite && Inertia::new(self.inertia.principal_kg_m2()).is_ok();
+        let fastest = self.momentum_inertial.norm()
+            / self.inertia.principal_kg_m2().into_iter().fold(f64::INFINITY, f64::min);
+        !(length_s >= SHORTEST_CELL_S && sound && fastest <= GREATEST_RATE_RAD_S)
+    }
+
+    /// The torque of the present stretch.
+    pub fn torque(&self) -> &BodyTorque {
+        &self.torque
+    }
+
+    /// Goes on to the next cell. Without effect on a closed form.
+    pub fn next_cell(&mut self) {
+        let end_s = self.cell_end_s();
+        if end_s.is_finite() {
+            let state = self.at(end_s);
+            *self = Self::new(
+                self.inertia,
+                self.damper,
+                self.torque,
+                end_s,
+                state.attitude,
+                state.momentum_inertial,
+                f64::INFINITY,
+            );
+        }
+    }
+
+    /// Goes on cell by cell until the present one holds `time_s`.
+    pub fn reach(&mut self, time_s: f64) {
+        while self.cell_end_s() < time_s {
+            self.next_cell();
+        }
+    }
+
+    /// State at a time within the present cell (any time after the anchor for a closed form).
+    #[inline]
+    pub fn at(&self, time_s: f64) -> RigidState {
+        let dt_s = time_s - self.anchor_s;
+        match &self.path {
+            Path::Coast(coast) => self.conserved(coast.attitude_at(dt_s)),
+            Path::Cell(cell) => {
+                let attitude = cell.attitude(dt_s);
+                if self.torque.is_zero() {
+                    return self.conserved(attitude);
+                }
+                let momentum_body = cell.momentum_body(dt_s);
+                let momentum_inertial = attitude.inertial_from_body(&momentum_body);
+                RigidState { attitude, momentum_inertial, momentum_body }
+            }
+        }
+    }
+
+    /// The motion that follows at `time_s`, within the present cell, under another torque or inertia.
+    #[must_use]
+    pub fn followed_by(&self, time_s: f64, inertia: Inertia, torque: BodyTorque, hint_s: f64) -> Self {
+        let state = self.at(time_s);
+        let damper = if inertia == self.inertia { self.damper } else { self.damper.on(&inertia) };
+        let attitude = state.attitude.normalized();
+        Self::new(inertia, damper, torque, time_s, attitude, state.momentum_inertial, hint_s)
+    }
+
+    fn conserved(&self, attitude: Quaternion) -> RigidState {
+        let momentum_inertial = self.momentum_inertial;
+        RigidState {
+            attitude,
+            momentum_inertial,
+            momentum_body: attitude.body_from_inertial(&momentum_inertial),
+        }
+    }
+}

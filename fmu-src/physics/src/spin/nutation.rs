@@ -1,0 +1,134 @@
+//! Nutation left by trains of short pulses: the linear theory of paper 002, section II, corrected and as printed.
+//!
+//! In the body the transverse momentum turns at lambda = (r - 1) Omega, r = I3/I_T. A pulse of width l and transverse
+//! torque T adds T * 2 sin(lambda l/2)/lambda to it (the *nutation kick*) and moves the momentum in inertial space by
+//! T * 2 sin(Omega l/2)/Omega (the *manoeuvre*, eq 2). For short pulses the two are the same.
+
+use core::f64::consts::PI;
+
+/// Spin and nutation of an axisymmetric spinner, as planners know them.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Spin {
+    /// Omega_s, in rad/s.
+    pub rate_rad_s: f64,
+    /// r = I3/I_T (1 + lambda/Omega for a triaxial body).
+    pub ratio: f64,
+    /// I3, in kg m2.
+    pub inertia_kg_m2: f64,
+}
+
+impl Spin {
+    /// One turn, in s.
+    pub fn period_s(&self) -> f64 {
+        2.0 * PI / self.rate_rad_s
+    }
+
+    /// lambda, the rate of nutation in the body, in rad/s.
+    pub fn body_nutation_rad_s(&self) -> f64 {
+        (self.ratio - 1.0) * self.rate_rad_s
+    }
+
+    /// Gamma of one pulse: how far it moves the momentum, in rad (eq 3 with alpha = Omega l/2).
+    pub fn manoeuvre_rad(&self, torque_n_m: f64, width_s: f64) -> f64 {
+        let half_arc = 0.5 * self.rate_rad_s * width_s;
+        2.0 * torque_n_m * half_arc.sin() / (self.inertia_kg_m2 * self.rate_rad_s * self.rate_rad_s)
+    }
+
+    /// Nutation angle one pulse raises from rest, in rad.
+    pub fn nutation_kick_rad(&self, torque_n_m: f64, width_s: f64) -> f64 {
+        torque_n_m * effective_width_s(self.body_nutation_rad_s(), width_s)
+            / (self.inertia_kg_m2 * self.rate_rad_s)
+    }
+
+    /// Width whose nutation kick is `factor` times that of `width_s`; `None` where no single pulse has it.
+    pub fn scaled_width_s(&self, width_s: f64, factor: f64) -> Option<f64> {
+        let nutation = self.body_nutation_rad_s();
+        if nutation == 0.0 {
+            return Some(factor * width_s);
+        }
+        let sine = factor * (0.5 * nutation * width_s).sin();
+        (sine.abs() <= 1.0).then(|| 2.0 * sine.asin() / nutation)
+    }
+
+    /// phi: angle by which nutation advances from pulse to pulse (paper, before eq 4; "3 pi" belongs to 1 1/2 turns).
+    pub fn phase_advance_rad(&self, turns_per_pulse: f64) -> f64 {
+        2.0 * PI * turns_per_pulse * self.ratio
+    }
+}
+
+/// 2 sin(lambda l/2)/lambda, the width of the impulse that leaves the same nutation.
+fn effective_width_s(nutation_rad_s: f64, width_s: f64) -> f64 {
+    let half = 0.5 * nutation_rad_s * width_s;
+    if half.abs() < 1e-5 { width_s * (1.0 - half * half / 6.0) } else { width_s * half.sin() / half }
+}
+
+/// Eq 8: nutation after `count` equal kicks `kick_rad`, `phase_rad` of nutation apart.
+pub fn uniform_train_rad(kick_rad: f64, phase_rad: f64, count: u32) -> f64 {
+    let half = (0.5 * phase_rad).sin();
+    if half.abs() < 1e-12 {
+        return kick_rad * f64::from(count);
+    }
+    kick_rad * ((0.5 * f64::from(count) * phase_rad).sin() / half).abs()
+}
+
+/// Greatest nutation eq 8 reaches at any count: (Gamma/n) / |sin(phi/2)|; infinite where the kicks add up.
+pub fn exact_envelope_rad(kick_rad: f64, phase_rad: f64) -> f64 {
+    kick_rad / (0.5 * phase_rad).sin().abs()
+}
+
+/// Eq 9 (once per half turn) and eq 10 (otherwise) as printed, for comparison only: eq 9 lacks a factor 1/2 inside the
+/// root, eq 10 has -1/12 where +1/4 belongs. 0 where the printed root is negative.
+pub fn printed_envelope_rad(kick_rad: f64, ratio: f64, turns_per_pulse: f64) -> f64 {
+    let square = if turns_per_pulse == 0.5 {
+        2.0 * (1.0 + (2.0 * PI * ratio - 3.0 * PI))
+    } else {
+        1.0 - (2.0 * PI * ratio - 3.0 * PI).powi(2) / 12.0
+    };
+    kick_rad * square.max(0.0).sqrt()
+}
+
+/// Bound on the final nutation of a train whose ends rise and fall by the binomial weights of `order`, whatever its
+/// length: q |2 cos(phi/2)|^m / |sin(phi/2)|, with q the one-unit kick.
+pub fn tapered_bound_rad(unit_kick_rad: f64, phase_rad: f64, order: u32) -> f64 {
+    let (sine, cosine) = (0.5 * phase_rad).sin_cos();
+    unit_kick_rad * (2.0 * cosine).abs().powi(order as i32) / sine.abs()
+}
+
+/// Eq 1: spread of the Sun-crossing period by nutation, in s. Diverges as the Sun angle goes to 0.
+pub fn period_variation_s(nutation_rad: f64, spin_rate_rad_s: f64, sun_angle_rad: f64) -> f64 {
+    2.0 * nutation_rad / (spin_rate_rad_s * sun_angle_rad.tan())
+}
+
+/// Eq 1 solved for the nutation angle that a period variation allows, in rad.
+pub fn allowed_nutation_rad(period_variation_s: f64, spin_rate_rad_s: f64, sun_angle_rad: f64) -> f64 {
+    0.5 * period_variation_s * spin_rate_rad_s * sun_angle_rad.tan()
+}
+
+/// Running nutation of the linear theory, pulse by pulse, for any train: transverse over axial momentum in the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct LinearNutation {
+    across: [f64; 2],
+    time_s: f64,
+}
+
+impl LinearNutation {
+    /// Adds a pulse of torque `torque_body_n_m` (its transverse part) over [`from_s`, `to_s`].
+    pub fn pulse(&mut self, spin: &Spin, torque_body_n_m: [f64; 2], from_s: f64, to_s: f64) {
+        let nutation = spin.body_nutation_rad_s();
+        let (sine, cosine) = (nutation * (to_s - self.time_s)).sin_cos();
+        let [x, y] = self.across;
+        let (sine_half, cosine_half) = (0.5 * nutation * (to_s - from_s)).sin_cos();
+        let scale = effective_width_s(nutation, to_s - from_s) / (spin.inertia_kg_m2 * spin.rate_rad_s);
+        let [tx, ty] = torque_body_n_m;
+        self.across = [
+            x * cosine - y * sine + scale * (tx * cosine_half - ty * sine_half),
+            x * sine + y * cosine + scale * (tx * sine_half + ty * cosine_half),
+        ];
+        self.time_s = to_s;
+    }
+
+    /// Nutation angle, in rad: the theory's sum is the tangent.
+    pub fn angle_rad(&self) -> f64 {
+        self.across[0].hypot(self.across[1]).atan()
+    }
+}

@@ -1,0 +1,128 @@
+//! Reading a flight.
+
+use nalgebra::Vector3;
+
+use super::{Directions, Plant, Sampling, StarSample, sensing::DIRECTION_STRETCH_S};
+use crate::spin::{
+    motion::Motion, nutation::Spin, sequencer::Sequencer, spinner::Spinner, tracker::NutationEstimator,
+    watch::Watch,
+};
+
+impl Plant {
+    /// The motion in force.
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// The burn in flight.
+    pub fn sequencer(&self) -> Option<&Sequencer> {
+        self.sequencer.as_ref()
+    }
+
+    /// Thrusters on, bit by bit.
+    pub fn thrusters_on(&self) -> u32 {
+        self.mask
+    }
+
+    /// Spin, ratio and inertia at the start, as planners know them.
+    pub fn theory(&self) -> Spin {
+        self.theory
+    }
+
+    /// Nutation by the linear theory after the last pulse, in rad.
+    pub fn predicted_nutation_rad(&self) -> f64 {
+        self.predicted.angle_rad()
+    }
+
+    /// Propellant used so far, in kg.
+    pub fn propellant_used_kg(&self, spinner: &Spinner) -> f64 {
+        self.used_at(spinner, self.time_s)
+    }
+
+    /// Delta-v so far, EME2000, in m/s.
+    pub fn delta_v_inertial_m_s(&self, spinner: &Spinner) -> Vector3<f64> {
+        self.delta_v_at(spinner, self.time_s)
+    }
+
+    /// Sun crossings.
+    pub fn sun_watch(&self) -> &Watch {
+        &self.sun
+    }
+
+    /// Last reading of the Sun sensor, in rad.
+    pub fn sun_sample_rad(&self) -> f64 {
+        self.sun_sample_rad
+    }
+
+    /// Last star tracker sample.
+    pub fn sample(&self) -> StarSample {
+        self.sample
+    }
+
+    /// Estimator over the samples since the last pulse.
+    pub fn estimator(&self) -> &NutationEstimator {
+        &self.estimator
+    }
+
+    /// Nominal time between samples of one star, in s.
+    pub fn sample_spacing_s(&self) -> f64 {
+        match self.sampling {
+            Sampling::Clock => self.clock_period_s,
+            Sampling::Spins => f64::from(self.every) * self.theory.period_s(),
+        }
+    }
+
+    /// Spin axis at the start, inertial.
+    pub fn initial_spin_axis_inertial(&self) -> Vector3<f64> {
+        self.initial_spin_axis_inertial
+    }
+
+    /// Momentum at the start, inertial, in N m s.
+    pub fn initial_momentum_inertial(&self) -> Vector3<f64> {
+        self.initial_momentum_inertial
+    }
+
+    /// Propellant at the start, in kg.
+    pub fn initial_propellant_kg(&self) -> f64 {
+        self.initial_propellant_kg
+    }
+
+    /// Directions at a time: on the L1 orbit they move.
+    pub fn directions_at(&self, time_s: f64) -> Directions {
+        let mut directions = self.directions;
+        if let Some(l1) = &self.l1 {
+            let seen = l1.sun_earth(time_s);
+            directions.sun_inertial = seen.sun_inertial;
+            directions.earth_inertial = seen.earth_inertial;
+        }
+        directions
+    }
+
+    /// Whether a decoded state can be flown on: its thrusters exist and its numbers belong together, so that no loop
+    /// over cells, ticks or refreshes runs away.
+    pub fn fits(&self, spinner: &Spinner) -> bool {
+        let known = (1_u64 << spinner.thrusters.len()) - 1;
+        let masks = [self.mask, self.commands.fire, self.sequencer().map_or(0, |s| s.burn().mask)];
+        let now_s = self.time_s;
+        let cell_holds = self.motion.cell_end_s().is_infinite()
+            || (self.motion.anchor_s() <= now_s + 1.0 && now_s <= self.motion.cell_end_s() + 1.0);
+        let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
+        let ticks = self.clock_period_s > 1e-3
+            && (self.sampling == Sampling::Spins || tick_s > now_s - self.clock_period_s);
+        let refreshes = match self.l1 {
+            None => self.refresh_s == f64::INFINITY,
+            Some(_) => {
+                self.refresh_s == self.refresh_count as f64 * DIRECTION_STRETCH_S
+                    && (self.refresh_s - now_s).abs() <= 2.0 * DIRECTION_STRETCH_S
+            }
+        };
+        masks.iter().all(|&mask| u64::from(mask) & !known == 0)
+            && now_s.is_finite()
+            && (self.mask == 0 || now_s - self.mask_since_s.max(self.delta_v_until_s) < 1e6)
+            && cell_holds
+            && !self.motion.runs_away()
+            && ticks
+            && refreshes
+            && self.sequencer().is_none_or(Sequencer::is_sound)
+    }
+}

@@ -1,0 +1,200 @@
+//! The spinner in flight: body, burn, outside commands and sensors, from edge to edge.
+
+mod access;
+mod commands;
+mod ledger;
+mod sensing;
+mod start;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub use commands::{Commands, Directions, PulseCommand};
+pub use start::{MassSource, Sampling, Start, StartError};
+
+use super::{
+    geometry::L1Flight,
+    motion::Motion,
+    nutation::{LinearNutation, Spin},
+    sequencer::{Phase, Sequencer},
+    spinner::Spinner,
+    tracker::NutationEstimator,
+    watch::Watch,
+};
+
+/// A communication point this close to an edge (relative) counts as the edge.
+const SAME_TIME: f64 = 1e-13;
+
+/// A star tracker sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StarSample {
+    /// When, in s; -1 before any.
+    pub time_s: f64,
+    /// Measured declination in the sensor, in rad.
+    pub declination_rad: f64,
+    /// How many so far.
+    pub count: u32,
+}
+
+/// A spinner in flight: everything a step needs from the steps before.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plant {
+    motion: Motion,
+    time_s: f64,
+    mass_source: MassSource,
+    initial_propellant_kg: f64,
+    initial_momentum_inertial: Vector3<f64>,
+    initial_spin_axis_inertial: Vector3<f64>,
+    theory: Spin,
+    sequencer: Option<Sequencer>,
+    commands: Commands,
+    directions: Directions,
+    /// Thrusters on.
+    mask: u32,
+    /// Since when, in s.
+    mask_since_s: f64,
+    used_kg: f64,
+    delta_v_inertial_m_s: Vector3<f64>,
+    /// Up to when delta-v is summed, in s.
+    delta_v_until_s: f64,
+    predicted: LinearNutation,
+    sun: Watch,
+    star: Watch,
+    sun_sample_rad: f64,
+    sampling: Sampling,
+    clock_period_s: f64,
+    clock_start_s: f64,
+    clock_count: u64,
+    /// One turn in so many sees the star.
+    every: u32,
+    sample: StarSample,
+    estimator: NutationEstimator,
+    estimator_since_s: f64,
+    sensor_azimuths: SensorAzimuths,
+    seed: u64,
+    /// Whether commands came since the last step.
+    commanded: bool,
+    l1: Option<L1Flight>,
+    refresh_count: i64,
+    refresh_s: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct SensorAzimuths {
+    sun: Vector3<f64>,
+    star: Vector3<f64>,
+}
+
+/// The body spins faster than it can be followed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("at {time_s} s the body spins faster than the motion can be followed: look at torque.external")]
+pub struct Runaway {
+    /// When.
+    pub time_s: f64,
+}
+
+impl Plant {
+    /// New commands and directions, from the present time on.
+    ///
+    /// With the L1 orbit in charge, only the star of `directions` counts.
+    pub fn command(&mut self, commands: Commands, mut directions: Directions) {
+        if self.l1.is_some() {
+            directions.sun_inertial = self.directions.sun_inertial;
+            directions.earth_inertial = self.directions.earth_inertial;
+        }
+        if directions.sun_inertial != self.directions.sun_inertial {
+            self.sun.forget(self.time_s);
+        }
+        if directions.star_inertial != self.directions.star_inertial {
+            self.star.forget(self.time_s);
+        }
+        self.directions = directions;
+        self.commands = commands;
+        self.commanded = true;
+    }
+
+    /// Flies to `end_s`. Pulses commanded beyond it are cut there.
+    pub fn advance(&mut self, spinner: &Spinner, end_s: f64) -> Result<(), Runaway> {
+        let from_s = self.time_s;
+        let near_s = end_s + SAME_TIME * end_s.abs().max(1.0);
+        let mut now_s = from_s;
+        if self.commanded || self.commands.any_pulse {
+            self.switch(spinner, from_s, now_s, f64::INFINITY)?;
+            self.commanded = false;
+        }
+        if self.motion.runs_away() {
+            return Err(Runaway { time_s: from_s });
+        }
+        loop {
+            let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
+            let command_s = self.commands.edge_after_s(from_s, now_s);
+            let edge_s = plan_s.min(command_s).min(self.refresh_s);
+            let (until_s, cell_end_s) = (edge_s.min(end_s), self.motion.cell_end_s());
+            // What is seen may move the plan's edge.
+            if self.observe(spinner, until_s.min(cell_end_s))? {
+                continue;
+            }
+            if cell_end_s < until_s {
+                self.next_cell(spinner)?;
+                continue;
+            }
+            if edge_s > near_s {
+                break;
+            }
+            now_s = edge_s;
+            if self.refresh_s <= edge_s {
+                self.refresh_directions();
+            }
+            let mut hint_s = f64::INFINITY;
+            if plan_s <= edge_s
+                && let Some(sequencer) = &mut self.sequencer
+            {
+                sequencer.note_centre();
+                // A little longer than the pulse, so that rounding needs no second cell.
+                hint_s = sequencer.pass_edge(now_s).map_or(f64::INFINITY, |width_s| 1.001 * width_s);
+            }
+            self.switch(spinner, from_s, now_s, hint_s)?;
+            if self.sequencer.as_ref().is_some_and(|s| s.phase() == Phase::Idle) {
+                self.schedule(now_s);
+            }
+        }
+        self.reach(spinner, end_s)?;
+        self.time_s = end_s;
+        Ok(())
+    }
+
+    /// Where communication stands, in s.
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// Puts the thrusters and outside torque in force that hold just after `now_s`.
+    fn switch(&mut self, spinner: &Spinner, from_s: f64, now_s: f64, hint_s: f64) -> Result<(), Runaway> {
+        let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
+        let mask = plan | self.commands.mask_after(from_s, now_s);
+        let mut torque = self.commands.torque;
+        if mask != 0 {
+            torque = torque.plus(&spinner.thrust(mask).torque_body_n_m);
+        }
+        if mask != self.mask || torque != *self.motion.torque() {
+            self.reach(spinner, now_s)?;
+            self.settle_pulse(spinner, now_s);
+            let inertia = self.inertia_now(spinner);
+            self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s);
+            self.mask = mask;
+            self.mask_since_s = now_s;
+            self.sun.forget(now_s);
+            self.star.forget(now_s);
+            if self.sequencer.as_ref().is_some_and(Sequencer::follows_motion) {
+                self.schedule(now_s);
+            }
+        }
+        Ok(())
+    }
+
+    fn schedule(&mut self, now_s: f64) {
+        if let Some(sequencer) = &mut self.sequencer {
+            sequencer.schedule(&self.motion, now_s, &self.directions.sun_inertial);
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What the sensors see: Sun crossings, star samples, Sun and Earth on the L1 orbit.
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use super::{Plant, Runaway, Sampling, StarSample};
+use crate::spin::{
+    crossing::{Crossing, Pole},
+    motion::RigidState,
+    noise::{Channel, normal},
+    rotation::angle_between_rad,
+    spinner::Spinner,
+    tracker::{picket_of, searched},
+};
+
+/// Sun and Earth of the L1 orbit stand still for the sensors over stretches of this length, in s: less than 0.01 deg.
+pub(super) const DIRECTION_STRETCH_S: f64 = 600.0;
+
+impl Plant {
+    /// Looks up Sun and Earth on the L1 orbit for the next stretch of time.
+    pub(super) fn refresh_directions(&mut self) {
+        let Some(l1) = &self.l1 else { return };
+        let seen = l1.sun_earth(self.refresh_s);
+        self.directions.sun_inertial = seen.sun_inertial;
+        self.directions.earth_inertial = seen.earth_inertial;
+        self.sun.forget(self.refresh_s);
+        self.refresh_count = self.refresh_count.saturating_add(1);
+        self.refresh_s = self.refresh_count as f64 * DIRECTION_STRETCH_S;
+    }
+
+    /// Lets the sensors see the first thing there is to see up to `until_s`; whether there was one.
+    pub(super) fn observe(&mut self, spinner: &Spinner, until_s: f64) -> Result<bool, Runaway> {
+        let (sun, star) = (self.directions.sun_inertial, self.directions.star_inertial);
+        let azimuths = self.sensor_azimuths;
+        let look = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
+        let sun_s = if sun == Vector3::zeros() {
+            f64::INFINITY
+        } else {
+            self.sun.due_s(&self.motion, look(azimuths.sun, sun), until_s).unwrap_or(f64::INFINITY)
+        };
+        let star_s = if star == Vector3::zeros() {
+            f64::INFINITY
+        } else if self.sampling == Sampling::Clock {
+            let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
+            if tick_s <= until_s { tick_s } else { f64::INFINITY }
+        } else {
+            self.star.due_s(&self.motion, look(azimuths.star, star), until_s).unwrap_or(f64::INFINITY)
+        };
+        if sun_s.is_infinite() && star_s.is_infinite() {
+            return Ok(false);
+        }
+        if sun_s <= star_s {
+            self.see_sun(spinner, sun_s)?;
+        } else {
+            self.see_star(spinner, star_s)?;
+        }
+        Ok(true)
+    }
+
+    pub(super) fn see_sun(&mut self, spinner: &Spinner, time_s: f64) -> Result<(), Runaway> {
+        self.reach(spinner, time_s)?;
+        let state = self.motion.at(time_s);
+        let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), &self.directions.sun_inertial);
+        let noise = normal(self.seed, Channel::SunSensor, self.sun.count());
+        self.sun_sample_rad = angle + spinner.sun_sensor.noise_deg.to_radians() * noise;
+        self.sun.pass(time_s, state.rate_rad_s(self.motion.inertia()).z);
+        if let Some(sequencer) = &mut self.sequencer {
+            sequencer.sun_pulse(&self.motion, time_s, &self.directions.sun_inertial);
+        }
+        Ok(())
+    }
+
+    pub(super) fn see_star(&mut self, spinner: &Spinner, time_s: f64) -> Result<(), Runaway> {
+        self.reach(spinner, time_s)?;
+        let state = self.motion.at(time_s);
+        let tracker = &spinner.star_tracker;
+        let declination =
+            state.attitude.spin_axis_inertial().dot(&self.directions.star_inertial).clamp(-1.0, 1.0).asin();
+        let visible = declination.abs() <= 0.5 * tracker.field_of_view_deg.to_radians();
+        let turn = match self.sampling {
+            Sampling::Clock => {
+                self.clock_count = self.clock_count.saturating_add(1);
+                None
+            }
+            Sampling::Spins => {
+                self.star.pass(time_s, state.rate_rad_s(self.motion.inertia()).z);
+                Some(self.star.count().wrapping_sub(1))
+            }
+        };
+        let seen = turn.is_none_or(|turn| searched(self.star_picket(spinner, &state), turn, tracker.every));
+        if !(visible && seen) {
+            return Ok(());
+        }
+        let noise = normal(self.seed, Channel::StarTracker, u64::from(self.sample.count));
+        let declination_rad = declination + tracker.noise_deg.to_radians() * noise;
+        self.sample = StarSample { time_s, declination_rad, count: self.sample.count.wrapping_add(1) };
+        let phase = self.theory.ratio * self.theory.rate_rad_s * (time_s - self.estimator_since_s);
+        self.estimator.add(phase, declination_rad);
+        Ok(())
+    }
+
+    /// Picket of the star: its azimuth about the momentum after the Sun's (after the first inertial axis without one).
+    pub(super) fn star_picket(&self, spinner: &Spinner, state: &RigidState) -> u32 {
+        let pole = state.momentum_inertial;
+        let ahead = |direction: &Vector3<f64>| {
+            let seen = state
+                .attitude
+                .body_from_inertial(&(direction - pole * (pole.dot(direction) / pole.norm_squared())));
+            seen.y.atan2(seen.x)
+        };
+        let reference = if self.directions.sun_inertial == Vector3::zeros() {
+            Vector3::x()
+        } else {
+            self.directions.sun_inertial
+        };
+        // Half a picket of margin keeps a star that starts on a border off it.
+        let pickets = spinner.star_tracker.pickets;
+        let margin = PI / f64::from(pickets);
+        picket_of(ahead(&self.directions.star_inertial) - ahead(&reference) + margin, pickets)
+    }
+}

@@ -1,0 +1,79 @@
+//! The spinner's attitude: a scalar-last unit quaternion, without allocation and cheap to compose.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Attitude as a unit quaternion `[x, y, z, w]` from EME2000 to body (passive, the order of Wertz).
+///
+/// The same four numbers, read as Hamilton's quaternion, turn body components into inertial ones, so that
+/// `a.after(b)` means: first turn the body by `b` about axes fixed in the body, seen from the frame of `a`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Quaternion(pub [f64; 4]);
+
+impl Quaternion {
+    /// Body axes along the inertial axes.
+    pub const IDENTITY: Self = Self([0.0, 0.0, 0.0, 1.0]);
+
+    /// A turn of the body by `angle_rad` about the unit vector `axis`.
+    pub fn turn(axis: &Vector3<f64>, angle_rad: f64) -> Self {
+        let (sine, cosine) = (0.5 * angle_rad).sin_cos();
+        Self([axis.x * sine, axis.y * sine, axis.z * sine, cosine])
+    }
+
+    /// Unit quaternion along `components`; `None` where they are not finite or their norm is off 1 by more than 1e-3.
+    pub fn from_components(components: [f64; 4]) -> Option<Self> {
+        let norm = components.iter().map(|c| c * c).sum::<f64>().sqrt();
+        ((norm - 1.0).abs() <= 1e-3).then(|| Self(components.map(|c| c / norm)))
+    }
+
+    /// Hamilton's product `self * other`.
+    #[inline]
+    #[must_use]
+    pub fn after(self, other: Self) -> Self {
+        let [ax, ay, az, aw] = self.0;
+        let [bx, by, bz, bw] = other.0;
+        Self([
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by + ay * bw + az * bx - ax * bz,
+            aw * bz + az * bw + ax * by - ay * bx,
+            aw * bw - ax * bx - ay * by - az * bz,
+        ])
+    }
+
+    /// The same attitude with norm 1 to rounding.
+    #[inline]
+    #[must_use]
+    pub fn normalized(self) -> Self {
+        let scale = self.0.iter().map(|c| c * c).sum::<f64>().sqrt().recip();
+        Self(self.0.map(|c| c * scale))
+    }
+
+    /// Inertial components of a vector given in body components.
+    #[inline]
+    pub fn inertial_from_body(self, v_body: &Vector3<f64>) -> Vector3<f64> {
+        let [x, y, z, w] = self.0;
+        let u = Vector3::new(x, y, z);
+        let t = u.cross(v_body) * 2.0;
+        v_body + t * w + u.cross(&t)
+    }
+
+    /// Body components of a vector given in inertial components.
+    #[inline]
+    pub fn body_from_inertial(self, v_inertial: &Vector3<f64>) -> Vector3<f64> {
+        let [x, y, z, w] = self.0;
+        Self([-x, -y, -z, w]).inertial_from_body(v_inertial)
+    }
+
+    /// The body's third axis (the spin axis) in inertial components.
+    #[inline]
+    pub fn spin_axis_inertial(self) -> Vector3<f64> {
+        let [x, y, z, w] = self.0;
+        Vector3::new(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w + z * z - x * x - y * y)
+    }
+}
+
+/// Angle between two vectors of any length, in rad, accurate near 0 and near pi.
+#[inline]
+pub fn angle_between_rad(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b))
+}

@@ -1,0 +1,73 @@
+//! Tests of the spinner against closed forms, invariants and independent methods.
+
+mod flights;
+mod motion;
+mod observation;
+mod refusals;
+mod theory;
+
+use nalgebra::Vector3;
+
+use super::{
+    burn::BurnRequest,
+    forecast::Timing,
+    plant::{Directions, MassSource, Sampling, Start},
+    spinner::Spinner,
+    train::Shape,
+};
+
+const ACE: &str = include_str!("../../../../resources/ace.toml");
+
+fn ace() -> Spinner {
+    Spinner::parse("ace.toml", ACE).unwrap()
+}
+
+fn directions() -> Directions {
+    let beta = 10.0_f64.to_radians();
+    Directions {
+        sun_inertial: Vector3::new(beta.sin(), 0.0, beta.cos()),
+        earth_inertial: Vector3::new(0.0, 0.02, -1.0).normalize(),
+        star_inertial: Vector3::new(0.3, 1.0, 0.02).normalize(),
+    }
+}
+
+/// One uniform train of the paper's minimum pulses with thruster IIIR, opposite IVR.
+fn request() -> BurnRequest {
+    BurnRequest {
+        shape: Shape::Uniform,
+        timing: Timing::Clock,
+        start_s: 0.0,
+        thruster: 8,
+        opposite_thruster: 10,
+        group: String::new(),
+        pulse_width_s: 0.032,
+        turns_per_pulse: 1.0,
+        count: 114,
+        angle_rad: 0.0,
+        resolution_s: 0.032,
+        target_inertial: Vector3::new(0.8, 0.6, 0.0),
+        spin_rate_error: 0.0,
+        ratio_uncertainty: 0.0,
+        max_nutation_rad: 0.0,
+        max_duration_s: 0.0,
+    }
+}
+
+fn paper_start(ratio: f64) -> Start {
+    let spin = 353.82;
+    Start {
+        inertia_kg_m2: [spin / ratio, spin / ratio, spin],
+        mass_source: MassSource::Fixed,
+        propellant_kg: 97.5,
+        spin_rate_rad_s: std::f64::consts::PI / 6.0,
+        attitude: [0.0, 0.0, 0.0, 1.0],
+        nutation_rad: 0.0,
+        nutation_phase_rad: 0.0,
+        damper_time_constant_s: 34_200.0,
+        burn: None,
+        l1: None,
+        sampling: Sampling::Spins,
+        nominal_rate_rad_s: std::f64::consts::PI / 6.0,
+        seed: 1,
+    }
+}

@@ -1,0 +1,345 @@
+//! Motion agrees with closed forms, an independent integrator and the conservation laws.
+
+use approx::assert_relative_eq;
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use crate::spin::{
+    damper::Damper,
+    inertia::Inertia,
+    motion::{Motion, RigidState},
+    rotation::{Quaternion, angle_between_rad},
+    series::BodyTorque,
+};
+
+const OMEGA_RAD_S: f64 = std::f64::consts::PI / 6.0;
+
+fn start(inertia: Inertia, damper_s: f64, rate: Vector3<f64>, torque: Vector3<f64>) -> Motion {
+    let [a, b, c] = inertia.principal_kg_m2();
+    let attitude = Quaternion([0.1, -0.3, 0.2, 0.9]).normalized();
+    let momentum = attitude.inertial_from_body(&Vector3::new(a * rate.x, b * rate.y, c * rate.z));
+    let damper = Damper::new(damper_s, &inertia);
+    Motion::new(inertia, damper, BodyTorque::constant(torque), 0.0, attitude, momentum, f64::INFINITY)
+}
+
+fn state_at(mut motion: Motion, time_s: f64) -> RigidState {
+    motion.reach(time_s);
+    motion.at(time_s)
+}
+
+/// Euler's and the matrix form of the kinematic equations by classical Runge-Kutta, extrapolated once.
+fn runge_kutta(
+    inertia: &Inertia,
+    rate: Vector3<f64>,
+    torque: impl Fn(f64) -> Vector3<f64>,
+    end_s: f64,
+    steps: usize,
+) -> (Vector3<f64>, Matrix3<f64>) {
+    let attitude = Quaternion([0.1, -0.3, 0.2, 0.9]).normalized();
+    let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| attitude.inertial_from_body(&axis));
+    let [a, b, c] = inertia.principal_kg_m2();
+    let slope = |t: f64, w: &Vector3<f64>, m: &Matrix3<f64>| {
+        let load = torque(t);
+        let w_dot = Vector3::new(
+            (load.x - (c - b) * w.y * w.z) / a,
+            (load.y - (a - c) * w.z * w.x) / b,
+            (load.z - (b - a) * w.x * w.y) / c,
+        );
+        (w_dot, m * w.cross_matrix())
+    };
+    let run = |steps: usize| {
+        let dt = end_s / steps as f64;
+        let (mut w, mut m) = (rate, Matrix3::from_columns(&columns));
+        for i in 0..steps {
+            let t = i as f64 * dt;
+            let k1 = slope(t, &w, &m);
+            let k2 = slope(t + 0.5 * dt, &(w + k1.0 * (0.5 * dt)), &(m + k1.1 * (0.5 * dt)));
+            let k3 = slope(t + 0.5 * dt, &(w + k2.0 * (0.5 * dt)), &(m + k2.1 * (0.5 * dt)));
+            let k4 = slope(t + dt, &(w + k3.0 * dt), &(m + k3.1 * dt));
+            w += (k1.0 + (k2.0 + k3.0) * 2.0 + k4.0) * (dt / 6.0);
+            m += (k1.1 + (k2.1 + k3.1) * 2.0 + k4.1) * (dt / 6.0);
+        }
+        (w, m)
+    };
+    let (coarse, fine) = (run(steps), run(2 * steps));
+    (fine.0 + (fine.0 - coarse.0) / 15.0, fine.1 + (fine.1 - coarse.1) / 15.0)
+}
+
+fn assert_same_attitude(attitude: Quaternion, matrix: &Matrix3<f64>, tolerance_rad: f64) {
+    for (i, axis) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+        let other: Vector3<f64> = matrix.column(i).into();
+        assert!(
+            angle_between_rad(&attitude.inertial_from_body(axis), &other) < tolerance_rad,
+            "axis {i}: {} rad",
+            angle_between_rad(&attitude.inertial_from_body(axis), &other)
+        );
+    }
+}
+
+/// Complete and incomplete Jacobi functions by descending Landen (arithmetic-geometric mean): sn, cn, dn.
+fn jacobi(u: f64, m: f64) -> (f64, f64, f64) {
+    let (mut a, mut c) = (vec![1.0_f64], vec![m.sqrt()]);
+    let mut b = (1.0 - m).sqrt();
+    while c.last().unwrap().abs() > 1e-17 {
+        let (last, root) = (*a.last().unwrap(), (a.last().unwrap() * b).sqrt());
+        a.push(0.5 * (last + b));
+        c.push(0.5 * (last - b));
+        b = root;
+    }
+    let n = a.len() - 1;
+    let mut phi = 2.0_f64.powi(n as i32) * a[n] * u;
+    for k in (1..=n).rev() {
+        phi = 0.5 * (phi + (c[k] / a[k] * phi.sin()).asin());
+    }
+    (phi.sin(), phi.cos(), (1.0 - m * phi.sin().powi(2)).sqrt())
+}
+
+#[test]
+fn triaxial_torque_free_rates_follow_jacobi_over_an_hour() {
+    let (i1, i2, i3) = (236.0, 245.0, 353.82);
+    let inertia = Inertia::new([i1, i2, i3]).unwrap();
+    let (w10, w30) = (0.03, OMEGA_RAD_S);
+    let motion = start(inertia, 0.0, Vector3::new(w10, 0.0, w30), Vector3::zeros());
+    // Spin about the major axis, started where w2 = 0: w1 = w10 cn, w2 = w20 sn, w3 = w30 dn.
+    let (a, b) = ((i3 - i1) / i2, (i2 - i1) / i3);
+    let w20 = w10 * (i1 * (i3 - i1) / (i2 * (i3 - i2))).sqrt();
+    let rate = w30 * ((i3 - i2) * (i3 - i1) / (i1 * i2)).sqrt();
+    let m = b / a * (w20 / w30).powi(2);
+    let mut motion = motion;
+    for i in 1..=360 {
+        let t = 10.0 * f64::from(i);
+        motion.reach(t);
+        let w = motion.at(t).rate_rad_s(&inertia);
+        let (sn, cn, dn) = jacobi(rate * t, m);
+        assert!((w - Vector3::new(w10 * cn, w20 * sn, w30 * dn)).norm() < 1e-10, "{t} s: {w}");
+    }
+}
+
+#[test]
+fn triaxial_attitude_agrees_with_runge_kutta() {
+    let inertia = Inertia::new([200.0, 260.0, 353.82]).unwrap();
+    let rate = Vector3::new(0.05, -0.08, OMEGA_RAD_S);
+    let state = state_at(start(inertia, 0.0, rate, Vector3::zeros()), 100.0);
+    let (w, m) = runge_kutta(&inertia, rate, |_| Vector3::zeros(), 100.0, 20_000);
+    assert!((state.rate_rad_s(&inertia) - w).norm() < 1e-11);
+    assert_same_attitude(state.attitude, &m, 1e-10);
+}
+
+#[test]
+fn constant_torque_with_an_axial_part_agrees_with_runge_kutta() {
+    for principal in [[238.58, 238.58, 353.82], [200.0, 260.0, 353.82]] {
+        let inertia = Inertia::new(principal).unwrap();
+        let (rate, torque) = (Vector3::new(0.01, 0.02, OMEGA_RAD_S), Vector3::new(1.779, -0.4, 3.0));
+        let state = state_at(start(inertia, 0.0, rate, torque), 30.0);
+        let (w, m) = runge_kutta(&inertia, rate, |_| torque, 30.0, 10_000);
+        assert!((state.rate_rad_s(&inertia) - w).norm() < 1e-11);
+        assert_same_attitude(state.attitude, &m, 1e-10);
+    }
+}
+
+#[test]
+fn axisymmetric_rates_under_constant_torque_follow_the_fresnel_form() {
+    // w = e^{iL(t)} [w0 + (T/It) int_0^t e^{-iL(s)} ds], L = (r - 1)(W t + a t^2/2), by Gauss-Legendre quadrature.
+    let (transverse, spin) = (238.58, 353.82);
+    let inertia = Inertia::new([transverse, transverse, spin]).unwrap();
+    let (w0, torque) = (Vector3::new(0.002, -0.001, OMEGA_RAD_S), Vector3::new(1.5, 0.7, -0.9));
+    let end = 40.0;
+    let phase = |t: f64| (spin / transverse - 1.0) * (w0.z * t + 0.5 * torque.z / spin * t * t);
+    let (mut re, mut im) = (0.0, 0.0);
+    let nodes = [
+        (0.0, 128.0 / 225.0),
+        (0.538_469_310_105_683, 0.478_628_670_499_366_5),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+    ];
+    let panels = 2000;
+    for i in 0..panels {
+        let half = 0.5 * end / f64::from(panels);
+        let middle = (2.0 * f64::from(i) + 1.0) * half;
+        for (x, weight) in nodes {
+            for x in if x == 0.0 { vec![0.0] } else { vec![x, -x] } {
+                let angle = phase(middle + half * x);
+                re += weight * half * angle.cos();
+                im -= weight * half * angle.sin();
+            }
+        }
+    }
+    let (kick_re, kick_im) =
+        ((torque.x * re - torque.y * im) / transverse, (torque.x * im + torque.y * re) / transverse);
+    let (sum_re, sum_im) = (w0.x + kick_re, w0.y + kick_im);
+    let (sine, cosine) = phase(end).sin_cos();
+    let expected = Vector3::new(
+        sum_re * cosine - sum_im * sine,
+        sum_re * sine + sum_im * cosine,
+        w0.z + torque.z / spin * end,
+    );
+    let state = state_at(start(inertia, 0.0, w0, torque), end);
+    assert!((state.rate_rad_s(&inertia) - expected).norm() < 1e-13);
+}
+
+#[test]
+fn a_torque_polynomial_in_time_agrees_with_runge_kutta() {
+    let inertia = Inertia::new([238.58, 238.58, 353.82]).unwrap();
+    let rate = Vector3::new(0.0, 0.01, OMEGA_RAD_S);
+    let mut torque = BodyTorque::constant(Vector3::new(0.2, 0.0, -0.1));
+    torque.origin_s = -3.0;
+    torque.coefficients_n_m[1] = [0.05, -0.02, 0.01];
+    torque.coefficients_n_m[3] = [1e-4, 2e-4, -1e-4];
+    let law = |t: f64| {
+        let x = t + 3.0;
+        Vector3::new(
+            0.2 + 0.05 * x + 1e-4 * x.powi(3),
+            -0.02 * x + 2e-4 * x.powi(3),
+            -0.1 + 0.01 * x - 1e-4 * x.powi(3),
+        )
+    };
+    let quiet = start(inertia, 0.0, rate, Vector3::zeros());
+    let motion = quiet.followed_by(0.0, inertia, torque, f64::INFINITY);
+    let state = state_at(motion, 20.0);
+    let (w, m) = runge_kutta(&inertia, rate, law, 20.0, 8_000);
+    assert!((state.rate_rad_s(&inertia) - w).norm() < 1e-11);
+    assert_same_attitude(state.attitude, &m, 1e-10);
+}
+
+#[test]
+fn the_closed_form_and_the_series_are_the_same_motion() {
+    let rate = Vector3::new(0.02, -0.01, OMEGA_RAD_S);
+    for damper_s in [0.0, 34_200.0, 600.0] {
+        let symmetric = Inertia::new([238.58, 238.58, 353.82]).unwrap();
+        let closed = start(symmetric, damper_s, rate, Vector3::zeros());
+        // A torque too small to matter sends the same body through the series.
+        let series = start(symmetric, damper_s, rate, Vector3::new(0.0, 0.0, 1e-300));
+        assert!(closed.cell_end_s().is_infinite() && series.cell_end_s().is_finite());
+        let (a, b) = (state_at(closed, 700.0), state_at(series, 700.0));
+        let difference =
+            a.attitude.0.iter().zip(b.attitude.0).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        // 366 rad of phase, some hundred cells: rounding alone.
+        assert!(difference < 2e-12, "{damper_s}: {difference}");
+        assert!((a.momentum_body - b.momentum_body).norm() < 1e-12 * a.momentum_body.norm());
+    }
+}
+
+#[test]
+fn momentum_and_energy_are_conserved_over_1e5_revolutions() {
+    let rate = Vector3::new(0.03, 0.01, OMEGA_RAD_S);
+    let end_s = 1e5 * 2.0 * std::f64::consts::PI / OMEGA_RAD_S;
+    for (principal, tolerance) in [([238.58, 238.58, 353.82], 1e-12), ([200.0, 260.0, 353.82], 1e-10)] {
+        let inertia = Inertia::new(principal).unwrap();
+        let motion = start(inertia, 0.0, rate, Vector3::zeros());
+        let (before, after) = (motion.at(0.0), state_at(motion, end_s));
+        assert_relative_eq!(after.energy_j(&inertia), before.energy_j(&inertia), max_relative = tolerance);
+        assert!(
+            (after.momentum_inertial - before.momentum_inertial).norm()
+                < tolerance * before.momentum_inertial.norm()
+        );
+        // The momentum of the turned body, from attitude and rate alone.
+        let [a, b, c] = principal;
+        let w = after.rate_rad_s(&inertia);
+        let h = after.attitude.inertial_from_body(&Vector3::new(a * w.x, b * w.y, c * w.z));
+        assert!((h - before.momentum_inertial).norm() < tolerance * h.norm());
+    }
+}
+
+#[test]
+fn the_closed_form_turns_the_spin_axis_about_the_momentum_at_its_printed_rate() {
+    // Eq 11: Omega_1 = I3/IT Omega_s for small nutation; |H|/IT in general.
+    let inertia = Inertia::axisymmetric(353.82, 1.483).unwrap();
+    let motion = start(inertia, 0.0, Vector3::new(1e-4, 0.0, OMEGA_RAD_S), Vector3::zeros());
+    let turn = 2.0 * std::f64::consts::PI / (1.483 * OMEGA_RAD_S);
+    let (z0, z1) =
+        (motion.at(0.0).attitude.spin_axis_inertial(), motion.at(turn).attitude.spin_axis_inertial());
+    assert!(angle_between_rad(&z0, &z1) < 1e-11);
+    let half = motion.at(0.5 * turn).attitude.spin_axis_inertial();
+    assert_relative_eq!(
+        angle_between_rad(&z0, &half),
+        2.0 * motion.at(0.0).nutation_rad(),
+        max_relative = 1e-6
+    );
+}
+
+#[test]
+fn the_damper_takes_the_nutation_angle_to_1_e_and_keeps_the_momentum() {
+    let tau = 34_200.0;
+    for principal in [[238.58, 238.58, 353.82], [236.0, 241.0, 353.82]] {
+        let inertia = Inertia::new(principal).unwrap();
+        let motion = start(inertia, tau, Vector3::new(0.002, 0.0, OMEGA_RAD_S), Vector3::zeros());
+        let before = motion.at(0.0);
+        let after = state_at(motion, tau);
+        // The nutation angle of a triaxial body also swings by a few per cent within each nutation period.
+        let tolerance = if inertia.is_axisymmetric() { 1e-11 } else { 0.05 };
+        assert_relative_eq!(
+            after.nutation_rad(),
+            before.nutation_rad() / std::f64::consts::E,
+            max_relative = tolerance
+        );
+        assert_eq!(after.momentum_inertial, before.momentum_inertial);
+        assert!(after.energy_j(&inertia) < before.energy_j(&inertia));
+        // The spin relaxes to H/I3.
+        let rest =
+            state_at(start(inertia, 60.0, Vector3::new(0.05, 0.0, OMEGA_RAD_S), Vector3::zeros()), 3_000.0);
+        assert_relative_eq!(
+            rest.rate_rad_s(&inertia).z,
+            rest.momentum_body.norm() / 353.82,
+            max_relative = 1e-12
+        );
+    }
+}
+
+#[test]
+fn nutation_of_a_minor_axis_spinner_grows_to_a_flat_spin() {
+    for principal in [[400.0, 400.0, 300.0], [390.0, 410.0, 300.0], [300.0, 420.0, 353.82]] {
+        let inertia = Inertia::new(principal).unwrap();
+        let motion = start(inertia, 500.0, Vector3::new(1e-4, 0.0, OMEGA_RAD_S), Vector3::zeros());
+        let first = motion.at(0.0).nutation_rad();
+        if inertia.is_axisymmetric() {
+            let later = state_at(motion.clone(), 500.0).nutation_rad();
+            assert_relative_eq!(later, first * std::f64::consts::E, max_relative = 1e-6);
+        }
+        let end = state_at(motion, 20_000.0);
+        assert!(end.nutation_rad() > 1.3, "{}", end.nutation_rad());
+        assert!(end.attitude.0.iter().all(|c| c.is_finite()));
+    }
+}
+
+#[test]
+fn the_damped_closed_form_obeys_the_dampers_own_differential_equation() {
+    // phi' = -phi/tau and the kinematics of the line of nodes, checked by differences of the attitude.
+    let inertia = Inertia::new([238.58, 238.58, 353.82]).unwrap();
+    let tau = 200.0;
+    let motion = start(inertia, tau, Vector3::new(0.2, -0.1, OMEGA_RAD_S), Vector3::zeros());
+    for t in [0.0, 10.0, 333.0] {
+        let (state, dt) = (motion.at(t), 1e-4);
+        let matrix = |time: f64| {
+            let q = motion.at(time).attitude;
+            Matrix3::from_columns(
+                &[Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| q.inertial_from_body(&axis)),
+            )
+        };
+        let turned = Rotation3::from_matrix_unchecked(matrix(t - dt).transpose() * matrix(t + dt));
+        let rate = turned.scaled_axis() / (2.0 * dt);
+        let h = state.momentum_body;
+        let gain = motion.damper().gain(&h);
+        let expected = state.rate_rad_s(&inertia) + Vector3::new(-h.y, h.x, 0.0) * gain;
+        assert!((rate - expected).norm() < 1e-8, "{rate} {expected}");
+    }
+}
+
+#[test]
+fn sampling_does_not_move_the_motion() {
+    let inertia = Inertia::new([236.0, 245.0, 353.82]).unwrap();
+    let motion = start(inertia, 34_200.0, Vector3::new(0.01, 0.0, OMEGA_RAD_S), Vector3::new(1e-3, 0.0, 0.0));
+    let mut sampled = motion.clone();
+    for i in 1..=4000 {
+        let t = 0.05 * f64::from(i);
+        sampled.reach(t);
+        let _ = sampled.at(t);
+    }
+    assert_eq!(sampled.at(200.0), state_at(motion, 200.0));
+}
+
+#[test]
+fn moments_that_no_body_has_are_refused_by_name() {
+    let error = Inertia::new([100.0, -3.0, 100.0]).unwrap_err().to_string();
+    assert!(error.contains("inertia[2]") && error.contains("-3"));
+    let error = Inertia::new([100.0, 100.0, 300.0]).unwrap_err().to_string();
+    assert!(error.contains("inertia[3]") && error.contains("triangle"));
+    assert!(Inertia::new([f64::NAN, 1.0, 1.0]).is_err());
+}

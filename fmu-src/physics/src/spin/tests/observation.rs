@@ -1,0 +1,196 @@
+//! What sensors see of a nutating spinner, against geometry and statistics.
+
+use approx::assert_relative_eq;
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+use super::{ace, directions, paper_start};
+use crate::spin::{
+    geometry::L1Flight,
+    noise::{Channel, normal},
+    nutation::period_variation_s,
+    plant::{Commands, Directions, Plant, Sampling},
+    rotation::angle_between_rad,
+    tracker::{NutationEstimator, picket_of, searched},
+};
+
+#[test]
+fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
+    let spinner = ace();
+    for beta_deg in [5.0_f64, 10.0, 20.0] {
+        let mut start = paper_start(1.483);
+        start.nutation_rad = 0.01_f64.to_radians();
+        start.damper_time_constant_s = 0.0;
+        let beta = beta_deg.to_radians();
+        let sun = Directions { sun_inertial: Vector3::new(0.0, beta.sin(), beta.cos()), ..directions() };
+        // Put the momentum, not the body axis, at that Sun angle.
+        let mut plant = Plant::start(&spinner, &start, sun, Commands::none(), 0.0).unwrap();
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for i in 1..2000 {
+            plant.advance(&spinner, 6.0 * f64::from(i)).unwrap();
+            if let Some(period) = plant.sun_watch().period_s() {
+                least = least.min(period);
+                most = most.max(period);
+            }
+        }
+        // Eq 1 is the greatest change from the mean: the crossing shifts by Theta / (Omega tan beta) either way, and
+        // with a ratio near 1.5 it alternates from turn to turn.
+        let expected = period_variation_s(start.nutation_rad, PI / 6.0, beta);
+        assert_relative_eq!(0.5 * (most - least), expected, max_relative = 0.02);
+    }
+}
+
+#[test]
+fn a_quiet_spinner_crosses_the_sun_once_a_period() {
+    let spinner = ace();
+    let mut plant = Plant::start(&spinner, &paper_start(1.483), directions(), Commands::none(), 0.0).unwrap();
+    plant.advance(&spinner, 1200.5).unwrap();
+    let outputs = plant.outputs(&spinner);
+    assert_eq!(plant.sun_watch().count(), 101);
+    assert_relative_eq!(outputs.period_s, 12.0, max_relative = 1e-12);
+    assert!(outputs.sector_error.abs() < 1e-6);
+    assert_relative_eq!(outputs.sun_angle_rad.to_degrees(), 10.0, max_relative = 1e-12);
+    assert_relative_eq!(outputs.earth_angle_rad, 0.02_f64.atan(), max_relative = 1e-12);
+}
+
+#[test]
+fn every_picket_is_searched_once_in_eight_turns() {
+    for picket in 0..900 {
+        assert_eq!((0..8).filter(|&turn| searched(picket, turn, 8)).count(), 1);
+    }
+    assert_eq!(picket_of(0.0, 900), 0);
+    assert_eq!(picket_of(-1e-9, 900), 899);
+    assert_eq!(picket_of(0.4_f64.to_radians() * 1.5, 900), 1);
+}
+
+#[test]
+fn the_star_is_sampled_every_eight_spins_or_every_96_s() {
+    let spinner = ace();
+    for (sampling, spacing) in [(Sampling::Spins, 96.0 * 5.0 / 4.9), (Sampling::Clock, 96.0)] {
+        let mut start = paper_start(1.483);
+        start.spin_rate_rad_s = 4.9 * PI / 30.0;
+        start.sampling = sampling;
+        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut times = Vec::new();
+        for i in 1..2000 {
+            plant.advance(&spinner, f64::from(i)).unwrap();
+            let sample = plant.sample();
+            if times.last() != Some(&sample.time_s) && sample.count > 0 {
+                times.push(sample.time_s);
+            }
+        }
+        assert!(times.len() > 18);
+        for pair in times.windows(2) {
+            assert_relative_eq!(pair[1] - pair[0], spacing, max_relative = 1e-9);
+        }
+    }
+}
+
+#[test]
+fn declination_swings_by_the_nutation_angle_either_way() {
+    let spinner = ace();
+    let mut start = paper_start(1.483);
+    start.nutation_rad = 0.02_f64.to_radians();
+    start.damper_time_constant_s = 0.0;
+    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for i in 1..10_000 {
+        plant.advance(&spinner, 0.01 * f64::from(i)).unwrap();
+        let declination = plant.outputs(&spinner).declination_rad;
+        least = least.min(declination);
+        most = most.max(declination);
+    }
+    // Peak to peak twice the nutation angle, for a star near the equator of the momentum.
+    assert_relative_eq!(most - least, 2.0 * start.nutation_rad, max_relative = 1e-3);
+}
+
+#[test]
+fn the_estimator_finds_the_nutation_angle_within_its_own_error() {
+    let spinner = ace();
+    let mut hits = 0;
+    for seed in 0..20 {
+        let mut start = paper_start(1.478);
+        start.nutation_rad = 0.03_f64.to_radians();
+        start.damper_time_constant_s = 0.0;
+        start.seed = seed;
+        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        plant.advance(&spinner, 4.0 * 3600.0).unwrap();
+        let estimate = plant.outputs(&spinner).estimate;
+        assert!(plant.estimator().count() > 100);
+        assert!(estimate.sigma_rad.to_degrees() < 0.004);
+        hits += i32::from((estimate.nutation_rad - start.nutation_rad).abs() < estimate.sigma_rad);
+    }
+    // Two thirds of 20 lie within one standard deviation; 8 or fewer would be a chance of one in a hundred.
+    assert!(hits > 8, "{hits}");
+}
+
+#[test]
+fn the_estimator_is_exact_without_noise_and_silent_without_samples() {
+    let mut estimator = NutationEstimator::default();
+    assert_eq!(estimator.estimate(0.0).sigma_rad, PI);
+    for k in 0..9 {
+        let phase = 0.37 * f64::from(k);
+        estimator.add(phase, 0.2 + 3e-4 * (phase - 1.1).cos());
+    }
+    let estimate = estimator.estimate(0.0);
+    assert_relative_eq!(estimate.nutation_rad, 3e-4, max_relative = 1e-9);
+    assert_eq!(estimate.sigma_rad, 0.0);
+}
+
+#[test]
+fn draws_are_normal_and_depend_on_seed_channel_and_event_alone() {
+    let draws: Vec<f64> = (0..20_000).map(|event| normal(7, Channel::StarTracker, event)).collect();
+    let mean = draws.iter().sum::<f64>() / 20_000.0;
+    let variance = draws.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 20_000.0;
+    let tail = draws.iter().filter(|x| x.abs() > 1.96).count() as f64 / 20_000.0;
+    assert!(mean.abs() < 0.03 && (variance - 1.0).abs() < 0.04 && (tail - 0.05).abs() < 0.006);
+    assert_eq!(draws[5], normal(7, Channel::StarTracker, 5));
+    assert_ne!(draws[5], normal(8, Channel::StarTracker, 5));
+    assert_ne!(draws[5], normal(7, Channel::SunSensor, 5));
+}
+
+#[test]
+fn sun_and_earth_of_the_l1_orbit_stand_where_the_geometry_puts_them() {
+    let mut orbit = ace().l1_orbit;
+    let day = 86_400.0;
+    let at = |orbit: &crate::spin::spinner::L1Orbit, t: f64| orbit.sun_earth(&Default::default(), t);
+    // Without an amplitude Sun and Earth are opposite and turn by 0.9829 deg a day.
+    orbit.amplitude_m = [0.0; 3];
+    let (now, later) = (at(&orbit, 0.0), at(&orbit, day));
+    assert_relative_eq!(angle_between_rad(&now.sun_inertial, &-now.earth_inertial), 0.0, epsilon = 1e-12);
+    assert_relative_eq!(
+        angle_between_rad(&now.earth_inertial, &later.earth_inertial).to_degrees(),
+        0.9829,
+        max_relative = 1e-12
+    );
+    // With it the Earth wanders by the amplitude over the distance.
+    let orbit = ace().l1_orbit;
+    let mut most: f64 = 0.0;
+    for i in 0..400 {
+        let seen = at(&orbit, f64::from(i) * day);
+        most = most.max(angle_between_rad(&seen.sun_inertial, &-seen.earth_inertial));
+    }
+    let expected = (2.64071e8_f64.hypot(1.57406e8) / 1.5e9).atan();
+    assert!(most < expected * 1.1 && most > 0.8 * expected, "{most} {expected}");
+}
+
+#[test]
+fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
+    let spinner = ace();
+    let mut start = paper_start(1.483);
+    start.l1 = Some(L1Flight { orbit: spinner.l1_orbit, phases: Default::default() });
+    // Spin axis a little off the Sun.
+    let sun = spinner.l1_orbit.sun_earth(&Default::default(), 0.0).sun_inertial;
+    let axis = Vector3::z().cross(&sun).normalize();
+    let q = crate::spin::rotation::Quaternion::turn(&axis, angle_between_rad(&Vector3::z(), &sun) + 0.1);
+    start.attitude = q.0;
+    let launch = || Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut whole = launch();
+    whole.advance(&spinner, 4000.0).unwrap();
+    let mut cut = launch();
+    for i in 1..=4000 {
+        cut.advance(&spinner, f64::from(i)).unwrap();
+    }
+    assert_eq!(whole.outputs(&spinner), cut.outputs(&spinner));
+    assert!(whole.sun_watch().count() > 330);
+}

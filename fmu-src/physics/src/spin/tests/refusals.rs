@@ -1,0 +1,123 @@
+//! What cannot be flown is refused with the name of what is wrong.
+
+use nalgebra::Vector3;
+
+use super::{ACE, ace, directions, paper_start, request};
+use crate::spin::{
+    burn::BurnRequest,
+    forecast::Timing,
+    plant::{Commands, Directions, Plant},
+    spinner::Spinner,
+    train::Shape,
+};
+
+fn refusal(request: BurnRequest) -> String {
+    let mut start = paper_start(1.483);
+    start.burn = Some(request);
+    Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
+}
+
+fn assert_names(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "`{part}` is missing from: {text}");
+    }
+}
+
+#[test]
+fn burns_that_cannot_be_flown_say_why() {
+    assert_names(&refusal(BurnRequest { thruster: 11, ..request() }), &["burn.thruster", "11", "1 to 10"]);
+    assert_names(&refusal(BurnRequest { thruster: 0, ..request() }), &["burn.thruster", "1 to 10"]);
+    assert_names(
+        &refusal(BurnRequest { opposite_thruster: 12, ..request() }),
+        &["burn.oppositeThruster", "12", "1 to 10"],
+    );
+    assert_names(
+        &refusal(BurnRequest { group: "west".into(), ..request() }),
+        &["burn.group", "west", "spin up"],
+    );
+    assert_names(
+        &refusal(BurnRequest { pulse_width_s: 6.5, ..request() }),
+        &["burn.pulseWidth", "6.5", "half a turn"],
+    );
+    assert_names(
+        &refusal(BurnRequest { turns_per_pulse: 0.5, opposite_thruster: 0, ..request() }),
+        &["0.5 turns", "opposite"],
+    );
+    assert_names(
+        &refusal(BurnRequest { turns_per_pulse: 0.5, opposite_thruster: 8, ..request() }),
+        &["0.5 turns", "opposite"],
+    );
+    assert_names(&refusal(BurnRequest { turns_per_pulse: 0.3, ..request() }), &["0.3 turns"]);
+    assert_names(&refusal(BurnRequest { count: -4, ..request() }), &["burn.count", "-4"]);
+    assert_names(
+        &refusal(BurnRequest { target_inertial: Vector3::zeros(), ..request() }),
+        &["burn.targetDirection", "direction"],
+    );
+    assert_names(
+        &refusal(BurnRequest { max_duration_s: 600.0, ..request() }),
+        &["duration", "1356.032", "burn.maxDuration = 600"],
+    );
+    assert_names(
+        &refusal(BurnRequest { max_nutation_rad: 1e-4, ..request() }),
+        &["nutation", "deg", "burn.maxNutation"],
+    );
+    assert_names(
+        &refusal(BurnRequest { group: "thrust along +Z".into(), ..request() }),
+        &["burn.thruster", "without torque"],
+    );
+    assert_names(
+        &refusal(BurnRequest { shape: Shape::Split, count: 5, ..request() }),
+        &["even number", "5 pulses"],
+    );
+}
+
+#[test]
+fn starts_that_make_no_sense_say_why() {
+    let refuse = |change: &dyn Fn(&mut crate::spin::plant::Start)| {
+        let mut start = paper_start(1.483);
+        change(&mut start);
+        Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
+    };
+    assert_names(&refuse(&|s| s.inertia_kg_m2[1] = -2.0), &["inertia[2]", "-2", "positive"]);
+    assert_names(&refuse(&|s| s.inertia_kg_m2 = [10.0, 10.0, 30.0]), &["inertia[3]", "triangle"]);
+    assert_names(&refuse(&|s| s.spin_rate_rad_s = 0.0), &["spin.initialRate"]);
+    assert_names(&refuse(&|s| s.attitude = [0.0, 0.0, 0.0, 2.0]), &["initial.q", "norm"]);
+    assert_names(&refuse(&|s| s.nutation_rad = 2.0), &["initial.nutation"]);
+    assert_names(&refuse(&|s| s.damper_time_constant_s = -1.0), &["damper.timeConstant"]);
+    let mut start = paper_start(1.483);
+    start.burn = Some(BurnRequest { timing: Timing::SunCrossing, ..request() });
+    let on_axis = Directions { sun_inertial: Vector3::z(), ..directions() };
+    let text = Plant::start(&ace(), &start, on_axis, Commands::none(), 0.0).unwrap_err().to_string();
+    assert_names(&text, &["burn.timing", "off the axis"]);
+}
+
+#[test]
+fn a_setup_that_cannot_be_used_names_file_and_key() {
+    let change = |from: &str, to: &str| {
+        let text = ACE.replacen(from, to, 1);
+        assert_ne!(text, ACE, "{from}");
+        Spinner::parse("my.toml", &text).unwrap_err().to_string()
+    };
+    assert_names(
+        &change("force_n = 4.448", "force_n = -1.0"),
+        &["my.toml", "thruster[1].force_n", "-1", "positive"],
+    );
+    assert_names(
+        &change("direction = [0.0, 0.0, -1.0]", "direction = [0.0, 0.1, -1.0]"),
+        &["my.toml", "thruster[1].direction", "unit vector"],
+    );
+    assert_names(&change("name = \"IR+\"", "name = \"IA\""), &["my.toml", "thruster[2].name", "IA"]);
+    assert_names(
+        &change("[\"IR+\", \"IR-\"]", "[\"IR+\", \"XX\"]"),
+        &["my.toml", "group[1].thrusters", "XX"],
+    );
+    assert_names(&change("force_n = 4.448", "force_n = 4.448\ncolour = 3"), &["my.toml", "colour", "line"]);
+    assert_names(
+        &change("[1.471, 1.483, 1.494]", "[1.471, 1.483]"),
+        &["my.toml", "inertia_ratio", "3 positive"],
+    );
+    assert_names(&change("[1.471, 1.483, 1.494]", "[1.471, 1.483, 2.1]"), &["my.toml", "triangle"]);
+    assert_names(&change("dry_mass_kg = 562.0", ""), &["my.toml", "dry_mass_kg"]);
+    assert_names(&change("resolution_s = 0.032", "resolution_s = nan"), &["my.toml", "resolution_s", "NaN"]);
+    assert!(Spinner::parse("my.toml", "[[[").is_err());
+}

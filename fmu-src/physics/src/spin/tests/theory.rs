@@ -1,0 +1,168 @@
+//! The paper's numbers, the corrected envelopes and the bounds of tapered trains.
+
+use approx::assert_relative_eq;
+use std::f64::consts::PI;
+
+use crate::spin::{
+    forecast::{Flight, Range, Timing},
+    nutation::{
+        Spin, allowed_nutation_rad, exact_envelope_rad, period_variation_s, printed_envelope_rad,
+        tapered_bound_rad, uniform_train_rad,
+    },
+    tracker::{observation_time_eq20_s, observation_time_s},
+    train::{Shape, Train, TrainError},
+};
+
+const TORQUE_N_M: f64 = 4.448 * 0.40;
+
+fn paper(ratio: f64) -> Spin {
+    Spin { rate_rad_s: PI / 6.0, ratio, inertia_kg_m2: 353.82 }
+}
+
+#[test]
+fn the_papers_numbers_come_out() {
+    let spin = paper(1.483);
+    assert!((spin.manoeuvre_rad(TORQUE_N_M, 1.0) - 0.0095).abs() < 5e-5);
+    assert!((spin.manoeuvre_rad(TORQUE_N_M, 0.032).to_degrees() - 0.0176).abs() < 5e-5);
+    let radial = 2.0 / spin.manoeuvre_rad(TORQUE_N_M, 0.032).to_degrees();
+    assert_eq!(radial.ceil(), 114.0);
+    let axial = 2.0 / spin.manoeuvre_rad(4.448 * 0.78, 0.032).to_degrees();
+    assert!((axial - 58.0).abs() < 1.0, "{axial}");
+    // Printed envelopes with n = 113 and 58, and the true ones of the notes.
+    let gamma = 2.0_f64.to_radians();
+    for (n, turns, printed, exact) in [
+        (113.0, 0.5, 0.0237, 0.02439),
+        (113.0, 1.0, 0.0177, 0.01772),
+        (58.0, 0.5, 0.0461, 0.04752),
+        (58.0, 1.0, 0.0345, 0.03453),
+    ] {
+        let kick = gamma / n;
+        let got = printed_envelope_rad(kick, spin.ratio, turns).to_degrees();
+        assert!((got - printed).abs() < 6e-5, "printed {got} against {printed}");
+        let got = exact_envelope_rad(kick, spin.phase_advance_rad(turns)).to_degrees();
+        assert!((got - exact).abs() < 6e-6, "exact {got} against {exact}");
+    }
+    // Eq 1: 7 ms allow 0.038 deg at 20 deg, 0.0018 deg at 1 deg.
+    let allowed = |beta: f64| allowed_nutation_rad(0.007, PI / 6.0, beta.to_radians()).to_degrees();
+    assert!((allowed(20.0) - 0.0382).abs() < 5e-5 && (allowed(1.0) - 0.0018).abs() < 5e-5);
+    assert_relative_eq!(
+        period_variation_s(allowed(20.0).to_radians(), PI / 6.0, 20.0_f64.to_radians()),
+        0.007,
+        max_relative = 1e-12
+    );
+}
+
+#[test]
+fn observation_takes_11_76_min_by_eq_20_and_the_spin_rate_drops_out_of_sampling_by_spins() {
+    let rpm = PI / 30.0;
+    assert!((observation_time_eq20_s(5.0 * rpm, 1.483) / 60.0 - 11.76).abs() < 0.01);
+    // By the clock, exactly: the same where the rate is nominal, near it elsewhere.
+    let clock = |rate: f64, ratio: f64| observation_time_s(96.0, ratio * rate);
+    assert_relative_eq!(
+        clock(5.0 * rpm, 1.483),
+        observation_time_eq20_s(5.0 * rpm, 1.483),
+        max_relative = 1e-9
+    );
+    let spins = |rate: f64| observation_time_s(8.0 * 2.0 * PI / rate, 1.483 * rate);
+    assert_relative_eq!(spins(4.9 * rpm) * 4.9, spins(5.1 * rpm) * 5.1, max_relative = 1e-9);
+    // About 21 per cent of the range needs more than 30 min by eq 20.
+    let mut slow = 0;
+    for i in 0..400 {
+        for j in 0..400 {
+            let rate = (4.9 + 0.2 * (f64::from(i) + 0.5) / 400.0) * rpm;
+            let ratio = 1.471 + 0.023 * (f64::from(j) + 0.5) / 400.0;
+            slow += i32::from(observation_time_eq20_s(rate, ratio) > 1800.0);
+        }
+    }
+    let share = f64::from(slow) / 160_000.0;
+    assert!((share - 0.21).abs() < 0.01, "{share}");
+}
+
+#[test]
+fn a_tapered_train_stays_under_its_bound_at_any_length() {
+    let spin = paper(1.483);
+    let q = spin.nutation_kick_rad(TORQUE_N_M, 0.032);
+    for (ratio, notes_deg) in [(1.471, 0.0032), (1.483, 0.0019), (1.494, 0.0007)] {
+        let bound = tapered_bound_rad(q, 2.0 * PI * ratio, 1).to_degrees();
+        assert!((bound - notes_deg).abs() < 6e-5, "{ratio}: {bound}");
+        for order in 1..=4 {
+            for count in 2 * order + 1..80 {
+                let spin = paper(ratio);
+                let train = Train::new(Shape::Tapered { order }, count, 0.032, 1.0, &spin, 0.032).unwrap();
+                let flight = Flight {
+                    spin,
+                    assumed_rate_rad_s: spin.rate_rad_s,
+                    timing: Timing::Clock,
+                    torque_n_m: TORQUE_N_M,
+                };
+                let end = flight.forecast(&train).final_nutation_rad;
+                let bound = tapered_bound_rad(q, 2.0 * PI * ratio, order);
+                // Whole steps of width have the whole multiples of the kick to 1e-4 only.
+                assert!(
+                    end <= bound * 1.001 + 2e-4 * q * f64::from(1_u32 << order),
+                    "{ratio} {order} {count}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn forecasts_of_uniform_trains_are_eq_8() {
+    for turns in [0.5, 1.0, 1.5, 2.0] {
+        for count in [1, 2, 17, 114] {
+            let spin = paper(1.479);
+            let train = Train::new(Shape::Uniform, count, 0.064, turns, &spin, 0.032).unwrap();
+            let flight = Flight {
+                spin,
+                assumed_rate_rad_s: spin.rate_rad_s,
+                timing: Timing::Clock,
+                torque_n_m: TORQUE_N_M,
+            };
+            let seen = flight.forecast(&train);
+            let kick = spin.nutation_kick_rad(TORQUE_N_M, 0.064);
+            let expected = uniform_train_rad(kick, spin.phase_advance_rad(turns), count);
+            assert_relative_eq!(seen.final_nutation_rad, expected, max_relative = 1e-8, epsilon = 1e-15);
+            assert_relative_eq!(
+                seen.moved_rad,
+                f64::from(count) * spin.manoeuvre_rad(TORQUE_N_M, 0.064),
+                max_relative = 1e-12
+            );
+        }
+    }
+}
+
+#[test]
+fn the_worst_of_a_range_is_no_less_than_a_fine_scan_finds() {
+    let spin = paper(1.4825);
+    let train = Train::new(Shape::Uniform, 114, 0.032, 1.0, &spin, 0.032).unwrap();
+    let flight = Flight {
+        spin,
+        assumed_rate_rad_s: spin.rate_rad_s,
+        timing: Timing::TruePhase,
+        torque_n_m: TORQUE_N_M,
+    };
+    let worst = Range { ratio: 0.0115, rate_rad_s: 0.0 }.worst(&flight, &train);
+    let mut finest: f64 = 0.0;
+    for i in 0..=20_000 {
+        let mut other = flight;
+        other.spin.ratio = 1.471 + 0.023 * f64::from(i) / 20_000.0;
+        finest = finest.max(other.forecast(&train).final_nutation_rad);
+    }
+    assert!(worst.final_nutation_rad > 0.97 * finest && worst.final_nutation_rad <= finest * (1.0 + 1e-9));
+}
+
+#[test]
+fn trains_that_make_no_sense_are_refused() {
+    let spin = paper(1.483);
+    let make = |shape, count, width, turns| Train::new(shape, count, width, turns, &spin, 0.032);
+    assert!(matches!(make(Shape::Uniform, 5, 0.032, 0.7), Err(TrainError::Turns { .. })));
+    assert!(matches!(make(Shape::Uniform, 5, 0.032, f64::NAN), Err(TrainError::Turns { .. })));
+    assert!(matches!(make(Shape::Uniform, 0, 0.032, 1.0), Err(TrainError::Count { .. })));
+    assert!(matches!(make(Shape::Uniform, 5, -1.0, 1.0), Err(TrainError::Width { .. })));
+    assert!(matches!(make(Shape::Tapered { order: 1 }, 1, 0.032, 1.0), Err(TrainError::Count { .. })));
+    assert!(matches!(make(Shape::Tapered { order: 9 }, 50, 0.032, 1.0), Err(TrainError::Count { .. })));
+    assert!(matches!(make(Shape::Split, 5, 0.032, 1.0), Err(TrainError::Count { .. })));
+    // Sixty-four times the kick of a 2 s pulse is more than any pulse has.
+    assert!(matches!(make(Shape::Tapered { order: 6 }, 50, 2.0, 1.0), Err(TrainError::Width { .. })));
+}

@@ -1,0 +1,210 @@
+//! A configured flight obeys what holds for any flight: turning the universe changes nothing, energy of the orbit is
+//! kept, gravity gradient has its textbook value.
+
+use approx::assert_relative_eq;
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use physics::attitude::Attitude;
+use physics::constants::{GM_MERCURY_M3_S2, RADIUS_MERCURY_M, SPEED_OF_LIGHT_M_S};
+use physics::environment::eclipse::{Shadow, ShadowModel};
+use physics::environment::ephemeris::Ephemeris;
+use physics::environment::frames::Frame;
+use physics::environment::orbit::{Elements, OrbitMethod, TwoBodyOrbit};
+use physics::guidance::{Guided, Schedule, ScienceRule};
+use physics::momentum::{Accumulator, Convention, DumpPolicy, Flight, Reinitialise, Settings, Totals};
+use physics::numerics::quadrature;
+use physics::plant::{
+    AttitudeSource, Command, Configuration, Course, Craft, EphemerisSource, ExternalLoad, Motion,
+    OrbitCenter, PanelSetting, Plant, SunLight, orbit_from_elements,
+};
+use physics::radiation::SolarModel;
+use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
+
+pub(crate) const EPOCH_S: f64 = 3382.5 * 86_400.0;
+
+fn elements() -> Elements {
+    Elements {
+        semi_major_axis_m: 1.0136e7,
+        eccentricity: 0.74,
+        inclination_rad: 1.44,
+        ascending_node_rad: 6.11,
+        periapsis_argument_rad: 2.08,
+        true_anomaly_rad: 0.0,
+    }
+}
+
+pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Configuration {
+    Configuration {
+        epoch_minus_time_s: EPOCH_S,
+        center: OrbitCenter::Mercury,
+        orbit,
+        motion: Motion::TwoBody,
+        ephemeris: EphemerisSource::Vsop87,
+        light: SunLight::Distance { flux_w_m2: 1353.0 },
+        shadow: Shadow::new(ShadowModel::Off, RADIUS_MERCURY_M).unwrap(),
+        attitude,
+        sunshade: SunshadeModel::Plates,
+        panels: vec![PanelSetting::Disabled; 2],
+        center_of_mass_body_m: Vector3::new(0.0, 0.01, -0.03),
+        mass_kg: 700.0,
+        inertia_body_kg_m2: Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9)),
+        gravity_gradient_m3_s2: GM_MERCURY_M3_S2,
+        momentum: Settings {
+            grid_s: 600.0,
+            tolerance: 1e-11,
+            convention: Convention::Inertial,
+            policy: DumpPolicy {
+                threshold_body_n_m_s: Vector3::repeat(f64::INFINITY),
+                reinitialise: Reinitialise::Opposite { fraction: 1.0 },
+            },
+        },
+    }
+}
+
+pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
+    AttitudeSource::Guided(Guided {
+        schedule: Schedule {
+            periapsis_s: orbit.periapsis_epoch_s(0),
+            period_s: orbit.period_s(),
+            downlink_start_s: 7200.0,
+            downlink_end_s: 36_000.0,
+            every: 2,
+        },
+        science: ScienceRule::Scaled { gain: 0.25 },
+        elevation_limit_rad: 0.2269,
+        slew_rate_rad_s: 3e-3,
+    })
+}
+
+pub(crate) fn orbit() -> TwoBodyOrbit {
+    orbit_from_elements(elements(), Frame::MercuryEquator, GM_MERCURY_M3_S2, EPOCH_S).unwrap()
+}
+
+fn spacecraft() -> Spacecraft {
+    Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap()
+}
+
+/// A spacecraft with everything a flight of it needs.
+pub(crate) struct Rig {
+    spacecraft: Spacecraft,
+    solar: SolarModel,
+    method: OrbitMethod,
+    pub(crate) course: Course,
+    ephemeris: Ephemeris,
+}
+
+impl Rig {
+    pub(crate) fn new() -> Self {
+        let spacecraft = spacecraft();
+        Self {
+            solar: SolarModel::new(&spacecraft),
+            spacecraft,
+            method: OrbitMethod::default(),
+            course: Course::default(),
+            ephemeris: Ephemeris::default(),
+        }
+    }
+
+    fn plant<'a>(&'a mut self, configuration: &'a Configuration) -> Plant<'a, fn(f64) -> ExternalLoad> {
+        self.plant_with(configuration, |_| ExternalLoad::default())
+    }
+
+    pub(crate) fn plant_with<'a, L: Fn(f64) -> ExternalLoad>(
+        &'a mut self,
+        configuration: &'a Configuration,
+        load: L,
+    ) -> Plant<'a, L> {
+        let craft = Craft { panels: &self.spacecraft.panels, solar: &self.solar, orbit_method: &self.method };
+        Plant::new(craft, configuration, &mut self.course, &mut self.ephemeris, load)
+    }
+}
+
+#[test]
+fn orbit_elements_keep_energy_and_angular_momentum_in_every_frame() {
+    let expected_energy = -GM_MERCURY_M3_S2 / (2.0 * elements().semi_major_axis_m);
+    let p_m = elements().semi_major_axis_m * (1.0 - 0.74f64.powi(2));
+    for frame in [Frame::Paper004Mci, Frame::MercuryEquator, Frame::Eme2000, Frame::EclipticJ2000] {
+        let orbit = orbit_from_elements(elements(), frame, GM_MERCURY_M3_S2, EPOCH_S).unwrap();
+        for hours in [0.0, 1.0, 5.5, 11.9, 1000.0] {
+            let state = orbit.state_at(EPOCH_S + hours * 3600.0);
+            let energy = 0.5 * state.velocity_m_s.norm_squared() - GM_MERCURY_M3_S2 / state.position_m.norm();
+            assert_relative_eq!(energy, expected_energy, max_relative = 1e-9);
+            let h = state.position_m.cross(&state.velocity_m_s).norm();
+            assert_relative_eq!(h, (GM_MERCURY_M3_S2 * p_m).sqrt(), max_relative = 1e-9);
+        }
+    }
+}
+
+#[test]
+fn accumulated_momentum_is_the_gauss_quadrature_of_torque() {
+    let orbit = orbit();
+    let configuration = configuration(orbit, guided(&orbit));
+    let (mut a, mut b) = (Rig::new(), Rig::new());
+    let mut plant = a.plant(&configuration);
+    let mut accumulator = Accumulator::new(0.0, Totals::default());
+    // Inside one downlink window, past its slew: smooth, so Gauss-Legendre on 60 s pieces is as good as exact.
+    let (from_s, to_s) = (10_000.0, 30_000.0);
+    accumulator.advance(&mut plant, &configuration.momentum, from_s, |_| {}).unwrap();
+    let before = accumulator.totals(from_s).momentum_inertial_n_m_s;
+    accumulator.advance(&mut plant, &configuration.momentum, to_s, |_| {}).unwrap();
+    let gained = accumulator.totals(to_s).momentum_inertial_n_m_s - before;
+    let mut plant = b.plant(&configuration);
+    let rule = quadrature::Rule::<5>::gauss_legendre();
+    let mut sum = Vector3::zeros();
+    let pieces = 334;
+    let length_s = (to_s - from_s) / f64::from(pieces);
+    for piece in 0..pieces {
+        let start_s = from_s + f64::from(piece) * length_s;
+        for (time_s, weight_s) in rule.on(start_s, start_s + length_s) {
+            let sample = plant.sample(time_s);
+            sum += sample.inertial_from_body * sample.torque_body_n_m * weight_s;
+        }
+    }
+    assert!(gained.norm() > 1e-3);
+    assert_relative_eq!(gained, sum, epsilon = 1e-9);
+}
+
+#[test]
+fn gravity_gradient_has_its_textbook_value() {
+    // Planet in the body XY plane at 45 deg: N_z = (3 mu / 2 r^3) (J_y - J_x).
+    let orbit = orbit();
+    let state = orbit.state_at(EPOCH_S);
+    let toward = -state.position_m.normalize();
+    let across = state.velocity_m_s.normalize();
+    let axis = toward.cross(&across).normalize();
+    let across = axis.cross(&toward);
+    let x = (toward + across).normalize();
+    let y = axis.cross(&x);
+    let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, axis]));
+    let command = Command {
+        attitude: Attitude::from_rotation(&rotation),
+        rate_body_rad_s: Vector3::zeros(),
+        since_s: 0.0,
+    };
+    let configuration = configuration(orbit, AttitudeSource::Commanded(command));
+    let mut rig = Rig::new();
+    let mut plant = rig.plant(&configuration);
+    let torque = plant.snapshot(0.0).gravity_gradient_body_n_m;
+    // The planet stands at -45 deg from X: toward = (x - y) / sqrt 2.
+    let expected = -1.5 * GM_MERCURY_M3_S2 / state.position_m.norm().powi(3) * (507.1 - 199.6);
+    assert_relative_eq!(torque, Vector3::new(0.0, 0.0, expected), max_relative = 1e-9, epsilon = 1e-15);
+}
+
+#[test]
+fn a_given_sun_is_where_it_was_given() {
+    let orbit = orbit();
+    let sun_m = Vector3::new(4e10, -3e10, 1e10);
+    let command = Command { attitude: Attitude::default(), rate_body_rad_s: Vector3::zeros(), since_s: 0.0 };
+    let configuration = Configuration {
+        ephemeris: EphemerisSource::Given { sun_m, earth_m: Vector3::new(0.0, 1e11, 0.0) },
+        ..configuration(orbit, AttitudeSource::Commanded(command))
+    };
+    let mut rig = Rig::new();
+    let mut plant = rig.plant(&configuration);
+    let snapshot = plant.snapshot(0.0);
+    let expected = (sun_m - orbit.state_at(EPOCH_S).position_m).normalize();
+    assert_relative_eq!(snapshot.sun_body, expected, epsilon = 1e-12);
+    // Bounded by a black sphere and a mirror of the whole area: pressure times 5.4 m2, once and twice.
+    let distance_au = snapshot.geometry.to_sun.position_m.norm() / 149_597_870_700.0;
+    let pressure_pa = 1353.0 / SPEED_OF_LIGHT_M_S / (distance_au * distance_au);
+    assert!(snapshot.solar.force_body_n.norm() < 2.0 * 5.4 * pressure_pa);
+}

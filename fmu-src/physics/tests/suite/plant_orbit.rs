@@ -1,0 +1,138 @@
+//! A disturbed orbit in flight is what Newton's law makes of it, and its periapses are the nearest points it really
+//! passes.
+
+use approx::assert_relative_eq;
+use nalgebra::Vector3;
+use physics::attitude::Attitude;
+use physics::constants::{GM_MERCURY_M3_S2 as MU, RADIUS_MERCURY_M};
+use physics::environment::State;
+use physics::environment::orbit::{Flattening, Gravity};
+use physics::momentum::{Accumulator, Totals};
+use physics::plant::{AttitudeSource, Command, Configuration, Course, ExternalLoad, Motion, Plant};
+
+use super::plant_flight::{EPOCH_S, Rig, configuration, guided, orbit};
+
+fn disturbed(gravity: Gravity, attitude: AttitudeSource) -> Configuration {
+    let motion = Motion::Disturbed { gravity, cell_s: 300.0, radius_m: RADIUS_MERCURY_M, feedback: true };
+    Configuration { motion, ..configuration(orbit(), attitude) }
+}
+
+fn at_rest() -> AttitudeSource {
+    AttitudeSource::Commanded(Command {
+        attitude: Attitude::default(),
+        rate_body_rad_s: Vector3::zeros(),
+        since_s: 0.0,
+    })
+}
+
+/// Flies to rising times and gives what `look` sees there.
+fn fly<T>(
+    configuration: &Configuration,
+    force_n: Vector3<f64>,
+    times_s: impl Iterator<Item = f64>,
+    mut look: impl FnMut(&mut Plant<'_, &dyn Fn(f64) -> ExternalLoad>, f64) -> T,
+) -> Vec<T> {
+    let mut rig = Rig::new();
+    rig.course = Course::new(configuration, 0.0).unwrap();
+    let load = move |_: f64| ExternalLoad { force_body_n: force_n, ..ExternalLoad::default() };
+    let mut plant = rig.plant_with(configuration, &load as &dyn Fn(f64) -> ExternalLoad);
+    let mut accumulator = Accumulator::new(0.0, Totals::default());
+    times_s
+        .map(|time_s| {
+            accumulator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
+            look(&mut plant, time_s)
+        })
+        .collect()
+}
+
+#[test]
+fn without_disturbances_it_is_the_closed_form() {
+    let still = Configuration {
+        light: physics::plant::SunLight::Fixed { pressure_pa: 0.0 },
+        ..disturbed(Gravity::point_mass(MU), guided(&orbit()))
+    };
+    let two_body = Configuration { motion: Motion::TwoBody, ..still.clone() };
+    let times = || (0..400).map(|i| f64::from(i) * 731.0);
+    let look = |plant: &mut Plant<'_, &dyn Fn(f64) -> ExternalLoad>, time_s: f64| plant.snapshot(time_s);
+    let (found, expected) =
+        (fly(&still, Vector3::zeros(), times(), look), fly(&two_body, Vector3::zeros(), times(), look));
+    for (found, expected) in found.iter().zip(&expected) {
+        let off_m = (found.geometry.spacecraft.position_m - expected.geometry.spacecraft.position_m).norm();
+        assert!(off_m < 0.02, "{off_m}");
+        // Downlink windows, slews and science fall together.
+        let (one, other) = (found.frame.inertial_from_body, expected.frame.inertial_from_body);
+        let turn = (one.matrix() - other.matrix()).norm();
+        assert!(turn < 1e-5, "{turn}");
+        assert_eq!(found.branch, expected.branch);
+    }
+}
+
+/// Classical Runge-Kutta on gravity and a constant acceleration; nothing of the plant in it.
+fn runge_kutta(mut state: State, extra: Vector3<f64>, duration_s: f64, steps: u32) -> State {
+    let rate = |r: Vector3<f64>| extra - r * (MU / r.norm().powi(3));
+    let h = duration_s / f64::from(steps);
+    for _ in 0..steps {
+        let (r, v) = (state.position_m, state.velocity_m_s);
+        let (k1r, k1v) = (v, rate(r));
+        let (k2r, k2v) = (v + k1v * (h / 2.0), rate(r + k1r * (h / 2.0)));
+        let (k3r, k3v) = (v + k2v * (h / 2.0), rate(r + k2r * (h / 2.0)));
+        let (k4r, k4v) = (v + k3v * h, rate(r + k3r * h));
+        state.position_m += (k1r + k2r * 2.0 + k3r * 2.0 + k4r) * (h / 6.0);
+        state.velocity_m_s += (k1v + k2v * 2.0 + k3v * 2.0 + k4v) * (h / 6.0);
+    }
+    state
+}
+
+#[test]
+fn a_force_moves_the_spacecraft_as_newton_says() {
+    let configuration = Configuration {
+        light: physics::plant::SunLight::Fixed { pressure_pa: 0.0 },
+        ..disturbed(Gravity::point_mass(MU), at_rest())
+    };
+    let force_n = Vector3::new(0.02, -0.01, 0.03);
+    let end_s = 40_000.0;
+    let found = fly(&configuration, force_n, [end_s].into_iter(), |plant, time_s| plant.snapshot(time_s));
+    let start = orbit().state_at(EPOCH_S);
+    let pushed = runge_kutta(start, force_n / configuration.mass_kg, end_s, 200_000);
+    let free = runge_kutta(start, Vector3::zeros(), end_s, 200_000);
+    let found_m = found[0].geometry.spacecraft.position_m;
+    assert!((pushed.position_m - free.position_m).norm() > 10_000.0);
+    assert_relative_eq!(found_m, pushed.position_m, epsilon = 0.1);
+}
+
+#[test]
+fn periapses_are_counted_where_they_are_passed() {
+    // Flattened a hundred times more than Mercury, so that the start's period is soon of no use.
+    let flattening = Flattening { j2: 5e-3, ..Flattening::mercury() };
+    let gravity = Gravity { flattening: Some(flattening), ..Gravity::mercury() };
+    let configuration = disturbed(gravity, guided(&orbit()));
+    let times = (1..=7200).map(|i| f64::from(i) * 60.0);
+    let seen = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
+        let state = plant.snapshot(time_s).geometry.spacecraft;
+        (
+            time_s,
+            state.position_m.norm(),
+            plant.time_since_periapsis_s(time_s),
+            plant.snapshot(time_s).branch & 24,
+        )
+    });
+    // By the distance alone: local minima on the minute.
+    let minima: Vec<f64> =
+        seen.windows(3).filter(|w| w[1].1 < w[0].1 && w[1].1 < w[2].1).map(|w| w[1].0).collect();
+    assert!(minima.len() >= 9);
+    let drift_s = minima[8] - 9.0 * orbit().period_s();
+    assert!(drift_s.abs() > 600.0, "{drift_s}");
+    for (time_s, _, since_s, activity) in seen {
+        let mut passed = minima.iter().filter(|&&at_s| at_s <= time_s - 60.0);
+        let (count, last_s) = (passed.clone().count(), passed.next_back().copied().unwrap_or(0.0));
+        if minima.iter().any(|&at_s| (at_s - time_s).abs() <= 60.0) {
+            continue;
+        }
+        assert!((time_s - since_s - last_s).abs() < 60.0, "{time_s} {since_s} {last_s}");
+        // Downlink from 2 h to 10 h after every second one.
+        let expected = count % 2 == 0 && (7_300.0..35_900.0).contains(&since_s);
+        let quiet = count % 2 == 1 || !(7_100.0..37_000.0).contains(&since_s);
+        assert!(!expected || activity & 8 == 8, "{time_s}");
+        assert!(!quiet || activity & 8 == 0, "{time_s}");
+    }
+}

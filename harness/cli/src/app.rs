@@ -1,0 +1,33 @@
+//! From arguments to a command and its exit status: 0 done, 1 failed or found wanting, 2 wrong usage.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::{
+    args::{Arguments, Command},
+    check, fly, info, output, pack, plan, study,
+};
+
+/// JSON Schema of the spacecraft file, kept in step with its reader by a test of `physics`.
+const SPACECRAFT_SCHEMA: &str = include_str!("../../../fmu-src/resources/spacecraft.schema.json");
+
+/// What every command ends with.
+pub type Outcome = Result<ExitCode, Box<dyn std::error::Error>>;
+
+/// Parses the arguments and runs the command.
+pub fn run() -> Outcome {
+    match Arguments::parse().command {
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Probe(arguments) => check::run_probe(&arguments),
+        Command::Run(arguments) => fly::run(&arguments),
+        Command::Pack(arguments) => pack::run(&arguments),
+        Command::Schema => {
+            output::print(SPACECRAFT_SCHEMA.trim_end())?;
+            Ok(ExitCode::SUCCESS)
+        }
+        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Study(arguments) => study::run(&arguments),
+    }
+}

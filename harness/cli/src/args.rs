@@ -1,0 +1,228 @@
+//! The command line's flags and their help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// The FMU whose library reads and flies new spacecraft unless another is named.
+const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
+
+const PACK_EXAMPLE: &str = "\
+Example:
+  heliotorque check my.toml                                  what is wrong with it, by line
+  heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
+
+/// Spacecraft disturbance torque and momentum as FMUs: look at them, check them, fly them, make your own.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Show what an FMU is, what it takes and gives, and what its sunshade and wheels come to
+    Info(Info),
+    /// Check an FMU, or a spacecraft before it is packed
+    Check(Check),
+    /// Fly an FMU from start to stop
+    Run(Run),
+    /// Make an FMU of your own spacecraft; nothing is compiled
+    #[command(after_help = PACK_EXAMPLE)]
+    Pack(Pack),
+    /// Print the JSON Schema of the spacecraft file, for editors that complete and check TOML
+    Schema,
+    /// Fly a study of the papers, or list them
+    Study(Study),
+    /// Find an optimal plan
+    #[command(subcommand)]
+    Plan(Plan),
+    /// Runs one probe of `check` in a process of its own
+    #[command(hide = true, name = "probe-in-child")]
+    Probe(Probe),
+}
+
+/// `heliotorque info`.
+#[derive(Debug, Args)]
+pub struct Info {
+    /// The FMU: an .fmu file or the folder it was unpacked into
+    pub fmu: PathBuf,
+    /// List the variables too
+    #[arg(long)]
+    pub variables: bool,
+    /// List only these variables: a name, a vector, or a pattern with *
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub only: Vec<String>,
+    /// Show what the FMU computes from its parameters: the sunshade's torque coefficients, torque and force by source at
+    /// the start, what the wheels guarantee
+    #[arg(long, conflicts_with_all = ["variables", "only"])]
+    pub coefficients: bool,
+    /// Set a parameter before --coefficients; repeatable, written as for `run`: sunshade.model=cylinder,
+    /// spacecraft.centerOfMass[3]=-2.54cm
+    #[arg(long, value_name = "NAME=VALUE", requires = "coefficients")]
+    pub set: Vec<String>,
+}
+
+/// `heliotorque check`.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The FMU, an .fmu file or the folder it was unpacked into; or a spacecraft, a .toml file
+    pub subject: PathBuf,
+    /// For a spacecraft: the FMU whose library shall read it, as for `pack`
+    #[arg(long, value_name = "FMU", default_value = DEFAULT_TEMPLATE)]
+    pub template: PathBuf,
+    /// Check only what can be read, without running the FMU
+    #[arg(long)]
+    pub still: bool,
+    /// Run only the probes whose name contains this text
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+    /// Longest time a probe may take, in s or with a unit
+    #[arg(long, value_name = "TIME", value_parser = duration, default_value = "60s")]
+    pub patience: f64,
+    /// Show every check, not only the findings
+    #[arg(long, short)]
+    pub verbose: bool,
+}
+
+/// `heliotorque probe-in-child`.
+#[derive(Debug, Args)]
+pub struct Probe {
+    /// The FMU
+    pub fmu: PathBuf,
+    /// The probe
+    pub name: String,
+}
+
+/// `heliotorque run`.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// The FMU: an .fmu file or the folder it was unpacked into
+    pub fmu: PathBuf,
+    /// Start time, in s or with a unit (s, min, h, d); otherwise the FMU's default
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_negative_numbers = true)]
+    pub start: Option<f64>,
+    /// Stop time, in s or with a unit: 90d; otherwise the FMU's default
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_negative_numbers = true)]
+    pub stop: Option<f64>,
+    /// Communication step, in s or with a unit: 10min; otherwise the FMU's default
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub step: Option<f64>,
+    /// Set a parameter, input or start value; repeatable. Takes units (spacecraft.centerOfMass[3]=-2.54cm),
+    /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4)
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Inputs over time, a CSV file: time,<input>,... with one row per time in s
+    #[arg(long, value_name = "CSV")]
+    pub input: Option<PathBuf>,
+    /// Hand the slopes of the input table to the FMU too, so that inputs do not jump from step to step
+    #[arg(long, requires = "input")]
+    pub slopes: bool,
+    /// Record these variables: names, vectors, patterns with *; otherwise every output
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub record: Vec<String>,
+    /// Record at most this often, in s or with a unit; otherwise at every step
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub every: Option<f64>,
+    /// Write what was recorded as CSV
+    #[arg(long, value_name = "CSV")]
+    pub output: Option<PathBuf>,
+    /// Draw what was recorded as SVG
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+    /// Show the FMU's log
+    #[arg(long)]
+    pub log: bool,
+    /// Show no progress bar and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `heliotorque pack`.
+#[derive(Debug, Args)]
+pub struct Pack {
+    /// The spacecraft, a TOML file (see `heliotorque schema` and `heliotorque check`); otherwise the one compiled into
+    /// the library
+    #[arg(long, value_name = "TOML")]
+    pub spacecraft: Option<PathBuf>,
+    /// Name of the new FMU, a C identifier; otherwise the model's
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Take libraries and licences from this FMU
+    #[arg(long, value_name = "FMU", default_value = DEFAULT_TEMPLATE)]
+    pub template: PathBuf,
+    /// Take this shared library, just built, instead of a template's
+    #[arg(long, value_name = "FILE", conflicts_with = "template", requires = "model")]
+    pub library: Option<PathBuf>,
+    /// The model: MomentumPlant, ...; otherwise the template's
+    #[arg(long, value_name = "MODEL")]
+    pub model: Option<String>,
+    /// The FMU to write; otherwise its name with .fmu, in this folder
+    #[arg(long, short, value_name = "FMU")]
+    pub output: Option<PathBuf>,
+}
+
+/// `heliotorque plan`.
+#[derive(Debug, Subcommand)]
+pub enum Plan {
+    /// The train of thruster pulses that turns a spinner with the least nutation
+    Spin(planner::spin::Options),
+}
+
+/// `heliotorque study`.
+#[derive(Debug, Args)]
+pub struct Study {
+    /// The study, or `list`
+    pub name: String,
+    /// Folder with the FMUs
+    #[arg(long, value_name = "FOLDER", default_value = "dist")]
+    pub dist: PathBuf,
+    /// Folder for CSV files and pictures; otherwise dist/<study>
+    #[arg(long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// Fly only the cases whose label contains this text
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+    /// Show no progress
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Seconds, or a number with a unit of time.
+fn duration(text: &str) -> Result<f64, String> {
+    const UNITS: [(&str, f64); 6] =
+        [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0), ("d", 86_400.0), ("", 1.0)];
+    let text = text.trim();
+    let unit = UNITS.iter().find(|(unit, _)| text.ends_with(unit));
+    let (number, factor) =
+        unit.map_or((text, 1.0), |(unit, factor)| (&text[..text.len() - unit.len()], *factor));
+    match number.trim_end().parse::<f64>() {
+        Ok(number) if (number * factor).is_finite() => Ok(number * factor),
+        _ => Err("a time is a number of seconds or carries a unit: 600, 10min, 0.5h, 90d".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_well_formed() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn times_take_units() {
+        assert_eq!(duration("90d"), Ok(7_776_000.0));
+        assert_eq!(duration("10 min"), Ok(600.0));
+        assert_eq!(duration("-1.5e3"), Ok(-1500.0));
+        assert_eq!(duration("250ms"), Ok(0.25));
+        for bad in ["", "d", "ten", "1e999", "nan", "3w"] {
+            assert!(duration(bad).is_err(), "{bad}");
+        }
+    }
+}

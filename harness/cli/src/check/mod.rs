@@ -1,0 +1,171 @@
+//! `heliotorque check`: everything that can be wrong with an FMU, found and named.
+//!
+//! What can be read is checked here: archive, description, exported symbols. What has to be run is run as probes,
+//! each in a process of its own, so that an FMU that crashes or hangs is a finding and not the end.
+
+mod child;
+mod probes;
+mod spacecraft;
+mod still;
+
+use std::process::ExitCode;
+
+use loader::Fmu;
+
+use crate::{
+    app::Outcome,
+    args::{Check, Probe},
+    output,
+};
+
+/// What a check found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// As it should be.
+    Good,
+    /// Not applicable, or not possible on this computer.
+    Skipped,
+    /// Odd, but the standard or its users live with it.
+    Note,
+    /// Wrong.
+    Bad,
+}
+
+impl Verdict {
+    const ALL: [Self; 4] = [Self::Good, Self::Skipped, Self::Note, Self::Bad];
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Good => "ok",
+            Self::Skipped => "skipped",
+            Self::Note => "note",
+            Self::Bad => "WRONG",
+        }
+    }
+}
+
+/// One line of the report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// Good or bad.
+    pub verdict: Verdict,
+    /// What was checked or found.
+    pub text: String,
+}
+
+impl Finding {
+    fn new(verdict: Verdict, text: impl Into<String>) -> Self {
+        Self { verdict, text: text.into() }
+    }
+
+    fn good(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Good, text)
+    }
+
+    fn skipped(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Skipped, text)
+    }
+
+    fn note(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Note, text)
+    }
+
+    fn bad(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Bad, text)
+    }
+
+    /// Good if `right`, else bad.
+    fn expect(right: bool, text: impl Into<String>) -> Self {
+        Self::new(if right { Verdict::Good } else { Verdict::Bad }, text)
+    }
+}
+
+/// A group of findings under one heading.
+struct Section {
+    title: String,
+    findings: Vec<Finding>,
+}
+
+impl Section {
+    /// The worst finding; what was skipped counts only where nothing else was found.
+    fn verdict(&self) -> Verdict {
+        let verdicts = || self.findings.iter().map(|finding| finding.verdict);
+        let worst = verdicts().filter(|verdict| *verdict != Verdict::Skipped).max();
+        worst.or_else(|| verdicts().max()).unwrap_or(Verdict::Good)
+    }
+}
+
+/// Checks an FMU or a spacecraft and prints the report.
+pub fn run(arguments: &Check) -> Outcome {
+    if arguments.subject.extension().is_some_and(|extension| extension == "toml") {
+        return spacecraft::run(arguments);
+    }
+    let mut sections = Vec::new();
+    let fmu = match Fmu::open(&arguments.subject) {
+        Ok(fmu) => fmu,
+        Err(error) => {
+            let finding = Finding::bad(output::chain(&error));
+            sections.push(Section { title: "archive".to_owned(), findings: vec![finding] });
+            return report(arguments, &sections);
+        }
+    };
+    sections.push(Section { title: "archive".to_owned(), findings: still::archive(&fmu) });
+    sections.push(Section { title: "modelDescription.xml".to_owned(), findings: still::description(&fmu) });
+    let runnable = !arguments.still && fmu.co_simulation().is_ok();
+    if runnable {
+        let loads = child::run(&fmu, "library", arguments.patience);
+        // A library that loads leaves something to try, whatever it lacks.
+        let usable = loads.first().is_some_and(|finding| finding.verdict == Verdict::Good);
+        sections.push(Section { title: "library".to_owned(), findings: loads });
+        if usable {
+            for probe in probes::ALL.iter().filter(|probe| probe.name != "library") {
+                if arguments.only.as_ref().is_none_or(|only| probe.name.contains(only.as_str())) {
+                    let findings = child::run(&fmu, probe.name, arguments.patience);
+                    sections.push(Section { title: format!("{}: {}", probe.name, probe.title), findings });
+                }
+            }
+        }
+    }
+    report(arguments, &sections)
+}
+
+/// Runs one probe in this process and prints its findings for the parent.
+pub fn run_probe(arguments: &Probe) -> Outcome {
+    let fmu = Fmu::open(&arguments.fmu)?;
+    let Some(probe) = probes::ALL.iter().find(|probe| probe.name == arguments.name) else {
+        return Err(format!("there is no probe {:?}", arguments.name).into());
+    };
+    let findings = (probe.run)(&fmu).unwrap_or_else(|error| vec![Finding::bad(output::chain(&error))]);
+    for finding in findings {
+        output::print(&child::encode(&finding))?;
+    }
+    output::print(child::FINISHED)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn report(arguments: &Check, sections: &[Section]) -> Outcome {
+    let mut text = format!("{}\n\n", arguments.subject.display());
+    for section in sections {
+        let worst = section.verdict();
+        text.push_str(&format!("{:>8}  {}\n", worst.word(), section.title));
+        for finding in &section.findings {
+            let shown = arguments.verbose || matches!(finding.verdict, Verdict::Note | Verdict::Bad);
+            if shown || worst == Verdict::Skipped {
+                let lines = finding.text.replace('\n', "\n            ");
+                text.push_str(&format!("          {:<8}{lines}\n", finding.verdict.word()));
+            }
+        }
+    }
+    let count = |verdict: Verdict| {
+        sections.iter().flat_map(|section| &section.findings).filter(|it| it.verdict == verdict).count()
+    };
+    text.push_str(&format!(
+        "\n{} good, {} skipped, {} to note, {} wrong",
+        count(Verdict::Good),
+        count(Verdict::Skipped),
+        count(Verdict::Note),
+        count(Verdict::Bad)
+    ));
+    output::print(&text)?;
+    Ok(if count(Verdict::Bad) == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

@@ -1,0 +1,68 @@
+//! The probes: what they are called and what they ask of an FMU.
+
+mod bench;
+mod calls;
+mod host;
+mod library;
+mod state;
+mod stepping;
+mod values;
+
+use loader::{Error, Fmu};
+
+use super::Finding;
+
+/// What a probe gives; an error is a finding too.
+pub type Findings = Result<Vec<Finding>, Error>;
+
+/// One probe.
+pub struct Probe {
+    /// Short name.
+    pub name: &'static str,
+    /// What it asks.
+    pub title: &'static str,
+    /// Runs it, in a process of its own.
+    pub run: fn(&Fmu) -> Findings,
+}
+
+/// Every probe, in the order of the report.
+pub const ALL: &[Probe] = &[
+    Probe { name: "library", title: "loads, exports every function", run: library::probe },
+    Probe { name: "flight", title: "flies as its default experiment says", run: stepping::flight },
+    Probe {
+        name: "values",
+        title: "start values read back, limits and references are kept",
+        run: values::probe,
+    },
+    Probe {
+        name: "calls",
+        title: "answers every function in every state as FMI 2.0 says",
+        run: calls::probe,
+    },
+    Probe { name: "times", title: "takes jittered, uneven and refuses wrong times", run: stepping::times },
+    Probe { name: "states", title: "saves, restores, serialises and resets to the bit", run: state::probe },
+    Probe {
+        name: "derivatives",
+        title: "input, output and directional derivatives",
+        run: values::derivatives,
+    },
+    Probe {
+        name: "callbacks",
+        title: "lives without memory functions and without the callbacks' struct",
+        run: host::callbacks,
+    },
+    Probe { name: "nulls", title: "takes NULL for vectors of no length", run: host::nulls },
+    Probe { name: "paths", title: "finds its resources under strange paths", run: host::paths },
+    Probe {
+        name: "identity",
+        title: "refuses a wrong GUID, takes strange instance names",
+        run: host::identity,
+    },
+    Probe { name: "locale", title: "flies alike under a comma locale", run: host::locale },
+    Probe {
+        name: "threads",
+        title: "two instances on two threads do not disturb each other",
+        run: host::threads,
+    },
+    Probe { name: "instances", title: "many instances come and go", run: host::instances },
+];

@@ -1,0 +1,115 @@
+//! `heliotorque info --coefficients`: what an FMU computes from its parameters, before any step.
+
+mod spacecraft;
+
+use loader::{Error, Fmu, Instance, InstanceOptions, Times, Value};
+use model_description::{Causality, ScalarVariable, Variability};
+
+use crate::output;
+
+/// One row of a table: the elements of a vector, or of one row of a matrix.
+struct Row {
+    name: String,
+    unit: String,
+    values: Vec<String>,
+}
+
+/// The tables for these settings: those of a spacecraft where it is one, then the other calculated parameters.
+pub fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
+    let mut sets = Vec::new();
+    for setting in settings {
+        sets.extend(loader::parse_assignment(fmu, setting)?);
+    }
+    let mut instance = started(fmu, &sets)?;
+    let mut parts = spacecraft::tables(fmu, &sets, &mut instance)?;
+    parts.extend(others(fmu, &mut instance)?);
+    if parts.is_empty() {
+        return Ok(format!("{} has no calculated parameters.", fmu.name()));
+    }
+    Ok(parts.join("\n\n"))
+}
+
+/// An instance just initialised with these values: from then on parameters can be read too.
+fn started(fmu: &Fmu, sets: &[(String, Value)]) -> Result<Instance, Error> {
+    let times = Times::of(fmu, None, None, None)?;
+    let mut instance = fmu.instantiate("info", &InstanceOptions::default())?;
+    instance.setup_experiment(None, times.start_s, None)?;
+    let mut inputs = Vec::new();
+    for (name, value) in sets {
+        let variable = fmu.variable(name)?;
+        if variable.causality == Causality::Input {
+            inputs.push((name, value));
+        } else if variable.causality == Causality::Parameter && variable.variability != Variability::Constant
+        {
+            instance.set(name, value)?;
+        } else {
+            return Err(Error::Value {
+                variable: name.clone(),
+                what: "it cannot be set: only parameters and inputs can".to_owned(),
+            });
+        }
+    }
+    instance.enter_initialization_mode()?;
+    for (name, value) in inputs {
+        instance.set(name, value)?;
+    }
+    instance.exit_initialization_mode()?;
+    Ok(instance)
+}
+
+/// The calculated parameters that no table of a spacecraft shows; `None` if there are none.
+fn others(fmu: &Fmu, instance: &mut Instance) -> Result<Option<String>, Error> {
+    let calculated: Vec<&ScalarVariable> = fmu
+        .description()
+        .variables
+        .iter()
+        .filter(|it| it.causality == Causality::CalculatedParameter && !spacecraft::shows(&it.name))
+        .collect();
+    if calculated.is_empty() {
+        return Ok(None);
+    }
+    let mut rows: Vec<Row> = Vec::new();
+    for variable in calculated {
+        let value = match instance.get_variable(variable)? {
+            Value::Real(value) => output::short(value),
+            other => other.to_string(),
+        };
+        let name = row_name(&variable.name);
+        let unit = loader::unit(fmu.description(), variable).unwrap_or_default();
+        match rows.last_mut() {
+            Some(row) if row.name == name => row.values.push(value),
+            _ => rows.push(Row { name, unit: unit.to_owned(), values: vec![value] }),
+        }
+    }
+    let mut table = output::table(&["calculated parameter", "unit", "value"]);
+    for row in rows {
+        let mut cells = vec![row.name, row.unit];
+        cells.extend(row.values);
+        table.add_row(cells);
+    }
+    Ok(Some(table.to_string()))
+}
+
+/// `a[2]` belongs to the row `a`, `a[3,7]` to the row `a[3]`.
+fn row_name(name: &str) -> String {
+    let Some((base, index)) = name.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) else {
+        return name.to_owned();
+    };
+    match index.rsplit_once(',') {
+        Some((rows, _)) => format!("{base}[{rows}]"),
+        None => base.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_and_matrices_become_rows() {
+        assert_eq!(row_name("a.b"), "a.b");
+        assert_eq!(row_name("a[2]"), "a");
+        assert_eq!(row_name("panel[2].c[3,7]"), "panel[2].c[3]");
+        assert_eq!(row_name("panel[2].area"), "panel[2].area");
+    }
+}

@@ -1,0 +1,213 @@
+//! `heliotorque info`: what an FMU is, takes and gives.
+
+use std::process::ExitCode;
+
+use loader::Fmu;
+use model_description::{
+    Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind,
+};
+
+use crate::{app::Outcome, args::Info, coefficients, output};
+
+/// Prints the tables.
+pub fn run(arguments: &Info) -> Outcome {
+    let fmu = Fmu::open(&arguments.fmu)?;
+    if arguments.coefficients {
+        output::print(&coefficients::text(&fmu, &arguments.set)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut text = vec![summary(&fmu), capabilities(&fmu)];
+    if arguments.variables || !arguments.only.is_empty() {
+        text.push(units(fmu.description()));
+        text.extend(enumerations(fmu.description()));
+        let positions = if arguments.only.is_empty() {
+            (0..fmu.description().variables.len()).collect()
+        } else {
+            let mut positions = Vec::new();
+            for pattern in &arguments.only {
+                positions.extend(loader::select(&fmu, pattern)?);
+            }
+            positions
+        };
+        text.push(variables(fmu.description(), &positions));
+    }
+    output::print(&text.join("\n\n"))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn summary(fmu: &Fmu) -> String {
+    let description = fmu.description();
+    let mut table = output::table(&[description.model_name.as_str(), ""]);
+    let mut row = |name: &str, value: Option<String>| {
+        if let Some(value) = value.filter(|value| !value.is_empty()) {
+            table.add_row([name.to_owned(), value]);
+        }
+    };
+    row("description", description.description.clone());
+    row("version", description.version.clone());
+    row("author", description.author.clone());
+    row("copyright", description.copyright.clone());
+    row("license", description.license.clone());
+    row("made by", description.generation_tool.clone());
+    row("GUID", Some(description.guid.clone()));
+    row("variables", Some(count_by_causality(description)));
+    if let Some(experiment) = description.default_experiment {
+        let time =
+            |name: &str, value: Option<f64>| value.map(|value| format!("{name} {} s", output::short(value)));
+        let times: Vec<String> = [
+            time("start", experiment.start_time),
+            time("stop", experiment.stop_time),
+            time("step", experiment.step_size),
+            experiment.tolerance.map(|tolerance| format!("tolerance {}", output::short(tolerance))),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        row("default experiment", Some(times.join(", ")));
+    }
+    let platforms = match fmu.binary_path() {
+        Ok(path) => {
+            let shown = path.strip_prefix(fmu.folder()).unwrap_or(&path).display().to_string();
+            format!("{shown} (for this computer)")
+        }
+        Err(error) => error.to_string(),
+    };
+    row("library", Some(platforms));
+    if description.model_exchange.is_some() {
+        row("also", Some("model exchange, which is not used here".to_owned()));
+    }
+    table.to_string()
+}
+
+fn count_by_causality(description: &Description) -> String {
+    let count = |causality: Causality| {
+        description.variables.iter().filter(|variable| variable.causality == causality).count()
+    };
+    let parts: Vec<String> = [
+        (Causality::Parameter, "parameters"),
+        (Causality::CalculatedParameter, "calculated parameters"),
+        (Causality::Input, "inputs"),
+        (Causality::Output, "outputs"),
+        (Causality::Local, "locals"),
+        (Causality::Independent, "independent"),
+    ]
+    .into_iter()
+    .filter(|(causality, _)| count(*causality) > 0)
+    .map(|(causality, name)| format!("{} {name}", count(causality)))
+    .collect();
+    parts.join(", ")
+}
+
+fn capabilities(fmu: &Fmu) -> String {
+    let Some(flags) = &fmu.description().co_simulation else {
+        return "No co-simulation: this FMU cannot be stepped here.".to_owned();
+    };
+    let mut table = output::table(&["co-simulation", ""]);
+    table.add_row(["modelIdentifier".to_owned(), flags.model_identifier.clone()]);
+    for (name, value) in self::flags(flags) {
+        table.add_row([name, if value { "yes" } else { "no" }]);
+    }
+    table.add_row(["maxOutputDerivativeOrder".to_owned(), flags.max_output_derivative_order.to_string()]);
+    table.to_string()
+}
+
+/// The capability flags by the standard's names.
+pub fn flags(flags: &CoSimulation) -> [(&'static str, bool); 9] {
+    [
+        ("canHandleVariableCommunicationStepSize", flags.can_handle_variable_communication_step_size),
+        ("canInterpolateInputs", flags.can_interpolate_inputs),
+        ("canGetAndSetFMUstate", flags.can_get_and_set_fmu_state),
+        ("canSerializeFMUstate", flags.can_serialize_fmu_state),
+        ("providesDirectionalDerivative", flags.provides_directional_derivative),
+        ("canRunAsynchronuously", flags.can_run_asynchronuously),
+        ("canBeInstantiatedOnlyOncePerProcess", flags.can_be_instantiated_only_once_per_process),
+        ("canNotUseMemoryManagementFunctions", flags.can_not_use_memory_management_functions),
+        ("needsExecutionTool", flags.needs_execution_tool),
+    ]
+}
+
+fn units(description: &Description) -> String {
+    let mut table = output::table(&["unit", "also shown as"]);
+    for unit in &description.units {
+        let displays: Vec<&str> = unit.display_units.iter().map(|display| display.name.as_str()).collect();
+        table.add_row([unit.name.clone(), displays.join(", ")]);
+    }
+    table.to_string()
+}
+
+fn enumerations(description: &Description) -> Option<String> {
+    let mut table = output::table(&["option", "item", "number", "meaning"]);
+    for simple_type in &description.types {
+        let SimpleTypeKind::Enumeration { items, .. } = &simple_type.kind else { continue };
+        for (index, item) in items.iter().enumerate() {
+            table.add_row([
+                if index == 0 { simple_type.name.clone() } else { String::new() },
+                item.name.clone(),
+                item.value.to_string(),
+                item.description.clone().unwrap_or_default(),
+            ]);
+        }
+    }
+    (!table.is_empty()).then(|| table.to_string())
+}
+
+fn variables(description: &Description, positions: &[usize]) -> String {
+    let mut table = output::table(&["variable", "causality", "start", "unit", "description"]);
+    for &position in positions {
+        let variable = &description.variables[position];
+        table.add_row([
+            variable.name.clone(),
+            causality(variable),
+            start(description, variable),
+            loader::unit(description, variable).unwrap_or_default().to_owned(),
+            variable.description.clone().unwrap_or_default(),
+        ]);
+    }
+    table.to_string()
+}
+
+/// Causality, with what the variability adds to it.
+pub fn causality(variable: &ScalarVariable) -> String {
+    let name = match variable.causality {
+        Causality::Parameter => "parameter",
+        Causality::CalculatedParameter => "calculated parameter",
+        Causality::Input => "input",
+        Causality::Output => "output",
+        Causality::Local => "local",
+        Causality::Independent => "independent",
+    };
+    match (variable.causality, variable.variability) {
+        (Causality::Parameter, Variability::Tunable) => "tunable parameter".to_owned(),
+        (_, Variability::Constant) => format!("constant {name}"),
+        (Causality::Input | Causality::Output, Variability::Discrete) => format!("{name}, discrete"),
+        _ => name.to_owned(),
+    }
+}
+
+/// The start value, in the variable's unit, with the display unit behind it and the item's name.
+pub fn start(description: &Description, variable: &ScalarVariable) -> String {
+    match &variable.kind {
+        VariableKind::Real { start: Some(start), .. } => {
+            let own = output::short(*start);
+            match loader::display_unit(description, variable) {
+                Some((name, factor, offset)) if *start != 0.0 => {
+                    format!("{own} ({} {name})", output::short(factor * start + offset))
+                }
+                _ => own,
+            }
+        }
+        VariableKind::Integer { start: Some(start), .. } => start.to_string(),
+        VariableKind::Boolean { start: Some(start), .. } => start.to_string(),
+        VariableKind::String { start: Some(start), .. } => format!("{start:?}"),
+        VariableKind::Enumeration { start: Some(start), declared_type, .. } => {
+            let item = description.types.iter().find_map(|simple_type| match &simple_type.kind {
+                SimpleTypeKind::Enumeration { items, .. } if simple_type.name == *declared_type => {
+                    items.iter().find(|item| item.value == *start)
+                }
+                _ => None,
+            });
+            item.map_or_else(|| start.to_string(), |item| format!("{start} ({})", item.name))
+        }
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,68 @@
+//! What the commands print.
+
+use std::io::{self, IsTerminal, Write};
+
+use comfy_table::{ContentArrangement, Table, TableComponent, presets};
+
+/// Prints a text; a reader that went away (as `head` does) is no error.
+pub fn print(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
+/// A plain table with a header; as wide as the terminal at most, unbounded elsewhere.
+pub fn table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table
+        .load_preset(presets::UTF8_HORIZONTAL_ONLY)
+        .remove_style(TableComponent::HorizontalLines)
+        .remove_style(TableComponent::MiddleIntersections)
+        .set_header(header);
+    if io::stdout().is_terminal() {
+        table.set_content_arrangement(ContentArrangement::Dynamic);
+    }
+    table
+}
+
+/// An error with all its reasons, each said once.
+pub fn chain(error: &dyn std::error::Error) -> String {
+    loader::Error::chain(error)
+}
+
+/// A number for people: six significant digits.
+pub fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let magnitude = value.abs();
+    if !(1e-4..1e7).contains(&magnitude) {
+        let text = format!("{value:.5e}");
+        let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{exponent}", trim(digits));
+    }
+    let before = (magnitude.log10().floor() as i32).max(0);
+    let digits = usize::try_from(5 - before).unwrap_or(0).max(if magnitude < 1.0 { 6 } else { 0 });
+    trim(&format!("{value:.digits$}")).to_owned()
+}
+
+/// Without the zeros behind the point.
+fn trim(digits: &str) -> &str {
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(short(0.1 + 0.2), "0.3");
+        assert_eq!(short(7_776_000.0), "7776000");
+        assert_eq!(short(-1.234_567_89e-7), "-1.23457e-7");
+        assert_eq!(short(3.25e-4), "0.000325");
+        assert_eq!(short(149_597_870_700.0), "1.49598e11");
+    }
+}

@@ -1,0 +1,91 @@
+//! `heliotorque pack`: an FMU from a shared library and a spacecraft.
+//!
+//! The description comes from the library itself, so it cannot disagree with it. The same input gives the same
+//! archive, byte for byte.
+
+mod documentation;
+mod picture;
+pub mod source;
+mod writer;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use model_description::Description;
+
+use crate::{app::Outcome, args::Pack, output};
+use source::Source;
+use writer::Entries;
+
+/// Packs the FMU.
+pub fn run(arguments: &Pack) -> Outcome {
+    let source = Source::open(arguments)?;
+    let model = source.model(arguments)?;
+    let spacecraft = arguments.spacecraft.as_deref().map(read_text).transpose()?;
+    let file = arguments.spacecraft.as_deref().map(|path| path.display().to_string());
+    let described = source.binary().describe(&model, file.as_deref(), spacecraft.as_deref())?;
+    let mut description = model_description::parse(described.xml.as_bytes())?.description;
+    let identifier = arguments.name.as_deref().unwrap_or(&model);
+    rename(&mut description, identifier)?;
+
+    let mut entries = Entries::default();
+    entries.add("modelDescription.xml", model_description::to_xml(&description).into_bytes())?;
+    source.add_libraries(&mut entries, identifier)?;
+    source.add_licenses(&mut entries)?;
+    let setup = spacecraft.unwrap_or(described.default_setup);
+    if let Some(name) = &described.setup_file {
+        entries.add(&format!("resources/{name}"), setup.clone().into_bytes())?;
+    }
+    let picture = picture::png(&setup);
+    let page = documentation::html(&description, picture.is_some());
+    entries.add("documentation/index.html", page.into_bytes())?;
+    if let Some(png) = picture {
+        entries.add("model.png", png)?;
+    }
+
+    let bytes = entries.to_zip()?;
+    let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{identifier}.fmu")));
+    if source.is_at(&path) {
+        return Err(format!("{} is the template itself: see --name and --output", path.display()).into());
+    }
+    let cannot = |error: std::io::Error| format!("{}: {error}: see --output", path.display());
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder).map_err(cannot)?;
+    }
+    fs::write(&path, &bytes).map_err(cannot)?;
+    output::print(&format!(
+        "{}: {identifier}, {} variables, GUID {}, {} kB",
+        path.display(),
+        description.variables.len(),
+        description.guid,
+        bytes.len().div_ceil(1000)
+    ))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Gives the FMU its own name. The library finds its model by the GUID, which stays.
+fn rename(description: &mut Description, identifier: &str) -> Result<(), String> {
+    if !model_description::names::is_c_identifier(identifier) {
+        return Err(format!(
+            "--name {identifier:?} is no C identifier: letters, digits and _, not starting with a digit"
+        ));
+    }
+    identifier.clone_into(&mut description.model_name);
+    if let Some(co_simulation) = &mut description.co_simulation {
+        identifier.clone_into(&mut co_simulation.model_identifier);
+    }
+    Ok(())
+}
+
+/// Reads a TOML file; the error names the line that is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, String> {
+    let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
+        format!("{}: line {line} is not UTF-8", path.display())
+    })
+}

@@ -1,0 +1,33 @@
+//! `heliotorque study`: the papers' tables and figures.
+
+use std::{io::IsTerminal, process::ExitCode};
+
+use studies::{Options, STUDIES};
+
+use crate::{app::Outcome, args::Study, output};
+
+/// Runs a study, or lists them.
+pub fn run(arguments: &Study) -> Outcome {
+    if arguments.name == "list" {
+        let mut table = output::table(&["study", "paper", "what it shows"]);
+        for study in STUDIES {
+            table.add_row([study.name, study.paper, study.title]);
+        }
+        output::print(&table.to_string())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let report = studies::run(
+        &arguments.name,
+        &Options {
+            dist: arguments.dist.clone(),
+            output: arguments.output.clone().unwrap_or_else(|| arguments.dist.join(&arguments.name)),
+            only: arguments.only.clone(),
+            progress: !arguments.quiet && std::io::stderr().is_terminal(),
+        },
+    )?;
+    output::print(&report.text)?;
+    for file in &report.files {
+        eprintln!("{}", file.display());
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,97 @@
+//! `check` passes what is right and names what is wrong, by line where there is one.
+
+use std::{fs, path::Path};
+
+use crate::{packed, run, shown};
+
+/// Unpacks the FMU and changes its XML.
+fn changed(fmu: &Path, from: &str, to: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    loader::unpack(fmu, folder.path(), loader::Limits::default()).unwrap();
+    let path = folder.path().join("modelDescription.xml");
+    let xml = fs::read_to_string(&path).unwrap();
+    assert!(xml.contains(from), "the XML has no {from}");
+    fs::write(&path, xml.replacen(from, to, 1)).unwrap();
+    folder
+}
+
+#[test]
+fn our_own_fmus_pass() {
+    for model in ["Empty", "AllTypes"] {
+        let Some((_room, fmu)) = packed(model) else { return };
+        let text = run(&["check", shown(&fmu), "--verbose"], 0);
+        assert!(text.contains("0 to note, 0 wrong"), "{text}");
+        for part in [
+            "exports all 34 functions",
+            "overwritten",
+            "flies from a folder called \"50% off\"",
+            "two threads",
+        ] {
+            assert!(text.contains(part), "{text} lacks {part}");
+        }
+    }
+}
+
+#[test]
+fn every_shipped_fmu_passes() {
+    let Some(dist) = std::env::var_os("HELIOTORQUE_DIST") else {
+        eprintln!("skipped: HELIOTORQUE_DIST is not set: run `cargo xtask test`");
+        return;
+    };
+    let entries = fs::read_dir(dist).unwrap().map(|entry| entry.unwrap().path());
+    let fmus: Vec<_> = entries.filter(|path| path.extension().is_some_and(|it| it == "fmu")).collect();
+    assert!(!fmus.is_empty(), "nothing is packed");
+    for fmu in fmus {
+        let text = run(&["check", shown(&fmu)], 0);
+        assert!(text.contains("0 to note, 0 wrong"), "{text}");
+    }
+}
+
+#[test]
+fn what_the_description_gets_wrong_is_named_with_its_line() {
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    let folder = changed(&fmu, "stepSize=\"", "stepSize=\"-");
+    let text = run(&["check", shown(folder.path()), "--still"], 1);
+    assert!(text.contains("WRONG") && text.contains("line "), "{text}");
+
+    let folder = changed(&fmu, "start=\"1.5\"", "start=\"2.75\"");
+    let text = run(&["check", shown(folder.path()), "--only", "values"], 1);
+    assert!(text.contains("parameter.real starts at 1.5, its XML says 2.75"), "{text}");
+}
+
+#[test]
+fn a_capability_that_is_only_claimed_is_found() {
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    let folder = changed(&fmu, "guid=\"{", "guid=\"{0");
+    let text = run(&["check", shown(folder.path()), "--only", "flight"], 1);
+    assert!(text.contains("gave no instance") && text.contains("GUID"), "{text}");
+
+    let folder = changed(&fmu, "maxOutputDerivativeOrder=\"1\"", "maxOutputDerivativeOrder=\"7\"");
+    let text = run(&["check", shown(folder.path()), "--only", "derivatives"], 1);
+    assert!(text.contains("not so: gives output derivatives of order 7"), "{text}");
+}
+
+#[test]
+fn a_missing_library_and_strange_files_are_found() {
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    let folder = changed(&fmu, "modelName", "modelName");
+    fs::remove_dir_all(folder.path().join("binaries")).unwrap();
+    fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    fs::remove_dir_all(folder.path().join("licenses")).unwrap();
+    let text = run(&["check", shown(folder.path())], 1);
+    for part in ["no shared library for this computer", "notes.txt is none of", "has no licenses"] {
+        assert!(text.contains(part), "{text} lacks {part}");
+    }
+}
+
+#[test]
+fn an_fmu_that_dies_is_a_finding() {
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    let folder = changed(&fmu, "modelName", "modelName");
+    let platform = folder.path().join("binaries").join(loader::platform_folders()[0]);
+    let library = platform.join(format!("AllTypes{}", std::env::consts::DLL_SUFFIX));
+    let bytes = fs::read(&library).unwrap();
+    fs::write(&library, &bytes[..bytes.len() / 3]).unwrap();
+    let text = run(&["check", shown(folder.path())], 1);
+    assert!(text.contains("WRONG   "), "{text}");
+}

@@ -1,0 +1,57 @@
+//! Tests of the program as people run it: arguments in, text, files and exit status out.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+
+mod checks;
+mod packs;
+mod runs;
+mod usage;
+
+use std::{
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+use tempfile::TempDir;
+
+/// The program with arguments.
+pub fn heliotorque(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_heliotorque"));
+    command.args(arguments);
+    command
+}
+
+/// What it printed, both streams.
+pub fn text(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+/// Runs it and wants this exit status.
+pub fn run(arguments: &[&str], status: i32) -> String {
+    let output = heliotorque(arguments).output().unwrap();
+    let text = text(&output);
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {text}");
+    text
+}
+
+/// A path as text.
+pub fn shown(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// The shared library of the probe models, or a line that says why a test is left out.
+pub fn probe_library() -> Option<PathBuf> {
+    let path = std::env::var_os("HELIOTORQUE_PROBE_LIBRARY").map(PathBuf::from);
+    if path.is_none() {
+        eprintln!("skipped: HELIOTORQUE_PROBE_LIBRARY is not set: run `cargo xtask test`");
+    }
+    path
+}
+
+/// A packed probe model in a fresh folder.
+pub fn packed(model: &str) -> Option<(TempDir, PathBuf)> {
+    let library = probe_library()?;
+    let room = tempfile::tempdir().unwrap();
+    let fmu = room.path().join(format!("{model}.fmu"));
+    run(&["pack", "--library", shown(&library), "--model", model, "--output", shown(&fmu)], 0);
+    Some((room, fmu))
+}

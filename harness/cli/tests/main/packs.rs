@@ -1,0 +1,101 @@
+//! Archives are the same byte for byte, complete, and made anew from a template without a compiler.
+
+use std::{fs, io::Read, path::Path};
+
+use crate::{packed, probe_library, run, shown};
+
+fn entries(path: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut zip = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
+    (0..zip.len())
+        .map(|index| {
+            let mut entry = zip.by_index(index).unwrap();
+            let mut bytes = Vec::new();
+            entry.read_to_end(&mut bytes).unwrap();
+            (entry.name().unwrap().into_owned(), bytes)
+        })
+        .collect()
+}
+
+#[test]
+fn the_same_input_gives_the_same_archive() {
+    let Some((room, first)) = packed("AllTypes") else { return };
+    let second = room.path().join("deep/er/second.fmu");
+    let library = probe_library().unwrap();
+    run(&["pack", "--library", shown(&library), "--model", "AllTypes", "--output", shown(&second)], 0);
+    assert!(fs::read(&first).unwrap() == fs::read(&second).unwrap());
+
+    let names: Vec<String> = entries(&first).into_iter().map(|(name, _)| name).collect();
+    assert!(names.is_sorted(), "{names:?}");
+    for wanted in ["modelDescription.xml", "documentation/index.html", "licenses/LICENSE-MIT.txt"] {
+        assert!(names.iter().any(|name| name == wanted), "{wanted} is missing of {names:?}");
+    }
+    let libraries = names.iter().filter(|name| name.starts_with("binaries/") && name.contains("/AllTypes."));
+    assert_eq!(libraries.count(), loader::platform_folders().len());
+}
+
+#[test]
+fn the_documentation_names_every_variable() {
+    let Some((_room, path)) = packed("AllTypes") else { return };
+    let all = entries(&path);
+    let find = |name: &str| {
+        let bytes = &all.iter().find(|(entry, _)| entry == name).unwrap().1;
+        String::from_utf8(bytes.clone()).unwrap()
+    };
+    let page = find("documentation/index.html");
+    let description = model_description::parse(find("modelDescription.xml").as_bytes()).unwrap().description;
+    for variable in &description.variables {
+        let cell = format!("<td class=\"n\">{}</td>", model_description::escape(&variable.name));
+        assert!(page.contains(&cell), "{} is missing", variable.name);
+    }
+    for symbol in loader::SYMBOLS {
+        assert!(page.contains(symbol), "{symbol} is missing");
+    }
+    assert!(page.contains("Gr\u{fc}\u{df}e") && page.contains("&lt;&amp;"), "texts are escaped");
+    let (opened, closed) = (page.matches("<t").count(), page.matches("</t").count());
+    // Everything that begins with <t is a table, row, cell or title, and each is closed.
+    assert_eq!(opened, closed);
+}
+
+#[test]
+fn a_template_gives_a_new_fmu_under_its_own_name() {
+    let Some((room, template)) = packed("AllTypes") else { return };
+    let mine = room.path().join("Mine.fmu");
+    run(&["pack", "--template", shown(&template), "--name", "Mine", "--output", shown(&mine)], 0);
+    let names: Vec<String> = entries(&mine).into_iter().map(|(name, _)| name).collect();
+    assert!(names.iter().any(|name| name.ends_with(&format!("/Mine{}", std::env::consts::DLL_SUFFIX))));
+    assert!(names.iter().any(|name| name == "licenses/LICENSE-MIT.txt"));
+    assert!(run(&["info", shown(&mine)], 0).contains("Mine"));
+    run(&["run", shown(&mine), "--quiet"], 0);
+
+    // A renamed template still knows its model.
+    let next = room.path().join("Next.fmu");
+    run(&["pack", "--template", shown(&mine), "--name", "Next", "--output", shown(&next)], 0);
+    run(&["run", shown(&next), "--quiet"], 0);
+}
+
+#[test]
+fn what_cannot_be_packed_says_why() {
+    let Some(library) = probe_library() else { return };
+    let room = tempfile::tempdir().unwrap();
+    let output = room.path().join("x.fmu");
+    let pack = |more: &[&str]| {
+        let mut arguments = vec!["pack", "--library", shown(&library), "--output", shown(&output)];
+        arguments.extend(more);
+        run(&arguments, 1)
+    };
+    let text = pack(&["--model", "Warp"]);
+    assert!(text.contains("Warp") && text.contains("AllTypes"), "{text}");
+    assert!(pack(&["--model", "AllTypes", "--name", "my craft"]).contains("no C identifier"));
+    assert!(pack(&["--model", "AllTypes", "--spacecraft", "no/such.toml"]).contains("no/such.toml"));
+    let toml = room.path().join("odd.toml");
+    fs::write(&toml, "unknown_key = 1\n").unwrap();
+    let text = pack(&["--model", "AllTypes", "--spacecraft", shown(&toml)]);
+    assert!(text.contains("odd.toml"), "{text}");
+    fs::write(&toml, b"a = 1\nb = \"\xff\"\n").unwrap();
+    assert!(pack(&["--model", "AllTypes", "--spacecraft", shown(&toml)]).contains("line 2 is not UTF-8"));
+    assert!(!output.exists(), "a failed pack leaves a file");
+
+    let text =
+        run(&["pack", "--library", "no-such-library.so", "--model", "M", "--output", shown(&output)], 1);
+    assert!(text.contains("does not load"), "{text}");
+}

@@ -1,0 +1,179 @@
+//! `run` and `info`: values by name and unit, tables in, CSV and pictures out, and Ctrl-C.
+
+use std::fs;
+
+use crate::{packed, run, shown};
+
+fn csv(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let header = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let rows = reader
+        .records()
+        .map(|record| record.unwrap().iter().map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    (header, rows)
+}
+
+#[test]
+fn a_flight_leaves_csv_and_a_picture() {
+    let Some((room, fmu)) = packed("AllTypes") else { return };
+    let (table, picture) = (room.path().join("out.csv"), room.path().join("out.svg"));
+    let text = run(
+        &[
+            "run",
+            shown(&fmu),
+            "--stop",
+            "1min",
+            "--step",
+            "10s",
+            "--set",
+            "input.real=2 km/s",
+            "--set",
+            "input.vector=1,2mN,3",
+            "--record",
+            "output.integral,output.vector,output.boolean",
+            "--output",
+            shown(&table),
+            "--plot",
+            shown(&picture),
+        ],
+        0,
+    );
+    assert!(text.contains("6 steps to 60 s"), "{text}");
+    let (header, rows) = csv(&table);
+    let names = [
+        "time",
+        "output.integral",
+        "output.vector[1]",
+        "output.vector[2]",
+        "output.vector[3]",
+        "output.boolean",
+    ];
+    assert_eq!(header, names);
+    assert_eq!(rows.len(), 7);
+    for (k, row) in (0..).zip(&rows) {
+        assert_eq!(row[0], f64::from(k) * 10.0);
+        assert!((row[1] - 2000.0 * row[0]).abs() < 1e-8);
+        assert_eq!(row[2..], [1.0, 0.002, 3.0, 0.0]);
+    }
+    let svg = fs::read_to_string(&picture).unwrap();
+    assert!(svg.contains("output.vector[2]") && svg.contains("time [s]"));
+}
+
+#[test]
+fn a_table_drives_inputs() {
+    let Some((room, fmu)) = packed("AllTypes") else { return };
+    let (input, output) = (room.path().join("in.csv"), room.path().join("out.csv"));
+    fs::write(&input, "# a ramp\ntime, input.real\n0, 0\n4, 4\n8, 4\n").unwrap();
+    let fly = |more: &[&str]| {
+        let (fmu, input, output) = (shown(&fmu), shown(&input), shown(&output));
+        let mut arguments = vec!["run", fmu, "--stop", "8", "--step", "0.5", "--quiet", "--input", input];
+        arguments.extend(["--record", "output.integral", "--output", output]);
+        arguments.extend(more);
+        run(&arguments, 0);
+        csv(std::path::Path::new(output)).1.last().unwrap()[1]
+    };
+    assert!((fly(&["--slopes"]) - 24.0).abs() < 1e-12);
+    assert!((fly(&[]) - 23.0).abs() < 1e-12);
+
+    fs::write(&input, "time,input.rael\n0,0\n").unwrap();
+    let text = run(&["run", shown(&fmu), "--input", shown(&input)], 1);
+    assert!(text.contains("in.csv") && text.contains("input.real"), "{text}");
+}
+
+#[test]
+fn without_files_a_summary_is_shown() {
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    let text =
+        run(&["run", shown(&fmu), "--set", "input.text=hello", "--record", "output.text,output.real"], 0);
+    assert!(text.contains("hello") && text.contains("smallest"), "{text}");
+    let text = run(&["info", shown(&fmu), "--only", "channel[1].*,input.choice"], 0);
+    for part in ["channel[1].gain", "input.choice", "1 (red)", "Like the sky.", "canSerializeFMUstate"] {
+        assert!(text.contains(part), "{text} lacks {part}");
+    }
+    assert!(!text.contains("parameter.real"));
+    // Twice and thrice the parameter.
+    let text = run(&["info", shown(&fmu), "--coefficients", "--set", "parameter.real=7 km"], 0);
+    let value = |name: &str| text.lines().find(|line| line.contains(name)).unwrap().to_owned();
+    assert!(value("role.calculatedFixed").contains("14000"), "{text}");
+    assert!(value("role.calculatedApprox").contains("21000"), "{text}");
+}
+
+#[test]
+fn bad_settings_name_the_variable_and_what_is_allowed() {
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    for (setting, says) in [
+        ("input.reel=1", "near it: input.real"),
+        ("input.real=1 kg", "it takes m/s, km/s"),
+        ("input.choice=pink", "red (1)"),
+        ("output.real=1", "output.real"),
+        ("input.vector=1,2", "3 elements"),
+        ("input.real", "name=value"),
+    ] {
+        let text = run(&["run", shown(&fmu), "--set", setting], 1);
+        assert!(text.contains(says), "{setting}: {text}");
+    }
+    let text = run(&["run", shown(&fmu), "--output", "no/such/folder/out.csv"], 1);
+    assert!(text.contains("no/such/folder/out.csv") && text.contains("--output"), "{text}");
+}
+
+#[test]
+fn an_error_on_the_way_leaves_what_was_flown() {
+    let Some((room, fmu)) = packed("Panicking") else { return };
+    let (input, output) = (room.path().join("in.csv"), room.path().join("out.csv"));
+    let info = run(&["info", shown(&fmu), "--variables"], 0);
+    let panic = info.lines().find(|line| line.contains("Panic in step, with half")).unwrap();
+    let number = panic.split_whitespace().find(|word| word.parse::<i32>().is_ok()).unwrap();
+    fs::write(&input, format!("time,accident\n0,1\n3,{number}\n")).unwrap();
+    let text = run(
+        &[
+            "run",
+            shown(&fmu),
+            "--start",
+            "0",
+            "--stop",
+            "10",
+            "--step",
+            "1",
+            "--input",
+            shown(&input),
+            "--output",
+            shown(&output),
+        ],
+        1,
+    );
+    assert!(text.contains("fmi2Error") && text.contains("panic"), "{text}");
+    assert_eq!(csv(&output).1.len(), 4);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_a_valid_partial_csv() {
+    use std::{process::Command, time::Duration};
+
+    let Some((room, fmu)) = packed("AllTypes") else { return };
+    let output = room.path().join("out.csv");
+    let (fmu, csv_path) = (shown(&fmu), shown(&output));
+    let arguments = [
+        "run", fmu, "--stop", "1e9", "--step", "1", "--every", "1e4", "--output", csv_path, "--record",
+        "output.*",
+    ];
+    // Too early a signal would find no handler yet: try with more patience each time.
+    for patience_ms in [300, 1000, 3000, 10_000, 20_000] {
+        let mut child = crate::heliotorque(&arguments).stderr(std::process::Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(patience_ms));
+        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        let status = child.wait().unwrap();
+        if status.code() != Some(130) {
+            continue;
+        }
+        let mut reader = csv::Reader::from_path(&output).unwrap();
+        let columns = reader.headers().unwrap().len();
+        let rows: Vec<csv::StringRecord> = reader.records().map(|record| record.unwrap()).collect();
+        assert!(!rows.is_empty() && rows.iter().all(|row| row.len() == columns));
+        let last_s: f64 = rows.last().unwrap()[0].parse().unwrap();
+        assert!(last_s < 1e9, "it came to its end");
+        return;
+    }
+    panic!("never ended by the signal");
+}

@@ -1,0 +1,53 @@
+//! Wrong usage ends with 2 and names the flag, failure with 1 and names the file, and help helps.
+
+use crate::{run, shown};
+
+#[test]
+fn wrong_usage_is_two() {
+    for arguments in [
+        &["fly"][..],
+        &[],
+        &["run"],
+        &["run", "x.fmu", "--stop", "soon"],
+        &["run", "x.fmu", "--slopes"],
+        &["run", "x.fmu", "--nonsense"],
+        &["pack", "--library", "a.so", "--output", "x.fmu"],
+        &["pack", "--model", "M", "--library", "a.so", "--template", "b.fmu", "--output", "x.fmu"],
+        &["check"],
+    ] {
+        run(arguments, 2);
+    }
+    assert!(run(&["run", "x.fmu", "--stop", "soon"], 2).contains("10min"));
+}
+
+#[test]
+fn failure_is_one_and_names_the_file() {
+    for command in ["run", "info", "check"] {
+        assert!(run(&[command, "no/such.fmu"], 1).contains("no/such.fmu"), "{command}");
+    }
+    let room = tempfile::tempdir().unwrap();
+    let file = room.path().join("text.fmu");
+    std::fs::write(&file, "not an archive").unwrap();
+    for command in ["run", "info", "check"] {
+        assert!(run(&[command, shown(&file)], 1).contains("not a usable FMU archive"), "{command}");
+    }
+    assert!(run(&["study", "no/such/study"], 1).contains("momentum/table2"));
+}
+
+#[test]
+fn every_command_and_flag_has_help() {
+    let all = run(&["--help"], 0);
+    for command in ["info", "check", "run", "pack", "schema", "study"] {
+        assert!(all.contains(command), "{command}");
+        let help = run(&[command, "--help"], 0);
+        let flags: Vec<&str> = help.lines().filter(|line| line.trim_start().starts_with('-')).collect();
+        assert!(!flags.is_empty());
+        for flag in flags {
+            // A flag and its help stand apart by two spaces.
+            assert!(flag.trim().contains("  "), "{command}: {flag}");
+        }
+    }
+    assert!(!all.contains("probe-in-child"), "a hidden command shows");
+    assert!(run(&["study", "list"], 0).contains("momentum/table2"));
+    assert!(run(&["schema"], 0).trim_start().starts_with('{'));
+}

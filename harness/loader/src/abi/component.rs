@@ -1,0 +1,445 @@
+//! One instance at the C interface.
+
+use std::{
+    ffi::{CString, c_int, c_void},
+    ptr,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use fmi_export::call_table::Function;
+
+use super::{
+    Binary, Handle,
+    logger::{CallbackFunctions, FixedLogger, LogBook, Logger, log_message},
+    text,
+};
+use crate::{LogMessage, Status, error::Outcome};
+
+unsafe extern "C" {
+    fn calloc(count: usize, size: usize) -> *mut c_void;
+    fn free(pointer: *mut c_void);
+}
+
+/// How the callbacks are handed over; the default is the kindest to old FMUs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Callbacks {
+    /// NULL for `allocateMemory` and `freeMemory`.
+    pub null_memory: bool,
+    /// The struct is overwritten with rubbish right after `fmi2Instantiate` (2.0.5 lets it die there).
+    pub scribbled: bool,
+}
+
+/// Everything `fmi2Instantiate` takes.
+pub(crate) struct Start<'a> {
+    pub name: &'a str,
+    pub guid: &'a str,
+    pub resources: Option<&'a str>,
+    pub logging: bool,
+    pub callbacks: Callbacks,
+}
+
+/// The answer of a call: its status, or that the library lacks the function.
+pub(crate) type Answer = Result<Status, Outcome>;
+
+/// One instance. Dropping it frees its states and itself.
+pub(crate) struct Component {
+    binary: Arc<Binary>,
+    handle: Handle,
+    book: Arc<LogBook>,
+    // Old FMUs read the callbacks from the caller's struct for the whole of their life.
+    callbacks: *mut CallbackFunctions,
+    states: Vec<Slot>,
+    number: u64,
+}
+
+/// A place for one FMU state; `generation` tells a freed one from its successor.
+struct Slot {
+    state: *mut c_void,
+    generation: u64,
+}
+
+/// Names a state held by a [`Component`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct StateKey {
+    component: u64,
+    slot: usize,
+    generation: u64,
+}
+
+// SAFETY: an FMI instance may be used from any thread as long as it is from one at a time (2.1.3), which
+// `&mut self` ensures; the log book is behind a mutex.
+unsafe impl Send for Component {}
+
+macro_rules! call {
+    ($self:ident.$function:ident($($argument:expr),*)) => {
+        match $self.binary.functions.$function {
+            // SAFETY: the handle is alive until drop and the arguments' lengths were checked by the caller.
+            Some(function) => Ok(Status::from(unsafe { function($self.handle, $($argument),*) })),
+            None => Err(Outcome::Missing),
+        }
+    };
+}
+
+impl Component {
+    /// `fmi2Instantiate`; a failure comes with what was logged.
+    pub fn instantiate(binary: Arc<Binary>, start: &Start<'_>) -> Result<Self, (Outcome, Vec<LogMessage>)> {
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let c_text = |what: &str, value: &str| {
+            CString::new(value)
+                .map_err(|_| (Outcome::BadArguments(format!("{what} contains a zero byte")), Vec::new()))
+        };
+        let name = c_text("the instance name", start.name)?;
+        let guid = c_text("the GUID", start.guid)?;
+        let resources = start.resources.map(|uri| c_text("the resource location", uri)).transpose()?;
+        let Some(function) = binary.functions.fmi2Instantiate else {
+            return Err((Outcome::Missing, Vec::new()));
+        };
+        let book = Arc::new(LogBook::default());
+        let fixed: FixedLogger = log_message;
+        let memory = !start.callbacks.null_memory;
+        let callbacks = Box::into_raw(Box::new(CallbackFunctions {
+            // SAFETY: both are function pointers of one size; see `log_message` for the arguments.
+            logger: Some(unsafe { std::mem::transmute::<FixedLogger, Logger>(fixed) }),
+            allocate_memory: memory.then_some(calloc as _),
+            free_memory: memory.then_some(free as _),
+            step_finished: None,
+            component_environment: Arc::as_ptr(&book).cast_mut().cast(),
+        }));
+        // SAFETY: all texts and the struct live during the call; the book outlives the instance.
+        let handle = unsafe {
+            function(
+                name.as_ptr(),
+                1,
+                guid.as_ptr(),
+                resources.as_ref().map_or(ptr::null(), |uri| uri.as_ptr()),
+                callbacks,
+                0,
+                c_int::from(start.logging),
+            )
+        };
+        if start.callbacks.scribbled {
+            // SAFETY: the struct is ours; from here on nobody may read it as a struct, and we never do.
+            unsafe { ptr::write_bytes(callbacks.cast::<u8>(), 0xA5, size_of::<CallbackFunctions>()) };
+        }
+        let component = Self {
+            binary,
+            handle,
+            book,
+            callbacks,
+            states: Vec::new(),
+            number: NUMBER.fetch_add(1, Ordering::Relaxed),
+        };
+        if handle.is_null() {
+            let messages = component.messages();
+            return Err((Outcome::NoInstance, messages));
+        }
+        Ok(component)
+    }
+
+    /// The messages so far, oldest first.
+    pub fn messages(&self) -> Vec<LogMessage> {
+        self.book.messages().iter().cloned().collect()
+    }
+
+    /// Takes the messages out.
+    pub fn take_messages(&self) -> Vec<LogMessage> {
+        self.book.messages().drain(..).collect()
+    }
+
+    pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Answer {
+        let texts = c_texts(categories.iter().copied())?;
+        let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
+        let list = if pointers.is_empty() { ptr::null() } else { pointers.as_ptr() };
+        call!(self.fmi2SetDebugLogging(c_int::from(on), pointers.len(), list))
+    }
+
+    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Answer {
+        let (has_tolerance, tolerance) = (c_int::from(tolerance.is_some()), tolerance.unwrap_or(0.0));
+        let (has_stop, stop) = (c_int::from(stop.is_some()), stop.unwrap_or(0.0));
+        call!(self.fmi2SetupExperiment(has_tolerance, tolerance, start, has_stop, stop))
+    }
+
+    pub fn enter_initialization_mode(&mut self) -> Answer {
+        call!(self.fmi2EnterInitializationMode())
+    }
+
+    pub fn exit_initialization_mode(&mut self) -> Answer {
+        call!(self.fmi2ExitInitializationMode())
+    }
+
+    pub fn terminate(&mut self) -> Answer {
+        call!(self.fmi2Terminate())
+    }
+
+    pub fn reset(&mut self) -> Answer {
+        call!(self.fmi2Reset())
+    }
+
+    pub fn do_step(&mut self, time: f64, step: f64, no_set_state_prior: bool) -> Answer {
+        call!(self.fmi2DoStep(time, step, c_int::from(no_set_state_prior)))
+    }
+
+    pub fn cancel_step(&mut self) -> Answer {
+        call!(self.fmi2CancelStep())
+    }
+
+    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Answer {
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2GetReal(references.as_ptr(), references.len(), values.as_mut_ptr()))
+    }
+
+    pub fn get_integer(&mut self, references: &[u32], values: &mut [i32]) -> Answer {
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2GetInteger(references.as_ptr(), references.len(), values.as_mut_ptr()))
+    }
+
+    pub fn get_boolean(&mut self, references: &[u32], values: &mut [i32]) -> Answer {
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2GetBoolean(references.as_ptr(), references.len(), values.as_mut_ptr()))
+    }
+
+    /// The texts are copied at once: the FMU may reuse its memory at the next call.
+    pub fn get_string(&mut self, references: &[u32], values: &mut Vec<String>) -> Answer {
+        let mut pointers = vec![ptr::null(); references.len()];
+        let answer = call!(self.fmi2GetString(references.as_ptr(), references.len(), pointers.as_mut_ptr()))?;
+        if matches!(answer, Status::Ok | Status::Warning) {
+            // SAFETY: on success every pointer is NULL or a text.
+            values.extend(pointers.into_iter().map(|pointer| unsafe { text(pointer) }.unwrap_or_default()));
+        }
+        Ok(answer)
+    }
+
+    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Answer {
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2SetReal(references.as_ptr(), references.len(), values.as_ptr()))
+    }
+
+    pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Answer {
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2SetInteger(references.as_ptr(), references.len(), values.as_ptr()))
+    }
+
+    pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Answer {
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2SetBoolean(references.as_ptr(), references.len(), values.as_ptr()))
+    }
+
+    pub fn set_string(&mut self, references: &[u32], values: &[&str]) -> Answer {
+        same_length(references.len(), values.len())?;
+        let texts = c_texts(values.iter().copied())?;
+        let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
+        call!(self.fmi2SetString(references.as_ptr(), references.len(), pointers.as_ptr()))
+    }
+
+    pub fn set_real_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Answer {
+        same_length(references.len(), orders.len())?;
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2SetRealInputDerivatives(
+            references.as_ptr(),
+            references.len(),
+            orders.as_ptr(),
+            values.as_ptr()
+        ))
+    }
+
+    pub fn get_real_output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Answer {
+        same_length(references.len(), orders.len())?;
+        same_length(references.len(), values.len())?;
+        call!(self.fmi2GetRealOutputDerivatives(
+            references.as_ptr(),
+            references.len(),
+            orders.as_ptr(),
+            values.as_mut_ptr()
+        ))
+    }
+
+    pub fn get_directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        result: &mut [f64],
+    ) -> Answer {
+        same_length(knowns.len(), seed.len())?;
+        same_length(unknowns.len(), result.len())?;
+        call!(self.fmi2GetDirectionalDerivative(
+            unknowns.as_ptr(),
+            unknowns.len(),
+            knowns.as_ptr(),
+            knowns.len(),
+            seed.as_ptr(),
+            result.as_mut_ptr()
+        ))
+    }
+
+    /// `fmi2GetRealStatus`; kind 2 is `fmi2LastSuccessfulTime`.
+    pub fn get_real_status(&mut self, kind: i32) -> Result<(Status, f64), Outcome> {
+        let mut value = f64::NAN;
+        let status = call!(self.fmi2GetRealStatus(kind, &raw mut value))?;
+        Ok((status, value))
+    }
+
+    /// `fmi2GetBooleanStatus`; kind 3 is `fmi2Terminated`.
+    pub fn get_boolean_status(&mut self, kind: i32) -> Result<(Status, bool), Outcome> {
+        let mut value = 0;
+        let status = call!(self.fmi2GetBooleanStatus(kind, &raw mut value))?;
+        Ok((status, value != 0))
+    }
+
+    /// The remaining status functions, for probing.
+    pub fn get_other_status(&mut self, function: Function, kind: i32) -> Answer {
+        let mut number = 0;
+        let mut pointer = ptr::null();
+        match function {
+            Function::GetStatus => call!(self.fmi2GetStatus(kind, &raw mut number)),
+            Function::GetIntegerStatus => call!(self.fmi2GetIntegerStatus(kind, &raw mut number)),
+            _ => call!(self.fmi2GetStringStatus(kind, &raw mut pointer)),
+        }
+    }
+
+    /// `fmi2GetFMUstate` into a new state, or over `old`.
+    pub fn get_state(&mut self, old: Option<StateKey>) -> Result<(Status, Option<StateKey>), Outcome> {
+        let mut state = old.map_or(Ok(ptr::null_mut()), |key| self.state(key))?;
+        let status = call!(self.fmi2GetFMUstate(&raw mut state))?;
+        if let Some(key) = old {
+            self.states[key.slot].state = state;
+            return Ok((status, old));
+        }
+        Ok((status, self.keep(state)))
+    }
+
+    pub fn set_state(&mut self, key: StateKey) -> Answer {
+        let state = self.state(key)?;
+        call!(self.fmi2SetFMUstate(state))
+    }
+
+    pub fn free_state(&mut self, key: StateKey) -> Answer {
+        let mut state = self.state(key)?;
+        self.states[key.slot].state = ptr::null_mut();
+        self.states[key.slot].generation += 1;
+        call!(self.fmi2FreeFMUstate(&raw mut state))
+    }
+
+    pub fn serialize_state(&mut self, key: StateKey, bytes: &mut Vec<u8>) -> Answer {
+        let state = self.state(key)?;
+        let mut size = 0;
+        let status = call!(self.fmi2SerializedFMUstateSize(state, &raw mut size))?;
+        if !matches!(status, Status::Ok | Status::Warning) {
+            return Ok(status);
+        }
+        bytes.clear();
+        bytes.resize(size, 0);
+        call!(self.fmi2SerializeFMUstate(state, bytes.as_mut_ptr().cast(), size))
+    }
+
+    pub fn deserialize_state(&mut self, bytes: &[u8]) -> Result<(Status, Option<StateKey>), Outcome> {
+        let mut state = ptr::null_mut();
+        let status = call!(self.fmi2DeSerializeFMUstate(bytes.as_ptr().cast(), bytes.len(), &raw mut state))?;
+        Ok((status, self.keep(state)))
+    }
+
+    /// Zero-length vectors as NULL, NULL states to free, a NULL list of categories: all legal, all tempting to
+    /// get wrong. Gives the name and answer of each call.
+    pub fn probe_nulls(&mut self) -> Vec<(&'static str, Answer)> {
+        let (references, none) = (ptr::null::<u32>(), ptr::null_mut());
+        let mut no_state: *mut c_void = none;
+        vec![
+            ("fmi2GetReal", call!(self.fmi2GetReal(references, 0, ptr::null_mut()))),
+            ("fmi2GetInteger", call!(self.fmi2GetInteger(references, 0, ptr::null_mut()))),
+            ("fmi2GetBoolean", call!(self.fmi2GetBoolean(references, 0, ptr::null_mut()))),
+            ("fmi2GetString", call!(self.fmi2GetString(references, 0, ptr::null_mut()))),
+            ("fmi2SetReal", call!(self.fmi2SetReal(references, 0, ptr::null()))),
+            ("fmi2SetInteger", call!(self.fmi2SetInteger(references, 0, ptr::null()))),
+            ("fmi2SetBoolean", call!(self.fmi2SetBoolean(references, 0, ptr::null()))),
+            ("fmi2SetString", call!(self.fmi2SetString(references, 0, ptr::null()))),
+            ("fmi2SetDebugLogging", call!(self.fmi2SetDebugLogging(1, 0, ptr::null()))),
+            ("fmi2FreeFMUstate", call!(self.fmi2FreeFMUstate(&raw mut no_state))),
+            ("fmi2FreeFMUstate", call!(self.fmi2FreeFMUstate(ptr::null_mut()))),
+        ]
+    }
+
+    /// `fmi2FreeInstance(NULL)`, a no-op by the standard.
+    pub fn free_nothing(&self) {
+        if let Some(function) = self.binary.functions.fmi2FreeInstance {
+            // SAFETY: NULL is allowed.
+            unsafe { function(ptr::null_mut()) };
+        }
+    }
+
+    fn state(&self, key: StateKey) -> Result<*mut c_void, Outcome> {
+        let known = key.component == self.number
+            && self.states.get(key.slot).is_some_and(|slot| slot.generation == key.generation);
+        if known {
+            Ok(self.states[key.slot].state)
+        } else {
+            Err(Outcome::BadArguments("the state belongs to another instance or was freed".to_owned()))
+        }
+    }
+
+    fn keep(&mut self, state: *mut c_void) -> Option<StateKey> {
+        if state.is_null() {
+            return None;
+        }
+        let slot = match self.states.iter().position(|slot| slot.state.is_null()) {
+            Some(free) => {
+                self.states[free].state = state;
+                free
+            }
+            None => {
+                self.states.push(Slot { state, generation: 0 });
+                self.states.len() - 1
+            }
+        };
+        Some(StateKey { component: self.number, slot, generation: self.states[slot].generation })
+    }
+}
+
+impl Drop for Component {
+    fn drop(&mut self) {
+        if !self.handle.is_null() {
+            for slot in &mut self.states {
+                if let (false, Some(function)) =
+                    (slot.state.is_null(), self.binary.functions.fmi2FreeFMUstate)
+                {
+                    // SAFETY: the state is this instance's and not yet freed.
+                    unsafe { function(self.handle, &raw mut slot.state) };
+                }
+            }
+            if let Some(function) = self.binary.functions.fmi2FreeInstance {
+                // SAFETY: the handle is alive and never used again.
+                unsafe { function(self.handle) };
+            }
+        }
+        // SAFETY: made by Box::into_raw, and its fields have no destructors.
+        drop(unsafe { Box::from_raw(self.callbacks.cast::<std::mem::MaybeUninit<CallbackFunctions>>()) });
+    }
+}
+
+fn same_length(references: usize, values: usize) -> Result<(), Outcome> {
+    if references == values {
+        return Ok(());
+    }
+    Err(Outcome::BadArguments(format!("{references} value references but {values} values")))
+}
+
+fn c_texts<'a>(texts: impl Iterator<Item = &'a str>) -> Result<Vec<CString>, Outcome> {
+    texts
+        .map(|text| {
+            CString::new(text)
+                .map_err(|_| Outcome::BadArguments(format!("the text {text:?} contains a zero byte")))
+        })
+        .collect()
+}

@@ -1,0 +1,101 @@
+//! What a heliotorque library says of its models: the C function `fmi_export_describe`.
+
+use std::{
+    ffi::{CString, c_char, c_int, c_void},
+    ptr,
+};
+
+use super::Binary;
+
+/// A model in a heliotorque library, as the library tells it.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Described {
+    /// The model's name.
+    pub model: String,
+    /// Name of its setup file under `resources/`, if it has one.
+    pub setup_file: Option<String>,
+    /// The compiled-in setup text.
+    pub default_setup: String,
+    /// The `modelDescription.xml`; empty where the models are only listed.
+    pub xml: String,
+}
+
+type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize);
+type Describe =
+    unsafe extern "C" fn(*const c_char, *const c_char, *const c_char, *mut c_void, Option<Receive>) -> c_int;
+
+/// Collects what `fmi_export_describe` sends: a kind and a text at a time.
+unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_char, length: usize) {
+    // SAFETY: the context is the list given to the call; the text has this length and lives until we return.
+    unsafe {
+        let Some(received) = context.cast::<Vec<(c_int, String)>>().as_mut() else { return };
+        let bytes = if length == 0 { &[] } else { std::slice::from_raw_parts(text.cast::<u8>(), length) };
+        received.push((kind, String::from_utf8_lossy(bytes).into_owned()));
+    }
+}
+
+impl Binary {
+    /// The models of a heliotorque library.
+    pub fn models(&self) -> Result<Vec<Described>, String> {
+        self.ask(None, None, None)
+    }
+
+    /// The description of a model for a setup text (otherwise the compiled-in one); `file` names it in errors.
+    pub fn describe(
+        &self,
+        model: &str,
+        file: Option<&str>,
+        setup: Option<&str>,
+    ) -> Result<Described, String> {
+        let mut described = self.ask(Some(model), file, setup)?;
+        described
+            .pop()
+            .filter(|it| !it.xml.is_empty())
+            .ok_or_else(|| format!("{model}: the library gave no XML"))
+    }
+
+    fn ask(
+        &self,
+        model: Option<&str>,
+        file: Option<&str>,
+        setup: Option<&str>,
+    ) -> Result<Vec<Described>, String> {
+        // SAFETY: the symbol of this name has this type.
+        let function = unsafe { self.library.get::<Describe>(b"fmi_export_describe\0") }.map_err(|_| {
+            "this is no heliotorque library: it does not export fmi_export_describe".to_owned()
+        })?;
+        let c_text = |text: Option<&str>| {
+            text.map(CString::new).transpose().map_err(|_| "a text contains a zero byte".to_owned())
+        };
+        let (model, file, setup) = (c_text(model)?, c_text(file)?, c_text(setup)?);
+        let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
+        let mut received: Vec<(c_int, String)> = Vec::new();
+        // SAFETY: texts and list live during the call, which is the only time `receive` is called.
+        let code = unsafe {
+            function(
+                pointer(&model),
+                pointer(&file),
+                pointer(&setup),
+                (&raw mut received).cast(),
+                Some(receive),
+            )
+        };
+        let mut models: Vec<Described> = Vec::new();
+        let mut problem = None;
+        for (kind, text) in received {
+            match (kind, models.last_mut()) {
+                (0, Some(model)) => model.xml = text,
+                (1, _) => problem = Some(text),
+                (2, Some(model)) => model.default_setup = text,
+                (3, _) => models.push(Described { model: text, ..Described::default() }),
+                (4, Some(model)) => model.setup_file = Some(text),
+                _ => {}
+            }
+        }
+        match problem {
+            None if code == 0 => Ok(models),
+            None => Err(format!("fmi_export_describe answered {code} without a reason")),
+            Some(problem) => Err(problem),
+        }
+    }
+}

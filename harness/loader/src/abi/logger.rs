@@ -1,0 +1,69 @@
+//! The callbacks an importer gives, and where an instance's messages arrive.
+
+use std::{
+    collections::VecDeque,
+    ffi::{c_char, c_int, c_void},
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+use super::text;
+use crate::LogMessage;
+
+pub(super) type Logger =
+    unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
+pub(super) type FixedLogger =
+    unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
+
+/// `fmi2CallbackFunctions`.
+#[repr(C)]
+pub(super) struct CallbackFunctions {
+    pub(super) logger: Option<Logger>,
+    pub(super) allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
+    pub(super) free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
+    pub(super) step_finished: Option<unsafe extern "C" fn(*mut c_void, c_int)>,
+    pub(super) component_environment: *mut c_void,
+}
+
+/// Messages kept per instance; older ones go first.
+const MESSAGES_KEPT: usize = 1000;
+
+/// Where an instance's messages arrive; its address is the `componentEnvironment`.
+#[derive(Default)]
+pub(super) struct LogBook {
+    messages: Mutex<VecDeque<LogMessage>>,
+}
+
+impl LogBook {
+    pub(super) fn messages(&self) -> MutexGuard<'_, VecDeque<LogMessage>> {
+        self.messages.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Takes a message of the FMU that runs in this instance.
+///
+/// The standard's logger is variadic, which stable Rust cannot define; a caller's further arguments are left
+/// unread, which the calling conventions in use (System V, Win64, AAPCS64 Linux) permit.
+pub(super) unsafe extern "C" fn log_message(
+    environment: *mut c_void,
+    _instance: *const c_char,
+    status: c_int,
+    category: *const c_char,
+    message: *const c_char,
+) {
+    // SAFETY: the environment is NULL or the book given to fmi2Instantiate, which outlives the instance; the
+    // texts are NULL or end with a zero byte.
+    unsafe {
+        let Some(book) = environment.cast::<LogBook>().as_ref() else { return };
+        let text = unescape(&text(message).unwrap_or_default());
+        let message = LogMessage { status: status.into(), category: self::text(category), text };
+        let mut messages = book.messages();
+        if messages.len() >= MESSAGES_KEPT {
+            messages.pop_front();
+        }
+        messages.push_back(message);
+    }
+}
+
+fn unescape(text: &str) -> String {
+    text.replace("%%", "%").replace("##", "#")
+}

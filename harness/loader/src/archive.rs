@@ -1,0 +1,93 @@
+//! Unpacks an `.fmu` into a folder without trusting it.
+
+use std::{
+    fs::{self, File},
+    io::{self, Read},
+    path::{Component, Path, PathBuf},
+};
+
+use zip::ZipArchive;
+
+use crate::Error;
+
+/// How much an archive may hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Entries, folders included.
+    pub entries: usize,
+    /// Bytes of all unpacked files together.
+    pub total_bytes: u64,
+}
+
+impl Default for Limits {
+    /// 10,000 entries and 4 GiB: far above any sane FMU, far below a full disk.
+    fn default() -> Self {
+        Self { entries: 10_000, total_bytes: 4 << 30 }
+    }
+}
+
+/// Unpacks `archive` into the existing folder `into`.
+///
+/// Refused: a path that is absolute, leaves the folder or has a drive or backslash root; a symbolic link; an
+/// encrypted entry; the same path twice; more entries or bytes than `limits`, counted while unpacking, so
+/// that an archive which lies about its sizes gains nothing; a torn or corrupted archive.
+pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<(), Error> {
+    let refuse = |what: String| Error::Archive { path: archive.to_owned(), what };
+    let file = File::open(archive).map_err(|source| Error::File { path: archive.to_owned(), source })?;
+    let mut zip = ZipArchive::new(io::BufReader::new(file)).map_err(|error| refuse(error.to_string()))?;
+    if zip.len() > limits.entries {
+        return Err(refuse(format!("{} entries, at most {} are allowed", zip.len(), limits.entries)));
+    }
+    let mut left = limits.total_bytes;
+    for index in 0..zip.len() {
+        let mut entry = zip.by_index(index).map_err(|error| refuse(error.to_string()))?;
+        let name = String::from_utf8_lossy(entry.name_raw()).into_owned();
+        if entry.is_symlink() {
+            return Err(refuse(format!("entry {name:?} is a symbolic link")));
+        }
+        if entry.encrypted() {
+            return Err(refuse(format!("entry {name:?} is encrypted")));
+        }
+        // Some Windows packers write backslashes; they mean the same folders.
+        let relative = inside(&name).ok_or_else(|| refuse(format!("entry {name:?} leaves the folder")))?;
+        let target = into.join(&relative);
+        let at_target = |source| Error::File { path: target.clone(), source };
+        if entry.is_dir() || name.ends_with('\\') {
+            fs::create_dir_all(&target).map_err(at_target)?;
+            continue;
+        }
+        if let Some(parent) = target.parent() {
+            fs::create_dir_all(parent).map_err(at_target)?;
+        }
+        let mut output = File::create_new(&target).map_err(|source| match source.kind() {
+            io::ErrorKind::AlreadyExists => refuse(format!("entry {name:?} stands twice in the archive")),
+            _ => Error::File { path: target.clone(), source },
+        })?;
+        let written = io::copy(&mut entry.by_ref().take(left.saturating_add(1)), &mut output)
+            .map_err(|error| refuse(format!("entry {name:?}: {error}")))?;
+        left = left.checked_sub(written).ok_or_else(|| {
+            refuse(format!("unpacks to more than {} bytes at entry {name:?}", limits.total_bytes))
+        })?;
+    }
+    Ok(())
+}
+
+/// The entry's path below the folder, or `None` if it leaves it.
+fn inside(name: &str) -> Option<PathBuf> {
+    if name.contains('\0') {
+        return None;
+    }
+    let name = name.replace('\\', "/");
+    let mut path = PathBuf::new();
+    for (position, part) in name.split('/').enumerate() {
+        // An empty first part is an absolute path, a colon a Windows drive or stream; `..` is found below.
+        if (part.is_empty() && position == 0) || part.contains(':') {
+            return None;
+        }
+        if !part.is_empty() && part != "." {
+            path.push(part);
+        }
+    }
+    let plain = path.components().all(|part| matches!(part, Component::Normal(_)));
+    (plain && path.components().next().is_some()).then_some(path)
+}

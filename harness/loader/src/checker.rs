@@ -1,0 +1,233 @@
+//! Refuses calls that the standard forbids before they reach the FMU.
+
+use std::cell::Cell;
+
+use fmi_export::call_table::{Access, Condition, Function, Next, State, after, allowed};
+use model_description::{Description, VariableKind, rules};
+
+use crate::{Fmu, Status, abi::StateKey};
+
+/// Whether forbidden calls are refused by the harness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Checking {
+    /// Every call is held against the standard's call table, without leniencies.
+    #[default]
+    Strict,
+    /// Every call goes through, to see what the FMU makes of it.
+    Off,
+}
+
+/// Base type at the C interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Base {
+    Real,
+    Integer,
+    Boolean,
+    Text,
+}
+
+impl Base {
+    pub fn of(kind: &VariableKind) -> Self {
+        match kind {
+            VariableKind::Real { .. } => Self::Real,
+            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Self::Integer,
+            VariableKind::Boolean { .. } => Self::Boolean,
+            VariableKind::String { .. } => Self::Text,
+        }
+    }
+}
+
+/// For every value reference, by base type and sorted: which of the table's conditions it meets.
+pub(crate) struct AccessTable([Vec<(u32, u8)>; 4]);
+
+const fn bit(condition: Condition) -> u8 {
+    match condition {
+        Condition::SettableBeforeInitialization => 1,
+        Condition::OutputOrInitialUnknown => 2,
+        Condition::SettableInInitialization => 4,
+        Condition::InputOrTunable => 8,
+        // These restrict what the values are good for, not which variables may be read.
+        Condition::Debugging | Condition::DebuggingUnlessTerminated => 0,
+    }
+}
+
+impl AccessTable {
+    pub fn of(description: &Description) -> Self {
+        let mut initial_unknown = vec![false; description.variables.len() + 1];
+        for unknown in &description.structure.initial_unknowns {
+            if let Some(flag) = initial_unknown.get_mut(unknown.index as usize) {
+                *flag = true;
+            }
+        }
+        let mut tables: [Vec<(u32, u8)>; 4] = Default::default();
+        for (position, variable) in description.variables.iter().enumerate() {
+            let listed = initial_unknown[position + 1];
+            let meets = [
+                (
+                    Condition::SettableBeforeInitialization,
+                    rules::settable(variable, rules::Phase::Instantiated),
+                ),
+                (
+                    Condition::OutputOrInitialUnknown,
+                    rules::gettable(variable, listed, rules::Phase::InitializationMode),
+                ),
+                (
+                    Condition::SettableInInitialization,
+                    rules::settable(variable, rules::Phase::InitializationMode),
+                ),
+                (Condition::InputOrTunable, rules::settable(variable, rules::Phase::StepComplete)),
+            ];
+            let bits =
+                meets.iter().filter(|(_, met)| *met).fold(0, |bits, (condition, _)| bits | bit(*condition));
+            tables[Base::of(&variable.kind) as usize].push((variable.value_reference, bits));
+        }
+        for table in &mut tables {
+            // Aliases share a reference: what one of them may, all may.
+            table.sort_unstable();
+            table.dedup_by(|next, kept| {
+                let alias = next.0 == kept.0;
+                if alias {
+                    kept.1 |= next.1;
+                }
+                alias
+            });
+        }
+        Self(tables)
+    }
+
+    fn bits(&self, base: Base, reference: u32) -> Option<u8> {
+        let table = &self.0[base as usize];
+        table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
+    }
+}
+
+/// Follows one instance through the standard's state machine.
+pub(crate) struct Checker {
+    fmu: Fmu,
+    checking: Checking,
+    // None after a state came from bytes: those alone know which state it was saved in.
+    state: Cell<Option<State>>,
+    experiment_set_up: Cell<bool>,
+    saved: Vec<(StateKey, Option<State>)>,
+}
+
+impl Checker {
+    pub fn new(fmu: Fmu, checking: Checking) -> Self {
+        Self {
+            fmu,
+            checking,
+            state: Cell::new(Some(State::Instantiated)),
+            experiment_set_up: Cell::new(false),
+            saved: Vec::new(),
+        }
+    }
+
+    /// Whether `function` may be called now; otherwise why not.
+    pub fn allow(&self, function: Function) -> Result<(), String> {
+        self.access(function).map(|_| ())
+    }
+
+    /// As [`Checker::allow`], and every variable meets the condition of the state.
+    pub fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), String> {
+        let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
+        let needed = bit(condition);
+        for &reference in references {
+            let Some(bits) = self.fmu.access().bits(base, reference) else {
+                return Err(format!("the description has no {base:?} with value reference {reference}"));
+            };
+            if bits & needed != needed {
+                return Err(format!(
+                    "in state {} it takes only {}, and {} is none",
+                    self.state.get().map_or("unknown", State::name),
+                    condition.text(),
+                    self.name_of(base, reference)
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn access(&self, function: Function) -> Result<Access, String> {
+        let (Checking::Strict, Some(state)) = (self.checking, self.state.get()) else {
+            return Ok(Access::Allowed);
+        };
+        let access = allowed(function, state);
+        if access == Access::Forbidden {
+            return Err(format!("FMI 2.0 does not allow it in state {}", state.name()));
+        }
+        if function == Function::EnterInitializationMode && !self.experiment_set_up.get() {
+            return Err("fmi2SetupExperiment comes first".to_owned());
+        }
+        Ok(access)
+    }
+
+    fn name_of(&self, base: Base, reference: u32) -> String {
+        let mut variables = self.fmu.description().variables.iter();
+        variables
+            .find(|variable| variable.value_reference == reference && Base::of(&variable.kind) == base)
+            .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
+    }
+
+    /// Follows the answer of a call that was made.
+    pub fn answered(&self, function: Function, status: Status) {
+        if matches!(status, Status::Ok | Status::Warning) {
+            match function {
+                Function::SetupExperiment => self.experiment_set_up.set(true),
+                Function::Reset => self.experiment_set_up.set(false),
+                _ => {}
+            }
+        }
+        let status = match status {
+            Status::Ok => fmi_export::Status::Ok,
+            Status::Warning => fmi_export::Status::Warning,
+            Status::Discard => fmi_export::Status::Discard,
+            Status::Error | Status::Invalid(_) => fmi_export::Status::Error,
+            Status::Fatal => fmi_export::Status::Fatal,
+            Status::Pending => fmi_export::Status::Pending,
+        };
+        // From an unknown state, what happens next tells as if the steps were complete.
+        let known = self.state.get();
+        let next = after(function, known.unwrap_or(State::StepComplete), status);
+        match (next, known, function) {
+            (Next::State(_), None, function) if !tells_state(function, status) => {}
+            (Next::State(state), _, _) => self.state.set(Some(state)),
+            (Next::Stored | Next::Freed, _, _) => {}
+        }
+    }
+
+    /// Remembers in which state a state was saved.
+    pub fn saved(&mut self, key: StateKey) {
+        self.forget(key);
+        self.saved.push((key, self.state.get()));
+    }
+
+    /// Forgets a freed state.
+    pub fn forget(&mut self, key: StateKey) {
+        self.saved.retain(|(saved, _)| *saved != key);
+    }
+
+    /// Goes to where a state was saved.
+    pub fn restored(&self, key: StateKey) {
+        let state = self.saved.iter().find(|(saved, _)| *saved == key).and_then(|(_, state)| *state);
+        self.state.set(state);
+        // Beyond instantiation the experiment was set up; before, setting it up again is the safe side.
+        self.experiment_set_up.set(state.is_none_or(|state| state != State::Instantiated));
+    }
+}
+
+/// Whether the call's answer fixes the state whatever it was before.
+fn tells_state(function: Function, status: fmi_export::Status) -> bool {
+    use fmi_export::Status::{Discard, Error, Fatal, Ok, Warning};
+    match status {
+        Error | Fatal => true,
+        Ok | Warning | Discard => matches!(
+            function,
+            Function::EnterInitializationMode
+                | Function::ExitInitializationMode
+                | Function::DoStep
+                | Function::Terminate
+                | Function::Reset
+        ),
+        _ => false,
+    }
+}

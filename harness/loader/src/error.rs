@@ -1,0 +1,172 @@
+//! What can go wrong with somebody's FMU, each with file, call and remedy.
+
+use std::path::PathBuf;
+
+use crate::{LogMessage, Status};
+
+/// Any failure of the loader.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file or folder cannot be read or written.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// Which one.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The archive is no usable FMU.
+    #[error("{}: not a usable FMU archive: {what}", path.display())]
+    Archive {
+        /// The archive.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// `modelDescription.xml` cannot be read.
+    #[error("{}: {what}", path.display())]
+    Description {
+        /// The FMU.
+        path: PathBuf,
+        /// What is wrong, with line and element where known.
+        what: String,
+    },
+    /// The FMU offers no co-simulation.
+    #[error("{}: no CoSimulation element in modelDescription.xml: only co-simulation FMUs can be stepped here", path.display())]
+    NoCoSimulation {
+        /// The FMU.
+        path: PathBuf,
+    },
+    /// No shared library for this computer.
+    #[error(
+        "{}: no shared library for this computer: looked for {looked_for}; the FMU holds {found}", path.display()
+    )]
+    NoBinary {
+        /// The FMU.
+        path: PathBuf,
+        /// The paths tried.
+        looked_for: String,
+        /// Platforms the FMU has.
+        found: String,
+    },
+    /// The shared library does not load.
+    #[error("{}: the shared library does not load: {chain}", path.display())]
+    Library {
+        /// The shared library.
+        path: PathBuf,
+        /// The loader's whole chain of reasons.
+        chain: String,
+    },
+    /// An FMI call failed.
+    #[error(transparent)]
+    Call(#[from] Box<CallError>),
+    /// A name that the FMU does not have.
+    #[error("{fmu}: no variable {name:?}{hint}")]
+    UnknownVariable {
+        /// Model name.
+        fmu: String,
+        /// The name asked for.
+        name: String,
+        /// Similar names, or where to see all.
+        hint: String,
+    },
+    /// A value that does not fit its variable.
+    #[error("{variable}: {what}")]
+    Value {
+        /// The variable.
+        variable: String,
+        /// What was found and what is allowed.
+        what: String,
+    },
+    /// An input table that cannot be used.
+    #[error("input table: {0}")]
+    Inputs(String),
+    /// Start, stop or step that make no run.
+    #[error("{0}")]
+    Times(String),
+}
+
+/// An FMI call that was not answered with fmi2OK or fmi2Warning, or was not allowed to be made.
+#[derive(Debug, thiserror::Error)]
+#[error("{fmu}, instance {instance:?}: {call}: {outcome}{}", messages_text(messages))]
+pub struct CallError {
+    /// Model name.
+    pub fmu: String,
+    /// Instance name.
+    pub instance: String,
+    /// The function with what matters of its arguments.
+    pub call: String,
+    /// What happened.
+    pub outcome: Outcome,
+    /// The last messages the instance logged.
+    pub messages: Vec<LogMessage>,
+}
+
+/// How a call failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The FMU's answer.
+    Status(Status),
+    /// The library does not export the function.
+    Missing,
+    /// `fmi2Instantiate` gave NULL.
+    NoInstance,
+    /// The call checker refused the call: the FMI state, or why.
+    NotAllowed(String),
+    /// The arguments make no sense before any call is made.
+    BadArguments(String),
+}
+
+impl std::fmt::Display for Outcome {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Status(status) => write!(f, "answered {status}"),
+            Self::Missing => write!(f, "the library does not export this function"),
+            Self::NoInstance => write!(f, "gave no instance"),
+            Self::NotAllowed(why) => write!(f, "not made: {why}"),
+            Self::BadArguments(why) => write!(f, "not made: {why}"),
+        }
+    }
+}
+
+impl CallError {
+    /// The FMU's status, if the call was made and answered.
+    pub fn status(&self) -> Option<Status> {
+        match self.outcome {
+            Outcome::Status(status) => Some(status),
+            _ => None,
+        }
+    }
+}
+
+/// How many of the last messages an error shows.
+pub(crate) const MESSAGES_SHOWN: usize = 5;
+
+fn messages_text(messages: &[LogMessage]) -> String {
+    messages.iter().map(|message| format!("\n    {message}")).collect()
+}
+
+impl Error {
+    /// The status, if this is an FMI call that was answered.
+    pub fn status(&self) -> Option<Status> {
+        match self {
+            Self::Call(call) => call.status(),
+            _ => None,
+        }
+    }
+
+    /// Joins an error with all its sources.
+    pub fn chain(error: &dyn std::error::Error) -> String {
+        let mut text = error.to_string();
+        let mut source = error.source();
+        while let Some(inner) = source {
+            let inner_text = inner.to_string();
+            if !text.contains(&inner_text) {
+                text.push_str(": ");
+                text.push_str(&inner_text);
+            }
+            source = inner.source();
+        }
+        text
+    }
+}

@@ -1,0 +1,219 @@
+//! An opened FMU: its folder, its description, its library.
+
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use model_description::{CoSimulation, Description, Parsed, ScalarVariable};
+use tempfile::TempDir;
+
+use crate::{Binary, Error, Instance, InstanceOptions, archive, checker::AccessTable, select::similar};
+
+/// An opened FMU. Cheap to clone; instances may be made and flown on many threads.
+#[derive(Clone)]
+pub struct Fmu(Arc<Inner>);
+
+struct Inner {
+    source: PathBuf,
+    folder: PathBuf,
+    // Removed with the last clone and instance.
+    _temporary: Option<TempDir>,
+    parsed: Parsed,
+    xml: Vec<u8>,
+    positions: HashMap<String, usize>,
+    binary: Mutex<Option<Arc<Binary>>>,
+    access: AccessTable,
+}
+
+impl std::fmt::Debug for Fmu {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Fmu").field("source", &self.0.source).finish_non_exhaustive()
+    }
+}
+
+impl Fmu {
+    /// Opens an `.fmu` file, or a folder that one was unpacked into.
+    ///
+    /// The shared library is loaded by [`Fmu::binary`] or the first [`Fmu::instantiate`], so FMUs for other
+    /// platforms can be looked at.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let source = path.as_ref().to_owned();
+        let at_source = |error| Error::File { path: source.clone(), source: error };
+        let metadata = std::fs::metadata(&source).map_err(at_source)?;
+        let (folder, temporary) = if metadata.is_dir() {
+            (std::path::absolute(&source).map_err(at_source)?, None)
+        } else {
+            let temporary = tempfile::Builder::new()
+                .prefix("heliotorque-")
+                .tempdir()
+                .map_err(|error| Error::File { path: std::env::temp_dir(), source: error })?;
+            archive::unpack(&source, temporary.path(), archive::Limits::default())?;
+            (temporary.path().to_owned(), Some(temporary))
+        };
+        Self::from_folder(source, folder, temporary)
+    }
+
+    fn from_folder(source: PathBuf, folder: PathBuf, temporary: Option<TempDir>) -> Result<Self, Error> {
+        let xml_path = folder.join("modelDescription.xml");
+        let xml = std::fs::read(&xml_path).map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound => Error::Description {
+                path: source.clone(),
+                what: "holds no modelDescription.xml, so it is no FMU".to_owned(),
+            },
+            _ => Error::File { path: xml_path.clone(), source: error },
+        })?;
+        let parsed = model_description::parse(&xml).map_err(|error| Error::Description {
+            path: source.clone(),
+            what: format!("modelDescription.xml: {}", Error::chain(&error)),
+        })?;
+        let positions = parsed
+            .description
+            .variables
+            .iter()
+            .enumerate()
+            .map(|(position, variable)| (variable.name.clone(), position))
+            .collect();
+        let access = AccessTable::of(&parsed.description);
+        Ok(Self(Arc::new(Inner {
+            source,
+            folder,
+            _temporary: temporary,
+            parsed,
+            xml,
+            positions,
+            binary: Mutex::new(None),
+            access,
+        })))
+    }
+
+    /// The path it was opened from.
+    pub fn source(&self) -> &Path {
+        &self.0.source
+    }
+
+    /// The folder it is unpacked in.
+    pub fn folder(&self) -> &Path {
+        &self.0.folder
+    }
+
+    /// The model description.
+    pub fn description(&self) -> &Description {
+        &self.0.parsed.description
+    }
+
+    /// The description with what the reader found odd and where everything stands.
+    pub fn parsed(&self) -> &Parsed {
+        &self.0.parsed
+    }
+
+    /// The bytes of `modelDescription.xml`.
+    pub fn xml(&self) -> &[u8] {
+        &self.0.xml
+    }
+
+    /// `modelName`.
+    pub fn name(&self) -> &str {
+        &self.0.parsed.description.model_name
+    }
+
+    /// The `CoSimulation` element, or an error for a model-exchange FMU.
+    pub fn co_simulation(&self) -> Result<&CoSimulation, Error> {
+        self.0
+            .parsed
+            .description
+            .co_simulation
+            .as_ref()
+            .ok_or_else(|| Error::NoCoSimulation { path: self.0.source.clone() })
+    }
+
+    /// The variable called `name`.
+    pub fn find(&self, name: &str) -> Option<&ScalarVariable> {
+        self.position(name).map(|position| &self.0.parsed.description.variables[position])
+    }
+
+    /// The variable called `name`; an error proposes similar names.
+    pub fn variable(&self, name: &str) -> Result<&ScalarVariable, Error> {
+        self.find(name).ok_or_else(|| self.unknown(name))
+    }
+
+    /// Position of `name` in `ModelVariables`, from 0.
+    pub fn position(&self, name: &str) -> Option<usize> {
+        self.0.positions.get(name).copied()
+    }
+
+    pub(crate) fn unknown(&self, name: &str) -> Error {
+        let near =
+            similar(name, self.0.parsed.description.variables.iter().map(|variable| variable.name.as_str()));
+        let hint = if near.is_empty() {
+            "; `heliotorque info --variables` lists them".to_owned()
+        } else {
+            format!("; near it: {}", near.join(", "))
+        };
+        Error::UnknownVariable { fmu: self.name().to_owned(), name: name.to_owned(), hint }
+    }
+
+    /// Path of the shared library for this computer.
+    pub fn binary_path(&self) -> Result<PathBuf, Error> {
+        let identifier = &self.co_simulation()?.model_identifier;
+        let candidates: Vec<String> = platform_folders()
+            .iter()
+            .map(|platform| format!("binaries/{platform}/{identifier}{}", std::env::consts::DLL_SUFFIX))
+            .collect();
+        for candidate in &candidates {
+            let path = self.0.folder.join(candidate);
+            if path.is_file() {
+                return Ok(path);
+            }
+        }
+        let mut found: Vec<String> = std::fs::read_dir(self.0.folder.join("binaries"))
+            .map(|entries| {
+                entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
+            })
+            .unwrap_or_default();
+        found.sort();
+        Err(Error::NoBinary {
+            path: self.0.source.clone(),
+            looked_for: candidates.join(", "),
+            found: if found.is_empty() { "no binaries".to_owned() } else { found.join(", ") },
+        })
+    }
+
+    /// The shared library, loaded at the first call and kept for the life of the process.
+    pub fn binary(&self) -> Result<Arc<Binary>, Error> {
+        let mut slot = self.0.binary.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(binary) = slot.as_ref() {
+            return Ok(Arc::clone(binary));
+        }
+        let binary = Arc::new(Binary::load(&self.binary_path()?)?);
+        *slot = Some(Arc::clone(&binary));
+        Ok(binary)
+    }
+
+    pub(crate) fn access(&self) -> &AccessTable {
+        &self.0.access
+    }
+
+    /// Makes an instance; see [`Instance`].
+    pub fn instantiate(&self, name: &str, options: &InstanceOptions) -> Result<Instance, Error> {
+        Instance::new(self, name, options)
+    }
+}
+
+/// Folders under `binaries/` that may hold the library for this computer, best first.
+///
+/// FMI 2.0.4 lets platforms beyond its own list use the tuples of FMI 3.0.
+pub fn platform_folders() -> &'static [&'static str] {
+    match (std::env::consts::OS, std::env::consts::ARCH) {
+        ("linux", "x86_64") => &["linux64", "x86_64-linux"],
+        ("linux", "x86") => &["linux32", "x86-linux"],
+        ("linux", "aarch64") => &["aarch64-linux", "linux64"],
+        ("macos", "aarch64") => &["aarch64-darwin", "darwin64"],
+        ("macos", _) => &["darwin64", "x86_64-darwin"],
+        ("windows", "x86_64") => &["win64", "x86_64-windows"],
+        ("windows", "x86") => &["win32", "x86-windows"],
+        ("windows", "aarch64") => &["aarch64-windows"],
+        _ => &[],
+    }
+}

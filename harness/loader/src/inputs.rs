@@ -1,0 +1,145 @@
+//! Inputs over time: a table of rows, interpolated where the variable is continuous.
+
+use model_description::{Causality, ScalarVariable, Variability, VariableKind};
+
+use crate::{Error, Fmu, Value, parse_value};
+
+/// Values of inputs (and tunable parameters) over time.
+///
+/// Between rows a continuous Real is interpolated linearly, anything else keeps the last row's value; before
+/// the first row and after the last the nearest row holds. Two rows at one time make a jump: the later one
+/// holds from there on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InputTable {
+    times_s: Vec<f64>,
+    columns: Vec<InputColumn>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct InputColumn {
+    position: usize,
+    linear: bool,
+    values: Vec<Value>,
+}
+
+impl InputTable {
+    /// Builds a table from texts, as read from a file: `header` starts with `time`, every row has its length.
+    pub fn parse<S: AsRef<str>>(fmu: &Fmu, header: &[S], rows: &[Vec<S>]) -> Result<Self, Error> {
+        let wrong = |what: String| Error::Inputs(what);
+        let Some((time, names)) = header.split_first() else {
+            return Err(wrong("it is empty; the first line names its columns: time,<input>,...".to_owned()));
+        };
+        if time.as_ref().trim() != "time" {
+            return Err(wrong(format!("the first column is {:?} and must be time, in s", time.as_ref())));
+        }
+        let variables: Vec<(usize, &ScalarVariable)> = names
+            .iter()
+            .map(|name| {
+                let name = name.as_ref().trim();
+                let position = fmu.position(name).ok_or_else(|| fmu.unknown(name))?;
+                let variable = &fmu.description().variables[position];
+                check_settable(variable)?;
+                Ok((position, variable))
+            })
+            .collect::<Result<_, Error>>()?;
+        for (index, (position, variable)) in variables.iter().enumerate() {
+            if variables[..index].iter().any(|(earlier, _)| earlier == position) {
+                return Err(wrong(format!("column {} stands twice", variable.name)));
+            }
+        }
+        let mut table = Self {
+            times_s: Vec::with_capacity(rows.len()),
+            columns: variables
+                .iter()
+                .map(|&(position, variable)| InputColumn {
+                    position,
+                    linear: is_linear(variable),
+                    values: Vec::with_capacity(rows.len()),
+                })
+                .collect(),
+        };
+        for (index, row) in rows.iter().enumerate() {
+            let line = index + 2;
+            if row.len() != header.len() {
+                return Err(wrong(format!(
+                    "line {line} has {} cells, the header has {}",
+                    row.len(),
+                    header.len()
+                )));
+            }
+            let text = row[0].as_ref().trim();
+            let time_s = text
+                .parse::<f64>()
+                .ok()
+                .filter(|time_s| time_s.is_finite())
+                .ok_or_else(|| wrong(format!("line {line}: time {text:?} is no number")))?;
+            if table.times_s.last().is_some_and(|last| *last > time_s) {
+                return Err(wrong(format!("line {line}: time {time_s} is before the line above")));
+            }
+            table.times_s.push(time_s);
+            for ((column, (_, variable)), cell) in table.columns.iter_mut().zip(&variables).zip(&row[1..]) {
+                let value = parse_value(fmu.description(), variable, cell.as_ref())
+                    .map_err(|error| wrong(format!("line {line}: {error}")))?;
+                column.values.push(value);
+            }
+        }
+        if table.times_s.is_empty() {
+            return Err(wrong("it has a header but no rows".to_owned()));
+        }
+        Ok(table)
+    }
+
+    /// Positions in `ModelVariables` of the columns.
+    pub fn positions(&self) -> impl Iterator<Item = usize> {
+        self.columns.iter().map(|column| column.position)
+    }
+
+    /// The value of a column at a time.
+    pub fn value(&self, column: usize, time_s: f64) -> Value {
+        let column = &self.columns[column];
+        // The first row later than the time.
+        let after = self.times_s.partition_point(|row_s| *row_s <= time_s);
+        let before = after.saturating_sub(1);
+        let held = &column.values[before];
+        match (held, column.values.get(after)) {
+            (Value::Real(left), Some(Value::Real(right))) if column.linear && after > 0 => {
+                let (left_s, right_s) = (self.times_s[before], self.times_s[after]);
+                Value::Real(left + (right - left) * ((time_s - left_s) / (right_s - left_s)))
+            }
+            _ => held.clone(),
+        }
+    }
+
+    /// Time derivative, just after a time, of a column that is interpolated; `None` for one that is held.
+    pub fn slope(&self, column: usize, time_s: f64) -> Option<f64> {
+        let column = &self.columns[column];
+        if !column.linear {
+            return None;
+        }
+        let after = self.times_s.partition_point(|row_s| *row_s <= time_s);
+        let Some(before) = after.checked_sub(1) else { return Some(0.0) };
+        match (&column.values[before], column.values.get(after)) {
+            (Value::Real(left), Some(Value::Real(right))) => {
+                Some((right - left) / (self.times_s[after] - self.times_s[before]))
+            }
+            _ => Some(0.0),
+        }
+    }
+}
+
+fn is_linear(variable: &ScalarVariable) -> bool {
+    matches!(variable.kind, VariableKind::Real { .. })
+        && variable.causality == Causality::Input
+        && variable.variability == Variability::Continuous
+}
+
+fn check_settable(variable: &ScalarVariable) -> Result<(), Error> {
+    let tunable = variable.causality == Causality::Parameter && variable.variability == Variability::Tunable;
+    if variable.causality == Causality::Input || tunable {
+        return Ok(());
+    }
+    Err(Error::Inputs(format!(
+        "{} cannot change during a run: only inputs and tunable parameters can",
+        variable.name
+    )))
+}

@@ -1,0 +1,377 @@
+//! One instance of an FMU, safe to drive: every call checked, every failure with its reason.
+
+mod states;
+mod values;
+
+use std::sync::Arc;
+
+use fmi_export::call_table::Function;
+
+use crate::{
+    CallError, Callbacks, Checking, Error, Fmu, LogMessage, Status,
+    abi::{Answer, Component, Start, StateKey},
+    checker::{Base, Checker},
+    error::{MESSAGES_SHOWN, Outcome},
+    uri::file_uri,
+};
+
+/// What the instance is told about its resources.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub enum Resources {
+    /// The URI of the unpacked `resources` folder.
+    #[default]
+    Folder,
+    /// NULL.
+    Absent,
+    /// This text.
+    Uri(String),
+}
+
+/// How to instantiate; the default suits any FMU.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct InstanceOptions {
+    /// Turns on the FMU's log.
+    pub logging: bool,
+    /// Categories to log; empty means all.
+    pub categories: Vec<String>,
+    /// The resource location.
+    pub resources: Resources,
+    /// How the callbacks are handed over.
+    pub callbacks: Callbacks,
+    /// Whether calls the standard forbids are refused before they reach the FMU.
+    pub checking: Checking,
+    /// A GUID instead of the description's.
+    pub guid: Option<String>,
+}
+
+/// A saved state of one instance; see [`Instance::save_state`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct State(StateKey);
+
+/// One instance of a co-simulation FMU.
+///
+/// The order of calls is the standard's: [`setup_experiment`](Self::setup_experiment),
+/// [`enter_initialization_mode`](Self::enter_initialization_mode),
+/// [`exit_initialization_mode`](Self::exit_initialization_mode), then [`do_step`](Self::do_step) with sets and gets
+/// between. `fmi2OK` and `fmi2Warning` count as success; anything else is an [`Error::Call`]. Dropping the
+/// instance frees its saved states and itself.
+pub struct Instance {
+    component: Component,
+    fmu: Fmu,
+    name: String,
+    checker: Checker,
+}
+
+impl std::fmt::Debug for Instance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Instance").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+impl Instance {
+    pub(crate) fn new(fmu: &Fmu, name: &str, options: &InstanceOptions) -> Result<Self, Error> {
+        let binary = fmu.binary()?;
+        let resources = match &options.resources {
+            Resources::Folder => Some(file_uri(&fmu.folder().join("resources"))),
+            Resources::Absent => None,
+            Resources::Uri(uri) => Some(uri.clone()),
+        };
+        let guid = options.guid.as_deref().unwrap_or(&fmu.description().guid);
+        let start = Start {
+            name,
+            guid,
+            resources: resources.as_deref(),
+            logging: options.logging,
+            callbacks: options.callbacks,
+        };
+        let component =
+            Component::instantiate(Arc::clone(&binary), &start).map_err(|(outcome, messages)| {
+                Box::new(CallError {
+                    fmu: fmu.name().to_owned(),
+                    instance: name.to_owned(),
+                    call: "fmi2Instantiate".to_owned(),
+                    outcome,
+                    messages: last(messages),
+                })
+            })?;
+        let mut instance = Self {
+            component,
+            fmu: fmu.clone(),
+            name: name.to_owned(),
+            checker: Checker::new(fmu.clone(), options.checking),
+        };
+        if options.logging && !options.categories.is_empty() {
+            let categories: Vec<&str> = options.categories.iter().map(String::as_str).collect();
+            instance.set_debug_logging(true, &categories)?;
+        }
+        Ok(instance)
+    }
+
+    /// The FMU it came from.
+    pub fn fmu(&self) -> &Fmu {
+        &self.fmu
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All kept messages, oldest first (the last thousand).
+    pub fn messages(&self) -> Vec<LogMessage> {
+        self.component.messages()
+    }
+
+    /// Takes the messages out of the instance.
+    pub fn take_messages(&self) -> Vec<LogMessage> {
+        self.component.take_messages()
+    }
+
+    /// `fmi2SetDebugLogging`; no categories means all.
+    pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Result<(), Error> {
+        let function = Function::SetDebugLogging;
+        self.allow(function)?;
+        let answer = self.component.set_debug_logging(on, categories);
+        self.finish(function, answer, |symbol| format!("{symbol}(loggingOn={on}, {categories:?})"))
+    }
+
+    /// `fmi2SetupExperiment`; times in s.
+    pub fn setup_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start_s: f64,
+        stop_s: Option<f64>,
+    ) -> Result<(), Error> {
+        let function = Function::SetupExperiment;
+        self.allow(function)?;
+        let answer = self.component.setup_experiment(tolerance, start_s, stop_s);
+        self.finish(function, answer, |symbol| {
+            let stop = stop_s.map_or_else(|| "undefined".to_owned(), |stop| stop.to_string());
+            format!("{symbol}(startTime={start_s}, stopTime={stop})")
+        })
+    }
+
+    /// `fmi2EnterInitializationMode`.
+    pub fn enter_initialization_mode(&mut self) -> Result<(), Error> {
+        let function = Function::EnterInitializationMode;
+        self.allow(function)?;
+        let answer = self.component.enter_initialization_mode();
+        self.finish(function, answer, |symbol| symbol.to_owned())
+    }
+
+    /// `fmi2ExitInitializationMode`.
+    pub fn exit_initialization_mode(&mut self) -> Result<(), Error> {
+        let function = Function::ExitInitializationMode;
+        self.allow(function)?;
+        let answer = self.component.exit_initialization_mode();
+        self.finish(function, answer, |symbol| symbol.to_owned())
+    }
+
+    /// `fmi2Terminate`.
+    pub fn terminate(&mut self) -> Result<(), Error> {
+        let function = Function::Terminate;
+        self.allow(function)?;
+        let answer = self.component.terminate();
+        self.finish(function, answer, |symbol| symbol.to_owned())
+    }
+
+    /// `fmi2Reset`: as freshly instantiated.
+    pub fn reset(&mut self) -> Result<(), Error> {
+        let function = Function::Reset;
+        self.allow(function)?;
+        let answer = self.component.reset();
+        self.finish(function, answer, |symbol| symbol.to_owned())
+    }
+
+    /// `fmi2DoStep` from `time_s` over `step_s`, both in s, promising never to set an earlier state again if
+    /// `no_set_state_prior`.
+    pub fn do_step(&mut self, time_s: f64, step_s: f64, no_set_state_prior: bool) -> Result<(), Error> {
+        let function = Function::DoStep;
+        self.allow(function)?;
+        let answer = self.component.do_step(time_s, step_s, no_set_state_prior);
+        self.finish(function, answer, |symbol| {
+            format!("{symbol}(currentCommunicationPoint={time_s}, communicationStepSize={step_s})")
+        })
+    }
+
+    /// `fmi2CancelStep`.
+    pub fn cancel_step(&mut self) -> Result<(), Error> {
+        let function = Function::CancelStep;
+        self.allow(function)?;
+        let answer = self.component.cancel_step();
+        self.finish(function, answer, |symbol| symbol.to_owned())
+    }
+
+    /// `fmi2SetRealInputDerivatives` at the current communication point; orders from 1.
+    pub fn set_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Result<(), Error> {
+        let function = Function::SetRealInputDerivatives;
+        self.allow(function)?;
+        let answer = self.component.set_real_input_derivatives(references, orders, values);
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Real))
+    }
+
+    /// `fmi2GetRealOutputDerivatives` at the current communication point; orders from 1.
+    pub fn get_output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        let function = Function::GetRealOutputDerivatives;
+        self.allow(function)?;
+        let answer = self.component.get_real_output_derivatives(references, orders, values);
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Real))
+    }
+
+    /// `fmi2GetDirectionalDerivative`: `result` = d(unknowns)/d(knowns) times `seed`.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        result: &mut [f64],
+    ) -> Result<(), Error> {
+        let function = Function::GetDirectionalDerivative;
+        self.allow(function)?;
+        let answer = self.component.get_directional_derivative(unknowns, knowns, seed, result);
+        self.finish(function, answer, |symbol| self.call_text(symbol, unknowns, Base::Real))
+    }
+
+    /// Whether the FMU ended by itself (`fmi2Terminated`), asked after a step was discarded.
+    pub fn terminated(&mut self) -> Result<bool, Error> {
+        let function = Function::GetBooleanStatus;
+        self.allow(function)?;
+        let (answer, value) = split(self.component.get_boolean_status(TERMINATED));
+        self.finish(function, answer, |symbol| format!("{symbol}(fmi2Terminated)"))?;
+        Ok(value.unwrap_or(false))
+    }
+
+    /// `fmi2LastSuccessfulTime` in s, asked after a step was discarded.
+    pub fn last_successful_time(&mut self) -> Result<f64, Error> {
+        let function = Function::GetRealStatus;
+        self.allow(function)?;
+        let (answer, value) = split(self.component.get_real_status(LAST_SUCCESSFUL_TIME));
+        self.finish(function, answer, |symbol| format!("{symbol}(fmi2LastSuccessfulTime)"))?;
+        Ok(value.unwrap_or(f64::NAN))
+    }
+
+    /// Zero-length vectors as NULL, NULL states to free: the name and answer of each call. For probing.
+    pub fn probe_nulls(&mut self) -> Vec<(&'static str, Result<Status, String>)> {
+        self.component.free_nothing();
+        let answers = self.component.probe_nulls();
+        answers
+            .into_iter()
+            .map(|(name, answer)| (name, answer.map_err(|missing| missing.to_string())))
+            .collect()
+    }
+
+    /// One of `fmi2GetStatus`, `fmi2GetIntegerStatus`, `fmi2GetStringStatus` with a status kind. For probing.
+    pub fn probe_status(&mut self, function: Function, kind: i32) -> Result<(), Error> {
+        self.allow(function)?;
+        let answer = self.component.get_other_status(function, kind);
+        self.finish(function, answer, |symbol| format!("{symbol}({kind})"))
+    }
+
+    fn allow(&self, function: Function) -> Result<(), Error> {
+        self.checker
+            .allow(function)
+            .map_err(|why| self.failure(function.symbol().to_owned(), Outcome::NotAllowed(why)))
+    }
+
+    /// Also checks that each variable may be read or set in the state.
+    fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), Error> {
+        self.checker.allow_variables(function, references, base).map_err(|why| {
+            self.failure(self.call_text(function.symbol(), references, base), Outcome::NotAllowed(why))
+        })
+    }
+
+    fn finish(
+        &self,
+        function: Function,
+        answer: Answer,
+        call: impl FnOnce(&str) -> String,
+    ) -> Result<(), Error> {
+        match answer {
+            Ok(status) => {
+                self.checker.answered(function, status);
+                if matches!(status, Status::Ok | Status::Warning) {
+                    Ok(())
+                } else {
+                    Err(self.failure(call(function.symbol()), Outcome::Status(status)))
+                }
+            }
+            Err(outcome) => Err(self.failure(call(function.symbol()), outcome)),
+        }
+    }
+
+    /// The call with the names behind its value references, for errors.
+    fn call_text(&self, function: &str, references: &[u32], base: Base) -> String {
+        format!("{function}({})", self.names(references, base).join(", "))
+    }
+
+    /// The call with names and values, for errors.
+    fn set_text<T: std::fmt::Debug>(
+        &self,
+        function: &str,
+        references: &[u32],
+        base: Base,
+        values: &[T],
+    ) -> String {
+        let pairs: Vec<String> = self
+            .names(references, base)
+            .into_iter()
+            .zip(values)
+            .map(|(name, value)| format!("{name}={value:?}"))
+            .collect();
+        let more = if values.len() > pairs.len() { ", ..." } else { "" };
+        format!("{function}({}{more})", pairs.join(", "))
+    }
+
+    fn names(&self, references: &[u32], base: Base) -> Vec<String> {
+        const SHOWN: usize = 4;
+        let variables = &self.fmu.description().variables;
+        references
+            .iter()
+            .take(SHOWN)
+            .map(|&reference| {
+                variables
+                    .iter()
+                    .find(|variable| {
+                        variable.value_reference == reference && Base::of(&variable.kind) == base
+                    })
+                    .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
+            })
+            .collect()
+    }
+
+    fn failure(&self, call: String, outcome: Outcome) -> Error {
+        Error::Call(Box::new(CallError {
+            fmu: self.fmu.name().to_owned(),
+            instance: self.name.clone(),
+            call,
+            outcome,
+            messages: last(self.component.messages()),
+        }))
+    }
+}
+
+/// `fmi2LastSuccessfulTime`.
+const LAST_SUCCESSFUL_TIME: i32 = 2;
+/// `fmi2Terminated`.
+const TERMINATED: i32 = 3;
+
+fn last(mut messages: Vec<LogMessage>) -> Vec<LogMessage> {
+    messages.split_off(messages.len().saturating_sub(MESSAGES_SHOWN))
+}
+
+fn split<T>(answer: Result<(Status, T), Outcome>) -> (Answer, Option<T>) {
+    match answer {
+        Ok((status, value)) => (Ok(status), Some(value)),
+        Err(outcome) => (Err(outcome), None),
+    }
+}

@@ -1,0 +1,34 @@
+//! Loads, steps and watches any FMI 2.0 co-simulation FMU.
+//!
+//! [`Fmu::open`] unpacks and reads an FMU, [`Fmu::instantiate`] makes a safe [`Instance`], and [`simulate`] flies
+//! one from start to stop. Everything this crate knows of an FMU it reads from the FMU; no model is linked here.
+//!
+//! All unsafe code of the harness stands in one folder, `abi/`.
+
+mod abi;
+mod archive;
+mod checker;
+mod error;
+mod fmu;
+mod inputs;
+mod instance;
+mod recording;
+mod select;
+mod simulate;
+mod status;
+mod uri;
+mod values;
+
+pub use abi::{Binary, Callbacks, Described, SYMBOLS, set_locale};
+pub use archive::{Limits, unpack};
+pub use checker::Checking;
+pub use error::{CallError, Error, Outcome};
+pub use fmu::{Fmu, platform_folders};
+pub use inputs::InputTable;
+pub use instance::{Instance, InstanceOptions, Resources, State};
+pub use recording::{Column, Recording};
+pub use select::select;
+pub use simulate::{Ended, Flight, Options, Stopped, Times, simulate};
+pub use status::{LogMessage, Status};
+pub use uri::file_uri;
+pub use values::{Value, display_unit, parse_assignment, parse_value, unit};

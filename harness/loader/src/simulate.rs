@@ -1,0 +1,392 @@
+//! Flies an FMU from start to stop and records it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use model_description::{Causality, Initial, Variability, VariableKind, rules};
+
+use crate::{
+    Column, Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Value, values,
+};
+
+/// What to fly. `Options::default()` flies the FMU's default experiment and records its outputs.
+#[derive(Default)]
+pub struct Options<'a> {
+    /// Start in s; otherwise the default experiment's, otherwise 0.
+    pub start_s: Option<f64>,
+    /// Stop in s; otherwise the default experiment's, otherwise one second after the start.
+    pub stop_s: Option<f64>,
+    /// Communication step in s; otherwise the default experiment's, otherwise a hundredth of the run.
+    pub step_s: Option<f64>,
+    /// Record at most this often, in s; otherwise at every step.
+    pub record_every_s: Option<f64>,
+    /// Values set before the run, by name.
+    pub sets: Vec<(String, Value)>,
+    /// Inputs over time.
+    pub inputs: Option<&'a InputTable>,
+    /// Hands the slopes of the input table over as input derivatives, where the FMU takes them.
+    pub input_derivatives: bool,
+    /// Positions in `ModelVariables` to record; `None` means every output.
+    pub record: Option<Vec<usize>>,
+    /// How to instantiate.
+    pub instance: InstanceOptions,
+    /// Told the time in s after every step.
+    pub progress: Option<&'a mut dyn FnMut(f64)>,
+    /// Once true, the run ends after the step under way.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// It reached the stop time.
+    AtStop,
+    /// It was cancelled.
+    Cancelled,
+    /// The FMU ended by itself (fmi2Terminated).
+    ByItself,
+}
+
+/// A run that an error stopped; what was recorded until then is kept.
+#[derive(Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct Stopped {
+    /// The error.
+    #[source]
+    pub error: Error,
+    /// Everything up to the last good step.
+    pub partial: Recording,
+}
+
+impl From<Error> for Box<Stopped> {
+    fn from(error: Error) -> Self {
+        Box::new(Stopped { error, partial: Recording::default() })
+    }
+}
+
+/// A finished run.
+#[derive(Debug)]
+pub struct Flight {
+    /// What was recorded.
+    pub recording: Recording,
+    /// Why it ended.
+    pub ended: Ended,
+    /// What the instance logged (the last thousand messages).
+    pub messages: Vec<LogMessage>,
+}
+
+/// Start, stop and step of a run, in s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Times {
+    /// First communication point.
+    pub start_s: f64,
+    /// Last communication point.
+    pub stop_s: f64,
+    /// Distance of communication points; the last step is shortened to reach `stop_s`.
+    pub step_s: f64,
+}
+
+impl Times {
+    /// The times of a run: what is given, else the default experiment's, else something that just runs.
+    pub fn of(
+        fmu: &Fmu,
+        start_s: Option<f64>,
+        stop_s: Option<f64>,
+        step_s: Option<f64>,
+    ) -> Result<Self, Error> {
+        let default = fmu.description().default_experiment.unwrap_or_default();
+        let start_s = start_s.or(default.start_time).unwrap_or(0.0);
+        let stop_s = stop_s.or(default.stop_time).unwrap_or(start_s + 1.0);
+        let step_s = step_s.or(default.step_size).unwrap_or((stop_s - start_s) / 100.0);
+        let times = Self { start_s, stop_s, step_s };
+        if !start_s.is_finite() || !stop_s.is_finite() || stop_s <= start_s {
+            return Err(Error::Times(format!(
+                "the stop time {stop_s} s must be later than the start time {start_s} s: see --start and --stop"
+            )));
+        }
+        if !(step_s.is_finite() && step_s > 0.0) {
+            return Err(Error::Times(format!("the step {step_s} s must be positive: see --step")));
+        }
+        let reachable = (stop_s - start_s) / step_s;
+        if reachable > 1e12 || start_s + step_s == start_s || stop_s - step_s == stop_s {
+            return Err(Error::Times(format!(
+                "a step of {step_s} s is too small for a run from {start_s} s to {stop_s} s: see --step"
+            )));
+        }
+        let fixed = !fmu.co_simulation()?.can_handle_variable_communication_step_size;
+        if fixed && (reachable - reachable.round()).abs() > 1e-9 * reachable.max(1.0) {
+            return Err(Error::Times(format!(
+                "the FMU takes steps of one size only, and {step_s} s does not divide the run from {start_s} s \
+                 to {stop_s} s: see --step and --stop"
+            )));
+        }
+        Ok(times)
+    }
+
+    /// Number of steps.
+    pub fn steps(&self) -> u64 {
+        let steps = (self.stop_s - self.start_s) / self.step_s;
+        let whole = steps.round();
+        // A remainder below rounding is no step of its own.
+        let count = if (steps - whole).abs() <= 1e-9 * whole.max(1.0) { whole } else { steps.ceil() };
+        count.max(1.0) as u64
+    }
+
+    /// Communication point `k`, from a product and not a sum, so that it carries no accumulated error.
+    pub fn point_s(&self, k: u64) -> f64 {
+        if k >= self.steps() { self.stop_s } else { self.start_s + k as f64 * self.step_s }
+    }
+}
+
+/// Flies an FMU and records it.
+///
+/// Communication points are `start + k*step`; the last step ends at the stop time. Inputs are set at the start
+/// of each step, and only if their value changed.
+pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Flight, Box<Stopped>> {
+    let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
+    let positions = match options.record.take() {
+        Some(positions) => positions,
+        None => outputs(fmu),
+    };
+    let mut recorder = Recorder::new(fmu, &positions);
+    let mut instance = fmu.instantiate("run", &options.instance)?;
+    let outcome = fly(fmu, &mut instance, &times, &mut options, &mut recorder);
+    let messages = instance.messages();
+    match outcome {
+        Ok(ended) => Ok(Flight { recording: recorder.recording, ended, messages }),
+        Err(error) => Err(Box::new(Stopped { error, partial: recorder.recording })),
+    }
+}
+
+fn fly(
+    fmu: &Fmu,
+    instance: &mut Instance,
+    times: &Times,
+    options: &mut Options<'_>,
+    recorder: &mut Recorder,
+) -> Result<Ended, Error> {
+    let tolerance = fmu.description().default_experiment.and_then(|default| default.tolerance);
+    instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
+    for (name, value) in &options.sets {
+        if set_early(fmu, name)? {
+            instance.set(name, value)?;
+        }
+    }
+    instance.enter_initialization_mode()?;
+    for (name, value) in &options.sets {
+        if !set_early(fmu, name)? {
+            instance.set(name, value)?;
+        }
+    }
+    let mut feed = options.inputs.map(|table| Feed::new(fmu, table, options.input_derivatives));
+    if let Some(feed) = &mut feed {
+        feed.set(instance, times.start_s, true)?;
+    }
+    instance.exit_initialization_mode()?;
+    recorder.record(instance, times.start_s)?;
+
+    let steps = times.steps();
+    let every = options.record_every_s.map_or(1, |every_s| ((every_s / times.step_s).round() as u64).max(1));
+    for k in 0..steps {
+        let time_s = times.point_s(k);
+        let end_s = times.point_s(k + 1);
+        if let Some(feed) = &mut feed {
+            feed.set(instance, time_s, false)?;
+            feed.set_slopes(instance, time_s)?;
+        }
+        // Every step but the last has the step size itself: not each difference of two points is it to the bit.
+        let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
+        if let Err(error) = instance.do_step(time_s, step_s, true) {
+            if error.status() == Some(Status::Discard) && instance.terminated().unwrap_or(false) {
+                let last_s = instance.last_successful_time().unwrap_or(time_s);
+                if last_s > time_s {
+                    recorder.record(instance, last_s)?;
+                }
+                return Ok(Ended::ByItself);
+            }
+            return Err(error);
+        }
+        let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+        if (k + 1) % every == 0 || k + 1 == steps || cancelled {
+            recorder.record(instance, end_s)?;
+        }
+        if let Some(progress) = options.progress.as_mut() {
+            progress(end_s);
+        }
+        if cancelled && k + 1 < steps {
+            return Ok(Ended::Cancelled);
+        }
+    }
+    instance.terminate()?;
+    Ok(Ended::AtStop)
+}
+
+/// Positions of all outputs.
+fn outputs(fmu: &Fmu) -> Vec<usize> {
+    let variables = &fmu.description().variables;
+    (0..variables.len()).filter(|&position| variables[position].causality == Causality::Output).collect()
+}
+
+/// Whether the variable is set right after instantiation (else: in initialization mode).
+fn set_early(fmu: &Fmu, name: &str) -> Result<bool, Error> {
+    let variable = fmu.variable(name)?;
+    let initial = rules::effective_initial(variable);
+    let settable = variable.variability != Variability::Constant
+        && (variable.causality == Causality::Input
+            || matches!(initial, Some(Initial::Exact | Initial::Approx)));
+    if !settable {
+        return Err(Error::Value {
+            variable: name.to_owned(),
+            what: "it cannot be set: only parameters, inputs and start values can".to_owned(),
+        });
+    }
+    Ok(variable.causality != Causality::Input)
+}
+
+/// Sets inputs from a table, each only when it changes.
+struct Feed<'a> {
+    table: &'a InputTable,
+    variables: Vec<&'a model_description::ScalarVariable>,
+    last: Vec<Option<Value>>,
+    slopes: bool,
+    references: Vec<u32>,
+    orders: Vec<i32>,
+    values: Vec<f64>,
+}
+
+impl<'a> Feed<'a> {
+    fn new(fmu: &'a Fmu, table: &'a InputTable, slopes: bool) -> Self {
+        let variables: Vec<_> =
+            table.positions().map(|position| &fmu.description().variables[position]).collect();
+        let last = vec![None; variables.len()];
+        let can = fmu.description().co_simulation.as_ref().is_some_and(|it| it.can_interpolate_inputs);
+        Self {
+            table,
+            variables,
+            last,
+            slopes: slopes && can,
+            references: Vec::new(),
+            orders: Vec::new(),
+            values: Vec::new(),
+        }
+    }
+
+    fn set(&mut self, instance: &mut Instance, time_s: f64, initializing: bool) -> Result<(), Error> {
+        for (column, variable) in self.variables.iter().enumerate() {
+            // A tunable parameter keeps its start value through initialization mode if it is not exact.
+            if initializing && !rules::settable(variable, rules::Phase::InitializationMode) {
+                continue;
+            }
+            let value = self.table.value(column, time_s);
+            if self.last[column].as_ref() != Some(&value) {
+                instance.set_variable(variable, &value)?;
+                self.last[column] = Some(value);
+            }
+        }
+        Ok(())
+    }
+
+    fn set_slopes(&mut self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
+        if !self.slopes {
+            return Ok(());
+        }
+        self.references.clear();
+        self.orders.clear();
+        self.values.clear();
+        for (column, variable) in self.variables.iter().enumerate() {
+            if let Some(slope) = self.table.slope(column, time_s).filter(|slope| *slope != 0.0) {
+                self.references.push(variable.value_reference);
+                self.orders.push(1);
+                self.values.push(slope);
+            }
+        }
+        if self.references.is_empty() {
+            return Ok(());
+        }
+        instance.set_input_derivatives(&self.references, &self.orders, &self.values)
+    }
+}
+
+/// Reads the recorded variables, one call per base type.
+struct Recorder {
+    recording: Recording,
+    groups: [Group; 4],
+    reals: Vec<f64>,
+    integers: Vec<i32>,
+    booleans: Vec<i32>,
+}
+
+/// The recorded variables of one base type: their columns and value references.
+#[derive(Default)]
+struct Group {
+    columns: Vec<usize>,
+    references: Vec<u32>,
+}
+
+impl Recorder {
+    fn new(fmu: &Fmu, positions: &[usize]) -> Self {
+        let mut recording = Recording::default();
+        let mut groups: [Group; 4] = Default::default();
+        for &position in positions {
+            let variable = &fmu.description().variables[position];
+            let (group, column) = match variable.kind {
+                VariableKind::Real { .. } => (0, Column::Real(Vec::new())),
+                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
+                    (1, Column::Integer(Vec::new()))
+                }
+                VariableKind::Boolean { .. } => (2, Column::Boolean(Vec::new())),
+                VariableKind::String { .. } => (3, Column::Text(Vec::new())),
+            };
+            groups[group].columns.push(recording.columns.len());
+            groups[group].references.push(variable.value_reference);
+            recording.names.push(variable.name.clone());
+            recording.units.push(values::unit(fmu.description(), variable).unwrap_or_default().to_owned());
+            recording.columns.push(column);
+        }
+        let reals = vec![0.0; groups[0].columns.len()];
+        let integers = vec![0; groups[1].columns.len()];
+        let booleans = vec![0; groups[2].columns.len()];
+        Self { recording, groups, reals, integers, booleans }
+    }
+
+    /// Appends a row; an error leaves none.
+    fn record(&mut self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
+        let [reals, integers, booleans, strings] = &self.groups;
+        if !reals.columns.is_empty() {
+            instance.get_reals(&reals.references, &mut self.reals)?;
+        }
+        let texts = if strings.columns.is_empty() {
+            Vec::new()
+        } else {
+            instance.get_strings(&strings.references)?
+        };
+        if !integers.columns.is_empty() {
+            instance.get_integers(&integers.references, &mut self.integers)?;
+        }
+        if !booleans.columns.is_empty() {
+            instance.get_booleans(&booleans.references, &mut self.booleans)?;
+        }
+        self.recording.times_s.push(time_s);
+        let columns = &mut self.recording.columns;
+        for (&column, &value) in reals.columns.iter().zip(&self.reals) {
+            if let Column::Real(values) = &mut columns[column] {
+                values.push(value);
+            }
+        }
+        for (&column, &value) in integers.columns.iter().zip(&self.integers) {
+            if let Column::Integer(values) = &mut columns[column] {
+                values.push(value);
+            }
+        }
+        for (&column, &value) in booleans.columns.iter().zip(&self.booleans) {
+            if let Column::Boolean(values) = &mut columns[column] {
+                values.push(value != 0);
+            }
+        }
+        for (&column, value) in strings.columns.iter().zip(texts) {
+            if let Column::Text(values) = &mut columns[column] {
+                values.push(value);
+            }
+        }
+        Ok(())
+    }
+}

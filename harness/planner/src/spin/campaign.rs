@@ -1,0 +1,138 @@
+//! Months of antenna pointing: how often to turn, how far, and what it costs.
+
+use nalgebra::Vector3;
+use physics::spin::{
+    geometry::L1Phases, nutation::allowed_nutation_rad, rotation::angle_between_rad, spinner::Spinner,
+    train::Shape,
+};
+
+use super::{PlanError, Row, Task, evaluate, paper_plan};
+
+const DAY_S: f64 = 86_400.0;
+/// Samples of Sun and Earth between two manoeuvres.
+const SAMPLES: u32 = 25;
+
+/// One cadence and what it costs.
+#[derive(Clone, Debug)]
+pub struct Cadence {
+    /// From manoeuvre to manoeuvre, in s.
+    pub interval_s: f64,
+    /// Manoeuvres in the campaign.
+    pub count: u32,
+    /// Mean and greatest size, in rad.
+    pub mean_rad: f64,
+    /// See `mean_rad`.
+    pub largest_rad: f64,
+    /// Greatest angle from the antenna to the Earth, in rad.
+    pub earth_angle_rad: f64,
+    /// Greatest angle from the spin axis to the Sun, in rad.
+    pub sun_angle_rad: f64,
+    /// In kg.
+    pub propellant_kg: f64,
+    /// Time in manoeuvres, each with the train that costs science the least, in s.
+    pub manoeuvring_s: f64,
+    /// Science lost with those trains, in s.
+    pub science_lost_s: f64,
+    /// Science lost with the paper's uniform plan, in s.
+    pub science_lost_uniform_s: f64,
+    /// Whether Earth and Sun stay within their limits.
+    pub holds: bool,
+}
+
+/// Flies the geometry for `duration_s` and turns every `interval_s`.
+pub fn campaign(
+    spinner: &Spinner,
+    task: &Task,
+    phases: &L1Phases,
+    duration_s: f64,
+    interval_s: f64,
+) -> Result<Cadence, PlanError> {
+    let mut seen = Cadence {
+        interval_s,
+        count: 0,
+        mean_rad: 0.0,
+        largest_rad: 0.0,
+        earth_angle_rad: 0.0,
+        sun_angle_rad: 0.0,
+        propellant_kg: 0.0,
+        manoeuvring_s: 0.0,
+        science_lost_s: 0.0,
+        science_lost_uniform_s: 0.0,
+        holds: false,
+    };
+    let windows = (duration_s / interval_s).ceil().clamp(1.0, 1e6) as u32;
+    let mut before: Option<Vector3<f64>> = None;
+    for window in 0..windows {
+        let start_s = f64::from(window) * interval_s;
+        let at = |share: f64| spinner.l1_orbit.sun_earth(phases, start_s + share * interval_s);
+        // The antenna points midway between where the Earth is at both ends: neither is farther than half the way.
+        let antenna = (at(0.0).earth_inertial + at(1.0).earth_inertial).normalize();
+        for k in 0..=SAMPLES {
+            let now = at(f64::from(k) / f64::from(SAMPLES));
+            seen.earth_angle_rad = seen.earth_angle_rad.max(angle_between_rad(&antenna, &now.earth_inertial));
+            seen.sun_angle_rad = seen.sun_angle_rad.max(angle_between_rad(&-antenna, &now.sun_inertial));
+        }
+        if let Some(before) = before.replace(antenna) {
+            let size_rad = angle_between_rad(&before, &antenna);
+            let mut sized = task.with_angle(size_rad);
+            let sun_angle_rad = angle_between_rad(&-antenna, &at(0.0).sun_inertial);
+            sized.allowed_nutation_rad = allowed_nutation_rad(
+                spinner.limits.period_variation_s,
+                sized.flight.spin.rate_rad_s,
+                sun_angle_rad,
+            );
+            let uniform = paper_plan(&sized)?;
+            let plan = kindest(&sized, &uniform);
+            seen.count += 1;
+            seen.mean_rad += size_rad;
+            seen.largest_rad = seen.largest_rad.max(size_rad);
+            seen.propellant_kg += plan.propellant_kg;
+            seen.manoeuvring_s += plan.duration_s;
+            seen.science_lost_s += plan.science_lost_s;
+            seen.science_lost_uniform_s += uniform.science_lost_s;
+        }
+    }
+    if seen.count > 0 {
+        seen.mean_rad /= f64::from(seen.count);
+    }
+    seen.holds = seen.earth_angle_rad <= spinner.limits.earth_angle_deg.to_radians()
+        && seen.sun_angle_rad <= spinner.limits.sun_angle_deg.to_radians();
+    Ok(seen)
+}
+
+/// The train of 32 ms units, once a turn, that costs science the least; of equals the one that ends the quietest.
+fn kindest(task: &Task, uniform: &Row) -> Row {
+    let tapered = (1..=3).filter_map(|order| evaluate(task, Shape::Tapered { order }, 1, 1.0));
+    let cost = |row: &Row| (row.science_lost_s, row.final_rad);
+    tapered.fold(uniform.clone(), |best, row| {
+        let (a, b) = (cost(&row), cost(&best));
+        if a.0 < b.0 || (a.0 == b.0 && a.1 < b.1) { row } else { best }
+    })
+}
+
+/// Longest interval, to a hundredth of a day, at which the Earth stays in the deadband; `None` if a tenth of a day does
+/// not do.
+pub fn longest_interval_s(
+    spinner: &Spinner,
+    task: &Task,
+    phases: &L1Phases,
+    duration_s: f64,
+) -> Result<Option<f64>, PlanError> {
+    let deadband_rad = spinner.limits.earth_angle_deg.to_radians();
+    let holds = |interval_s: f64| -> Result<bool, PlanError> {
+        Ok(campaign(spinner, task, phases, duration_s, interval_s)?.earth_angle_rad <= deadband_rad)
+    };
+    let (mut low_s, mut high_s) = (0.1 * DAY_S, 30.0 * DAY_S);
+    if !holds(low_s)? {
+        return Ok(None);
+    }
+    while high_s - low_s > 0.01 * DAY_S {
+        let middle_s = 0.5 * (low_s + high_s);
+        if holds(middle_s)? {
+            low_s = middle_s;
+        } else {
+            high_s = middle_s;
+        }
+    }
+    Ok(Some(low_s))
+}

@@ -1,0 +1,137 @@
+//! Attitude manoeuvres of a spinner: which train of pulses turns it by an angle with the least nutation, and how often
+//! to turn during months of antenna pointing (paper 002 and beyond).
+
+mod campaign;
+mod reflight;
+mod task;
+mod text;
+mod trade;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+pub use campaign::{Cadence, campaign, longest_interval_s};
+pub use reflight::{Reflight, refly};
+pub use task::{Task, TaskLimits};
+pub use text::plan;
+pub use trade::{Row, best, evaluate, frontier, paper_plan, timing_label, trade};
+
+/// The spacecraft that is planned for unless another is named: the shipped ACE.
+const ACE: &str = include_str!("../../../../fmu-src/resources/ace.toml");
+
+/// What pulses are timed by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TimingOption {
+    /// Fixed intervals of the assumed spin period
+    Clock,
+    /// A delay after each Sun crossing
+    Sun,
+    /// The exact phase, each turn
+    Phase,
+}
+
+/// `heliotorque plan spin`: choose the train of pulses that turns a spinner with the least nutation.
+#[derive(Clone, Debug, Args)]
+pub struct Options {
+    /// Angle by which the spin axis shall turn, in deg
+    #[arg(long = "angle", value_name = "DEG", default_value_t = 2.0)]
+    pub angle_deg: f64,
+    /// Trains that move by whole pulses may miss the angle by this much, in per cent
+    #[arg(long = "angle-tolerance", value_name = "PERCENT", default_value_t = 2.0)]
+    pub angle_tolerance_percent: f64,
+    /// Inertia ratio I3/IT; otherwise the spacecraft's at its propellant load
+    #[arg(long, value_name = "RATIO")]
+    pub ratio: Option<f64>,
+    /// The ratio may be off by this much either way
+    #[arg(long, value_name = "RATIO", default_value_t = 0.0115)]
+    pub ratio_uncertainty: f64,
+    /// Spin rate, in rpm
+    #[arg(long, value_name = "RPM", default_value_t = 5.0)]
+    pub rate_rpm: f64,
+    /// The spin rate may be off by this much either way, in rpm
+    #[arg(long, value_name = "RPM", default_value_t = 0.0)]
+    pub rate_uncertainty_rpm: f64,
+    /// Thruster or group, by its name in the spacecraft's file
+    #[arg(long, value_name = "NAME", default_value = "IIIR")]
+    pub thruster: String,
+    /// What pulses are timed by
+    #[arg(long, value_enum, default_value_t = TimingOption::Sun)]
+    pub timing: TimingOption,
+    /// Angle from the spin axis to the Sun, in deg: sets the nutation that science bears
+    #[arg(long = "sun-angle", value_name = "DEG", default_value_t = 10.0)]
+    pub sun_angle_deg: f64,
+    /// Limit on nutation at any time, in deg
+    #[arg(long = "max-nutation", value_name = "DEG")]
+    pub max_nutation_deg: Option<f64>,
+    /// Limit on nutation after the last pulse, in deg
+    #[arg(long = "max-final", value_name = "DEG")]
+    pub max_final_deg: Option<f64>,
+    /// Limit on the time from first to last pulse, in min
+    #[arg(long = "max-duration", value_name = "MIN")]
+    pub max_duration_min: Option<f64>,
+    /// Propellant on board, in kg; otherwise the spacecraft's
+    #[arg(long = "propellant", value_name = "KG")]
+    pub propellant_kg: Option<f64>,
+    /// The spacecraft, a TOML file; otherwise ACE
+    #[arg(long, value_name = "TOML")]
+    pub spacecraft: Option<PathBuf>,
+    /// Fly the best plan through this SpinPlant, over the range of ratios
+    #[arg(long, value_name = "FMU")]
+    pub fmu: Option<PathBuf>,
+    /// Plan antenna pointing for so many days instead of one manoeuvre
+    #[arg(long, value_name = "DAYS")]
+    pub campaign: Option<f64>,
+    /// Most rows of the trade table
+    #[arg(long, value_name = "COUNT", default_value_t = 20)]
+    pub rows: usize,
+}
+
+/// Why there is no plan.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// A flag out of its range.
+    #[error("{flag} is {found}; it must be a positive number")]
+    Flag {
+        /// The flag.
+        flag: &'static str,
+        /// What was found.
+        found: f64,
+    },
+    /// No such thruster.
+    #[error("--thruster is \"{found}\"; this spacecraft has {known}")]
+    Thruster {
+        /// What was asked for.
+        found: String,
+        /// What there is.
+        known: String,
+    },
+    /// A set of thrusters that cannot turn the spin axis.
+    #[error("--thruster is \"{found}\", which has no torque across the spin axis")]
+    NoTorque {
+        /// What was asked for.
+        found: String,
+    },
+    /// The spacecraft's file.
+    #[error("{0}")]
+    Setup(String),
+    /// No train keeps the limits.
+    #[error(
+        "no plan keeps the limits: over all plans the least peak nutation is {peak_deg:.5} deg, the least final nutation \
+         {final_deg:.6} deg, the shortest time {duration_min:.2} min; widen --max-nutation, --max-final or --max-duration"
+    )]
+    NoPlan {
+        /// Least peak of all plans.
+        peak_deg: f64,
+        /// Least final nutation of all plans.
+        final_deg: f64,
+        /// Shortest of all plans.
+        duration_min: f64,
+    },
+    /// The FMU did not fly it.
+    #[error("the plan could not be flown through the FMU: {0}")]
+    Refly(String),
+}

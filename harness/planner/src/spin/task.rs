@@ -1,0 +1,140 @@
+//! What a spinner's manoeuvre has to achieve, and with what.
+
+use core::f64::consts::PI;
+
+use physics::spin::{
+    forecast::{Flight, Range, Timing},
+    nutation::{Spin, allowed_nutation_rad},
+    spinner::Spinner,
+};
+
+use super::{Options, PlanError, TimingOption};
+
+/// A manoeuvre to plan.
+#[derive(Clone, Debug)]
+pub struct Task {
+    /// How far the momentum shall move, in rad.
+    pub angle_rad: f64,
+    /// Relative: trains move by whole pulses.
+    pub angle_tolerance: f64,
+    /// Best knowledge of the body, and the thruster.
+    pub flight: Flight,
+    /// What may be wrong with it.
+    pub range: Range,
+    /// Propellant flow of the thruster, in kg/s.
+    pub flow_kg_s: f64,
+    /// Whether an opposite thruster can alternate with it.
+    pub has_opposite: bool,
+    /// Smallest pulse and step of its width, in s.
+    pub resolution_s: f64,
+    /// 1/e time of nutation, in s; 0 without a damper.
+    pub damper_time_constant_s: f64,
+    /// Nutation that science data bear, in rad.
+    pub allowed_nutation_rad: f64,
+    /// Limits; infinite where there is none.
+    pub limits: TaskLimits,
+}
+
+/// Limits of a manoeuvre.
+#[derive(Clone, Copy, Debug)]
+pub struct TaskLimits {
+    /// On nutation at any time, in rad.
+    pub peak_rad: f64,
+    /// On nutation after the last pulse, in rad.
+    pub final_rad: f64,
+    /// From first to last edge, in s.
+    pub duration_s: f64,
+}
+
+impl Task {
+    /// From the options and the spacecraft.
+    pub fn new(options: &Options, spinner: &Spinner) -> Result<Self, PlanError> {
+        let positive = |flag: &'static str, value: f64| {
+            if value.is_finite() && value > 0.0 {
+                Ok(value)
+            } else {
+                Err(PlanError::Flag { flag, found: value })
+            }
+        };
+        let not_negative = |flag: &'static str, value: f64| {
+            if value.is_finite() && value >= 0.0 {
+                Ok(value)
+            } else {
+                Err(PlanError::Flag { flag, found: value })
+            }
+        };
+        let rate_rad_s = positive("--rate-rpm", options.rate_rpm)? * PI / 30.0;
+        let propellant_kg = options.propellant_kg.unwrap_or(spinner.mass_properties.initial_propellant_kg);
+        let inertia = spinner
+            .mass_properties
+            .inertia(propellant_kg)
+            .map_err(|error| PlanError::Setup(error.to_string()))?;
+        let ratio = match options.ratio {
+            Some(ratio) => positive("--ratio", ratio)?,
+            None => inertia.inertial_nutation_ratio().unwrap_or(inertia.ratio()),
+        };
+        let (mask, opposite) = spinner.named(&options.thruster).ok_or_else(|| PlanError::Thruster {
+            found: options.thruster.clone(),
+            known: spinner
+                .thrusters
+                .iter()
+                .map(|t| t.name.as_str())
+                .chain(spinner.groups.iter().map(|g| g.name.as_str()))
+                .collect::<Vec<_>>()
+                .join(", "),
+        })?;
+        let thrust = spinner.thrust(mask);
+        let torque_n_m = thrust.torque_body_n_m.xy().norm();
+        if torque_n_m < 1e-9 {
+            return Err(PlanError::NoTorque { found: options.thruster.clone() });
+        }
+        let across = thrust.torque_body_n_m.xy();
+        let opposes = |other: u32| {
+            let torque = spinner.thrust(other).torque_body_n_m.xy();
+            torque.dot(&across) < -0.99 * across.norm() * torque.norm() && torque.norm() > 0.0
+        };
+        let has_opposite =
+            opposite.is_some_and(opposes) || (0..spinner.thrusters.len()).any(|k| opposes(1 << k));
+        let spin = Spin { rate_rad_s, ratio, inertia_kg_m2: inertia.spin_kg_m2() };
+        let sun_angle_rad = positive("--sun-angle", options.sun_angle_deg)?.to_radians();
+        let limit = |flag, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(flag, value));
+        Ok(Self {
+            angle_rad: positive("--angle", options.angle_deg)?.to_radians(),
+            angle_tolerance: positive("--angle-tolerance", options.angle_tolerance_percent)? / 100.0,
+            flight: Flight {
+                spin,
+                assumed_rate_rad_s: rate_rad_s,
+                timing: match options.timing {
+                    TimingOption::Clock => Timing::Clock,
+                    TimingOption::Sun => Timing::SunCrossing,
+                    TimingOption::Phase => Timing::TruePhase,
+                },
+                torque_n_m,
+            },
+            range: Range {
+                ratio: not_negative("--ratio-uncertainty", options.ratio_uncertainty)?,
+                rate_rad_s: not_negative("--rate-uncertainty-rpm", options.rate_uncertainty_rpm)? * PI / 30.0,
+            },
+            flow_kg_s: thrust.flow_kg_s,
+            has_opposite,
+            resolution_s: spinner.resolution_s,
+            damper_time_constant_s: spinner.damper_time_constant_s,
+            allowed_nutation_rad: allowed_nutation_rad(
+                spinner.limits.period_variation_s,
+                rate_rad_s,
+                sun_angle_rad,
+            ),
+            limits: TaskLimits {
+                peak_rad: limit("--max-nutation", options.max_nutation_deg)?.to_radians(),
+                final_rad: limit("--max-final", options.max_final_deg)?.to_radians(),
+                duration_s: limit("--max-duration", options.max_duration_min)? * 60.0,
+            },
+        })
+    }
+
+    /// The same task for another angle, met as well as whole pulses can.
+    #[must_use]
+    pub fn with_angle(&self, angle_rad: f64) -> Self {
+        Self { angle_rad, angle_tolerance: f64::INFINITY, ..self.clone() }
+    }
+}

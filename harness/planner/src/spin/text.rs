@@ -1,0 +1,201 @@
+//! The planner's answer as text.
+
+use std::fmt::Write;
+
+use comfy_table::{ContentArrangement, Table, presets};
+use loader::Fmu;
+use physics::spin::{geometry::L1Phases, spinner::Spinner};
+
+use super::{
+    ACE, Options, PlanError, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, refly,
+    timing_label, trade,
+};
+
+const DAY_S: f64 = 86_400.0;
+/// Ratios flown through the FMU.
+const RATIOS: u32 = 24;
+
+/// Plans what the options ask for; the answer, ready to print.
+///
+/// # Errors
+/// Options out of range, a spacecraft that cannot be read, limits that no plan keeps, an FMU that does not fly.
+pub fn plan(options: &Options) -> Result<String, PlanError> {
+    let spinner = spacecraft(options)?;
+    let task = Task::new(options, &spinner)?;
+    match options.campaign {
+        Some(days) => months(&spinner, &task, days),
+        None => one_manoeuvre(options, &task),
+    }
+}
+
+fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
+    let setup = |text: String| PlanError::Setup(text);
+    let Some(path) = &options.spacecraft else {
+        return Spinner::parse("ace.toml", ACE).map_err(|error| setup(error.to_string()));
+    };
+    let name = path.display().to_string();
+    let text =
+        std::fs::read_to_string(path).map_err(|error| setup(format!("cannot read {name}: {error}")))?;
+    Spinner::parse(&name, &text).map_err(|error| setup(error.to_string()))
+}
+
+fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
+    let chosen = best(task)?;
+    let rows = trade(task)?;
+    let mut text = String::new();
+    let spin = &task.flight.spin;
+    let mut line = |line: String| {
+        let _ = writeln!(text, "{line}");
+    };
+    line(format!(
+        "Turn by {:.4} deg with {} ({:.3} N m), pulses by {}, ratio {:.4} +- {:.4}, {:.3} +- {:.3} rpm",
+        task.angle_rad.to_degrees(),
+        options.thruster,
+        task.flight.torque_n_m,
+        timing_label(task.flight.timing),
+        spin.ratio,
+        task.range.ratio,
+        options.rate_rpm,
+        options.rate_uncertainty_rpm,
+    ));
+    line(format!(
+        "Science bears {:.5} deg of nutation at a Sun angle of {} deg",
+        task.allowed_nutation_rad.to_degrees(),
+        options.sun_angle_deg
+    ));
+    let mut table = table(&[
+        "train",
+        "pulses",
+        "unit",
+        "plateau",
+        "time",
+        "worst final",
+        "worst peak",
+        "moved",
+        "propellant",
+        "damping saved",
+        "science lost",
+        "limits",
+    ]);
+    let paper = paper_plan(task)?;
+    table.add_row(cells(&paper));
+    let shown = frontier(&rows);
+    for row in shown.iter().take(options.rows.max(1)) {
+        table.add_row(cells(row));
+    }
+    line(table.to_string());
+    line(format!(
+        "The first row is the paper's plan. Of {} trains {} are not beaten in final nutation, peak and time at once.",
+        rows.len(),
+        shown.len()
+    ));
+    line(format!(
+        "Least final nutation within the limits: {}, {} pulses, {:.2} min",
+        chosen.label(),
+        chosen.train.count(),
+        chosen.duration_s / 60.0
+    ));
+    if let Some(path) = &options.fmu {
+        let fmu = Fmu::open(path).map_err(|error| PlanError::Refly(error.to_string()))?;
+        let flown = refly(&fmu, task, &chosen, &options.thruster, RATIOS)?;
+        line(format!(
+            "Flown through {}: {} ratios, worst final {:.6} deg (foreseen {:.6}), worst peak {:.5} deg, moved {:.4} to {:.4} \
+             deg",
+            path.display(),
+            flown.flights,
+            flown.final_rad.to_degrees(),
+            chosen.final_rad.to_degrees(),
+            flown.peak_rad.to_degrees(),
+            flown.moved_rad.0.to_degrees(),
+            flown.moved_rad.1.to_degrees(),
+        ));
+    }
+    Ok(text)
+}
+
+fn cells(row: &Row) -> Vec<String> {
+    let hours =
+        |time_s: f64| if time_s.is_finite() { format!("{:.2} h", time_s / 3600.0) } else { "endless".into() };
+    vec![
+        row.label(),
+        row.train.count().to_string(),
+        format!("{:.0} ms", 1e3 * row.train.width_s(0)),
+        format!("{:.0} ms", 1e3 * row.train.plateau_width_s()),
+        format!("{:.2} min", row.duration_s / 60.0),
+        format!("{:.6} deg", row.final_rad.to_degrees()),
+        format!("{:.5} deg", row.peak_rad.to_degrees()),
+        format!(
+            "{:.4} deg ({:.4} to {:.4})",
+            row.moved_rad.to_degrees(),
+            row.moved_range_rad.0.to_degrees(),
+            row.moved_range_rad.1.to_degrees()
+        ),
+        format!("{:.2} g", 1e3 * row.propellant_kg),
+        hours(row.damping_saved_s),
+        hours(row.science_lost_s),
+        if row.fits { "kept".into() } else { "broken".into() },
+    ]
+}
+
+fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError> {
+    if !(days.is_finite() && days > 0.0) {
+        return Err(PlanError::Flag { flag: "--campaign", found: days });
+    }
+    let (phases, duration_s) = (L1Phases::default(), days * DAY_S);
+    let longest = longest_interval_s(spinner, task, &phases, duration_s)?;
+    let mut intervals: Vec<f64> = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].iter().map(|d| d * DAY_S).collect();
+    intervals.extend(longest);
+    intervals.sort_by(f64::total_cmp);
+    let mut table = table(&[
+        "every",
+        "turns",
+        "mean",
+        "largest",
+        "Earth angle",
+        "Sun angle",
+        "propellant",
+        "manoeuvring",
+        "science lost",
+        "lost, uniform",
+        "limits",
+    ]);
+    for interval_s in intervals {
+        let row = campaign(spinner, task, &phases, duration_s, interval_s)?;
+        let deg = |angle: f64| format!("{:.3} deg", angle.to_degrees());
+        let hours = |time_s: f64| format!("{:.1} h", time_s / 3600.0);
+        table.add_row([
+            format!("{:.2} d", interval_s / DAY_S),
+            row.count.to_string(),
+            deg(row.mean_rad),
+            deg(row.largest_rad),
+            deg(row.earth_angle_rad),
+            deg(row.sun_angle_rad),
+            format!("{:.3} kg", row.propellant_kg),
+            hours(row.manoeuvring_s),
+            hours(row.science_lost_s),
+            hours(row.science_lost_uniform_s),
+            if row.holds { "kept".to_owned() } else { "broken".to_owned() },
+        ]);
+    }
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "Antenna pointing for {days} days: Earth within {} deg, Sun within {} deg; each turn with the train that costs science the least",
+        spinner.limits.earth_angle_deg, spinner.limits.sun_angle_deg
+    );
+    let _ = writeln!(text, "{table}");
+    let _ = match longest {
+        Some(interval_s) => {
+            writeln!(text, "Longest interval that keeps the deadband: {:.2} d", interval_s / DAY_S)
+        }
+        None => writeln!(text, "No interval keeps the deadband: the Earth leaves it within a tenth of a day"),
+    };
+    Ok(text)
+}
+
+fn table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(header);
+    table
+}

@@ -1,0 +1,167 @@
+//! Every sensible train for a task, forecast over the whole range of what may be wrong, and the best of them.
+
+use physics::spin::{
+    burn::sized,
+    forecast::Timing,
+    train::{Shape, Train},
+};
+
+use super::{PlanError, Task};
+
+/// Widths of the outermost pulse that are tried, in steps of the thruster's resolution.
+const UNITS: [u32; 9] = [1, 2, 3, 4, 6, 8, 12, 16, 32];
+
+/// One train and what it does.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The train.
+    pub train: Train,
+    /// Worst nutation after the last pulse, in rad.
+    pub final_rad: f64,
+    /// The same if everything is as assumed, in rad.
+    pub nominal_final_rad: f64,
+    /// Worst nutation at any time, in rad.
+    pub peak_rad: f64,
+    /// Momentum moved if everything is as assumed, in rad.
+    pub moved_rad: f64,
+    /// Least and most of it, in rad.
+    pub moved_range_rad: (f64, f64),
+    /// From first to last edge, in s.
+    pub duration_s: f64,
+    /// In kg.
+    pub propellant_kg: f64,
+    /// Damping after it until nutation is what science bears, in s.
+    pub damping_s: f64,
+    /// Damping that the paper's plan (equal pulses of one step, once a turn) would need to come down to this one's final
+    /// nutation, in s; negative if this one is worse.
+    pub damping_saved_s: f64,
+    /// Time without science: damping, and the manoeuvre itself where its peak is more than science bears, in s.
+    pub science_lost_s: f64,
+    /// Whether it keeps the task's limits.
+    pub fits: bool,
+}
+
+impl Row {
+    /// What the train is, in words.
+    pub fn label(&self) -> String {
+        let shape = match self.train.shape() {
+            Shape::Uniform => "uniform".to_owned(),
+            Shape::Tapered { order: 1 } => "1 2 2 ... 2 1".to_owned(),
+            Shape::Tapered { order: 2 } => "1 3 4 ... 4 3 1".to_owned(),
+            Shape::Tapered { order } => format!("binomial of order {order}"),
+            Shape::Split => "split, delayed".to_owned(),
+        };
+        format!("{shape}, every {} turns", self.train.turns_per_pulse())
+    }
+}
+
+/// All trains for the task, best first: those that keep the limits before those that do not, then by worst final
+/// nutation.
+pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
+    let reference = evaluate(task, Shape::Uniform, 1, 1.0).ok_or_else(|| {
+        PlanError::Setup("the smallest pulse of the thruster is longer than half a turn".into())
+    })?;
+    let mut rows = Vec::new();
+    for turns in [0.5_f64, 1.0, 1.5, 2.0] {
+        if !task.has_opposite && turns.fract() != 0.0 {
+            continue;
+        }
+        for unit in UNITS {
+            let shapes = [Shape::Uniform, Shape::Split].into_iter();
+            for shape in shapes.chain((1..=4).map(|order| Shape::Tapered { order })) {
+                rows.extend(evaluate(task, shape, unit, turns));
+            }
+        }
+    }
+    for row in &mut rows {
+        row.damping_saved_s = task.damper_time_constant_s * (reference.final_rad / row.final_rad).ln();
+    }
+    rows.sort_by(|a, b| (!a.fits).cmp(&!b.fits).then(a.final_rad.total_cmp(&b.final_rad)));
+    Ok(rows)
+}
+
+/// Those of `rows` that no other beats in final nutation, peak and duration at once, in their order.
+pub fn frontier(rows: &[Row]) -> Vec<&Row> {
+    let beats = |a: &Row, b: &Row| {
+        let no_worse = a.final_rad <= b.final_rad && a.peak_rad <= b.peak_rad && a.duration_s <= b.duration_s;
+        no_worse && (a.final_rad < b.final_rad || a.peak_rad < b.peak_rad || a.duration_s < b.duration_s)
+    };
+    rows.iter().filter(|row| !rows.iter().any(|other| beats(other, row))).collect()
+}
+
+/// The train of least worst final nutation that keeps the limits.
+pub fn best(task: &Task) -> Result<Row, PlanError> {
+    let rows = trade(task)?;
+    let least = |value: fn(&Row) -> f64| rows.iter().map(value).fold(f64::INFINITY, f64::min);
+    let (peak, end, time) = (least(|r| r.peak_rad), least(|r| r.final_rad), least(|r| r.duration_s));
+    rows.into_iter().find(|row| row.fits).ok_or_else(|| PlanError::NoPlan {
+        peak_deg: peak.to_degrees(),
+        final_deg: end.to_degrees(),
+        duration_min: time / 60.0,
+    })
+}
+
+/// The paper's plan: equal pulses of one step, once a turn.
+pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
+    evaluate(task, Shape::Uniform, 1, 1.0).ok_or_else(|| {
+        PlanError::Setup("the smallest pulse of the thruster is longer than half a turn".into())
+    })
+}
+
+/// One train for the task; `None` where there is none of this kind.
+pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row> {
+    let spin = &task.flight.spin;
+    let width_s = f64::from(unit) * task.resolution_s;
+    let make = |count| Train::new(shape, count, width_s, turns, spin, task.resolution_s);
+    let train = sized(&make, &task.flight, task.angle_rad).ok()?;
+    // A pulse beyond half a turn works against itself.
+    if train.widest_s() > 0.5 * spin.period_s() {
+        return None;
+    }
+    let nominal = task.flight.forecast(&train);
+    if (nominal.moved_rad / task.angle_rad - 1.0).abs() > task.angle_tolerance {
+        return None;
+    }
+    let worst = task.range.worst(&task.flight, &train);
+    let duration_s = train.duration_s(spin.period_s());
+    let limits = &task.limits;
+    let damping_s = damping_s(task, worst.final_nutation_rad);
+    let disturbed = worst.peak_nutation_rad > task.allowed_nutation_rad;
+    Some(Row {
+        train,
+        final_rad: worst.final_nutation_rad,
+        nominal_final_rad: nominal.final_nutation_rad,
+        peak_rad: worst.peak_nutation_rad,
+        moved_rad: nominal.moved_rad,
+        moved_range_rad: (worst.least_moved_rad, worst.most_moved_rad),
+        duration_s,
+        propellant_kg: train.on_time_s() * task.flow_kg_s,
+        damping_s,
+        damping_saved_s: 0.0,
+        science_lost_s: damping_s + if disturbed { duration_s } else { 0.0 },
+        fits: worst.peak_nutation_rad <= limits.peak_rad
+            && worst.final_nutation_rad <= limits.final_rad
+            && duration_s <= limits.duration_s,
+    })
+}
+
+/// Time the damper takes from `nutation_rad` to what science bears; endless without one.
+fn damping_s(task: &Task, nutation_rad: f64) -> f64 {
+    let excess = nutation_rad / task.allowed_nutation_rad;
+    if excess <= 1.0 {
+        0.0
+    } else if task.damper_time_constant_s > 0.0 {
+        task.damper_time_constant_s * excess.ln()
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// What a timing is called.
+pub fn timing_label(timing: Timing) -> &'static str {
+    match timing {
+        Timing::Clock => "clock",
+        Timing::SunCrossing => "Sun crossing",
+        Timing::TruePhase => "true phase",
+    }
+}

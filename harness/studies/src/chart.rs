@@ -1,0 +1,457 @@
+//! Line charts as SVG: stacked panels over one horizontal axis, each with its own unit and legend.
+//!
+//! Used by `heliotorque run --plot` and by the studies. The text is SVG text, so no font is needed to draw it.
+
+use std::path::Path;
+
+use plotters::{
+    coord::Shift,
+    prelude::*,
+    style::text_anchor::{HPos, Pos, VPos},
+};
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Mark {
+    /// Straight lines from point to point.
+    #[default]
+    Line,
+    /// Dots.
+    Dots,
+}
+
+/// One line of a panel.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Series {
+    /// What the legend says; empty for no entry.
+    pub label: String,
+    /// Points in ascending x; a point that is not finite interrupts the line.
+    pub points: Vec<(f64, f64)>,
+    /// Line or dots.
+    pub mark: Mark,
+}
+
+impl Series {
+    /// A line through `points`.
+    pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark: Mark::Line }
+    }
+
+    /// Dots at `points`.
+    pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark: Mark::Dots }
+    }
+}
+
+/// One of a chart's stacked panels.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Panel {
+    /// Label of the vertical axis, with its unit in brackets.
+    pub y_label: String,
+    /// The lines.
+    pub series: Vec<Series>,
+    /// Vertical range; otherwise that of the data with a little room.
+    pub y_range: Option<(f64, f64)>,
+    /// Values marked by a dashed horizontal line, such as limits.
+    pub marks: Vec<f64>,
+}
+
+/// A chart: panels over one horizontal axis.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Chart {
+    /// Title; empty for none.
+    pub title: String,
+    /// Label of the horizontal axis, with its unit in brackets.
+    pub x_label: String,
+    /// The panels, top to bottom.
+    pub panels: Vec<Panel>,
+}
+
+/// A chart that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum ChartError {
+    /// There is nothing to draw.
+    #[error("the chart {0:?} has no finite point to draw")]
+    Empty(String),
+    /// The drawing library refuses.
+    #[error("the chart {title:?} cannot be drawn: {reason}")]
+    Drawing {
+        /// The chart's title.
+        title: String,
+        /// What the library says.
+        reason: String,
+    },
+    /// The file cannot be written.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// Where to.
+        path: std::path::PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+}
+
+const WIDTH: u32 = 960;
+const PANEL_HEIGHT: u32 = 210;
+const SINGLE_HEIGHT: u32 = 420;
+const TITLE_HEIGHT: u32 = 44;
+const TOP: u32 = 14;
+const X_AXIS_HEIGHT: u32 = 52;
+const LEGEND_HEIGHT: u32 = 26;
+const Y_AXIS_WIDTH: u32 = 74;
+const LEFT: u32 = 14;
+const BOTTOM: u32 = 12;
+const RIGHT: u32 = 24;
+
+const FONT: &str = "'Source Sans 3','Segoe UI','Helvetica Neue',Arial,sans-serif";
+const INK: RGBColor = RGBColor(0x26, 0x2b, 0x33);
+const QUIET: RGBColor = RGBColor(0x5c, 0x65, 0x70);
+const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
+const FRAME: RGBColor = RGBColor(0x9a, 0xa2, 0xac);
+
+/// Told apart by people with any colour vision (Okabe and Ito).
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0x00, 0x72, 0xb2),
+    RGBColor(0xd5, 0x5e, 0x00),
+    RGBColor(0x00, 0x9e, 0x73),
+    RGBColor(0xcc, 0x79, 0xa7),
+    RGBColor(0xe6, 0x9f, 0x00),
+    RGBColor(0x56, 0xb4, 0xe9),
+    RGBColor(0x6b, 0x6b, 0x6b),
+];
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = Result<(), Box<dyn std::error::Error>>;
+
+impl Chart {
+    /// The chart as SVG text.
+    pub fn to_svg(&self) -> Result<String, ChartError> {
+        let range = self.x_range().ok_or_else(|| ChartError::Empty(self.title.clone()))?;
+        let mut svg = String::new();
+        self.draw(&mut svg, range)
+            .map_err(|error| ChartError::Drawing { title: self.title.clone(), reason: error.to_string() })?;
+        Ok(svg)
+    }
+
+    /// Writes the chart as an SVG file.
+    pub fn write(&self, path: &Path) -> Result<(), ChartError> {
+        let svg = self.to_svg()?;
+        std::fs::write(path, svg).map_err(|source| ChartError::File { path: path.to_owned(), source })
+    }
+
+    /// Horizontal range of the finite points of all panels.
+    fn x_range(&self) -> Option<(f64, f64)> {
+        let points = self.panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
+        let finite = points.filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, _)| *x);
+        let (low, high) = extremes(finite)?;
+        Some(if low < high { (low, high) } else { padded(low, high) })
+    }
+
+    fn draw(&self, svg: &mut String, x_range: (f64, f64)) -> Drawn {
+        let title_height = if self.title.is_empty() { TOP } else { TITLE_HEIGHT };
+        let panel_height = if self.panels.len() == 1 { SINGLE_HEIGHT } else { PANEL_HEIGHT };
+        let panels = u32::try_from(self.panels.len())?;
+        let height = title_height + panels * panel_height + X_AXIS_HEIGHT;
+        let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
+        root.fill(&WHITE)?;
+        if !self.title.is_empty() {
+            let style = (FONT, 20).into_font().style(FontStyle::Bold).color(&INK);
+            let style = style.pos(Pos::new(HPos::Left, VPos::Center));
+            root.draw_text(&self.title, &style, (pixel(LEFT + Y_AXIS_WIDTH), pixel(title_height / 2)))?;
+        }
+        for (index, panel) in (0..panels).zip(&self.panels) {
+            let last = index + 1 == panels;
+            let top = title_height + index * panel_height;
+            let bottom = top + panel_height + if last { X_AXIS_HEIGHT } else { 0 };
+            let area = root.clone().shrink((0, top), (WIDTH, bottom - top));
+            self.draw_panel(&area, panel, x_range, last)?;
+        }
+        root.present()?;
+        Ok(())
+    }
+
+    fn draw_panel(&self, area: &Area<'_>, panel: &Panel, x_range: (f64, f64), last: bool) -> Drawn {
+        let y_range = panel.y_range.unwrap_or_else(|| panel.data_range());
+        let axis_height = if last { X_AXIS_HEIGHT - BOTTOM } else { 0 };
+        let mut chart = ChartBuilder::on(area)
+            .margin_top(if panel.has_legend() { LEGEND_HEIGHT } else { 8 })
+            .margin_bottom(if last { BOTTOM } else { 8 })
+            .margin_left(LEFT)
+            .margin_right(RIGHT)
+            .x_label_area_size(axis_height)
+            .y_label_area_size(Y_AXIS_WIDTH)
+            .build_cartesian_2d(x_range.0..x_range.1, y_range.0..y_range.1)?;
+        let y_ticks = if self.panels.len() == 1 { 8 } else { 5 };
+        let x_step = tick_step(x_range, 10);
+        let y_step = tick_step(y_range, y_ticks);
+        let (x_format, y_format) = (|x: &f64| tick_text(*x, x_step), |y: &f64| tick_text(*y, y_step));
+        let label_style = (FONT, 13).into_font().color(&QUIET);
+        let mut mesh = chart.configure_mesh();
+        mesh.light_line_style(TRANSPARENT)
+            .bold_line_style(GRID)
+            .axis_style(FRAME)
+            .x_labels(10)
+            .y_labels(y_ticks)
+            .x_label_formatter(&x_format)
+            .y_label_formatter(&y_format)
+            .x_label_style(label_style.clone())
+            .y_label_style(label_style)
+            .axis_desc_style((FONT, 14).into_font().color(&INK))
+            .y_desc(panel.y_label.as_str());
+        if last {
+            mesh.x_desc(self.x_label.as_str());
+        }
+        mesh.draw()?;
+        for mark in &panel.marks {
+            let ends = [(x_range.0, *mark), (x_range.1, *mark)];
+            chart.draw_series(DashedLineSeries::new(ends, 6, 5, QUIET.stroke_width(1)))?;
+        }
+        let columns = 2 * (WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT);
+        for (index, series) in panel.series.iter().enumerate() {
+            let colour = COLOURS[index % COLOURS.len()];
+            match series.mark {
+                Mark::Line => {
+                    for piece in pieces(&series.points) {
+                        let points = thinned(piece, x_range, columns);
+                        chart.draw_series(LineSeries::new(points, colour.stroke_width(2)))?;
+                    }
+                }
+                Mark::Dots => {
+                    let finite = series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
+                    chart.draw_series(finite.map(|point| Circle::new(*point, 3, colour.filled())))?;
+                }
+            }
+        }
+        draw_legend(area, panel)
+    }
+}
+
+impl Panel {
+    fn has_legend(&self) -> bool {
+        self.series.iter().any(|series| !series.label.is_empty())
+    }
+
+    fn data_range(&self) -> (f64, f64) {
+        let data = self.series.iter().flat_map(|series| series.points.iter().map(|(_, y)| *y));
+        match extremes(data.chain(self.marks.iter().copied()).filter(|y| y.is_finite())) {
+            Some((low, high)) => padded(low, high),
+            None => (0.0, 1.0),
+        }
+    }
+}
+
+/// The legend stands above the panel, right-aligned.
+fn draw_legend(area: &Area<'_>, panel: &Panel) -> Drawn {
+    const SWATCH: i32 = 18;
+    const GAP: i32 = 6;
+    const BETWEEN: i32 = 20;
+    let style = (FONT, 13).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+    let labelled: Vec<(usize, &Series)> =
+        panel.series.iter().enumerate().filter(|(_, series)| !series.label.is_empty()).collect();
+    let mut x = pixel(WIDTH - RIGHT)
+        - labelled.iter().map(|(_, series)| SWATCH + GAP + text_width(&series.label) + BETWEEN).sum::<i32>()
+        + BETWEEN;
+    let y = pixel(LEGEND_HEIGHT / 2);
+    for (index, series) in labelled {
+        let colour = COLOURS[index % COLOURS.len()];
+        match series.mark {
+            Mark::Line => {
+                area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], colour.stroke_width(3)))?;
+            }
+            Mark::Dots => area.draw(&Circle::new((x + SWATCH / 2, y), 4, colour.filled()))?,
+        }
+        area.draw_text(&series.label, &style, (x + SWATCH + GAP, y))?;
+        x += SWATCH + GAP + text_width(&series.label) + BETWEEN;
+    }
+    Ok(())
+}
+
+/// Width of a legend label in pixels, estimated: the font is the viewer's.
+fn text_width(text: &str) -> i32 {
+    let eighths: i32 = text
+        .chars()
+        .map(|c| match c {
+            'i' | 'j' | 'l' | '.' | ',' | '[' | ']' | '(' | ')' | ' ' | 't' | 'f' => 32,
+            'm' | 'w' | 'M' | 'W' => 84,
+            _ => 58,
+        })
+        .sum();
+    eighths / 8
+}
+
+fn pixel(length: u32) -> i32 {
+    i32::try_from(length).unwrap_or(i32::MAX)
+}
+
+fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.fold(None, |range: Option<(f64, f64)>, value| {
+        Some(range.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
+    })
+}
+
+/// The range with a little room; a single value gets room of its own size.
+fn padded(low: f64, high: f64) -> (f64, f64) {
+    let span = high - low;
+    let magnitude = low.abs().max(high.abs());
+    // Differences too small for the axis to write are drawn as a flat line.
+    let room = if span > 1e-5 * magnitude { 0.06 * span } else { (0.1 * magnitude).max(1e-12) };
+    (low - room, high + room)
+}
+
+/// The pieces between points that are not finite.
+fn pieces(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
+    points.split(|(x, y)| !x.is_finite() || !y.is_finite()).filter(|piece| !piece.is_empty())
+}
+
+/// At most four points a column: first, lowest, highest, last, so that nothing visible is lost.
+fn thinned(points: &[(f64, f64)], x_range: (f64, f64), columns: u32) -> Vec<(f64, f64)> {
+    if points.len() <= 4 * columns as usize {
+        return points.to_vec();
+    }
+    let column = |x: f64| ((x - x_range.0) / (x_range.1 - x_range.0) * f64::from(columns)).floor();
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    for group in points.chunk_by(|a, b| column(a.0) == column(b.0)) {
+        let mut indices = [0, 0, 0, group.len() - 1];
+        for (index, point) in group.iter().enumerate() {
+            if point.1 < group[indices[1]].1 {
+                indices[1] = index;
+            }
+            if point.1 > group[indices[2]].1 {
+                indices[2] = index;
+            }
+        }
+        indices.sort_unstable();
+        for (position, &index) in indices.iter().enumerate() {
+            if position == 0 || indices[position - 1] != index {
+                kept.push(group[index]);
+            }
+        }
+    }
+    kept
+}
+
+/// A step of 1, 2 or 5 times a power of ten that gives about `ticks` ticks.
+fn tick_step(range: (f64, f64), ticks: usize) -> f64 {
+    let rough = (range.1 - range.0) / ticks as f64;
+    let power = 10f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| factor * power >= rough * 0.999);
+    step.unwrap_or(10.0) * power
+}
+
+/// A tick with as many digits as its step needs.
+fn tick_text(value: f64, step: f64) -> String {
+    // A tick within rounding of zero is zero.
+    let value = if value.abs() < step * 1e-6 { 0.0 } else { value };
+    let magnitude = value.abs().max(step);
+    if (1e-3..1e6).contains(&magnitude) && step >= 1e-5 {
+        let digits = (-step.log10().floor()).clamp(0.0, 6.0);
+        return format!("{value:.*}", digits as usize);
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = (magnitude.log10().floor() - step.log10().floor()).clamp(0.0, 6.0);
+    format!("{value:.*e}", digits as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Chart {
+        let line = |phase: f64, scale: f64| {
+            (0..130_000)
+                .map(|k| {
+                    let day = f64::from(k) * 90.0 / 130_000.0;
+                    // A sawtooth, as momentum between dumps.
+                    (day, scale * ((day / 7.0 + phase).fract() * 8.0 - 4.0) + 0.2 * (day * 6.0).sin())
+                })
+                .collect::<Vec<_>>()
+        };
+        Chart {
+            title: "System momentum, thruster dumps only".to_owned(),
+            x_label: "time [d]".to_owned(),
+            panels: vec![
+                Panel {
+                    y_label: "momentum.body [N.m.s]".to_owned(),
+                    series: vec![
+                        Series::line("momentum.body[1]", line(0.0, 1.0)),
+                        Series::line("momentum.body[2]", line(0.4, 0.3)),
+                        Series::line("momentum.body[3]", line(0.7, -0.6)),
+                    ],
+                    marks: vec![4.0, -4.0],
+                    ..Panel::default()
+                },
+                Panel {
+                    y_label: "torque.solar [uN.m]".to_owned(),
+                    series: vec![Series::line("torque.solar[1]", line(0.1, 20.0))],
+                    ..Panel::default()
+                },
+                Panel {
+                    y_label: "dump.count".to_owned(),
+                    series: vec![Series::dots(
+                        "",
+                        (0..12).map(|k| (f64::from(k) * 7.5, f64::from(k))).collect(),
+                    )],
+                    ..Panel::default()
+                },
+            ],
+        }
+    }
+
+    #[test]
+    fn a_chart_names_its_axes_and_stays_small() {
+        let svg = sample().to_svg().unwrap();
+        for text in
+            ["System momentum, thruster dumps only", "time [d]", "momentum.body [N.m.s]", "torque.solar[1]"]
+        {
+            assert!(svg.contains(text), "{text} is missing");
+        }
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "a coordinate is not finite");
+        assert!(svg.len() < 1_000_000, "{} bytes", svg.len());
+        if let Ok(path) = std::env::var("CHART_SAMPLE") {
+            std::fs::write(path, svg).unwrap();
+        }
+    }
+
+    #[test]
+    fn thinning_keeps_every_spike() {
+        let mut points: Vec<(f64, f64)> = (0..100_000).map(|k| (f64::from(k), 0.0)).collect();
+        points[31_415].1 = 7.0;
+        points[27_182].1 = -3.0;
+        let kept = thinned(&points, (0.0, 99_999.0), 1000);
+        assert!(kept.len() <= 4000);
+        assert!(kept.contains(&(31_415.0, 7.0)) && kept.contains(&(27_182.0, -3.0)));
+        assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[99_999]));
+        assert!(kept.is_sorted_by(|a, b| a.0 < b.0));
+    }
+
+    #[test]
+    fn odd_data_is_drawn_or_refused_but_never_panics() {
+        let chart = |points: Vec<(f64, f64)>| Chart {
+            panels: vec![Panel { series: vec![Series::line("x", points)], ..Panel::default() }],
+            ..Chart::default()
+        };
+        assert!(matches!(chart(vec![]).to_svg(), Err(ChartError::Empty(_))));
+        assert!(matches!(chart(vec![(0.0, f64::NAN)]).to_svg(), Err(ChartError::Empty(_))));
+        for points in [
+            vec![(0.0, 0.0)],
+            vec![(5.0, 1e300), (6.0, 1e300)],
+            vec![(0.0, 1.0), (1.0, f64::INFINITY), (2.0, 1.0 + 1e-16)],
+            vec![(1e-300, -1e-300), (2e-300, 1e-300)],
+            vec![(-1e15, 3.0), (1e15, 4.0)],
+        ] {
+            assert!(chart(points.clone()).to_svg().is_ok(), "{points:?}");
+        }
+    }
+
+    #[test]
+    fn ticks_read_well() {
+        assert_eq!(tick_step((0.0, 90.0), 10), 10.0);
+        assert_eq!(tick_text(-0.1 - 0.2, 0.1), "-0.3");
+        assert_eq!(tick_text(1e-20, 0.5), "0.0");
+        assert_eq!(tick_text(2e-9, 1e-9), "2e-9");
+        assert_eq!(tick_text(1_500_000.0, 500_000.0), "1.5e6");
+        assert_eq!(tick_text(20.0, 10.0), "20");
+    }
+}

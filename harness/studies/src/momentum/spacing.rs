@@ -1,0 +1,73 @@
+//! Statistics of the time between dumps.
+
+use std::fmt;
+
+/// Gaps between consecutive dumps, in days.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spacing {
+    /// Shortest gap.
+    pub closest_d: Option<f64>,
+    /// Longest gap.
+    pub farthest_d: Option<f64>,
+    /// Where the middle half of the gaps lies.
+    pub typical_d: Option<(f64, f64)>,
+    /// Whether the mission's five days are violated.
+    pub closer_than_five_days: bool,
+    dumps: usize,
+}
+
+impl Spacing {
+    /// Of rising dump times, in days.
+    pub fn of(dumps_d: &[f64]) -> Self {
+        let mut gaps_d: Vec<f64> = dumps_d.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        gaps_d.sort_by(f64::total_cmp);
+        let quantile = |fraction: f64| {
+            let last = gaps_d.len().checked_sub(1)?;
+            let at = fraction * last as f64;
+            let below = gaps_d[at.floor() as usize];
+            Some(below + (gaps_d[at.ceil() as usize] - below) * at.fract())
+        };
+        Self {
+            closest_d: gaps_d.first().copied(),
+            farthest_d: gaps_d.last().copied(),
+            typical_d: quantile(0.25).zip(quantile(0.75)),
+            closer_than_five_days: gaps_d.first().is_some_and(|&gap_d| gap_d < 5.0),
+            dumps: dumps_d.len(),
+        }
+    }
+}
+
+impl fmt::Display for Spacing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.closest_d, self.farthest_d, self.typical_d) {
+            (Some(closest), Some(farthest), Some((low, high))) if self.dumps > 2 => {
+                write!(f, "closest {closest:.1} d, farthest {farthest:.1} d, typical {low:.0}-{high:.0} d")
+            }
+            (Some(closest), ..) => write!(f, "2, {closest:.0} d apart"),
+            _ => write!(f, "{} in 90 d", self.dumps),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Quartiles of gaps written out by hand.
+    use super::*;
+
+    #[test]
+    fn gaps_of_a_known_list() {
+        let spacing = Spacing::of(&[1.0, 5.0, 15.0, 17.0, 37.0, 43.0]);
+        assert_eq!(spacing.closest_d, Some(2.0));
+        assert_eq!(spacing.farthest_d, Some(20.0));
+        assert_eq!(spacing.typical_d, Some((4.0, 10.0)));
+        assert!(spacing.closer_than_five_days);
+        assert_eq!(spacing.to_string(), "closest 2.0 d, farthest 20.0 d, typical 4-10 d");
+    }
+
+    #[test]
+    fn one_or_no_dump_has_no_gap() {
+        assert_eq!(Spacing::of(&[]).to_string(), "0 in 90 d");
+        assert_eq!(Spacing::of(&[3.0]).to_string(), "1 in 90 d");
+        assert_eq!(Spacing::of(&[3.0, 58.0]).to_string(), "2, 55 d apart");
+    }
+}

@@ -1,0 +1,215 @@
+//! Figures 6 and 7: nutation in star tracker samples, and how long it takes to show.
+
+use core::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use super::flight::{Case, RATIO, left, open};
+use crate::chart::{Chart, Panel, Series};
+use crate::{Options, Report, StudyError};
+
+/// Nutation of the figure, in rad.
+const NUTATION_RAD: f64 = 0.02 * PI / 180.0;
+const SAMPLINGS: [(&str, i32); 2] = [("clock, every 96 s", 2), ("every 8 spins", 1)];
+
+/// Figure 6.
+pub fn figure6(options: &Options) -> Result<Report, StudyError> {
+    let wanted = left("spin/figure6", options, SAMPLINGS.iter().map(|(label, _)| *label))?;
+    let fmu = open(options)?;
+    let mut report = Report::default();
+    report.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
+    let (mut rows, mut csv, mut panels) = (Vec::new(), Vec::new(), Vec::new());
+    for (label, number) in SAMPLINGS.iter().filter(|(label, _)| wanted.contains(label)) {
+        let case = Case::new(*label, 14_400.0, 0.5)
+            .integer("burn.plan", 4)
+            .real("initial.nutation", NUTATION_RAD)
+            .integer("starTracker.sampling", *number);
+        let names = [
+            "starTracker.declinationTrue",
+            "starTracker.sampleTime",
+            "starTracker.declination",
+            "starTracker.nutation",
+            "starTracker.nutationSigma",
+        ];
+        let flown = case.fly(&fmu, &names)?;
+        let (times, exact) = (&flown.times_s, &flown.columns[0]);
+        let mean = exact.iter().sum::<f64>() / exact.len() as f64;
+        // Where a sample has just come: the true declination there, and what the tracker said.
+        let samples: Vec<(f64, f64, f64)> = (1..times.len())
+            .filter(|&i| flown.columns[1][i] != flown.columns[1][i - 1] && flown.columns[1][i] >= 0.0)
+            .map(|i| (flown.columns[1][i], exact[i], flown.columns[2][i]))
+            .collect();
+        let first: Vec<_> = samples.iter().take(8).collect();
+        let span = match (first.first(), first.last()) {
+            (Some(a), Some(b)) => (b.0 - a.0) / 60.0,
+            _ => f64::NAN,
+        };
+        rows.push(vec![
+            (*label).to_owned(),
+            "11.2 min".to_owned(),
+            format!("{span:.2} min"),
+            "span of 8 samples".to_owned(),
+        ]);
+        rows.push(vec![
+            format!("{label}: nutation from the samples of 4 h"),
+            "0.02 deg (set)".to_owned(),
+            format!("{:.4} +- {:.4} deg", flown.last(3).to_degrees(), flown.last(4).to_degrees()),
+            verdict((flown.last(3) - NUTATION_RAD).abs() < 3.0 * flown.last(4)),
+        ]);
+        csv.extend(samples.iter().map(|(time_s, exact, measured)| {
+            vec![
+                (*label).to_owned(),
+                format!("{time_s:.6}"),
+                format!("{:.9}", exact.to_degrees()),
+                format!("{:.9}", measured.to_degrees()),
+            ]
+        }));
+        let until = |time_s: f64| time_s <= 800.0;
+        panels.push(Panel {
+            y_label: "declination - mean [deg]".to_owned(),
+            series: vec![
+                Series::line(
+                    format!("{label}: true"),
+                    times
+                        .iter()
+                        .zip(exact)
+                        .filter(|(t, _)| until(**t))
+                        .map(|(t, d)| (*t, (d - mean).to_degrees()))
+                        .collect(),
+                ),
+                Series::dots(
+                    "where sampled",
+                    samples.iter().filter(|s| until(s.0)).map(|s| (s.0, (s.1 - mean).to_degrees())).collect(),
+                ),
+            ],
+            y_range: Some((-0.03, 0.03)),
+            marks: Vec::new(),
+        });
+    }
+    report.table(&["sampling", "paper", "ours", "verdict"], &rows);
+    report.line(
+        "The declination swings by the nutation angle either way: the paper's \"amplitude twice the nutation angle\" is \
+         peak to peak.",
+    );
+    report.csv(options, "figure6.csv", &["sampling", "time_s", "true_deg", "measured_deg"], csv)?;
+    let chart = Chart {
+        title: format!("Star declination, 0.02 deg nutation, ratio {RATIO}, 5 rpm"),
+        x_label: "time [s]".to_owned(),
+        panels,
+    };
+    report.picture(options, "figure6.svg", &chart)?;
+    Ok(report)
+}
+
+/// One point of Figure 7's map, times in min.
+struct Point {
+    rate_rpm: f64,
+    ratio: f64,
+    eq20_min: f64,
+    clock_min: f64,
+    spins_min: f64,
+}
+
+/// Figure 7.
+pub fn figure7(options: &Options) -> Result<Report, StudyError> {
+    let ratios: Vec<f64> = (0..24).map(|i| 1.4715 + 0.001 * f64::from(i) * 22.5 / 23.0).collect();
+    let labels: Vec<String> = ratios.iter().map(|ratio| format!("ratio {ratio:.4}")).collect();
+    let wanted = left("spin/figure7", options, labels.iter().map(String::as_str))?;
+    let fmu = open(options)?;
+    let grid: Vec<(usize, f64)> = (0..ratios.len())
+        .filter(|&i| wanted.contains(&labels[i].as_str()))
+        .flat_map(|i| (0..40).map(move |j| (i, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0)))
+        .collect();
+    let points: Vec<Point> = grid
+        .par_iter()
+        .map(|&(i, rate_rpm)| {
+            let time = |number: i32| {
+                Case::new(&labels[i], 1.0, 1.0)
+                    .ratio(ratios[i])
+                    .integer("burn.plan", 4)
+                    .real("spin.initialRate", rate_rpm * PI / 30.0)
+                    .integer("starTracker.sampling", number)
+                    .fly(&fmu, &["starTracker.observationTime", "starTracker.observationTimeEq20"])
+            };
+            let (clock, spins) = (time(2)?, time(1)?);
+            Ok(Point {
+                rate_rpm,
+                ratio: ratios[i],
+                eq20_min: clock.last(1) / 60.0,
+                clock_min: clock.last(0) / 60.0,
+                spins_min: spins.last(0) / 60.0,
+            })
+        })
+        .collect::<Result<_, StudyError>>()?;
+    let mut report = Report::default();
+    report.line("Time to see the full range of declinations over spin rate and ratio (paper 002, Figure 7)");
+    let percent = |time: fn(&Point) -> f64| {
+        let slow = points.iter().filter(|point| time(point) > 30.0).count();
+        100.0 * slow as f64 / points.len() as f64
+    };
+    let share = |time| format!("{:.1} %", percent(time));
+    report.table(
+        &["beyond 30 min", "paper", "ours", "verdict"],
+        &[
+            vec![
+                "eq 20".into(),
+                "about 20 %".into(),
+                share(|p| p.eq20_min),
+                verdict((percent(|p| p.eq20_min) - 20.0).abs() < 2.0),
+            ],
+            vec![
+                "exact, clock samples every 96 s".into(),
+                "-".into(),
+                share(|p| p.clock_min),
+                "what eq 20 approximates".into(),
+            ],
+            vec![
+                "exact, samples every 8 spins".into(),
+                "-".into(),
+                share(|p| p.spins_min),
+                "the spin rate drops out but for the length of a spin".into(),
+            ],
+        ],
+    );
+    report.csv(
+        options,
+        "figure7.csv",
+        &["spin_rate_rpm", "ratio", "eq20_min", "clock_min", "spins_min"],
+        points.iter().map(|p| {
+            vec![
+                format!("{:.4}", p.rate_rpm),
+                format!("{:.6}", p.ratio),
+                format!("{:.6}", p.eq20_min),
+                format!("{:.6}", p.clock_min),
+                format!("{:.6}", p.spins_min),
+            ]
+        }),
+    )?;
+    let mut shown: Vec<usize> = grid.iter().map(|(i, _)| *i).collect();
+    shown.dedup();
+    let panel = |y_label: &str, time: fn(&Point) -> f64| Panel {
+        y_label: y_label.to_owned(),
+        series: shown
+            .iter()
+            .step_by((shown.len() / 4).max(1))
+            .map(|&i| {
+                let line =
+                    points.iter().filter(|p| p.ratio == ratios[i]).map(|p| (p.rate_rpm, time(p).min(30.0)));
+                Series::line(labels[i].clone(), line.collect())
+            })
+            .collect(),
+        y_range: Some((0.0, 31.0)),
+        marks: vec![30.0],
+    };
+    let chart = Chart {
+        title: "Nutation observation time, cut at 30 min".to_owned(),
+        x_label: "spin rate [rpm]".to_owned(),
+        panels: vec![panel("eq 20 [min]", |p| p.eq20_min), panel("every 8 spins [min]", |p| p.spins_min)],
+    };
+    report.picture(options, "figure7.svg", &chart)?;
+    Ok(report)
+}
+
+fn verdict(agrees: bool) -> String {
+    if agrees { "agrees".to_owned() } else { "off".to_owned() }
+}

@@ -1,0 +1,252 @@
+//! One flight: `MomentumPlant` flies the orbit in the paper's attitude, `DisturbanceTorque` feels light and heat.
+
+use loader::{Fmu, Instance, InstanceOptions, Value};
+
+use crate::{Options, StudyError};
+
+/// Mercury's sidereal revolution by the paper's semi-major axis, in s.
+pub const MERCURY_YEAR_S: f64 = 7_600_714.0;
+
+/// Revolution of the spacecraft by Table 3, in s.
+pub const ORBIT_S: f64 = 43_446.6;
+
+/// How the planet moves during a flight, and how its shadow falls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Planet {
+    /// It stands still and casts a cylindrical shadow: the paper's analytical model.
+    Still,
+    /// It goes round the Sun, and no light comes as soon as the discs touch: the paper's numerical model.
+    Moving,
+}
+
+/// What is flown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// Mercury's true anomaly at the start, in deg.
+    pub true_anomaly_deg: f64,
+    /// The planet.
+    pub planet: Planet,
+    /// Length, in s.
+    pub duration_s: f64,
+    /// Communication step, in s.
+    pub step_s: f64,
+}
+
+/// Accelerations at one time, in m/s2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time from the start, in s.
+    pub time_s: f64,
+    /// Mercury's true anomaly, in deg, counted on beyond 360.
+    pub true_anomaly_deg: f64,
+    /// Whether the Sun shines.
+    pub lit: bool,
+    /// Solar, albedo, infrared, thermal: magnitudes.
+    pub effects: [f64; 4],
+    /// Magnitude of the vector sum.
+    pub total: f64,
+    /// Magnitude of the vector sum without solar.
+    pub without_solar: f64,
+}
+
+/// Names of the effects in [`Sample::effects`].
+pub const EFFECTS: [&str; 4] = ["solar", "albedo", "infrared", "thermal"];
+
+type Vector = [f64; 3];
+
+/// Both FMUs.
+pub struct Fleet {
+    plant: Fmu,
+    disturbance: Fmu,
+}
+
+impl Fleet {
+    /// Opens both in the folder `options` names.
+    pub fn open(options: &Options) -> Result<Self, StudyError> {
+        let open = |file: &str| {
+            let path = options.dist.join(file);
+            Fmu::open(&path).map_err(|error| failed(&path.display().to_string(), error))
+        };
+        Ok(Self { plant: open("MomentumPlant.fmu")?, disturbance: open("DisturbanceTorque.fmu")? })
+    }
+
+    /// Flies one case.
+    pub fn fly(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
+        let label = format!("Mercury at {} deg", case.true_anomaly_deg);
+        let fail = |error: loader::Error| failed(&label, error);
+        let route = self.route(case, &label)?;
+        let mut felt = Felt::start(&self.disturbance, case).map_err(fail)?;
+        let mut samples = Vec::with_capacity(route.len());
+        let mut turned = Turned::default();
+        for leg in &route {
+            let true_anomaly_deg = case.true_anomaly_deg + turned.to(&leg.planet_m).to_degrees();
+            samples.push(felt.at(leg, true_anomaly_deg).map_err(fail)?);
+        }
+        Ok(samples)
+    }
+
+    /// Where everything is at every communication point.
+    fn route(&self, case: &Case, label: &str) -> Result<Vec<Leg>, StudyError> {
+        let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));
+        let choice = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
+        let vectors = [("position", 3), ("heliocentric.position", 3), ("attitude.q", 4)];
+        let names: Vec<String> = vectors
+            .iter()
+            .flat_map(|(name, count)| (1..=*count).map(move |i| format!("{name}[{i}]")))
+            .chain(["mass".to_owned()])
+            .collect();
+        let options = loader::Options {
+            stop_s: Some(case.duration_s),
+            step_s: Some(case.step_s),
+            sets: vec![
+                choice("guided.scienceRule", 3),
+                choice("guided.downlinkEvery", 0),
+                choice("ephemeris.source", 2),
+                real("ephemeris.trueAnomaly", case.true_anomaly_deg.to_radians()),
+                choice("orbit.frame", 1),
+                real("orbit.semiMajorAxis", 10_175_000.0),
+                choice("eclipse.model", 4),
+            ],
+            record: Some(names.iter().filter_map(|name| self.plant.position(name)).collect()),
+            ..loader::Options::default()
+        };
+        let flight = loader::simulate(&self.plant, options).map_err(|stopped| failed(label, *stopped))?;
+        let recording = flight.recording;
+        let columns: Vec<Vec<f64>> = names
+            .iter()
+            .map(|name| {
+                let column = recording.column(name).map(loader::Column::numbers);
+                column.ok_or_else(|| StudyError::Flight {
+                    case: label.to_owned(),
+                    source: format!("MomentumPlant has no variable {name}").into(),
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        let mut legs: Vec<Leg> = recording
+            .times_s
+            .iter()
+            .enumerate()
+            .map(|(row, &time_s)| {
+                let value = |column: usize| columns[column][row];
+                let position_m = [0, 1, 2].map(value);
+                let heliocentric_m = [3, 4, 5].map(value);
+                let planet_m = [0, 1, 2].map(|i| heliocentric_m[i] - position_m[i]);
+                Leg { time_s, position_m, planet_m, q: [6, 7, 8, 9].map(value), mass_kg: value(10) }
+            })
+            .collect();
+        if let (Planet::Still, Some(first)) = (case.planet, legs.first().copied()) {
+            for leg in &mut legs {
+                *leg = Leg { planet_m: first.planet_m, q: first.q, ..*leg };
+            }
+        }
+        Ok(legs)
+    }
+}
+
+/// One communication point of the route, in EME2000.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    time_s: f64,
+    /// Spacecraft from the planet's centre.
+    position_m: Vector,
+    /// Planet from the Sun.
+    planet_m: Vector,
+    /// EME2000 to body, scalar last.
+    q: [f64; 4],
+    mass_kg: f64,
+}
+
+/// How far the planet has gone round.
+#[derive(Default)]
+struct Turned {
+    angle_rad: f64,
+    last: Option<Vector>,
+}
+
+impl Turned {
+    fn to(&mut self, planet_m: &Vector) -> f64 {
+        if let Some(last) = self.last.replace(*planet_m) {
+            let across = cross(&last, planet_m);
+            self.angle_rad += dot(&across, &across).sqrt().atan2(dot(&last, planet_m));
+        }
+        self.angle_rad
+    }
+}
+
+/// `DisturbanceTorque` in flight.
+struct Felt {
+    instance: Instance,
+    inputs: Vec<u32>,
+    outputs: Vec<u32>,
+    step_s: f64,
+    steps: u32,
+}
+
+impl Felt {
+    fn start(fmu: &Fmu, case: &Case) -> Result<Self, loader::Error> {
+        let mut instance = fmu.instantiate("felt", &InstanceOptions::default())?;
+        let eclipse = if case.planet == Planet::Still { 3 } else { 2 };
+        instance.set("eclipse.model", &Value::Integer(eclipse))?;
+        instance.setup_experiment(None, 0.0, None)?;
+        instance.enter_initialization_mode()?;
+        instance.exit_initialization_mode()?;
+        let reference = |name: String| fmu.variable(&name).map(|variable| variable.value_reference);
+        let vector = |name: &str| (1..=3).map(|i| format!("{name}[{i}]")).collect::<Vec<_>>();
+        let inputs = ["sun.position", "planet.position"].iter().flat_map(|name| vector(name));
+        let outputs = EFFECTS.iter().flat_map(|effect| vector(&format!("force.{effect}")));
+        Ok(Self {
+            inputs: inputs.map(reference).collect::<Result<_, _>>()?,
+            outputs: outputs
+                .chain(["sun.litFraction".to_owned()])
+                .map(reference)
+                .collect::<Result<_, _>>()?,
+            instance,
+            step_s: case.step_s,
+            steps: 0,
+        })
+    }
+
+    fn at(&mut self, leg: &Leg, true_anomaly_deg: f64) -> Result<Sample, loader::Error> {
+        let to_sun = [0, 1, 2].map(|i| -leg.planet_m[i] - leg.position_m[i]);
+        let [sun, planet] = [to_sun, leg.position_m.map(|x| -x)].map(|v| turn(&leg.q, &v));
+        let inputs: Vec<f64> = sun.into_iter().chain(planet).collect();
+        self.instance.set_reals(&self.inputs, &inputs)?;
+        self.instance.do_step(f64::from(self.steps) * self.step_s, self.step_s, true)?;
+        self.steps += 1;
+        let mut outputs = [0.0; 13];
+        self.instance.get_reals(&self.outputs, &mut outputs)?;
+        let effect = |index: usize| -> Vector { [0, 1, 2].map(|i| outputs[3 * index + i] / leg.mass_kg) };
+        let sum = |effects: &[usize]| {
+            let vector = [0, 1, 2].map(|i| effects.iter().map(|&k| effect(k)[i]).sum::<f64>());
+            dot(&vector, &vector).sqrt()
+        };
+        Ok(Sample {
+            time_s: leg.time_s,
+            true_anomaly_deg,
+            lit: outputs[12] > 0.0,
+            effects: [0, 1, 2, 3].map(|k| sum(&[k])),
+            total: sum(&[0, 1, 2, 3]),
+            without_solar: sum(&[1, 2, 3]),
+        })
+    }
+}
+
+/// Components in the body frame: passive rotation by a scalar-last quaternion.
+fn turn(q: &[f64; 4], v: &Vector) -> Vector {
+    let axis = [q[0], q[1], q[2]];
+    let t = cross(&axis, v).map(|x| 2.0 * x);
+    let tt = cross(&axis, &t);
+    [0, 1, 2].map(|i| v[i] - q[3] * t[i] + tt[i])
+}
+
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: &Vector, b: &Vector) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn failed(case: &str, source: impl std::error::Error + Send + Sync + 'static) -> StudyError {
+    StudyError::Flight { case: case.to_owned(), source: Box::new(source) }
+}

@@ -1,0 +1,45 @@
+//! What paper 004 prints in its Tables 7 and 8.
+
+/// One row: solar acceleration in 1e-7 m/s2, the rest in % of it; (greatest, least).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Case number.
+    pub case: u32,
+    /// Mercury's true anomaly at the start, in deg.
+    pub true_anomaly_deg: f64,
+    /// Solar.
+    pub solar: f64,
+    /// Albedo.
+    pub albedo: (f64, f64),
+    /// Infrared.
+    pub infrared: (f64, f64),
+    /// Thermal recoil.
+    pub thermal: (f64, f64),
+}
+
+const fn row(
+    case: u32,
+    true_anomaly_deg: f64,
+    solar: f64,
+    albedo: (f64, f64),
+    infrared: (f64, f64),
+    thermal: (f64, f64),
+) -> Row {
+    Row { case, true_anomaly_deg, solar, albedo, infrared, thermal }
+}
+
+/// Table 7, the analytical model.
+pub const TABLE_7: [Row; 4] = [
+    row(1, 10.0, 8.45, (0.32, 0.02), (6.68, 0.18), (25.60, 23.44)),
+    row(2, 98.0, 5.51, (2.37, 0.00), (14.10, 0.01), (23.24, 18.80)),
+    row(3, 189.0, 3.71, (0.95, 0.01), (19.24, 0.14), (19.99, 18.81)),
+    row(4, 279.0, 6.22, (6.45, 0.00), (26.79, 0.00), (24.05, 17.93)),
+];
+
+/// Table 8, the numerical model; the solar column's maximum.
+pub const TABLE_8: [Row; 4] = [
+    row(1, 10.0, 8.45, (0.20, 0.00), (3.66, 0.17), (23.78, 23.31)),
+    row(2, 98.0, 5.51, (4.40, 0.00), (25.22, 0.02), (20.43, 18.46)),
+    row(3, 189.0, 3.72, (0.77, 0.01), (17.56, 0.08), (18.97, 16.89)),
+    row(4, 279.0, 6.33, (6.11, 0.00), (25.70, 0.00), (21.33, 17.74)),
+];

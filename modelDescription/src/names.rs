@@ -1,0 +1,147 @@
+//! Names: the structured naming convention (2.2.9) and C identifiers.
+
+/// Whether `name` may be a `modelIdentifier`: letters, digits and `_`, not starting with a digit.
+pub fn is_c_identifier(name: &str) -> bool {
+    let mut bytes = name.bytes();
+    bytes.next().is_some_and(is_nondigit) && bytes.all(|b| is_nondigit(b) || b.is_ascii_digit())
+}
+
+/// Checks a variable name against the grammar of `variableNamingConvention="structured"`:
+///
+/// ```text
+/// name         = identifier | "der(" identifier [ "," unsigned ] ")"
+/// identifier   = b-name [ indices ] { "." b-name [ indices ] }
+/// b-name       = nondigit { digit | nondigit } | "'" q-char-or-escape { q-char-or-escape } "'"
+/// indices      = "[" unsigned { "," unsigned } "]"
+/// ```
+///
+/// The error says at which character (1-based) what was found and what may stand there.
+pub fn check_structured(name: &str) -> Result<(), String> {
+    let mut scan = Scan { name, at: 0 };
+    if name.starts_with("der(") {
+        scan.at = "der(".len();
+        scan.identifier()?;
+        if scan.take(b',') {
+            scan.unsigned()?;
+        }
+        if !scan.take(b')') {
+            return Err(scan.error("`.`, `[`, `,` or `)`"));
+        }
+        return if scan.at == name.len() { Ok(()) } else { Err(scan.error("the end of the name")) };
+    }
+    scan.identifier()?;
+    if scan.at == name.len() { Ok(()) } else { Err(scan.error("a letter, digit, `_`, `.` or `[`")) }
+}
+
+/// Checks a name of the flat convention: not empty, no carriage return, line feed or tab.
+pub fn check_flat(name: &str) -> Result<(), String> {
+    if name.is_empty() {
+        return Err("is empty; a name needs at least one character".to_owned());
+    }
+    match name.chars().position(|c| matches!(c, '\r' | '\n' | '\t')) {
+        Some(position) => {
+            Err(format!("holds a line break or tab at character {}; these are not allowed", position + 1))
+        }
+        None => Ok(()),
+    }
+}
+
+struct Scan<'a> {
+    name: &'a str,
+    at: usize,
+}
+
+impl Scan<'_> {
+    fn peek(&self) -> Option<u8> {
+        self.name.as_bytes().get(self.at).copied()
+    }
+
+    fn take(&mut self, wanted: u8) -> bool {
+        let found = self.peek() == Some(wanted);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn take_while(&mut self, allowed: impl Fn(u8) -> bool) -> bool {
+        let start = self.at;
+        while self.peek().is_some_and(&allowed) {
+            self.at += 1;
+        }
+        self.at > start
+    }
+
+    fn identifier(&mut self) -> Result<(), String> {
+        loop {
+            self.b_name()?;
+            if self.take(b'[') {
+                self.indices()?;
+            }
+            if !self.take(b'.') {
+                return Ok(());
+            }
+        }
+    }
+
+    fn b_name(&mut self) -> Result<(), String> {
+        if self.take(b'\'') {
+            return self.quoted();
+        }
+        if !self.peek().is_some_and(is_nondigit) {
+            return Err(self.error("a letter, `_` or `'`"));
+        }
+        self.take_while(|b| is_nondigit(b) || b.is_ascii_digit());
+        Ok(())
+    }
+
+    fn quoted(&mut self) -> Result<(), String> {
+        let start = self.at;
+        loop {
+            if self.take_while(is_q_char) {
+                continue;
+            }
+            if self.take(b'\\') {
+                if !self.peek().is_some_and(|b| b"'\"?\\abfnrtv".contains(&b)) {
+                    return Err(self.error("one of ' \" ? \\ a b f n r t v after the backslash"));
+                }
+                self.at += 1;
+                continue;
+            }
+            if self.at == start || !self.take(b'\'') {
+                return Err(self.error("a printable ASCII character or the closing `'`"));
+            }
+            return Ok(());
+        }
+    }
+
+    fn indices(&mut self) -> Result<(), String> {
+        loop {
+            self.unsigned()?;
+            if self.take(b']') {
+                return Ok(());
+            }
+            if !self.take(b',') {
+                return Err(self.error("a digit, `,` or `]`"));
+            }
+        }
+    }
+
+    fn unsigned(&mut self) -> Result<(), String> {
+        if self.take_while(|b| b.is_ascii_digit()) { Ok(()) } else { Err(self.error("a digit")) }
+    }
+
+    fn error(&self, allowed: &str) -> String {
+        // Everything taken is ASCII, so `at` is a character boundary and counts characters.
+        match self.name.get(self.at..).and_then(|rest| rest.chars().next()) {
+            Some(found) => format!("has {found:?} at character {}; allowed is {allowed}", self.at + 1),
+            None => format!("ends after {} characters; allowed is {allowed}", self.at),
+        }
+    }
+}
+
+fn is_nondigit(byte: u8) -> bool {
+    byte.is_ascii_alphabetic() || byte == b'_'
+}
+
+fn is_q_char(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || b"_!#$%&()*+,-./:;<>=?@[]^{}|~ ".contains(&byte)
+}

@@ -1,0 +1,239 @@
+//! Reads `modelDescription.xml` (feature `reader`).
+//!
+//! Everything that the schema allows is read; unknown elements and attributes give warnings. What cannot be
+//! represented (a missing required attribute, a value of the wrong type) is an error with line and element.
+//! The input may be hostile: size, depth and attribute count are bounded, entities are never expanded, and
+//! time grows linearly with size.
+
+mod definitions;
+mod fields;
+mod variables;
+mod xml;
+
+use core::fmt;
+
+use crate::finding::{Code, Finding, Lines};
+use crate::{Description, NamingConvention, validate};
+
+use fields::{Fields, words};
+use xml::{Start, Xml};
+
+/// What was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parsed {
+    /// The content.
+    pub description: Description,
+    /// What the reader lived with: unknown XML, wrong order of elements.
+    pub warnings: Vec<Finding>,
+    /// Where the elements stand.
+    pub lines: Lines,
+}
+
+impl Parsed {
+    /// The reader's warnings and everything the validator finds, with lines, ordered by line.
+    pub fn findings(&self) -> Vec<Finding> {
+        let mut all = self.warnings.clone();
+        all.extend(validate::with_lines(&self.description, &self.lines));
+        all.sort_by_key(|finding| finding.line);
+        all
+    }
+}
+
+/// Why a file cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError {
+    /// Which rule is broken.
+    pub code: Code,
+    /// Line, 1-based.
+    pub line: u32,
+    /// The element, empty where there is none.
+    pub element: String,
+    /// What was found and what is allowed.
+    pub message: String,
+}
+
+impl ReadError {
+    fn new(code: Code, line: u32, element: &str, message: String) -> Self {
+        Self { code, line, element: element.to_owned(), message }
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "line {}: ", self.line)?;
+        if !self.element.is_empty() {
+            write!(formatter, "<{}>: ", self.element)?;
+        }
+        formatter.write_str(&self.message)
+    }
+}
+
+impl core::error::Error for ReadError {}
+
+impl From<ReadError> for Finding {
+    fn from(error: ReadError) -> Self {
+        let subject =
+            if error.element.is_empty() { "file".to_owned() } else { format!("<{}>", error.element) };
+        Self { code: error.code, subject, line: Some(error.line), message: error.message }
+    }
+}
+
+/// The children of the root in schema order; those marked are required.
+const SECTIONS: &[(&str, bool)] = &[
+    ("ModelExchange", false),
+    ("CoSimulation", false),
+    ("UnitDefinitions", false),
+    ("TypeDefinitions", false),
+    ("LogCategories", false),
+    ("DefaultExperiment", false),
+    ("VendorAnnotations", false),
+    ("ModelVariables", true),
+    ("ModelStructure", true),
+];
+
+/// Reads the bytes of a `modelDescription.xml` of FMI 2.0, co-simulation or model exchange.
+///
+/// # Errors
+/// Not UTF-8, not well-formed, not FMI 2.0, required elements or attributes missing, elements twice, values
+/// of the wrong type, or larger than any real file.
+pub fn parse(bytes: &[u8]) -> Result<Parsed, ReadError> {
+    let mut read =
+        Read { xml: Xml::new(bytes)?, description: Description::default(), lines: Lines::default() };
+    let mut root = read.xml.root()?;
+    read.root_attributes(&mut root)?;
+    read.sections(&root)?;
+    Ok(Parsed { warnings: read.xml.finish()?, description: read.description, lines: read.lines })
+}
+
+struct Read<'a> {
+    xml: Xml<'a>,
+    description: Description,
+    lines: Lines,
+}
+
+impl Read<'_> {
+    fn root_attributes(&mut self, root: &mut Start) -> Result<(), ReadError> {
+        if root.name != "fmiModelDescription" {
+            let message = format!("the root element is <{}>; allowed is <fmiModelDescription>", root.name);
+            return Err(ReadError::new(Code::Root, root.line, &root.name, message));
+        }
+        self.lines.root = root.line;
+        let mut fields = Fields::of(root);
+        let version = fields.required("fmiVersion")?;
+        if version != "2.0" {
+            let message = format!("fmiVersion is `{version}`; allowed is `2.0`");
+            return Err(ReadError::new(Code::Version, root.line, &root.name, message));
+        }
+        let description = &mut self.description;
+        description.model_name = fields.required("modelName")?;
+        description.guid = fields.required("guid")?;
+        description.description = fields.text("description");
+        description.author = fields.text("author");
+        description.version = fields.text("version");
+        description.copyright = fields.text("copyright");
+        description.license = fields.text("license");
+        description.generation_tool = fields.text("generationTool");
+        description.generation_date_and_time = fields.text("generationDateAndTime");
+        let allowed = words(NamingConvention::ALL, NamingConvention::as_str);
+        description.variable_naming = fields
+            .value("variableNamingConvention", &allowed, NamingConvention::from_word)?
+            .unwrap_or_default();
+        description.number_of_event_indicators = fields.unsigned("numberOfEventIndicators")?;
+        fields.finish(&mut self.xml);
+        Ok(())
+    }
+
+    fn sections(&mut self, root: &Start) -> Result<(), ReadError> {
+        let mut seen = [false; SECTIONS.len()];
+        let mut last = 0;
+        while let Some(mut start) = self.xml.child(root)? {
+            let Some(rank) = SECTIONS.iter().position(|(name, _)| *name == start.name) else {
+                self.unknown(&start)?;
+                continue;
+            };
+            if seen[rank] {
+                return Err(twice(&start));
+            }
+            seen[rank] = true;
+            // Either of ModelExchange and CoSimulation may come first.
+            if rank < last && last > 1 {
+                let message = format!("stands after <{}>; the schema wants it before", SECTIONS[last].0);
+                self.xml.warn(Code::ElementOrder, start.line, &start.name, message);
+            }
+            last = last.max(rank);
+            self.section(&mut start)?;
+        }
+        for ((name, required), seen) in SECTIONS.iter().zip(seen) {
+            if *required && !seen {
+                return Err(lacks(root, name));
+            }
+        }
+        Ok(())
+    }
+
+    fn section(&mut self, start: &mut Start) -> Result<(), ReadError> {
+        match start.name.as_str() {
+            "ModelExchange" => self.model_exchange(start),
+            "CoSimulation" => self.co_simulation(start),
+            "UnitDefinitions" => self.list(start, "Unit", Self::unit),
+            "TypeDefinitions" => self.list(start, "SimpleType", Self::simple_type),
+            "LogCategories" => self.list(start, "Category", Self::category),
+            "DefaultExperiment" => self.default_experiment(start),
+            "VendorAnnotations" => self.annotations(start),
+            "ModelVariables" => {
+                self.lines.model_variables = start.line;
+                self.list(start, "ScalarVariable", Self::variable)
+            }
+            _ => self.structure(start),
+        }
+    }
+
+    /// Reads every child `name` of `start` with `item`.
+    fn list(
+        &mut self,
+        start: &mut Start,
+        name: &str,
+        mut item: impl FnMut(&mut Self, &mut Start) -> Result<(), ReadError>,
+    ) -> Result<(), ReadError> {
+        Fields::of(start).finish(&mut self.xml);
+        let mut empty = true;
+        while let Some(mut child) = self.xml.child(start)? {
+            if child.name == name {
+                empty = false;
+                item(self, &mut child)?;
+            } else {
+                self.unknown(&child)?;
+            }
+        }
+        // The validator says it of these two.
+        if empty && !matches!(start.name.as_str(), "ModelVariables" | "Enumeration") {
+            let message = format!("has no <{name}>; allowed is at least one, or to leave the list out");
+            self.xml.warn(Code::EmptyList, start.line, &start.name, message);
+        }
+        Ok(())
+    }
+
+    /// Reads past an element that holds nothing FMI knows.
+    fn leaf(&mut self, start: &Start) -> Result<(), ReadError> {
+        while let Some(child) = self.xml.child(start)? {
+            self.unknown(&child)?;
+        }
+        Ok(())
+    }
+
+    fn unknown(&mut self, start: &Start) -> Result<(), ReadError> {
+        let message = "is no element of FMI 2.0 at this place; it is ignored".to_owned();
+        self.xml.warn(Code::UnknownElement, start.line, &start.name, message);
+        self.xml.skip(start)
+    }
+}
+
+fn twice(start: &Start) -> ReadError {
+    let message = "stands a second time; allowed is once".to_owned();
+    ReadError::new(Code::DuplicateElement, start.line, &start.name, message)
+}
+
+fn lacks(parent: &Start, what: &str) -> ReadError {
+    let message = format!("<{what}> is missing; it is required");
+    ReadError::new(Code::MissingElement, parent.line, &parent.name, message)
+}

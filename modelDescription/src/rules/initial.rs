@@ -1,0 +1,121 @@
+//! `initial` and `start` by causality and variability (2.2.7, tables of pages 48 and 49).
+
+use crate::{Causality, Initial, ScalarVariable, Variability, VariableKind};
+
+/// What `initial` may be for one pair of causality and variability.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InitialRule {
+    /// What an absent `initial` means; `None` where the attribute must be absent.
+    pub default: Option<Initial>,
+    /// What may be written; empty where the attribute must be absent.
+    pub allowed: &'static [Initial],
+}
+
+/// One legal pair of causality and variability.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InitialRow {
+    /// Causality.
+    pub causality: Causality,
+    /// Variability.
+    pub variability: Variability,
+    /// What `initial` may be.
+    pub rule: InitialRule,
+}
+
+/// Whether a start value must or must not stand in the XML.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartRule {
+    /// Must be given.
+    Required,
+    /// Must not be given.
+    Forbidden,
+}
+
+/// Every legal pair; a pair that is not here is forbidden.
+pub const INITIAL_TABLE: &[InitialRow] = {
+    use Causality as C;
+    use Variability as V;
+    &[
+        row(C::Parameter, V::Fixed, EXACT),
+        row(C::Parameter, V::Tunable, EXACT),
+        row(C::CalculatedParameter, V::Fixed, CALCULATED_OR_APPROX),
+        row(C::CalculatedParameter, V::Tunable, CALCULATED_OR_APPROX),
+        row(C::Input, V::Discrete, ABSENT),
+        row(C::Input, V::Continuous, ABSENT),
+        row(C::Output, V::Constant, EXACT),
+        row(C::Output, V::Discrete, ANY),
+        row(C::Output, V::Continuous, ANY),
+        row(C::Local, V::Constant, EXACT),
+        row(C::Local, V::Fixed, CALCULATED_OR_APPROX),
+        row(C::Local, V::Tunable, CALCULATED_OR_APPROX),
+        row(C::Local, V::Discrete, ANY),
+        row(C::Local, V::Continuous, ANY),
+        row(C::Independent, V::Continuous, ABSENT),
+    ]
+};
+
+const EXACT: InitialRule = InitialRule { default: Some(Initial::Exact), allowed: &[Initial::Exact] };
+const CALCULATED_OR_APPROX: InitialRule =
+    InitialRule { default: Some(Initial::Calculated), allowed: &[Initial::Approx, Initial::Calculated] };
+const ANY: InitialRule = InitialRule {
+    default: Some(Initial::Calculated),
+    allowed: &[Initial::Exact, Initial::Approx, Initial::Calculated],
+};
+const ABSENT: InitialRule = InitialRule { default: None, allowed: &[] };
+
+const fn row(causality: Causality, variability: Variability, rule: InitialRule) -> InitialRow {
+    InitialRow { causality, variability, rule }
+}
+
+/// The rule for a pair, or `None` where the standard forbids the pair.
+pub fn initial(causality: Causality, variability: Variability) -> Option<InitialRule> {
+    INITIAL_TABLE
+        .iter()
+        .find(|row| row.causality == causality && row.variability == variability)
+        .map(|row| row.rule)
+}
+
+/// The variabilities a causality may have.
+pub fn legal_variabilities(causality: Causality) -> impl Iterator<Item = Variability> {
+    INITIAL_TABLE.iter().filter(move |row| row.causality == causality).map(|row| row.variability)
+}
+
+/// The `initial` that holds: the written one, else the table's default; `None` for inputs, the independent
+/// variable and forbidden pairs.
+pub fn effective(
+    causality: Causality,
+    variability: Variability,
+    written: Option<Initial>,
+) -> Option<Initial> {
+    let rule = initial(causality, variability)?;
+    rule.default.map(|default| written.unwrap_or(default))
+}
+
+/// [`effective`] of a variable.
+pub fn effective_initial(variable: &ScalarVariable) -> Option<Initial> {
+    effective(variable.causality, variable.variability, variable.initial)
+}
+
+/// The rule for `start`: required with exact, approx and inputs, forbidden with calculated and independent.
+/// `effective` is the result of [`effective`]; a forbidden pair counts as forbidden.
+pub fn start(causality: Causality, effective: Option<Initial>) -> StartRule {
+    match (causality, effective) {
+        (Causality::Input, _) | (_, Some(Initial::Exact | Initial::Approx)) => StartRule::Required,
+        _ => StartRule::Forbidden,
+    }
+}
+
+/// Whether the variable must carry a start value; where it need not, it must not.
+pub fn start_required(variable: &ScalarVariable) -> bool {
+    start(variable.causality, effective_initial(variable)) == StartRule::Required
+}
+
+/// Whether the variable carries a start value.
+pub fn has_start(variable: &ScalarVariable) -> bool {
+    match &variable.kind {
+        VariableKind::Real { start, .. } => start.is_some(),
+        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => start.is_some(),
+        VariableKind::Boolean { start, .. } => start.is_some(),
+        VariableKind::String { start, .. } => start.is_some(),
+    }
+}

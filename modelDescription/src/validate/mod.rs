@@ -1,0 +1,178 @@
+//! The validator: every rule of FMI 2.0.5, section 2.2, that a description can break on its own.
+//!
+//! It takes plain values, so that the exporter checks its own declarations with it and the harness any FMU it
+//! has read. Integer and Enumeration variables share one table of value references, as they share
+//! `fmi2GetInteger`.
+
+mod aliases;
+mod definitions;
+mod names;
+mod root;
+mod structure;
+mod variables;
+
+use std::collections::BTreeMap;
+
+use crate::finding::{Code, Finding, Lines};
+use crate::{Description, ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown, VariableKind};
+
+/// Everything that is wrong with the description, section by section.
+pub fn validate(description: &Description) -> Vec<Finding> {
+    with_lines(description, &Lines::default())
+}
+
+/// [`validate`] with the line of each element in its XML.
+pub fn with_lines(description: &Description, lines: &Lines) -> Vec<Finding> {
+    let mut check = Check::new(description, lines);
+    check.root();
+    check.interfaces();
+    check.units();
+    check.types();
+    check.categories();
+    check.experiment();
+    check.variables();
+    check.names();
+    check.aliases();
+    check.structure();
+    check.findings
+}
+
+/// Which element a finding is about; list elements by 0-based position.
+#[derive(Clone, Copy)]
+enum Place {
+    Root,
+    ModelExchange,
+    CoSimulation,
+    Unit(usize),
+    Type(usize),
+    Category(usize),
+    Experiment,
+    Variables,
+    Variable(usize),
+    Output(usize),
+    Derivative(usize),
+    InitialUnknown(usize),
+}
+
+struct Check<'a> {
+    description: &'a Description,
+    lines: &'a Lines,
+    units: BTreeMap<&'a str, &'a Unit>,
+    types: BTreeMap<&'a str, &'a SimpleType>,
+    findings: Vec<Finding>,
+}
+
+impl<'a> Check<'a> {
+    fn new(description: &'a Description, lines: &'a Lines) -> Self {
+        Self {
+            description,
+            lines,
+            units: description.units.iter().map(|unit| (unit.name.as_str(), unit)).collect(),
+            types: description.types.iter().map(|known| (known.name.as_str(), known)).collect(),
+            findings: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, code: Code, place: Place, message: String) {
+        let finding = Finding { code, subject: self.subject(place), line: self.line(place), message };
+        self.findings.push(finding);
+    }
+
+    fn line(&self, place: Place) -> Option<u32> {
+        let lines = self.lines;
+        let at = |list: &[u32], index: usize| list.get(index).copied().unwrap_or(0);
+        let line = match place {
+            Place::Root => lines.root,
+            Place::ModelExchange => lines.model_exchange,
+            Place::CoSimulation => lines.co_simulation,
+            Place::Unit(index) => at(&lines.units, index),
+            Place::Type(index) => at(&lines.types, index),
+            Place::Category(index) => at(&lines.log_categories, index),
+            Place::Experiment => lines.default_experiment,
+            Place::Variables => lines.model_variables,
+            Place::Variable(index) => at(&lines.variables, index),
+            Place::Output(index) => at(&lines.outputs, index),
+            Place::Derivative(index) => at(&lines.derivatives, index),
+            Place::InitialUnknown(index) => at(&lines.initial_unknowns, index),
+        };
+        (line > 0).then_some(line)
+    }
+
+    fn subject(&self, place: Place) -> String {
+        let all = self.description;
+        let named =
+            |what: &str, name: Option<&String>| format!("{what} `{}`", name.map_or("", String::as_str));
+        let entry = |list: &str, unknowns: &[Unknown], at: usize| {
+            let name = unknowns.get(at).and_then(|u| self.variable(u.index)).map(|v| v.name.as_str());
+            match name {
+                Some(name) => format!("ModelStructure/{list} entry {} (`{name}`)", at + 1),
+                None => format!("ModelStructure/{list} entry {}", at + 1),
+            }
+        };
+        match place {
+            Place::Root => "fmiModelDescription".to_owned(),
+            Place::ModelExchange => "ModelExchange".to_owned(),
+            Place::CoSimulation => "CoSimulation".to_owned(),
+            Place::Unit(at) => named("unit", all.units.get(at).map(|unit| &unit.name)),
+            Place::Type(at) => named("type", all.types.get(at).map(|known| &known.name)),
+            Place::Category(at) => named("log category", all.log_categories.get(at).map(|c| &c.name)),
+            Place::Experiment => "DefaultExperiment".to_owned(),
+            Place::Variables => "ModelVariables".to_owned(),
+            Place::Variable(at) => named("variable", all.variables.get(at).map(|v| &v.name)),
+            Place::Output(at) => entry("Outputs", &all.structure.outputs, at),
+            Place::Derivative(at) => entry("Derivatives", &all.structure.derivatives, at),
+            Place::InitialUnknown(at) => entry("InitialUnknowns", &all.structure.initial_unknowns, at),
+        }
+    }
+
+    /// The variable of a 1-based index.
+    fn variable(&self, index: u32) -> Option<&'a ScalarVariable> {
+        self.description.variables.get(index.checked_sub(1)? as usize)
+    }
+
+    /// The declared type of a variable, where it is defined.
+    fn declared(&self, variable: &ScalarVariable) -> Option<&'a SimpleTypeKind> {
+        declared_type(&variable.kind).and_then(|name| self.types.get(name)).map(|known| &known.kind)
+    }
+
+    /// One finding for each name that an earlier element of the list already has.
+    fn unique<'n>(
+        &mut self,
+        code: Code,
+        names: impl Iterator<Item = &'n str>,
+        place: impl Fn(usize) -> Place,
+    ) {
+        let mut seen = BTreeMap::new();
+        for (index, name) in names.enumerate() {
+            if let Some(first) = seen.get(name) {
+                let message = format!("the name `{name}` is already that of entry {first}; allowed is once");
+                self.add(code, place(index), message);
+            } else {
+                seen.insert(name, index + 1);
+            }
+        }
+    }
+}
+
+fn declared_type(kind: &VariableKind) -> Option<&str> {
+    match kind {
+        VariableKind::Real { declared_type, .. }
+        | VariableKind::Integer { declared_type, .. }
+        | VariableKind::Boolean { declared_type, .. }
+        | VariableKind::String { declared_type, .. } => declared_type.as_deref(),
+        VariableKind::Enumeration { declared_type, .. } => Some(declared_type),
+    }
+}
+
+/// Some of many names, for a message.
+fn some_of<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    const SHOWN: usize = 8;
+    let names: Vec<_> = names.collect();
+    let mut text = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    if names.is_empty() {
+        text.push_str("none");
+    } else if names.len() > SHOWN {
+        text.push_str(&format!(" and {} more", names.len() - SHOWN));
+    }
+    text
+}

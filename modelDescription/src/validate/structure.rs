@@ -1,0 +1,213 @@
+//! The model structure: which variables its lists name, and what the dependencies say.
+
+use std::collections::BTreeSet;
+
+use super::{Check, Place, some_of};
+use crate::finding::Code;
+use crate::rules;
+use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, VariableKind};
+
+impl Check<'_> {
+    pub(super) fn structure(&mut self) {
+        let structure = &self.description.structure;
+        self.entries(&structure.outputs, Place::Output);
+        self.entries(&structure.derivatives, Place::Derivative);
+        self.entries(&structure.initial_unknowns, Place::InitialUnknown);
+        self.outputs();
+        self.derivatives();
+        self.initial_unknowns();
+        self.dependencies();
+    }
+
+    /// Index range and duplicates of one list.
+    fn entries(&mut self, unknowns: &[Unknown], place: impl Fn(usize) -> Place) {
+        let mut seen = BTreeSet::new();
+        let count = self.description.variables.len();
+        for (at, unknown) in unknowns.iter().enumerate() {
+            if self.variable(unknown.index).is_none() {
+                let message = format!("index is {}; allowed is 1 to {count}", unknown.index);
+                self.add(Code::StructureIndex, place(at), message);
+            } else if !seen.insert(unknown.index) {
+                let message =
+                    format!("index {} stands in an earlier entry too; allowed is once", unknown.index);
+                self.add(Code::StructureDuplicate, place(at), message);
+            }
+        }
+    }
+
+    fn outputs(&mut self) {
+        let all = self.description;
+        let listed: BTreeSet<u32> = all.structure.outputs.iter().map(|unknown| unknown.index).collect();
+        for index in rules::outputs(&all.variables) {
+            if !listed.contains(&index) {
+                let message = format!("is an output (index {index}) but not in ModelStructure/Outputs");
+                self.add(Code::OutputMissing, Place::Variable(index as usize - 1), message);
+            }
+        }
+        for (at, unknown) in all.structure.outputs.iter().enumerate() {
+            if let Some(variable) = self.variable(unknown.index)
+                && variable.causality != Causality::Output
+            {
+                let message = format!("has causality {}; allowed are outputs", variable.causality);
+                self.add(Code::OutputExtra, Place::Output(at), message);
+            }
+        }
+    }
+
+    fn derivatives(&mut self) {
+        let all = self.description;
+        for (at, unknown) in all.structure.derivatives.iter().enumerate() {
+            if self.variable(unknown.index).is_some_and(|variable| !has_derivative(variable)) {
+                let message = "has no attribute `derivative`; allowed are derivatives of states".to_owned();
+                self.add(Code::DerivativeEntry, Place::Derivative(at), message);
+            }
+        }
+        if all.model_exchange.is_none() {
+            return;
+        }
+        let listed: BTreeSet<u32> = all.structure.derivatives.iter().map(|unknown| unknown.index).collect();
+        for (index, at) in (1..).zip(0..all.variables.len()) {
+            if has_derivative(&all.variables[at]) && !listed.contains(&index) {
+                let message =
+                    format!("is a derivative (index {index}) but not in ModelStructure/Derivatives");
+                self.add(Code::DerivativeUnlisted, Place::Variable(at), message);
+            }
+        }
+    }
+
+    fn initial_unknowns(&mut self) {
+        let all = self.description;
+        let expected = rules::initial_unknowns(&all.variables, &all.structure.derivatives);
+        let list = &all.structure.initial_unknowns;
+        let listed: BTreeSet<u32> = list.iter().map(|unknown| unknown.index).collect();
+        for index in expected.iter().filter(|index| !listed.contains(index)) {
+            let message = format!(
+                "is an unknown of initialization (index {index}) but not in ModelStructure/InitialUnknowns"
+            );
+            self.add(Code::InitialUnknownMissing, Place::Variable(*index as usize - 1), message);
+        }
+        for (at, unknown) in list.iter().enumerate() {
+            let Some(variable) = self.variable(unknown.index) else { continue };
+            if expected.binary_search(&unknown.index).is_err() {
+                let initial = rules::effective_initial(variable).map_or("none", Initial::as_str);
+                let message = format!(
+                    "has causality {} and initial {initial}; allowed are outputs with approx or calculated, \
+                     calculated parameters, and listed derivatives and their states with approx or calculated",
+                    variable.causality
+                );
+                self.add(Code::InitialUnknownExtra, Place::InitialUnknown(at), message);
+            }
+        }
+        for at in 1..list.len() {
+            if list[at].index < list[at - 1].index {
+                let message = format!(
+                    "index {} follows {}; the list must be ordered by index",
+                    list[at].index,
+                    list[at - 1].index
+                );
+                self.add(Code::InitialUnknownOrder, Place::InitialUnknown(at), message);
+            }
+        }
+    }
+
+    fn dependencies(&mut self) {
+        let structure = &self.description.structure;
+        let variables = &self.description.variables;
+        let states: BTreeSet<u32> = variables
+            .iter()
+            .filter_map(|v| match v.kind {
+                VariableKind::Real { derivative, .. } => derivative,
+                _ => None,
+            })
+            .collect();
+        let from_outside =
+            |v: &ScalarVariable| matches!(v.causality, Causality::Input | Causality::Independent);
+        let at_steps = |index: u32, v: &ScalarVariable| from_outside(v) || states.contains(&index);
+        let at_start = |_: u32, v: &ScalarVariable| {
+            from_outside(v) || rules::effective_initial(v) == Some(Initial::Exact)
+        };
+        let step_rule = "inputs, continuous states and the independent variable";
+        let start_rule = "inputs, variables with initial exact and the independent variable";
+        for (at, unknown) in structure.outputs.iter().enumerate() {
+            self.unknown(unknown, Place::Output(at), &at_steps, step_rule);
+        }
+        for (at, unknown) in structure.derivatives.iter().enumerate() {
+            self.unknown(unknown, Place::Derivative(at), &at_steps, step_rule);
+        }
+        for (at, unknown) in structure.initial_unknowns.iter().enumerate() {
+            let place = Place::InitialUnknown(at);
+            self.unknown(unknown, place, &at_start, start_rule);
+            let kinds = unknown.dependencies_kind.as_deref().unwrap_or_default();
+            let bad = kinds
+                .iter()
+                .find(|kind| !matches!(kind, DependencyKind::Dependent | DependencyKind::Constant));
+            if let Some(bad) = bad {
+                let message = format!("dependenciesKind has {bad}; allowed are dependent and constant");
+                self.add(Code::DependencyKindInitial, place, message);
+            }
+        }
+    }
+
+    fn unknown(
+        &mut self,
+        unknown: &Unknown,
+        place: Place,
+        known: &dyn Fn(u32, &ScalarVariable) -> bool,
+        rule: &str,
+    ) {
+        let Some(dependencies) = &unknown.dependencies else {
+            if unknown.dependencies_kind.is_some() {
+                let message =
+                    "has dependenciesKind but no dependencies; allowed is both or neither".to_owned();
+                self.add(Code::DependencyKindAlone, place, message);
+            }
+            return;
+        };
+        let count = self.description.variables.len();
+        if let Some(bad) = dependencies.iter().find(|index| self.variable(**index).is_none()) {
+            let message = format!("dependencies has {bad}; allowed is 1 to {count}");
+            self.add(Code::DependencyIndex, place, message);
+        }
+        if let Some(pair) = dependencies.windows(2).find(|pair| pair[0] >= pair[1]) {
+            let message =
+                format!("dependencies has {} after {}; allowed is ascending order", pair[1], pair[0]);
+            self.add(Code::DependencyOrder, place, message);
+        }
+        let strangers: Vec<&str> = dependencies
+            .iter()
+            .filter_map(|&index| self.variable(index).filter(|v| !known(index, v)))
+            .map(|variable| variable.name.as_str())
+            .collect();
+        if !strangers.is_empty() {
+            let message = format!("dependencies has {}; allowed are {rule}", some_of(strangers.into_iter()));
+            self.add(Code::DependencyKnown, place, message);
+        }
+        self.dependency_kinds(unknown, dependencies, place);
+    }
+
+    fn dependency_kinds(&mut self, unknown: &Unknown, dependencies: &[u32], place: Place) {
+        let Some(kinds) = &unknown.dependencies_kind else { return };
+        if kinds.len() != dependencies.len() {
+            let message = format!(
+                "dependenciesKind has {} entries, dependencies {}; allowed is the same number",
+                kinds.len(),
+                dependencies.len()
+            );
+            self.add(Code::DependencyKindCount, place, message);
+            return;
+        }
+        let real =
+            |index: u32| self.variable(index).is_none_or(|v| matches!(v.kind, VariableKind::Real { .. }));
+        let bad = dependencies.iter().zip(kinds).find(|(index, kind)| {
+            **kind != DependencyKind::Dependent && !(real(**index) && real(unknown.index))
+        });
+        if let Some((index, kind)) = bad {
+            let message = format!("dependenciesKind is {kind} for index {index}; allowed between Reals only");
+            self.add(Code::DependencyKindReal, place, message);
+        }
+    }
+}
+
+fn has_derivative(variable: &ScalarVariable) -> bool {
+    matches!(variable.kind, VariableKind::Real { derivative: Some(_), .. })
+}

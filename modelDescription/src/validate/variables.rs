@@ -1,0 +1,300 @@
+//! Each variable by itself: role, start value, limits, declared type, derivative.
+
+use std::collections::BTreeSet;
+
+use super::{Check, Place, declared_type, some_of};
+use crate::document::double;
+use crate::finding::Code;
+use crate::rules::{self, StartRule};
+use crate::{
+    Causality, EnumerationItem, Initial, RealAttributes, ScalarVariable, SimpleTypeKind, Variability,
+    VariableKind,
+};
+
+impl Check<'_> {
+    pub(super) fn variables(&mut self) {
+        let all = self.description;
+        if all.variables.is_empty() {
+            let message = "has no variables; the schema requires at least one".to_owned();
+            self.add(Code::NoVariables, Place::Variables, message);
+        }
+        let states: BTreeSet<u32> = all.variables.iter().filter_map(derivative_of).collect();
+        let mut independent = None;
+        for (index, variable) in all.variables.iter().enumerate() {
+            let place = Place::Variable(index);
+            self.role(place, variable);
+            self.declared_type(place, variable);
+            self.kind(place, variable);
+            let is_state = u32::try_from(index + 1).is_ok_and(|index| states.contains(&index));
+            self.model_exchange_only(place, variable, is_state);
+            self.derivative(place, index, variable);
+            if variable.causality == Causality::Independent {
+                if let Some(first) = independent {
+                    let message = format!("is independent, and so is `{first}`; allowed is one");
+                    self.add(Code::SeveralIndependent, place, message);
+                }
+                independent.get_or_insert(variable.name.as_str());
+            }
+        }
+    }
+
+    fn role(&mut self, place: Place, variable: &ScalarVariable) {
+        let ScalarVariable { causality, variability, initial, .. } = *variable;
+        let is_real = matches!(variable.kind, VariableKind::Real { .. });
+        if variability == Variability::Continuous && !is_real {
+            let message = format!(
+                "is {} with variability continuous (the default); only Real variables may be continuous",
+                kind_name(&variable.kind)
+            );
+            self.add(Code::ContinuousNotReal, place, message);
+        }
+        let Some(rule) = rules::initial(causality, variability) else {
+            // Already said of Integers and the like that leave out their variability.
+            if is_real || variability != Variability::Continuous {
+                let allowed: Vec<_> =
+                    rules::legal_variabilities(causality).map(Variability::as_str).collect();
+                let message = format!(
+                    "has causality {causality} with variability {variability}; allowed with {causality}: {}",
+                    allowed.join(", ")
+                );
+                self.add(Code::CausalityVariability, place, message);
+            }
+            return;
+        };
+        let bad = initial.filter(|initial| !rule.allowed.contains(initial));
+        if let Some(bad) = bad {
+            if rule.allowed.is_empty() {
+                let message = format!("has initial {bad}; with causality {causality} it must be left out");
+                self.add(Code::InitialForbidden, place, message);
+            } else {
+                let allowed: Vec<_> = rule.allowed.iter().map(|initial| initial.as_str()).collect();
+                let message = format!(
+                    "has initial {bad}; allowed with {causality} {variability}: {}",
+                    allowed.join(", ")
+                );
+                self.add(Code::InitialNotAllowed, place, message);
+                return;
+            }
+        }
+        let effective = rules::effective(causality, variability, initial);
+        match (rules::start(causality, effective), rules::has_start(variable)) {
+            (StartRule::Required, false) => {
+                let message = format!("has no start; {} requires one", why(causality, effective));
+                self.add(Code::StartMissing, place, message);
+            }
+            (StartRule::Forbidden, true) => {
+                let message = format!("has a start; {} must not have one", why(causality, effective));
+                self.add(Code::StartForbidden, place, message);
+            }
+            _ => {}
+        }
+    }
+
+    fn declared_type(&mut self, place: Place, variable: &ScalarVariable) {
+        let Some(name) = declared_type(&variable.kind) else { return };
+        let Some(kind) = self.declared(variable) else {
+            let defined = some_of(self.types.keys().copied());
+            let message = format!("declaredType `{name}` is not in TypeDefinitions; defined are {defined}");
+            self.add(Code::DeclaredTypeUndefined, place, message);
+            return;
+        };
+        let type_name = match kind {
+            SimpleTypeKind::Real(_) => "Real",
+            SimpleTypeKind::Integer { .. } => "Integer",
+            SimpleTypeKind::Boolean => "Boolean",
+            SimpleTypeKind::String => "String",
+            SimpleTypeKind::Enumeration { .. } => "Enumeration",
+        };
+        let own = kind_name(&variable.kind);
+        if type_name != own {
+            let message =
+                format!("is {own}, its declaredType `{name}` is {type_name}; allowed is a type of {own}");
+            self.add(Code::DeclaredTypeKind, place, message);
+        }
+    }
+
+    fn kind(&mut self, place: Place, variable: &ScalarVariable) {
+        let checked = rules::start_required(variable);
+        match (&variable.kind, self.declared(variable)) {
+            (VariableKind::Real { start, attributes, .. }, declared) => {
+                let inherited = match declared {
+                    Some(SimpleTypeKind::Real(inherited)) => Some(inherited),
+                    _ => None,
+                };
+                self.real_attributes(place, attributes, inherited);
+                if let Some(inherited) = inherited {
+                    let own = (attributes.min, attributes.max);
+                    self.beyond_type(place, own, (inherited.min, inherited.max));
+                }
+                if let Some(start) = start.filter(|_| checked) {
+                    self.real_start(place, start, attributes, inherited);
+                }
+            }
+            (VariableKind::Integer { start, min, max, .. }, declared) => {
+                let (type_min, type_max) = match declared {
+                    Some(SimpleTypeKind::Integer { min, max, .. }) => (*min, *max),
+                    _ => (None, None),
+                };
+                self.integer(place, start.filter(|_| checked), (*min, *max), (type_min, type_max));
+            }
+            (VariableKind::Enumeration { start, min, max, .. }, declared) => {
+                let start = start.filter(|_| checked);
+                let items = match declared {
+                    Some(SimpleTypeKind::Enumeration { items, .. }) => items.as_slice(),
+                    _ => &[],
+                };
+                if let Some(start) = start
+                    && !items.is_empty()
+                    && !items.iter().any(|item| item.value == start)
+                {
+                    let message = format!("start {start} is no item; allowed are {}", item_list(items));
+                    self.add(Code::StartNotAnItem, place, message);
+                } else {
+                    self.integer(place, start, (*min, *max), (None, None));
+                }
+            }
+            (VariableKind::Boolean { .. } | VariableKind::String { .. }, _) => {}
+        }
+    }
+
+    fn integer(
+        &mut self,
+        place: Place,
+        start: Option<i32>,
+        own: (Option<i32>, Option<i32>),
+        inherited: (Option<i32>, Option<i32>),
+    ) {
+        let (min, max) = (own.0.or(inherited.0), own.1.or(inherited.1));
+        if own != (None, None) {
+            self.limits(place, min, max);
+        }
+        self.beyond_type(place, own, inherited);
+        if let Some(start) = start {
+            self.range(place, f64::from(start), min.map(f64::from), max.map(f64::from));
+        }
+    }
+
+    fn real_start(
+        &mut self,
+        place: Place,
+        start: f64,
+        own: &RealAttributes,
+        inherited: Option<&RealAttributes>,
+    ) {
+        let min = own.min.or(inherited.and_then(|from| from.min));
+        let max = own.max.or(inherited.and_then(|from| from.max));
+        // Without a limit the largest finite number is the limit (2.2.3).
+        let infinite_is_within = start == max.unwrap_or(f64::MAX) || start == min.unwrap_or(f64::MIN);
+        if start.is_nan() || (start.is_infinite() && !infinite_is_within) {
+            let message = format!(
+                "start is {}; allowed is a finite number, or the value of an infinite min or max",
+                double(start)
+            );
+            self.add(Code::StartNotFinite, place, message);
+            return;
+        }
+        self.range(place, start, min, max);
+    }
+
+    fn range(&mut self, place: Place, start: f64, min: Option<f64>, max: Option<f64>) {
+        let reversed = matches!((min, max), (Some(min), Some(max)) if min > max);
+        if !reversed && (min.is_some_and(|min| start < min) || max.is_some_and(|max| start > max)) {
+            let text = |limit: Option<f64>| limit.map_or("unlimited".to_owned(), double);
+            let message =
+                format!("start {} is out of range; allowed is {} to {}", double(start), text(min), text(max));
+            self.add(Code::StartOutOfRange, place, message);
+        }
+    }
+
+    fn beyond_type<T: PartialOrd + Copy + Into<f64>>(
+        &mut self,
+        place: Place,
+        own: (Option<T>, Option<T>),
+        inherited: (Option<T>, Option<T>),
+    ) {
+        let below = matches!((own.0, inherited.0), (Some(own), Some(from)) if own < from);
+        let above = matches!((own.1, inherited.1), (Some(own), Some(from)) if own > from);
+        if below || above {
+            let text = |limit: Option<T>| limit.map_or("unlimited".to_owned(), |value| double(value.into()));
+            let message = format!(
+                "min {} and max {} reach beyond those of the declared type, {} to {}",
+                text(own.0),
+                text(own.1),
+                text(inherited.0),
+                text(inherited.1)
+            );
+            self.add(Code::LimitsBeyondType, place, message);
+        }
+    }
+
+    fn model_exchange_only(&mut self, place: Place, variable: &ScalarVariable, is_state: bool) {
+        let has_model_exchange = self.description.model_exchange.is_some();
+        if let VariableKind::Real { reinit: Some(_), .. } = variable.kind
+            && !(has_model_exchange && is_state)
+        {
+            let message = if has_model_exchange {
+                "has reinit but is no continuous state; allowed on states only"
+            } else {
+                "has reinit in an FMU without model exchange; it must be left out"
+            };
+            self.add(Code::Reinit, place, message.to_owned());
+        }
+        if variable.can_handle_multiple_set_per_time_instant.is_some()
+            && !(has_model_exchange && variable.causality == Causality::Input)
+        {
+            let message =
+                "has canHandleMultipleSetPerTimeInstant; allowed on inputs of a model-exchange FMU only";
+            self.add(Code::MultipleSet, place, message.to_owned());
+        }
+    }
+
+    fn derivative(&mut self, place: Place, index: usize, variable: &ScalarVariable) {
+        let Some(target) = derivative_of(variable) else { return };
+        let count = self.description.variables.len();
+        let Some(state) = self.variable(target).filter(|_| target as usize != index + 1) else {
+            let message =
+                format!("derivative is {target}; allowed is the index of another variable, 1 to {count}");
+            self.add(Code::DerivativeIndex, place, message);
+            return;
+        };
+        let real = matches!(state.kind, VariableKind::Real { .. });
+        if !real || state.variability != Variability::Continuous {
+            let message = format!(
+                "is the derivative of `{}`, a {} {}; allowed is that of a continuous Real",
+                state.name,
+                state.variability,
+                kind_name(&state.kind)
+            );
+            self.add(Code::DerivativeKind, place, message);
+        }
+    }
+}
+
+fn derivative_of(variable: &ScalarVariable) -> Option<u32> {
+    match variable.kind {
+        VariableKind::Real { derivative, .. } => derivative,
+        _ => None,
+    }
+}
+
+fn kind_name(kind: &VariableKind) -> &'static str {
+    match kind {
+        VariableKind::Real { .. } => "Real",
+        VariableKind::Integer { .. } => "Integer",
+        VariableKind::Boolean { .. } => "Boolean",
+        VariableKind::String { .. } => "String",
+        VariableKind::Enumeration { .. } => "Enumeration",
+    }
+}
+
+fn why(causality: Causality, initial: Option<Initial>) -> String {
+    match initial {
+        Some(initial) => format!("initial {initial}"),
+        None => format!("causality {causality}"),
+    }
+}
+
+fn item_list(items: &[EnumerationItem]) -> String {
+    let shown: Vec<_> = items.iter().map(|item| format!("{} ({})", item.value, item.name)).collect();
+    some_of(shown.iter().map(String::as_str))
+}

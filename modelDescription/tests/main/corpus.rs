@@ -1,0 +1,77 @@
+//! Every file of the corpus has one fault, named by the file, and reader or validator name exactly that one.
+//!
+//! `valid.xml` is written by hand. The others are `valid.xml` with the edits below; after changing either, run
+//! the tests once with `UPDATE_CORPUS=1`. A file is named by the code of its fault and, after `--`, its kind.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+
+use model_description::*;
+
+use crate::faults::FAULTS;
+
+const VALID: &str = include_str!("../corpus/valid.xml");
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/corpus")
+}
+
+fn findings(bytes: &[u8]) -> Vec<Finding> {
+    parse(bytes).map_or_else(|error| vec![error.into()], |parsed| parsed.findings())
+}
+
+/// `valid.xml` with the edits of one fault; every edit must fit one place only.
+fn edited(name: &str, edits: &[(&str, &str)]) -> String {
+    edits.iter().fold(VALID.to_owned(), |text, (from, to)| {
+        assert_eq!(text.matches(from).count(), 1, "{name}: {from}");
+        text.replace(from, to)
+    })
+}
+
+#[test]
+fn files_are_the_base_with_one_edit() {
+    let update = std::env::var_os("UPDATE_CORPUS").is_some();
+    let mut known: BTreeSet<String> = ["valid.xml".to_owned()].into();
+    for (name, edits) in FAULTS {
+        let file = folder().join(format!("{name}.xml"));
+        let text = edited(name, edits);
+        if update {
+            fs::write(&file, &text).unwrap();
+        }
+        let committed = fs::read_to_string(&file).unwrap_or_default();
+        assert_eq!(committed, text, "{name}: run with UPDATE_CORPUS=1");
+        assert!(known.insert(format!("{name}.xml")), "{name} stands twice");
+    }
+    let found: BTreeSet<String> = fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".xml"))
+        .collect();
+    assert_eq!(found, known);
+}
+
+#[test]
+fn the_base_is_valid() {
+    assert_eq!(findings(VALID.as_bytes()), Vec::new());
+}
+
+#[test]
+fn each_file_has_its_fault_and_no_other() {
+    for (name, edits) in FAULTS {
+        let code = name.split("--").next().unwrap();
+        let found = findings(edited(name, edits).as_bytes());
+        let codes: BTreeSet<&str> = found.iter().map(|finding| finding.code.as_str()).collect();
+        assert_eq!(codes, BTreeSet::from([code]), "{name}: {found:#?}");
+        for finding in found {
+            assert!(finding.line.is_some(), "{name}: {finding}");
+        }
+    }
+}
+
+#[test]
+fn every_code_has_a_file() {
+    let covered: BTreeSet<&str> = FAULTS.iter().map(|(name, _)| name.split("--").next().unwrap()).collect();
+    let codes: BTreeSet<&str> = Code::ALL.iter().map(|code| code.as_str()).collect();
+    assert_eq!(covered, codes);
+}

@@ -1,0 +1,159 @@
+/* Speed and memory through the C interface: one line `bench <name> <value> <unit>` a figure, medians of several runs. */
+#include "fmu.h"
+
+#include <sys/resource.h>
+#include <time.h>
+
+enum { RUNS = 7 };
+
+static double now_s(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void report(const char *name, double *values, const char *unit) {
+    qsort(values, RUNS, sizeof *values, ascending);
+    printf("bench %s %.6g %s\n", name, values[RUNS / 2], unit);
+    fflush(stdout);
+}
+
+static void empty_model(const Library *probe) {
+    char *xml = description_of(probe, "Empty");
+    fmi2Component c = start(probe, xml);
+    CHECK(probe->ExitInitializationMode(c) == fmi2OK);
+    fmi2ValueReference reference = 0;
+    fmi2Real value, values[RUNS];
+    const int steps = 2000000;
+    double t = 0;
+    for (int run = 0; run < RUNS; run++) {
+        double begin = now_s();
+        for (int i = 0; i < steps; i++, t += 1.0) {
+            probe->DoStep(c, t, 1.0, fmi2True);
+            probe->GetReal(c, &reference, 1, &value);
+        }
+        values[run] = (now_s() - begin) / steps * 1e9;
+    }
+    report("empty_step_and_get", values, "ns");
+    probe->FreeInstance(c);
+    free(xml);
+}
+
+static void ten_reals(const Library *library, const char *xml) {
+    fmi2Component c = start(library, xml);
+    fmi2ValueReference in[10], out[10];
+    fmi2Real numbers[10], values[RUNS];
+    const char *inputs[] = {"torque.external[1]", "torque.external[2]", "torque.external[3]", "force.external[1]",
+                            "force.external[2]",  "force.external[3]",  "command.rate[1]",    "command.rate[2]",
+                            "command.rate[3]",    "dump.target[1]"};
+    const char *outputs[] = {"torque.total[1]",  "torque.total[2]",  "torque.total[3]",  "momentum.body[1]",
+                             "momentum.body[2]", "momentum.body[3]", "attitude.rate[1]", "attitude.rate[2]",
+                             "attitude.rate[3]", "sun.distance"};
+    for (int i = 0; i < 10; i++) in[i] = reference_of(xml, inputs[i]), out[i] = reference_of(xml, outputs[i]);
+    CHECK(library->ExitInitializationMode(c) == fmi2OK);
+    const int calls = 1000000;
+    for (int run = 0; run < RUNS; run++) {
+        double begin = now_s();
+        for (int i = 0; i < calls; i++) library->GetReal(c, out, 10, numbers);
+        values[run] = (now_s() - begin) / calls * 1e9;
+    }
+    report("get_10_reals", values, "ns");
+    memset(numbers, 0, sizeof numbers);
+    for (int run = 0; run < RUNS; run++) {
+        double begin = now_s();
+        for (int i = 0; i < calls; i++) library->SetReal(c, in, 10, numbers);
+        values[run] = (now_s() - begin) / calls * 1e9;
+    }
+    report("set_10_reals", values, "ns");
+    library->FreeInstance(c);
+}
+
+static void first_step(const Library *library, const char *xml) {
+    double values[RUNS];
+    for (int run = 0; run < RUNS; run++) {
+        double begin = now_s();
+        fmi2Component c = start(library, xml);
+        CHECK(library->ExitInitializationMode(c) == fmi2OK);
+        CHECK(library->DoStep(c, 0, 60, fmi2True) == fmi2OK);
+        values[run] = (now_s() - begin) * 1e3;
+        library->FreeInstance(c);
+    }
+    report("momentum_plant_first_step", values, "ms");
+}
+
+static void ninety_days(const Library *library, const char *xml) {
+    double per_step[RUNS], wall[RUNS];
+    const int steps = 129600;
+    fmi2ValueReference momentum[3];
+    momentum[0] = reference_of(xml, "momentum.body[1]");
+    momentum[1] = reference_of(xml, "momentum.body[2]");
+    momentum[2] = reference_of(xml, "momentum.body[3]");
+    for (int run = 0; run < RUNS; run++) {
+        double begin = now_s();
+        fmi2Component c = start(library, xml);
+        CHECK(library->ExitInitializationMode(c) == fmi2OK);
+        double stepping = now_s();
+        fmi2Real h[3];
+        for (int i = 0; i < steps; i++) {
+            CHECK(library->DoStep(c, i * 60.0, 60.0, fmi2True) == fmi2OK);
+            CHECK(library->GetReal(c, momentum, 3, h) == fmi2OK);
+        }
+        per_step[run] = (now_s() - stepping) / steps * 1e9;
+        library->FreeInstance(c);
+        wall[run] = now_s() - begin;
+    }
+    report("momentum_plant_step_60s", per_step, "ns");
+    report("momentum_plant_90_days", wall, "s");
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    printf("bench momentum_plant_peak_memory %.1f MB\n", (double)usage.ru_maxrss / 1024.0);
+}
+
+/* SpinPlant: 32 ms steps through a burn, and paper 002's 1400 s manoeuvre in one step. */
+static void spinner(const Library *library, const char *xml) {
+    double rate[RUNS], manoeuvre[RUNS];
+    const int steps = 500000;
+    fmi2ValueReference nutation = reference_of(xml, "nutation.angle");
+    fmi2Real angle;
+    for (int run = 0; run < RUNS; run++) {
+        fmi2Component c = start(library, xml);
+        CHECK(library->ExitInitializationMode(c) == fmi2OK);
+        double begin = now_s();
+        for (int i = 0; i < steps; i++) CHECK(library->DoStep(c, i * 0.032, 0.032, fmi2True) == fmi2OK);
+        rate[run] = steps / (now_s() - begin);
+        library->FreeInstance(c);
+        c = start(library, xml);
+        CHECK(library->ExitInitializationMode(c) == fmi2OK);
+        begin = now_s();
+        CHECK(library->DoStep(c, 0, 1400, fmi2True) == fmi2OK);
+        manoeuvre[run] = (now_s() - begin) * 1e3;
+        CHECK(library->GetReal(c, &nutation, 1, &angle) == fmi2OK && angle > 0);
+        library->FreeInstance(c);
+    }
+    report("spin_plant_steps_32ms", rate, "1/s");
+    report("spin_plant_1400s_in_one_step", manoeuvre, "ms");
+}
+
+int main(int count, char **arguments) {
+    if (count < 3) {
+        fprintf(stderr, "usage: %s libheliotorque libprobe\n", arguments[0]);
+        return 2;
+    }
+    Library library = open_library(arguments[1]);
+    Library probe = open_library(arguments[2]);
+    char *xml = description_of(&library, "MomentumPlant");
+    ninety_days(&library, xml);
+    first_step(&library, xml);
+    ten_reals(&library, xml);
+    free(xml);
+    xml = description_of(&library, "SpinPlant");
+    spinner(&library, xml);
+    free(xml);
+    empty_model(&probe);
+    return 0;
+}

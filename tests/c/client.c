@@ -1,0 +1,87 @@
+/* A C master that uses every function once, the way an importer would; run under valgrind in the tests. */
+#include "fmu.h"
+
+#include <math.h>
+
+static void fly(const Library *library, const char *xml, int steps) {
+    fmi2Component c = start(library, xml);
+    fmi2ValueReference h[3] = {reference_of(xml, "momentum.body[1]"), reference_of(xml, "momentum.body[2]"),
+                               reference_of(xml, "momentum.body[3]")};
+    fmi2Real at_start[3], halfway[3], end[3], again[3];
+    CHECK(library->GetReal(c, h, 3, at_start) == fmi2OK);
+    CHECK(library->ExitInitializationMode(c) == fmi2OK);
+    fmi2FMUstate state = NULL;
+    for (int i = 0; i < steps; i++) {
+        if (i == steps / 2) {
+            CHECK(library->GetFMUstate(c, &state) == fmi2OK);
+            CHECK(library->GetReal(c, h, 3, halfway) == fmi2OK);
+        }
+        CHECK(library->DoStep(c, 600.0 * i, 600.0, fmi2True) == fmi2OK);
+    }
+    CHECK(library->GetReal(c, h, 3, end) == fmi2OK);
+    CHECK(isfinite(end[0]) && isfinite(end[1]) && isfinite(end[2]));
+
+    /* Back to the middle through bytes, and to the same end to the bit. */
+    size_t size = 0;
+    CHECK(library->SerializedFMUstateSize(c, state, &size) == fmi2OK && size > 0);
+    fmi2Byte *bytes = malloc(size);
+    CHECK(bytes);
+    CHECK(library->SerializeFMUstate(c, state, bytes, size) == fmi2OK);
+    CHECK(library->FreeFMUstate(c, &state) == fmi2OK && state == NULL);
+    fmi2Component twin = instantiate(library, xml, NULL);
+    CHECK(twin);
+    CHECK(library->DeSerializeFMUstate(twin, bytes, size, &state) == fmi2OK);
+    free(bytes);
+    CHECK(library->SetFMUstate(twin, state) == fmi2OK);
+    CHECK(library->GetReal(twin, h, 3, again) == fmi2OK);
+    CHECK(memcmp(again, halfway, sizeof again) == 0);
+    for (int i = steps / 2; i < steps; i++) CHECK(library->DoStep(twin, 600.0 * i, 600.0, fmi2True) == fmi2OK);
+    CHECK(library->GetReal(twin, h, 3, again) == fmi2OK);
+    CHECK(memcmp(again, end, sizeof again) == 0);
+    CHECK(library->FreeFMUstate(twin, &state) == fmi2OK);
+
+    /* A NaN is discarded and the instance lives; a wrong time is an error, and Reset brings the instance back. */
+    fmi2ValueReference torque = reference_of(xml, "torque.external[1]");
+    fmi2Real nan_value = NAN;
+    CHECK(library->SetReal(twin, &torque, 1, &nan_value) == fmi2Discard);
+    CHECK(library->DoStep(twin, 600.0 * steps, 600.0, fmi2True) == fmi2OK);
+    CHECK(library->DoStep(twin, 1.0, 600.0, fmi2True) == fmi2Error);
+    CHECK(library->Reset(twin) == fmi2OK);
+    CHECK(library->SetupExperiment(twin, fmi2False, 0, 0, fmi2False, 0) == fmi2OK);
+    CHECK(library->EnterInitializationMode(twin) == fmi2OK);
+    CHECK(library->GetReal(twin, h, 3, again) == fmi2OK);
+    CHECK(memcmp(again, at_start, sizeof again) == 0);
+    CHECK(library->ExitInitializationMode(twin) == fmi2OK);
+    CHECK(library->Terminate(twin) == fmi2OK);
+    library->FreeInstance(twin);
+    CHECK(library->Terminate(c) == fmi2OK);
+    library->FreeInstance(c);
+}
+
+int main(int count, char **arguments) {
+    if (count < 3) {
+        fprintf(stderr, "usage: %s libheliotorque libprobe [--short]\n", arguments[0]);
+        return 2;
+    }
+    int short_flight = count > 3 && strcmp(arguments[3], "--short") == 0;
+    Library library = open_library(arguments[1]);
+    CHECK(strcmp(library.GetVersion(), "2.0") == 0);
+    CHECK(strcmp(library.GetTypesPlatform(), "default") == 0);
+    char *xml = description_of(&library, "MomentumPlant");
+    fly(&library, xml, short_flight ? 40 : 4000);
+    free(xml);
+    Library probe = open_library(arguments[2]);
+    xml = description_of(&probe, "AllTypes");
+    fmi2Component c = start(&probe, xml);
+    CHECK(probe.ExitInitializationMode(c) == fmi2OK);
+    for (int i = 0; i < 100; i++) CHECK(probe.DoStep(c, 0.1 * i, 0.1, fmi2True) == fmi2OK);
+    CHECK(probe.Terminate(c) == fmi2OK);
+    probe.FreeInstance(c);
+    free(xml);
+    int before = logged_messages;
+    fmi2CallbackFunctions callbacks = {quiet_logger, NULL, NULL, NULL, NULL};
+    CHECK(library.Instantiate("x", fmi2CoSimulation, "{no-such-guid}", NULL, &callbacks, fmi2False, fmi2False) == NULL);
+    CHECK(logged_messages > before);
+    puts("C client: all calls answered as expected");
+    return 0;
+}

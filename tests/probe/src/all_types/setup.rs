@@ -1,0 +1,29 @@
+//! The setup of `AllTypes`.
+
+use fmi_export::SetupError;
+use serde::{Deserialize, Serialize};
+
+/// What `all-types.toml` says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setup {
+    /// Start value of `parameter.text`.
+    pub label: String,
+    /// The channels, any number.
+    #[serde(default)]
+    pub channel: Vec<Channel>,
+}
+
+/// One channel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Channel {
+    /// Start value of the gain.
+    pub gain: f64,
+}
+
+impl Setup {
+    pub(super) fn parse(file: &str, text: &str) -> Result<Self, SetupError> {
+        toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))
+    }
+}

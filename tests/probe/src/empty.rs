@@ -1,0 +1,60 @@
+//! The smallest model: one output, no setup, no state.
+
+use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values, Variables};
+
+/// A model of one output.
+pub struct Empty;
+
+/// The variables of [`Empty`]; the schema asks for at least one.
+#[derive(Variables)]
+pub struct EmptyVariables {
+    /// Time of the last communication point.
+    #[output(unit = "s", name = "clock")]
+    clock: Real,
+}
+
+impl Model for Empty {
+    const NAME: &'static str = "Empty";
+    const STATE_VERSION: u32 = 1;
+    const SETUP_FILE: Option<&'static str> = None;
+    const DEFAULT_SETUP: &'static str = "";
+    const CAN_INTERPOLATE_INPUTS: bool = false;
+
+    type Setup = ();
+    type Variables = EmptyVariables;
+    type State = ();
+
+    fn parse_setup(_file: &str, _text: &str) -> Result<(), SetupError> {
+        Ok(())
+    }
+
+    fn about(_setup: &()) -> About {
+        About {
+            description: "Nothing but a clock.".to_owned(),
+            start_time_s: 0.0,
+            stop_time_s: 1.0,
+            step_size_s: 0.1,
+            tolerance: 1e-6,
+            ..About::default()
+        }
+    }
+
+    fn initialize(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        start_time_s: f64,
+    ) -> Result<(), Failure> {
+        values.set_real(context.variables.clock, start_time_s);
+        Ok(())
+    }
+
+    fn step(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        _state: &mut (),
+        step: &Step<'_>,
+    ) -> Result<(), Failure> {
+        values.set_real(context.variables.clock, step.end_s);
+        Ok(())
+    }
+}

@@ -1,0 +1,283 @@
+//! The model that panics: in the callback it is told to by its setup or by the parameter `accident`.
+
+use fmi_export::{
+    About, Choice, Context, Enumeration, Failure, Model, Real, SetupError, Step, Values, Variables,
+};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
+
+/// A model that has accidents.
+pub struct Panicking;
+
+/// Where the setup makes [`Panicking`] panic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+enum Place {
+    Nowhere,
+    ParseSetup,
+    About,
+    Declare,
+    SerializeSetup,
+}
+
+/// What `panicking.toml` says.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setup {
+    panic_in: Place,
+}
+
+/// Where and how the model goes wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum Accident {
+    /// Never.
+    Nowhere,
+    /// Panic in initialize.
+    Initialize,
+    /// Panic in step, with half of the outputs written.
+    Step,
+    /// Panic in `check_state`.
+    CheckState,
+    /// Panic in `output_derivative`.
+    OutputDerivative,
+    /// Panic in `directional_derivative`.
+    DirectionalDerivative,
+    /// Panic when the state is dropped.
+    DropState,
+    /// Panic when the state is cloned.
+    CloneState,
+    /// Panic when the state is serialised.
+    SerializeState,
+    /// Panic when the state is deserialised.
+    DeserializeState,
+    /// Panic in step with something that is no text.
+    StepPayload,
+    /// Panic in step with something that panics when it is dropped.
+    StepPayloadDrop,
+    /// Fail in initialize without panic.
+    FailInitialize,
+    /// Fail in step without panic.
+    FailStep,
+    /// End by itself in step.
+    TerminateStep,
+    /// Serialisation of the state fails without panic.
+    FailSerializeState,
+    /// Refuse every restored state without panic.
+    FailCheckState,
+    /// Panic in step by an index out of range.
+    StepIndex,
+}
+
+/// The variables of [`Panicking`].
+#[derive(Variables)]
+#[variables(setup = Setup)]
+pub struct PanickingVariables {
+    /// Where and how the model goes wrong.
+    #[parameter(tunable, start = setup.accident_at_start())]
+    pub accident: Choice<Accident>,
+    /// Goes to `output`.
+    #[input(unit = "1", start = 1.0)]
+    pub input: Real,
+    /// `input` at the communication point.
+    #[output(unit = "1")]
+    pub output: Real,
+    /// Time of the communication point.
+    #[output(unit = "s")]
+    pub clock: Real,
+}
+
+/// The state: a count of steps and the accident waiting in it.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct State {
+    #[serde(serialize_with = "serialize_accident", deserialize_with = "deserialize_accident")]
+    accident: Accident,
+    steps: u32,
+}
+
+#[allow(clippy::panic, reason = "panicking is what this model is for")]
+fn panic_if(accident: bool, place: &str) {
+    if accident {
+        panic!("this is the accident in {place}: 100 % deliberate");
+    }
+}
+
+#[allow(clippy::panic, reason = "panicking is what this model is for")]
+fn panic_with<T: Send + 'static>(payload: T) -> ! {
+    std::panic::panic_any(payload)
+}
+
+/// A panic's payload that panics in its own Drop.
+struct Landmine;
+
+impl Drop for Landmine {
+    fn drop(&mut self) {
+        panic_if(!std::thread::panicking(), "the payload's Drop");
+    }
+}
+
+impl Setup {
+    fn panic_if(&self, place: Place) {
+        panic_if(self.panic_in == place, &format!("{place:?}"));
+    }
+
+    fn accident_at_start(&self) -> Accident {
+        self.panic_if(Place::Declare);
+        Accident::Nowhere
+    }
+}
+
+impl Serialize for Setup {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.panic_if(Place::SerializeSetup);
+        serializer.serialize_unit()
+    }
+}
+
+impl State {
+    fn panic_if(&self, accident: Accident) {
+        panic_if(self.accident == accident, &format!("{accident:?}"));
+    }
+}
+
+impl Clone for State {
+    fn clone(&self) -> Self {
+        self.panic_if(Accident::CloneState);
+        Self { accident: self.accident, steps: self.steps }
+    }
+}
+
+impl Drop for State {
+    fn drop(&mut self) {
+        // A second panic while unwinding aborts the process; no boundary can catch that.
+        if !std::thread::panicking() {
+            self.panic_if(Accident::DropState);
+        }
+    }
+}
+
+fn serialize_accident<S: Serializer>(accident: &Accident, serializer: S) -> Result<S::Ok, S::Error> {
+    panic_if(*accident == Accident::SerializeState, "SerializeState");
+    if *accident == Accident::FailSerializeState {
+        return Err(ser::Error::custom("this state cannot be serialised"));
+    }
+    serializer.serialize_i32(accident.value())
+}
+
+fn deserialize_accident<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Accident, D::Error> {
+    let value = i32::deserialize(deserializer)?;
+    let accident = Accident::from_value(value)
+        .ok_or_else(|| de::Error::custom(format!("{value} is no item of Accident")))?;
+    panic_if(accident == Accident::DeserializeState, "DeserializeState");
+    Ok(accident)
+}
+
+/// The accident chosen now.
+fn chosen(context: &Context<'_, Panicking>, values: &Values) -> Accident {
+    values.choice(context.variables.accident).unwrap_or(Accident::Nowhere)
+}
+
+impl Model for Panicking {
+    const NAME: &'static str = "Panicking";
+    const STATE_VERSION: u32 = 1;
+    const SETUP_FILE: Option<&'static str> = Some("panicking.toml");
+    const DEFAULT_SETUP: &'static str = include_str!("../resources/panicking.toml");
+    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
+    const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = true;
+
+    type Setup = Setup;
+    type Variables = PanickingVariables;
+    type State = State;
+
+    fn parse_setup(file: &str, text: &str) -> Result<Setup, SetupError> {
+        let setup: Setup = toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))?;
+        setup.panic_if(Place::ParseSetup);
+        Ok(setup)
+    }
+
+    fn about(setup: &Setup) -> About {
+        setup.panic_if(Place::About);
+        About {
+            description: "Panics or fails where `accident` says.".to_owned(),
+            start_time_s: 0.0,
+            stop_time_s: 1.0,
+            step_size_s: 0.1,
+            tolerance: 1e-6,
+            ..About::default()
+        }
+    }
+
+    fn initialize(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        start_time_s: f64,
+    ) -> Result<State, Failure> {
+        let accident = chosen(context, values);
+        panic_if(accident == Accident::Initialize, "Initialize");
+        if accident == Accident::FailInitialize {
+            return Err(Failure::new("initialize fails, 100 % deliberately"));
+        }
+        values.set_real(context.variables.output, values.real(context.variables.input));
+        values.set_real(context.variables.clock, start_time_s);
+        Ok(State { accident, steps: 0 })
+    }
+
+    fn step(
+        context: &Context<'_, Self>,
+        values: &mut Values,
+        state: &mut State,
+        step: &Step<'_>,
+    ) -> Result<(), Failure> {
+        state.accident = chosen(context, values);
+        state.steps = state.steps.saturating_add(1);
+        let input = step.input(values, context.variables.input, step.end_s);
+        values.set_real(context.variables.output, input);
+        state.panic_if(Accident::Step);
+        match state.accident {
+            Accident::StepPayload => panic_with(42_u8),
+            Accident::StepPayloadDrop => panic_with(Landmine),
+            Accident::StepIndex => {
+                values.set_real(Real::from_reference(u32::MAX), input);
+            }
+            Accident::FailStep => return Err(Failure::new("step fails, 100 % deliberately")),
+            Accident::TerminateStep => return Err(Failure::terminated("the model ends here")),
+            _ => {}
+        }
+        values.set_real(context.variables.clock, step.end_s);
+        Ok(())
+    }
+
+    fn check_state(_setup: &Setup, state: &State) -> Result<(), Failure> {
+        state.panic_if(Accident::CheckState);
+        if state.accident == Accident::FailCheckState {
+            return Err(Failure::new("this state is refused, 100 % deliberately"));
+        }
+        Ok(())
+    }
+
+    fn output_derivative(
+        context: &Context<'_, Self>,
+        values: &Values,
+        _state: &State,
+        _output: Real,
+    ) -> Option<f64> {
+        panic_if(chosen(context, values) == Accident::OutputDerivative, "OutputDerivative");
+        None
+    }
+
+    fn directional_derivative(
+        context: &Context<'_, Self>,
+        values: &Values,
+        _state: &State,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        result: &mut [f64],
+    ) -> Result<(), Failure> {
+        panic_if(chosen(context, values) == Accident::DirectionalDerivative, "DirectionalDerivative");
+        let (from, to) = (context.variables.input.reference(), context.variables.output.reference());
+        for (unknown, result) in unknowns.iter().zip(result) {
+            let seeds = knowns.iter().zip(seed).filter(|(known, _)| *unknown == to && **known == from);
+            *result = seeds.map(|(_, seed)| seed).sum();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,33 @@
+"""The FMUs and the library under test; `cargo xtask test` sets the environment."""
+
+import os
+import pathlib
+
+import pytest
+
+
+def _path(variable):
+    value = os.environ.get(variable)
+    if not value:
+        pytest.skip(f"{variable} is not set: run `cargo xtask test`")
+    return pathlib.Path(value)
+
+
+@pytest.fixture(scope="session")
+def dist():
+    return _path("HELIOTORQUE_DIST")
+
+
+@pytest.fixture(scope="session")
+def heliotorque():
+    return _path("HELIOTORQUE")
+
+
+@pytest.fixture(scope="session")
+def library():
+    return _path("HELIOTORQUE_LIBRARY")
+
+
+@pytest.fixture(scope="session")
+def momentum_plant(dist):
+    return str(dist / "MomentumPlant.fmu")

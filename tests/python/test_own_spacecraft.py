@@ -1,0 +1,350 @@
+"""Your own spacecraft: packed without a compiler, it flies in FMPy as its file says, and a bad file is refused by line."""
+
+import json
+import re
+import zipfile
+
+import numpy as np
+import pytest
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+from fmpy.validation import validate_fmu
+
+from flight import fly, stack, vector
+from spacecraft import HEAD, RESOURCES, SAILER, call, pack, solar_torque, urchin
+
+PRESSURE_PA = 9e-6
+FIXED_LIGHT = {"solar.fixedPressure": True, "solar.pressure": PRESSURE_PA, "eclipse.model": 4}
+
+
+@pytest.fixture(scope="module")
+def sailer(heliotorque, dist, tmp_path_factory):
+    return pack(heliotorque, dist, tmp_path_factory.mktemp("my sailer ü"), SAILER, "SolarSailer")
+
+
+@pytest.fixture(scope="module")
+def urchin_65(heliotorque, dist, tmp_path_factory):
+    return pack(heliotorque, dist, tmp_path_factory.mktemp("urchin"), urchin(65), "Urchin")
+
+
+def assert_torque_is_the_sum_over_the_file(fmu, text, panels):
+    angles = [f"panel[{k}].angleActual" for k in range(1, panels + 1)]
+    names = vector("torque.solar") + vector("sun.direction") + angles
+    # Tumbling, so that the Sun comes from everywhere: fronts, rears and panels edge-on.
+    tumble = {"attitude.source": 2} | {f"command.rate[{axis}]": rate for axis, rate in ((1, 6.3e-5), (2, -7.3e-5), (3, 1e-5))}
+    result = fly(fmu, 1800.0, days=3.0, start=FIXED_LIGHT | tumble, output=names)
+    torque, sun = stack(result, "torque.solar"), stack(result, "sun.direction")
+    expected = np.array([
+        solar_torque(text, sun[row], PRESSURE_PA, [result[name][row] for name in angles]) for row in range(len(sun))
+    ])
+    assert np.abs(expected).max() > 1e-7
+    assert (np.abs(sun).max(axis=0) > 0.5).all() and sun[:, 1].max() > 0.5, "the Sun lit one side only"
+    assert np.abs(torque - expected).max() < 1e-12 * np.abs(expected).max()
+
+
+def test_the_example_flies_with_its_own_three_panels_and_no_shade(sailer):
+    assert validate_fmu(sailer) == []
+    description = read_model_description(sailer, validate=True)
+    assert description.modelName == "SolarSailer"
+    assert description.coSimulation.modelIdentifier == "SolarSailer"
+    names = {variable.name for variable in description.modelVariables}
+    assert {"panel[3].angle", "wheel[3].momentum"} <= names
+    assert not {"panel[4].angle", "wheel[4].momentum"} & names
+    assert_torque_is_the_sum_over_the_file(sailer, SAILER, panels=3)
+
+
+def test_the_example_flies_ninety_days_and_dumps(sailer):
+    result = fly(sailer, 3600.0)
+    assert result["time"][-1] == 90 * 86_400.0
+    assert result["dump.count"][-1] >= 1
+    assert np.abs(stack(result, "momentum.body")).max() <= 1.0 + 1e-9
+
+
+def test_sixty_five_plates_without_panels_and_wheels(urchin_65):
+    assert validate_fmu(urchin_65) == []
+    names = {variable.name for variable in read_model_description(urchin_65).modelVariables}
+    assert not any(name.startswith(("panel[", "wheel[")) for name in names)
+    assert_torque_is_the_sum_over_the_file(urchin_65, urchin(65), panels=0)
+
+
+class Craft:
+    """An FMU stepped by hand, so that others can be stepped between."""
+
+    def __init__(self, fmu, folder):
+        description = read_model_description(fmu)
+        references = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.read = [references[name] for name in vector("momentum.inertial") + vector("torque.total")]
+        self.messages = []
+        self.slave = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=extract(fmu, unzipdir=str(folder)),
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="craft",
+        )
+        self.slave.instantiate()
+        self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+        self.time = 0.0
+
+    def step(self):
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=600.0)
+        self.time += 600.0
+        return self.slave.getReal(self.read)
+
+    def close(self):
+        self.slave.terminate()
+        self.slave.freeInstance()
+
+
+def test_two_spacecraft_in_one_process_do_not_disturb_each_other(sailer, urchin_65, tmp_path):
+    def alone(fmu, folder):
+        craft = Craft(fmu, folder)
+        flown = [craft.step() for _ in range(300)]
+        craft.close()
+        return flown
+
+    expected = [alone(sailer, tmp_path / "a"), alone(urchin_65, tmp_path / "b")]
+    crafts = [Craft(sailer, tmp_path / "c"), Craft(urchin_65, tmp_path / "d")]
+    together = [[], []]
+    for _ in range(300):
+        for craft, flown in zip(crafts, together):
+            flown.append(craft.step())
+    for craft in crafts:
+        craft.close()
+    assert together == expected
+    assert expected[0] != expected[1]
+
+
+def rewritten(fmu, target, change):
+    """The same archive with its spacecraft.toml changed by hand."""
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(target, "w") as new:
+        for name in old.namelist():
+            content = old.read(name)
+            if name == "resources/spacecraft.toml":
+                changed = change(content.decode("utf-8"))
+                assert changed.encode("utf-8") != content
+                content = changed.encode("utf-8")
+            new.writestr(name, content)
+    return str(target)
+
+
+def refusal(fmu):
+    messages = []
+
+    def logger(environment, instance, status, category, message):
+        messages.append(message.decode())
+
+    with pytest.raises(Exception):
+        fly(fmu, 3600.0, days=0.5, output=["dump.count"], logger=logger)
+    assert len(messages) == 1, messages
+    return messages[0]
+
+
+@pytest.mark.parametrize("craft", ["SolarSailer", "MomentumPlant"])
+def test_a_file_changed_inside_the_fmu_is_refused_with_the_reason(craft, sailer, momentum_plant, tmp_path):
+    fmu = sailer if craft == "SolarSailer" else momentum_plant
+    changed = rewritten(
+        fmu, tmp_path / "changed.fmu", lambda text: re.sub(r"\nmass_kg = \S+", "\nmass_kg = 49.0", text)
+    )
+    message = refusal(changed)
+    assert read_model_description(fmu).guid in message
+    assert "GUID" in message and "spacecraft.toml" in message and "changed after packing" in message
+    assert "pack the FMU again" in message
+
+
+def test_a_bad_value_put_inside_the_fmu_is_refused_by_line(sailer, tmp_path):
+    bad = rewritten(sailer, tmp_path / "bad.fmu", lambda text: text.replace("area_m2 = 0.5", "area_m2 = -0.5", 1))
+    line = 1 + SAILER[: SAILER.index("area_m2 = 0.5")].count("\n")
+    assert f"spacecraft.toml:{line}: panels[1].area_m2: found -0.5, allowed: a number above 0" in refusal(bad)
+
+
+def test_a_comment_added_inside_the_fmu_changes_nothing(sailer, tmp_path):
+    noted = rewritten(sailer, tmp_path / "noted.fmu", lambda text: "# mine\n" + text)
+    assert np.array_equal(fly(noted, 3600.0, days=2.0), fly(sailer, 3600.0, days=2.0))
+
+
+PLATE = """
+[[plates]]
+area_m2 = 2.0
+center_m = [0, -1, 0]
+normal = [0.0, -1.0, 0.0]
+optics = "paint"
+"""
+PANEL = """
+[[panels]]
+area_m2 = 1.5
+center_m = [2, 0, 0]
+optics = "paint"
+"""
+WHEEL = """
+[[wheels]]
+axis = [1, 0, 0]
+capacity_n_m_s = 4
+"""
+GOOD = HEAD.format(name="Good") + PLATE + PANEL + WHEEL
+
+# What is replaced in the good file and by what, the line it is found in, and the report behind file and line.
+BAD = {
+    "negative area": (
+        "area_m2 = 2.0", "area_m2 = -2.0", "area_m2 = -2.0", "plates[1].area_m2: found -2, allowed: a number above 0"),
+    "area of text": (
+        "area_m2 = 2.0", 'area_m2 = "2"', 'area_m2 = "2"', 'plates[1].area_m2: found string "2", allowed: a number'),
+    "normal too long": (
+        "normal = [0.0, -1.0, 0.0]", "normal = [0.0, -1.01, 0.0]", "normal = [0.0, -1.01, 0.0]",
+        "plates[1].normal: found [0.0, -1.01, 0.0] of length 1.01, "
+        "allowed: a unit vector (length 1 within 1e-3; it is then renormalised)"),
+    "fractions that do not sum to 1": (
+        "diffuse = 0.4", "diffuse = 0.4\nabsorptivity = 0.75", "absorptivity = 0.75",
+        "optics.paint.absorptivity: found absorptivity + specular + diffuse = 1.25, allowed: a sum of 1 within 1e-9"),
+    "more reflected than arrives": (
+        "specular = 0.1", "specular = 0.85", "specular = 0.85",
+        "optics.paint.specular: found specular + diffuse = 1.25, allowed: a sum of at most 1"),
+    "an inertia no body has": (
+        "inertia_kg_m2 = [[30, 0, 0], [0, 40, 0], [0, 0, 50]]", "inertia_kg_m2 = [[30, 0, 0], [0, 40, 0], [0, 0, 71]]",
+        "inertia_kg_m2 = [[30, 0, 0], [0, 40, 0], [0, 0, 71]]",
+        "mass_properties.inertia_kg_m2: found [[30.0, 0.0, 0.0], [0.0, 40.0, 0.0], [0.0, 0.0, 71.0]], allowed: "
+        "principal moments of which none exceeds the sum of the two others (triangle inequality)"),
+    "a panel axis that is no direction": (
+        "center_m = [2, 0, 0]", "center_m = [2, 0, 0]\naxis = [0, 3, 4]", "axis = [0, 3, 4]",
+        "panels[1].axis: found [0.0, 3.0, 4.0] of length 5, "
+        "allowed: a unit vector (length 1 within 1e-3; it is then renormalised)"),
+    "a panel normal along the axis": (
+        "center_m = [2, 0, 0]", "center_m = [2, 0, 0]\naxis = [1, 0, 0]\nzero_normal = [1, 0, 0]",
+        "zero_normal = [1, 0, 0]",
+        "panels[1].zero_normal: found [1.0, 0.0, 0.0], whose component along `axis` is 1, "
+        "allowed: a direction perpendicular to `axis` within 1e-3"),
+    "a misspelt key": (
+        "area_m2 = 1.5", "area_m = 1.5", "area_m = 1.5",
+        "panels[1].area_m: found the unknown key `area_m` (did you mean `area_m2`?), allowed: name, area_m2, "),
+    "a missing key": (
+        "capacity_n_m_s = 4", "", "[[wheels]]",
+        "wheels[1]: found no key `capacity_n_m_s`, allowed: a value for `capacity_n_m_s`, which has no default"),
+    "an unknown material": (
+        'normal = [0.0, -1.0, 0.0]\noptics = "paint"', 'normal = [0.0, -1.0, 0.0]\noptics = "pain"',
+        'optics = "pain"',
+        "plates[1].optics: found the unknown material `pain` (did you mean `paint`?), "
+        "allowed: a material under [optics]: paint"),
+    "an unknown word": (
+        "center_m = [2, 0, 0]", 'center_m = [2, 0, 0]\ncontrol = "fixed"', 'control = "fixed"',
+        "panels[1].control: found the unknown word `fixed`, allowed: sun_offset, angle"),
+    "not a number": (
+        "mass_kg = 120", "mass_kg = nan", "mass_kg = nan",
+        "mass_properties.mass_kg: found NaN, allowed: a number above 0"),
+    "two numbers for three": (
+        "center_m = [0, -1, 0]", "center_m = [0, -1]", "center_m = [0, -1]",
+        "plates[1].center_m: found a list of length 2, allowed: a list of length 3"),
+    "a list without brackets": (
+        "center_m = [0, -1, 0]", "center_m = 0, -1, 0", "center_m = 0, -1, 0",
+        "found text that is not TOML ("),
+    "a key given twice": (
+        "capacity_n_m_s = 4", "capacity_n_m_s = 4\ncapacity_n_m_s = 5", "capacity_n_m_s = 5",
+        "found text that is not TOML (duplicate key"),
+    "no surface": (PLATE + PANEL, "", "", "found no surface, allowed: at least one of `plates`, `sunshade`, `panels`"),
+}
+
+
+@pytest.mark.parametrize("kind", BAD)
+def test_a_bad_file_is_refused_by_line_key_found_and_allowed(kind, heliotorque, dist, tmp_path):
+    old, new, found_in, report = BAD[kind]
+    assert GOOD.count(old) == 1, "the replacement is ambiguous"
+    text = GOOD.replace(old, new)
+    (tmp_path / "my.toml").write_text(text, encoding="utf-8")
+    template = (dist / "MomentumPlant.fmu").resolve()
+    checked = call(heliotorque, "check", "my.toml", "--template", template, folder=tmp_path)
+    assert checked.returncode == 1
+    assert checked.stdout.count("\n") == 1, checked.stdout
+    line = checked.stdout.rstrip("\n")
+    number, rest = re.fullmatch(r"my\.toml:(\d+): (.*)", line).groups()
+    assert rest.startswith(report), line
+    assert text.splitlines()[int(number) - 1].startswith(found_in), line
+    packed = call(heliotorque, "pack", "--spacecraft", "my.toml", "--template", template, "--name", "My", folder=tmp_path)
+    assert packed.returncode == 1 and line in packed.stderr
+    assert not (tmp_path / "My.fmu").exists()
+
+
+SHADE = """
+[sunshade]
+model = "cylinder"
+rotation_deg = [0, 0, 2]
+
+[sunshade.cylinder]
+radius_m = 1
+height_m = 2.5
+subtended_angle_deg = 120
+optics = "paint"
+"""
+
+
+def test_a_shade_given_as_cylinder_alone_flies_as_one_and_not_as_plates(heliotorque, dist, tmp_path):
+    fmu = pack(heliotorque, dist, tmp_path, HEAD.format(name="Shade & 'Co' <ü>") + SHADE, "Shade")
+    assert validate_fmu(fmu) == []
+    assert "a sunshade of a cylinder" in call(
+        heliotorque, "check", "Shade.toml", "--template", (dist / "MomentumPlant.fmu").resolve(), folder=tmp_path
+    ).stdout
+    result = fly(fmu, 3600.0, days=1.0, start=FIXED_LIGHT, output=vector("torque.solar"))
+    assert np.abs(stack(result, "torque.solar")).max() > 1e-8
+    messages = []
+
+    def logger(environment, instance, status, category, message):
+        messages.append(message.decode())
+
+    with pytest.raises(Exception):
+        fly(fmu, 3600.0, days=1.0, start={"sunshade.model": 1}, logger=logger)
+    assert any("sunshade.model: found plates, allowed: cylinder" in message for message in messages), messages
+
+
+def test_every_problem_is_reported_at_once(heliotorque, dist, tmp_path):
+    text = GOOD.replace("area_m2 = ", "area_m2 = -").replace("mass_kg = 120", "mass_kg = 0")
+    (tmp_path / "my.toml").write_text(text, encoding="utf-8")
+    checked = call(heliotorque, "check", "my.toml", "--template", (dist / "MomentumPlant.fmu").resolve(), folder=tmp_path)
+    assert checked.returncode == 1
+    keys = [line.split(": ")[1] for line in checked.stdout.splitlines()]
+    assert sorted(keys) == ["mass_properties.mass_kg", "panels[1].area_m2", "plates[1].area_m2"]
+    assert "3 problems" in checked.stderr
+
+
+def test_a_good_file_is_checked_with_the_template_beside_the_user(heliotorque, dist, tmp_path):
+    (tmp_path / "my.toml").write_bytes(b"\xef\xbb\xbf" + GOOD.replace("\n", "\r\n").encode())
+    without = call(heliotorque, "check", "my.toml", folder=tmp_path)
+    assert without.returncode == 1 and "--template" in without.stderr
+    (tmp_path / "dist").mkdir()
+    (tmp_path / "dist" / "MomentumPlant.fmu").write_bytes((dist / "MomentumPlant.fmu").read_bytes())
+    checked = call(heliotorque, "check", "my.toml", folder=tmp_path)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert "my.toml: ok for MomentumPlant: 1 panel, 1 plate, 1 wheel" in checked.stdout
+
+
+def test_the_template_is_not_overwritten(heliotorque, dist, tmp_path):
+    (tmp_path / "dist").mkdir()
+    template = tmp_path / "dist" / "MomentumPlant.fmu"
+    template.write_bytes((dist / "MomentumPlant.fmu").read_bytes())
+    packed = call(heliotorque, "pack", "--template", "MomentumPlant.fmu", folder=tmp_path / "dist")
+    assert packed.returncode == 1 and "--name" in packed.stderr
+    assert template.read_bytes() == (dist / "MomentumPlant.fmu").read_bytes()
+
+
+def test_the_schema_is_the_committed_one(heliotorque):
+    printed = json.loads(call(heliotorque, "schema").stdout)
+    assert printed == json.loads((RESOURCES / "spacecraft.schema.json").read_text(encoding="utf-8"))
+    assert {"plates", "panels", "sunshade", "wheels", "optics"} <= printed["properties"].keys()
+
+
+def test_coefficients_show_the_cylinders_key_values(heliotorque, momentum_plant):
+    """Paper 000's eq 5 with Table 1 and the centre of mass at the origin, as checked against 4000 facets."""
+    shown = call(heliotorque, "info", momentum_plant, "--coefficients", "--set", "sunshade.model=cylinder")
+    assert shown.returncode == 0, shown.stderr
+    rows = {line[:6].strip(): line.split()[-3:] for line in shown.stdout.splitlines()}
+    assert rows["y z"][0] == "-3.0930789"
+    assert rows["x z"][1] == "1.3310557"
+    assert rows["x y"][2] == "1.7620232"
+    assert "torque.solar" in shown.stdout and "torque.gravityGradient" in shown.stdout
+
+
+def test_thresholds_stand_beside_the_papers(heliotorque, momentum_plant):
+    """What wheels guarantee is proportional to their capacity; the paper's three numbers are not."""
+    shown = call(heliotorque, "info", momentum_plant, "--coefficients").stdout
+    found = re.findall(r"^ *(4|8|12) each +([\d.]+) +([\d.]+) *$", shown, re.MULTILINE)
+    assert [(capacity, stated) for capacity, _, stated in found] == [("4", "4"), ("8", "5.5"), ("12", "7")]
+    ratios = [float(guaranteed) / float(capacity) for capacity, guaranteed, _ in found]
+    assert ratios == pytest.approx([ratios[0]] * 3, rel=1e-4)

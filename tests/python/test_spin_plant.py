@@ -1,0 +1,156 @@
+"""SpinPlant in FMPy: it validates, flies paper 002's manoeuvre on any grid, and the tapered train beats the paper's."""
+
+import csv
+import subprocess
+
+import numpy as np
+import pytest
+from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+
+SPIN_KG_M2 = 353.82
+RATE = np.pi / 6
+PERIOD_S = 12.0
+TORQUE_N_M = 4.448 * 0.40
+
+
+@pytest.fixture(scope="module")
+def spin_plant(dist):
+    return str(dist / "SpinPlant.fmu")
+
+
+@pytest.fixture(scope="module")
+def loaded(spin_plant):
+    return extract(spin_plant), read_model_description(spin_plant)
+
+
+def body(ratio, **more):
+    transverse = SPIN_KG_M2 / ratio
+    start = {"inertia[1]": transverse, "inertia[2]": transverse, "inertia[3]": SPIN_KG_M2, "damper.timeConstant": 0.0}
+    return start | more
+
+
+def fly(spin_plant, loaded, stop_s, step_s, start, output):
+    folder, description = loaded
+    return simulate_fmu(
+        folder,
+        model_description=description,
+        stop_time=stop_s,
+        step_size=step_s,
+        output_interval=step_s,
+        start_values=start,
+        output=output,
+    )
+
+
+def test_fmpy_has_nothing_to_report(spin_plant):
+    assert validate_fmu(spin_plant) == []
+    description = read_model_description(spin_plant, validate=True)
+    assert description.coSimulation.canGetAndSetFMUstate and description.coSimulation.canSerializeFMUstate
+
+
+def test_it_flies_as_it_comes(spin_plant):
+    result = simulate_fmu(spin_plant)
+    assert result["burn.pulsesFired"][-1] == 114
+    assert np.degrees(result["momentum.displacement"][-1]) == pytest.approx(2.0, abs=0.02)
+
+
+def test_communication_steps_change_no_bit(spin_plant, loaded):
+    names = ["nutation.angle", "attitude.q[1]", "momentum.inertial[1]", "spin.period", "starTracker.declination"]
+    flights = [fly(spin_plant, loaded, 1344.0, step_s, {}, names) for step_s in (0.032, 12.0, 1344.0)]
+    for flight in flights[1:]:
+        for name in names:
+            assert flight[name][-1] == flights[0][name][-1], name
+
+
+@pytest.mark.parametrize("ratio", [1.471, 1.483, 1.5])
+@pytest.mark.parametrize("turns, width_s, count", [(1.0, 0.032, 114), (0.5, 0.032, 114), (1.0, 1.0, 11), (0.5, 1.0, 11)])
+def test_nutation_follows_eq_8_pulse_by_pulse(spin_plant, loaded, ratio, turns, width_s, count):
+    """Eq 8 summed as a series of kicks of the differential equation h' = i lambda h + T, which is not how it is flown."""
+    start = body(ratio, **{"burn.turnsPerPulse": turns, "burn.pulseWidth": width_s, "burn.count": count})
+    step_s = turns * PERIOD_S / 4
+    names = ["nutation.angle", "burn.pulsesFired", "burn.active", "thruster[8].active", "thruster[10].active"]
+    result = fly(spin_plant, loaded, (count * turns + 2) * PERIOD_S, step_s, start, names)
+    rate = (ratio - 1) * RATE
+    kick = TORQUE_N_M * 2 * np.sin(rate * width_s / 2) / rate / (SPIN_KG_M2 * RATE)
+    steps = np.exp(2j * np.pi * ratio * turns * np.arange(count))
+    expected = np.arctan(kick * np.abs(np.cumsum(steps)))
+    quiet = ~(result["thruster[8].active"] | result["thruster[10].active"]) & (result["burn.pulsesFired"] > 0)
+    seen = result["nutation.angle"][quiet]
+    theory = expected[result["burn.pulsesFired"][quiet] - 1]
+    error = np.abs(seen - theory)
+    assert np.all((error < 5e-5 * theory) | (error < np.radians(1e-6)))
+    assert set(result["burn.pulsesFired"]) == set(range(count + 1))
+
+
+def test_the_tapered_train_ends_quiet_anywhere_in_the_range(spin_plant, loaded):
+    """2 deg in 11.4 min with less than 0.0033 deg of nutation left for any ratio from begin to end of life."""
+    for ratio in np.linspace(1.471, 1.494, 24):
+        for count in (57, 58):
+            start = body(ratio, **{"burn.plan": 2, "burn.count": count})
+            names = ["nutation.angle", "momentum.displacement", "burn.done", "burn.active"]
+            result = fly(spin_plant, loaded, 720.0, 1.0, start, names)
+            assert result["burn.done"][-1]
+            assert np.degrees(result["nutation.angle"][-1]) < 0.0033
+            if count == 58:
+                # Active points are a second apart, so the duration is known to a second or two.
+                duration_min = np.count_nonzero(result["burn.active"]) / 60
+                assert duration_min == pytest.approx(11.4, abs=0.05)
+                assert np.degrees(result["momentum.displacement"][-1]) == pytest.approx(2.0, abs=0.01)
+
+
+def test_the_damper_takes_nutation_and_leaves_the_momentum(spin_plant, loaded):
+    start = {"burn.plan": 4, "initial.nutation": np.radians(0.5)}
+    names = ["nutation.angle", "momentum.inertial[1]", "momentum.inertial[3]", "energy"]
+    result = fly(spin_plant, loaded, 9.5 * 3600, 3600 / 4, start, names)
+    assert result["nutation.angle"][-1] == pytest.approx(np.radians(0.5) / np.e, rel=1e-9)
+    assert np.ptp(result["momentum.inertial[1]"]) == 0 and np.ptp(result["momentum.inertial[3]"]) == 0
+    assert np.all(np.diff(result["energy"]) < 0)
+
+
+def test_what_cannot_be_flown_is_refused(spin_plant, loaded):
+    folder, description = loaded
+    references = {variable.name: variable for variable in description.modelVariables}
+
+    def refusal(name, value):
+        messages = []
+        fmu = instantiate_fmu(folder, description, "CoSimulation", logger=lambda *m: messages.append(m[4].decode()))
+        setter = fmu.setReal if references[name].type == "Real" else fmu.setInteger
+        try:
+            fmu.setupExperiment()
+            setter([references[name].valueReference], [value])
+            fmu.enterInitializationMode()
+            fmu.exitInitializationMode()
+        except Exception:
+            return " ".join(messages)
+        finally:
+            fmu.freeInstance()
+        raise AssertionError(f"{name} = {value} was flown")
+
+    assert "1 to 10" in refusal("burn.thruster", 11)
+    assert "half a turn" in refusal("burn.pulseWidth", 6.5)
+    assert "inertia[2]" in refusal("inertia[2]", -5.0)
+    assert "triangle" in refusal("inertia[3]", 900.0)
+    assert "maxDuration" in refusal("burn.maxDuration", 60.0)
+    assert "maxNutation" in refusal("burn.maxNutation", 1e-6)
+
+
+def test_the_planner_flies_its_plan_through_the_fmu(heliotorque, spin_plant):
+    command = [str(heliotorque), "plan", "spin", "--max-nutation", "0.02", "--fmu", spin_plant]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    assert "1 2 2 ... 2 1" in text and "58 pulses, 11.40 min" in text and "24 ratios" in text
+    failed = subprocess.run(command + ["--max-duration", "1"], capture_output=True, text=True)
+    assert failed.returncode != 0 and "no plan keeps the limits" in failed.stderr
+
+
+def test_the_studies_agree_with_the_paper_or_say_why(heliotorque, dist, tmp_path):
+    for name in ("figure2", "figure3", "figure4", "figure6", "figure7", "numbers"):
+        command = [str(heliotorque), "study", f"spin/{name}", "--quiet", "--dist", str(dist), "--output", str(tmp_path)]
+        subprocess.run(command, check=True, capture_output=True)
+        assert (tmp_path / f"{name}.csv").stat().st_size > 100
+        if name != "numbers":
+            assert (tmp_path / f"{name}.svg").stat().st_size > 1000
+    with open(tmp_path / "numbers.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) >= 24
+    assert all(row["verdict"] not in ("", "off") for row in rows)

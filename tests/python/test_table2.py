@@ -1,0 +1,94 @@
+"""Paper 000's Table 2, rows "thruster dumps only": counts and trends, the same for every communication step."""
+
+import itertools
+
+import pytest
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+
+from flight import DAY_S, PAPER
+
+OFFSETS_M = (0.0, -0.0254, -0.0508)
+# Dumps in 90 days by threshold in N.m.s, one for each offset. The paper says of the plates that "the number and spacing
+# of thruster dumps was comparable".
+PAPER_COUNTS = {4.0: (4, 9, 14), 7.0: (2, 6, 8)}
+SHADES = {"plates": 1, "cylinder": 2}
+# The pointing rules, epoch, downlink windows and panel tilt behind the paper's counts are unpublished.
+COUNT_TOLERANCE = 2
+LOOK_S = 600.0
+
+
+@pytest.fixture(scope="module")
+def dumps(momentum_plant, tmp_path_factory):
+    """Times of all dumps in 90 days, by shade, threshold, offset and communication step; flown once each."""
+    description = read_model_description(momentum_plant)
+    kinds = {variable.name: (variable.type, variable.valueReference) for variable in description.modelVariables}
+    folder = extract(momentum_plant, unzipdir=str(tmp_path_factory.mktemp("table2")))
+    flown = {}
+
+    def fly(shade, threshold, offset, step_s=LOOK_S):
+        key = (shade, threshold, offset, step_s)
+        if key not in flown:
+            flown[key] = flight(*key)
+        return flown[key]
+
+    def flight(shade, threshold, offset, step_s):
+        start = PAPER | {"sunshade.model": SHADES[shade], "spacecraft.centerOfMass[3]": offset}
+        start |= {f"dump.threshold[{axis}]": threshold for axis in (1, 2, 3)}
+        slave = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=folder,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="table2",
+        )
+        slave.instantiate()
+        for name, value in start.items():
+            kind, reference = kinds[name]
+            setter = {"Real": slave.setReal, "Boolean": slave.setBoolean, "Enumeration": slave.setInteger}[kind]
+            setter([reference], [value])
+        slave.setupExperiment(startTime=0.0)
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+        count, last_time = [kinds["dump.count"][1]], [kinds["dump.lastTime"][1]]
+        times, between = [], round(LOOK_S / step_s)
+        for k in range(round(90 * DAY_S / step_s)):
+            slave.doStep(currentCommunicationPoint=k * step_s, communicationStepSize=step_s)
+            if (k + 1) % between == 0 and slave.getInteger(count)[0] > len(times):
+                times.append(slave.getReal(last_time)[0])
+        assert slave.getInteger(count)[0] == len(times), "two dumps within ten minutes"
+        slave.terminate()
+        slave.freeInstance()
+        return times
+
+    return fly
+
+
+CELLS = list(itertools.product(SHADES, PAPER_COUNTS, range(len(OFFSETS_M))))
+
+
+@pytest.mark.parametrize("shade, threshold, column", CELLS)
+def test_counts_are_near_the_papers(dumps, shade, threshold, column):
+    count = len(dumps(shade, threshold, OFFSETS_M[column]))
+    assert abs(count - PAPER_COUNTS[threshold][column]) <= COUNT_TOLERANCE
+
+
+@pytest.mark.parametrize("shade, threshold, column", CELLS)
+def test_a_step_of_a_minute_dumps_at_the_same_instants(dumps, shade, threshold, column):
+    cell = (shade, threshold, OFFSETS_M[column])
+    assert dumps(*cell, step_s=60.0) == dumps(*cell)
+
+
+def test_a_step_of_ten_seconds_dumps_at_the_same_instants(dumps):
+    cell = ("cylinder", 4.0, -0.0508)
+    assert dumps(*cell, step_s=10.0) == dumps(*cell)
+
+
+@pytest.mark.parametrize("shade, threshold", itertools.product(SHADES, PAPER_COUNTS))
+def test_the_farther_the_centre_of_mass_the_more_dumps(dumps, shade, threshold):
+    counts = [len(dumps(shade, threshold, offset)) for offset in OFFSETS_M]
+    assert counts == sorted(set(counts)), "not rising"
+
+
+@pytest.mark.parametrize("shade, offset", itertools.product(SHADES, OFFSETS_M))
+def test_the_larger_the_threshold_the_fewer_dumps(dumps, shade, offset):
+    assert len(dumps(shade, 7.0, offset)) < len(dumps(shade, 4.0, offset))

@@ -1,0 +1,125 @@
+//! Real, Integer and Boolean get and set and doStep ask for no memory once an instance has flown a while.
+
+use fmi_export::Status;
+use fmi_export::abi::InProcess;
+use heliotorque_tests::counting::{Count, counted};
+
+use crate::flights::{Flight, Style};
+use crate::support::{Base, Names, names, ok, silent};
+
+/// References and room for values, made before counting begins.
+struct Client {
+    style: Style,
+    reals: (Vec<u32>, Vec<f64>),
+    integers: (Vec<u32>, Vec<i32>),
+    booleans: (Vec<u32>, Vec<i32>),
+    torque: [u32; 3],
+    /// Inputs of the style beside the torque: Reals, and a Boolean.
+    moved: Vec<u32>,
+    switched: u32,
+}
+
+impl Client {
+    fn new(style: Style, names: &Names) -> Self {
+        let (reals, integers) = (names.all(Base::Real), names.all(Base::Integer));
+        let booleans = names.all(Base::Boolean);
+        let (moved, switched): (&[&str], _) = match style.model() {
+            "MomentumPlant" => (&["command.rate[1]", "spacecraft.centerOfMass[2]"], "dump.request"),
+            _ => (&["thruster[8].onTime", "thruster[8].onDelay"], "thruster[1].fire"),
+        };
+        Self {
+            style,
+            reals: (reals.clone(), vec![0.0; reals.len()]),
+            integers: (integers.clone(), vec![0; integers.len()]),
+            booleans: (booleans.clone(), vec![0; booleans.len()]),
+            torque: names.vector("torque.external"),
+            moved: moved.iter().map(|name| names.real(name)).collect(),
+            switched: names.of(Base::Boolean, switched),
+        }
+    }
+
+    /// Reads everything and, in the styles that set inputs, sets some.
+    fn turn(&mut self, instance: &mut InProcess, step: usize) {
+        ok(instance.get_real(&self.reals.0, &mut self.reals.1));
+        ok(instance.get_integer(&self.integers.0, &mut self.integers.1));
+        ok(instance.get_boolean(&self.booleans.0, &mut self.booleans.1));
+        if matches!(self.style, Style::Commanded | Style::Fired) {
+            let wave = (step as f64 * 0.1).sin();
+            ok(instance.set_real(&self.torque, &[1e-5 * wave, 2e-6, -1e-6]));
+            ok(instance.set_input_derivatives(&self.torque, &[1, 1, 1], &[1e-9 * wave, 0.0, 1e-10]));
+            ok(instance.set_boolean(&[self.switched], &[i32::from(step.is_multiple_of(20))]));
+            if step.is_multiple_of(30) {
+                ok(instance.set_real(&self.moved, &[0.01 * wave.abs(), 0.02 * wave.abs()]));
+            }
+        }
+    }
+}
+
+#[test]
+fn flights_allocate_nothing() {
+    for style in Style::ALL {
+        let mut flight = Flight::new(style);
+        let mut client = Client::new(style, &flight.names);
+        let step_s = if style.model() == "MomentumPlant" { 600.0 } else { 0.7 };
+        (0..50).for_each(|_| flight.step());
+        let events = happened(&mut flight);
+        let (mut instance, mut time_s) = (flight.instance, flight.time_s);
+        let ((), count) = counted(|| {
+            for step in 0..4_000 {
+                client.turn(&mut instance, step);
+                ok(instance.do_step(time_s, step_s));
+                time_s += step_s;
+            }
+        });
+        assert_eq!(count, Count::default(), "{style:?}");
+        flight.instance = instance;
+        assert!(happened(&mut flight) > events, "{style:?}: nothing happened in the flight");
+    }
+}
+
+/// Dumps so far, or Sun crossings: what a flight without events would not have.
+fn happened(flight: &mut Flight) -> i32 {
+    let name = if flight.style.model() == "MomentumPlant" { "dump.count" } else { "spin.sunCrossings" };
+    let mut count = [0];
+    ok(flight.instance.get_integer(&[flight.names.of(Base::Integer, name)], &mut count));
+    count[0]
+}
+
+#[test]
+fn all_types_allocates_nothing() {
+    let names = names("AllTypes");
+    let mut instance = silent("AllTypes");
+    ok(instance.start(0.0, None));
+    let real = [names.real("input.real"), names.real("tunable.real")];
+    let integer = [names.of(Base::Integer, "input.integer"), names.of(Base::Integer, "tunable.choice")];
+    let boolean = [names.of(Base::Boolean, "input.boolean")];
+    let output = [names.real("output.real"), names.real("output.integral")];
+    let (mut reals, mut integers, mut booleans) = ([0.0; 2], [0; 2], [0; 1]);
+    let mut step = |number: u32| {
+        let x = f64::from(number);
+        ok(instance.set_real(&real, &[x, x % 10.0]));
+        ok(instance
+            .set_integer(&integer, &[(number % 900) as i32, if number.is_multiple_of(2) { 1 } else { 4 }]));
+        ok(instance.set_boolean(&boolean, &[(number % 2) as i32]));
+        ok(instance.set_input_derivatives(&real[..1], &[1], &[0.5]));
+        ok(instance.do_step(0.5 * x, 0.5));
+        ok(instance.get_real(&output, &mut reals));
+        ok(instance.get_integer(&integer, &mut integers));
+        ok(instance.get_boolean(&boolean, &mut booleans));
+        ok(instance.get_output_derivatives(&output, &[1, 1], &mut reals));
+        ok(instance.get_directional_derivative(&output[..1], &real[..1], &[1.0], &mut reals));
+        // A refused value costs no memory either while nobody listens.
+        assert_eq!(instance.set_real(&real, &[f64::NAN, 0.0]), Status::Discard);
+    };
+    (0..3).for_each(&mut step);
+    let ((), count) = counted(|| (3..1_000).for_each(&mut step));
+    assert_eq!(count, Count::default());
+}
+
+/// The counter itself counts.
+#[test]
+fn an_allocation_is_seen() {
+    let (kept, count) = counted(|| vec![0_u8; 1000]);
+    assert_eq!(count, Count { allocations: 1, bytes: 1000, live_bytes: 1000 });
+    drop(kept);
+}

@@ -1,0 +1,348 @@
+//! The reference: what an instance of AllTypes must answer and become, from the rules alone.
+
+use super::table;
+use super::variables::{Content, VARIABLES, Value, Variable, echoes, position};
+use crate::support::Base;
+
+/// One call of a master; any may come at any time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Call {
+    SetDebugLogging(bool),
+    SetupExperiment {
+        start_s: f64,
+        stop_s: Option<f64>,
+    },
+    EnterInitializationMode,
+    ExitInitializationMode,
+    Terminate,
+    Reset,
+    /// `fmi2FreeInstance`, and another instance in its place.
+    Replace,
+    Get(Base, Vec<Picked>),
+    Set(Base, Vec<(Picked, Value)>),
+    GetState(usize),
+    SetState(usize),
+    FreeState(usize),
+    /// Size and bytes of a slot, kept.
+    Serialize(usize),
+    /// The kept bytes, into a slot.
+    Deserialize(usize),
+    SetInputDerivative {
+        known: bool,
+        order: i32,
+        value: f64,
+    },
+    GetOutputDerivative {
+        known: bool,
+        order: i32,
+    },
+    DirectionalDerivative {
+        known: bool,
+        seed: f64,
+    },
+    /// With a step size, and by how much the communication point is off.
+    DoStep {
+        step_s: f64,
+        off_s: f64,
+        no_return: bool,
+    },
+    CancelStep,
+    GetStatus(i32),
+    GetIntegerStatus(i32),
+    GetStringStatus(i32),
+    LastSuccessfulTime,
+    Terminated,
+}
+
+/// A row of the variables, or a reference that no variable has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Picked {
+    Row(usize),
+    Unknown(u32),
+}
+
+/// What an answer must be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    Ok,
+    Discard,
+    Error,
+    /// OK with these values; `None` is not predicted.
+    Values(Vec<Option<Value>>),
+    /// OK with this number.
+    Number(f64),
+}
+
+/// All that `fmi2SetFMUstate` brings back.
+#[derive(Clone)]
+pub struct Moment {
+    pub state: char,
+    experiment: Option<(f64, Option<f64>)>,
+    time_s: f64,
+    terminated: bool,
+    given: [Value; VARIABLES.len()],
+    /// What outputs show; none before the first computation.
+    computed: Option<Computed>,
+    derivatives: Vec<(i32, f64)>,
+}
+
+#[derive(Clone)]
+struct Computed {
+    given: [Value; VARIABLES.len()],
+    output_real: f64,
+    slope: f64,
+}
+
+/// The reference instance with the states its master keeps.
+#[derive(Clone)]
+pub struct Master {
+    pub now: Moment,
+    slots: [Option<Box<Moment>>; 2],
+    bytes: Option<Box<Moment>>,
+    pub logging: bool,
+    pub answer: Answer,
+}
+
+impl Moment {
+    fn fresh() -> Self {
+        Self {
+            state: 'I',
+            experiment: None,
+            time_s: 0.0,
+            terminated: false,
+            given: std::array::from_fn(|row| VARIABLES[row].start),
+            computed: None,
+            derivatives: Vec::new(),
+        }
+    }
+
+    fn number(&self, name: &str) -> f64 {
+        match self.given[position(name)] {
+            Value::Real(value) => value,
+            other => panic!("{name} is {other:?}"),
+        }
+    }
+
+    /// The outputs at the end of a step of `length_s`, whose inputs follow their Taylor polynomials.
+    fn compute(&mut self, length_s: f64, derivatives: &[(i32, f64)]) {
+        let (mut output_real, mut slope) = (self.number("input.real"), 0.0);
+        for &(order, value) in derivatives {
+            let factorial: f64 = (1..=order).map(f64::from).product();
+            output_real += value * length_s.powi(order) / factorial;
+            slope += value * length_s.powi(order - 1) * f64::from(order) / factorial;
+        }
+        self.computed = Some(Computed { given: self.given, output_real, slope });
+    }
+
+    fn read(&self, row: usize) -> Option<Value> {
+        match (VARIABLES[row].content, echoes()[row], &self.computed) {
+            (Content::Given, ..) => Some(self.given[row]),
+            (Content::Echo("input.real"), _, Some(computed)) => Some(Value::Real(computed.output_real)),
+            (Content::Echo(_), Some(source), Some(computed)) => Some(computed.given[source]),
+            _ => None,
+        }
+    }
+}
+
+/// Short, for it stands before every shrunk sequence.
+impl std::fmt::Debug for Master {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "in {} at {} s", self.now.state, self.now.time_s)
+    }
+}
+
+impl Master {
+    pub fn new() -> Self {
+        Self { now: Moment::fresh(), slots: [None, None], bytes: None, logging: true, answer: Answer::Ok }
+    }
+
+    /// Time of the last communication point.
+    pub fn time_s(&self) -> f64 {
+        self.now.time_s
+    }
+
+    /// Makes the call; the answer is kept in `answer`.
+    pub fn call(&mut self, call: &Call) {
+        self.answer =
+            if table::allows(function(call), self.now.state) { self.allowed(call) } else { Answer::Error };
+        if self.answer == Answer::Error {
+            self.now.state = 'E';
+        }
+    }
+
+    fn allowed(&mut self, call: &Call) -> Answer {
+        let now = &mut self.now;
+        match *call {
+            Call::SetDebugLogging(on) => self.logging = on,
+            Call::SetupExperiment { start_s, stop_s } => {
+                if !start_s.is_finite()
+                    || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s)
+                {
+                    return Answer::Error;
+                }
+                now.experiment = Some((start_s, stop_s));
+            }
+            Call::EnterInitializationMode => {
+                let Some((start_s, _)) = now.experiment else { return Answer::Error };
+                (now.state, now.time_s) = ('M', start_s);
+            }
+            Call::ExitInitializationMode => {
+                now.compute(0.0, &[]);
+                now.state = 'C';
+            }
+            Call::Terminate => now.state = 'T',
+            Call::Reset | Call::Replace => {
+                *now = Moment::fresh();
+                self.logging = true;
+            }
+            Call::Get(_, ref picked) => return self.get(picked),
+            Call::Set(_, ref wanted) => return self.set(wanted),
+            Call::GetState(slot) => self.slots[slot] = Some(Box::new(now.clone())),
+            Call::SetState(slot) => match &self.slots[slot] {
+                Some(saved) => *now = (**saved).clone(),
+                None => return Answer::Error,
+            },
+            Call::FreeState(slot) => self.slots[slot] = None,
+            Call::Serialize(slot) => match &self.slots[slot] {
+                Some(saved) => self.bytes = Some(saved.clone()),
+                None => return Answer::Error,
+            },
+            Call::Deserialize(slot) => match &self.bytes {
+                Some(saved) => self.slots[slot] = Some(saved.clone()),
+                None => return Answer::Error,
+            },
+            Call::SetInputDerivative { known, order, value } => {
+                if !known || order < 1 {
+                    return Answer::Error;
+                }
+                if !value.is_finite() {
+                    return Answer::Discard;
+                }
+                now.derivatives.retain(|(kept, _)| *kept != order);
+                now.derivatives.push((order, value));
+            }
+            Call::GetOutputDerivative { known, order } => {
+                return match &now.computed {
+                    Some(computed) if known && order == 1 => Answer::Number(computed.slope),
+                    _ => Answer::Error,
+                };
+            }
+            Call::DirectionalDerivative { known, seed } => {
+                if known && now.state == 'M' {
+                    now.compute(0.0, &[]);
+                }
+                return match now.computed {
+                    Some(_) if known => Answer::Number(seed),
+                    _ => Answer::Error,
+                };
+            }
+            Call::DoStep { step_s, off_s, .. } => return self.step(step_s, off_s),
+            Call::CancelStep => return Answer::Error,
+            // No step is ever pending, so there is nothing to tell.
+            Call::GetStatus(_) | Call::GetIntegerStatus(_) | Call::GetStringStatus(_) => {
+                return Answer::Discard;
+            }
+            Call::LastSuccessfulTime => return Answer::Number(now.time_s),
+            Call::Terminated => return Answer::Number(f64::from(u8::from(now.terminated))),
+        }
+        Answer::Ok
+    }
+
+    fn get(&mut self, picked: &[Picked]) -> Answer {
+        let rows: Option<Vec<usize>> = picked
+            .iter()
+            .map(|picked| match picked {
+                Picked::Row(row) => Some(*row),
+                Picked::Unknown(_) => None,
+            })
+            .collect();
+        let Some(rows) = rows else { return Answer::Error };
+        // Whoever reads an output in Initialization Mode has it computed from what was set so far.
+        let by_master = |row: &usize| matches!(VARIABLES[*row].role.0, "input" | "parameter");
+        if self.now.state == 'M' && !rows.iter().all(by_master) {
+            self.now.compute(0.0, &[]);
+        }
+        Answer::Values(rows.iter().map(|row| self.now.read(*row)).collect())
+    }
+
+    /// All or nothing; the first element that is wrong decides.
+    fn set(&mut self, wanted: &[(Picked, Value)]) -> Answer {
+        let note = table::cell("SetReal", self.now.state);
+        for (picked, value) in wanted {
+            let Picked::Row(row) = *picked else { return Answer::Error };
+            let variable: &Variable = &VARIABLES[row];
+            // Declared leniency: inputs before Initialization Mode.
+            if !(variable.settable(note) || note == '1' && variable.is_input()) {
+                return Answer::Error;
+            }
+            if !(variable.admits)(*value) {
+                return Answer::Discard;
+            }
+        }
+        for (picked, value) in wanted {
+            if let Picked::Row(row) = *picked {
+                self.now.given[row] = *value;
+            }
+        }
+        Answer::Ok
+    }
+
+    fn step(&mut self, step_s: f64, off_s: f64) -> Answer {
+        let now = &mut self.now;
+        let (point_s, start_s) = (now.time_s + off_s, now.time_s);
+        if !step_s.is_finite() || step_s <= 0.0 || off_s != 0.0 {
+            return Answer::Error;
+        }
+        let end_s = point_s + step_s;
+        if now.experiment.and_then(|(_, stop_s)| stop_s).is_some_and(|stop_s| end_s > stop_s) {
+            return Answer::Error;
+        }
+        let over_s = now.number("end.time");
+        let derivatives = std::mem::take(&mut now.derivatives);
+        if over_s >= start_s {
+            now.time_s = end_s.min(over_s);
+            now.compute(now.time_s - start_s, &derivatives);
+        }
+        if over_s < end_s {
+            (now.state, now.terminated) = ('F', true);
+            return Answer::Discard;
+        }
+        Answer::Ok
+    }
+}
+
+/// The table's name of a call.
+pub fn function(call: &Call) -> &'static str {
+    match call {
+        Call::SetDebugLogging(_) => "SetDebugLogging",
+        Call::SetupExperiment { .. } => "SetupExperiment",
+        Call::EnterInitializationMode => "EnterInitializationMode",
+        Call::ExitInitializationMode => "ExitInitializationMode",
+        Call::Terminate => "Terminate",
+        Call::Reset => "Reset",
+        Call::Replace => "FreeInstance",
+        Call::Get(Base::Real, _) => "GetReal",
+        Call::Get(Base::Integer, _) => "GetInteger",
+        Call::Get(Base::Boolean, _) => "GetBoolean",
+        Call::Get(Base::Text, _) => "GetString",
+        Call::Set(Base::Real, _) => "SetReal",
+        Call::Set(Base::Integer, _) => "SetInteger",
+        Call::Set(Base::Boolean, _) => "SetBoolean",
+        Call::Set(Base::Text, _) => "SetString",
+        Call::GetState(_) => "GetFMUstate",
+        Call::SetState(_) => "SetFMUstate",
+        Call::FreeState(_) => "FreeFMUstate",
+        Call::Serialize(_) => "SerializeFMUstate",
+        Call::Deserialize(_) => "DeSerializeFMUstate",
+        Call::SetInputDerivative { .. } => "SetRealInputDerivatives",
+        Call::GetOutputDerivative { .. } => "GetRealOutputDerivatives",
+        Call::DirectionalDerivative { .. } => "GetDirectionalDerivative",
+        Call::DoStep { .. } => "DoStep",
+        Call::CancelStep => "CancelStep",
+        Call::GetStatus(_) => "GetStatus",
+        Call::GetIntegerStatus(_) => "GetIntegerStatus",
+        Call::GetStringStatus(_) => "GetStringStatus",
+        Call::LastSuccessfulTime => "GetRealStatus",
+        Call::Terminated => "GetBooleanStatus",
+    }
+}

@@ -1,0 +1,313 @@
+//! Any sequence of calls, legal or not, is answered as the standard's call table says, and no other way.
+
+mod master;
+mod strategies;
+mod table;
+mod variables;
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+use fmi_export::Status;
+use fmi_export::abi::{InProcess, StatePointer};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+use proptest_state_machine::{ReferenceStateMachine, StateMachineTest};
+
+use crate::support::{self, Base};
+use master::{Answer, Call, Master, Picked};
+use variables::{Value, references};
+
+/// Calls in a run; `HELIOTORQUE_CALLS` asks for another number.
+const CALLS: u64 = 1_000_000;
+const LONGEST_SEQUENCE: usize = 300;
+
+impl ReferenceStateMachine for Master {
+    type State = Self;
+    type Transition = Call;
+
+    fn init_state() -> BoxedStrategy<Self> {
+        Just(Self::new()).boxed()
+    }
+
+    fn transitions(state: &Self) -> BoxedStrategy<Call> {
+        strategies::next(state.now.state)
+    }
+
+    fn apply(mut state: Self, call: &Call) -> Self {
+        state.call(call);
+        state
+    }
+}
+
+/// An instance with the states its master keeps.
+struct Subject {
+    instance: InProcess,
+    slots: [StatePointer; 2],
+    bytes: Vec<u8>,
+    /// Calls made, by function and state.
+    made: Made,
+}
+
+type Made = BTreeMap<(&'static str, char), u64>;
+
+static MADE: Mutex<Made> = Mutex::new(Made::new());
+
+impl Drop for Subject {
+    fn drop(&mut self) {
+        let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+        for (cell, count) in &self.made {
+            *all.entry(*cell).or_default() += count;
+        }
+    }
+}
+
+fn reference(picked: &Picked) -> u32 {
+    match *picked {
+        Picked::Row(row) => references()[row],
+        Picked::Unknown(reference) => reference,
+    }
+}
+
+fn real_of(name: &str) -> u32 {
+    references()[variables::position(name)]
+}
+
+impl Subject {
+    fn new() -> Self {
+        Self {
+            instance: support::fresh("AllTypes"),
+            slots: [StatePointer::null(), StatePointer::null()],
+            bytes: Vec::new(),
+            made: Made::new(),
+        }
+    }
+
+    fn get(&mut self, base: Base, picked: &[Picked]) -> (Status, Vec<Value>) {
+        let references: Vec<u32> = picked.iter().map(reference).collect();
+        let (mut reals, mut integers) = (vec![f64::NAN; picked.len()], vec![i32::MIN; picked.len()]);
+        let instance = &mut self.instance;
+        match base {
+            Base::Real => {
+                let status = instance.get_real(&references, &mut reals);
+                (status, reals.into_iter().map(Value::Real).collect())
+            }
+            Base::Integer => {
+                let status = instance.get_integer(&references, &mut integers);
+                (status, integers.into_iter().map(Value::Integer).collect())
+            }
+            Base::Boolean => {
+                let status = instance.get_boolean(&references, &mut integers);
+                (status, integers.into_iter().map(Value::Boolean).collect())
+            }
+            Base::Text => {
+                let (status, texts) = instance.get_string(&references);
+                // Values are compared with texts that live for ever; few differ.
+                (status, texts.into_iter().map(|text| Value::Text(known(&text))).collect())
+            }
+        }
+    }
+
+    fn set(&mut self, base: Base, wanted: &[(Picked, Value)]) -> Status {
+        let references: Vec<u32> = wanted.iter().map(|(picked, _)| reference(picked)).collect();
+        let values = wanted.iter().map(|(_, value)| value);
+        match base {
+            Base::Real => {
+                let values: Vec<f64> =
+                    values.map(|it| if let Value::Real(it) = it { *it } else { 0.0 }).collect();
+                self.instance.set_real(&references, &values)
+            }
+            Base::Integer => {
+                let values: Vec<i32> =
+                    values.map(|it| if let Value::Integer(it) = it { *it } else { 0 }).collect();
+                self.instance.set_integer(&references, &values)
+            }
+            Base::Boolean => {
+                let values: Vec<i32> =
+                    values.map(|it| if let Value::Boolean(it) = it { *it } else { 0 }).collect();
+                self.instance.set_boolean(&references, &values)
+            }
+            Base::Text => {
+                let bytes = |value: &Value| match *value {
+                    Value::Text(text) => text.as_bytes(),
+                    _ => b"\xFF\xFE".as_slice(),
+                };
+                let values: Vec<&[u8]> = values.map(bytes).collect();
+                self.instance.set_string(&references, &values)
+            }
+        }
+    }
+
+    /// Makes the call; the status and what was read.
+    fn call(&mut self, call: &Call, before: Before) -> (Status, Vec<Value>) {
+        let Before { state, time_s } = before;
+        *self.made.entry((master::function(call), state)).or_default() += 1;
+        let instance = &mut self.instance;
+        let mut number = [f64::NAN];
+        let status = match call {
+            Call::SetDebugLogging(on) => instance.set_debug_logging(*on, &[]),
+            Call::SetupExperiment { start_s, stop_s } => instance.setup_experiment(*start_s, *stop_s),
+            Call::EnterInitializationMode => instance.enter_initialization_mode(),
+            Call::ExitInitializationMode => instance.exit_initialization_mode(),
+            Call::Terminate => instance.terminate(),
+            Call::Reset => instance.reset(),
+            Call::Replace => {
+                self.instance = support::fresh("AllTypes");
+                Status::Ok
+            }
+            Call::Get(base, picked) => return self.get(*base, picked),
+            Call::Set(base, wanted) => self.set(*base, wanted),
+            Call::GetState(slot) => instance.get_state(&mut self.slots[*slot]),
+            Call::SetState(slot) => instance.set_state(&self.slots[*slot]),
+            Call::FreeState(slot) => instance.free_state(&mut self.slots[*slot]),
+            Call::Serialize(slot) => {
+                let (status, bytes) = instance.serialize(&self.slots[*slot]);
+                if status == Status::Ok {
+                    self.bytes = bytes;
+                }
+                status
+            }
+            Call::Deserialize(slot) => {
+                let (status, state) = instance.deserialize(&self.bytes);
+                if status == Status::Ok {
+                    self.slots[*slot] = state;
+                }
+                status
+            }
+            Call::SetInputDerivative { known, order, value } => {
+                let reference = real_of(if *known { "input.real" } else { "tunable.real" });
+                instance.set_input_derivatives(&[reference], &[*order], &[*value])
+            }
+            Call::GetOutputDerivative { known, order } => {
+                let reference = real_of(if *known { "output.real" } else { "input.real" });
+                instance.get_output_derivatives(&[reference], &[*order], &mut number)
+            }
+            Call::DirectionalDerivative { known, seed } => {
+                let unknown = real_of(if *known { "output.real" } else { "parameter.real" });
+                instance.get_directional_derivative(
+                    &[unknown],
+                    &[real_of("input.real")],
+                    &[*seed],
+                    &mut number,
+                )
+            }
+            Call::DoStep { step_s, off_s, no_return: false } => instance.do_step(time_s + off_s, *step_s),
+            Call::DoStep { step_s, off_s, no_return: true } => {
+                instance.do_step_without_return(time_s + off_s, *step_s)
+            }
+            Call::CancelStep => instance.cancel_step(),
+            Call::GetStatus(kind) => instance.get_status(*kind),
+            Call::GetIntegerStatus(kind) => instance.get_integer_status(*kind),
+            Call::GetStringStatus(kind) => instance.get_string_status(*kind),
+            Call::LastSuccessfulTime => {
+                let (status, value) = instance.last_successful_time();
+                number[0] = value;
+                status
+            }
+            Call::Terminated => {
+                let (status, value) = instance.terminated();
+                number[0] = f64::from(u8::from(value));
+                status
+            }
+        };
+        (status, number.map(Value::Real).to_vec())
+    }
+}
+
+fn known(text: &str) -> &'static str {
+    let starts = variables::VARIABLES.iter().filter_map(|variable| match variable.start {
+        Value::Text(text) => Some(text),
+        _ => None,
+    });
+    let set = ["a", "100 % #1#", "Ωμέγα", "a rather long text, longer than the others"];
+    set.into_iter().chain(starts).find(|it| *it == text).unwrap_or("a text nobody set")
+}
+
+/// Where the reference stood before a call.
+#[derive(Clone, Copy)]
+struct Before {
+    state: char,
+    time_s: f64,
+}
+
+impl Before {
+    fn of(master: &Master) -> Self {
+        Self { state: master.now.state, time_s: master.time_s() }
+    }
+}
+
+/// The sequence under test.
+struct Sequence {
+    subject: Subject,
+    before: Before,
+}
+
+impl StateMachineTest for Sequence {
+    type SystemUnderTest = Self;
+    type Reference = Master;
+
+    fn init_test(master: &Master) -> Self {
+        Self { subject: Subject::new(), before: Before::of(master) }
+    }
+
+    fn apply(mut sequence: Self, master: &Master, call: Call) -> Self {
+        let (status, values) = sequence.subject.call(&call, sequence.before);
+        let expected = match master.answer {
+            Answer::Ok | Answer::Values(_) | Answer::Number(_) => Status::Ok,
+            Answer::Discard => Status::Discard,
+            Answer::Error => Status::Error,
+        };
+        assert_eq!(status, expected, "{call:?}, now in {}", master.now.state);
+        match &master.answer {
+            Answer::Values(wanted) => {
+                for (wanted, found) in wanted.iter().zip(&values) {
+                    assert!(
+                        wanted.is_none_or(|wanted| wanted == *found),
+                        "{call:?}: {found:?} not {wanted:?}"
+                    );
+                }
+            }
+            Answer::Number(wanted) => assert_eq!(values, [Value::Real(*wanted)], "{call:?}"),
+            _ => {}
+        }
+        // 2.1.5: the logger is called before anything but OK is returned.
+        let messages = sequence.subject.instance.take_messages();
+        let told = messages.iter().any(|message| message.status == status);
+        if status == Status::Error || (status == Status::Discard && master.logging) {
+            assert!(told, "{call:?}: {status:?} without a message");
+        }
+        assert!(messages.iter().all(|message| !message.text.contains("panic")), "{call:?}: {messages:?}");
+        sequence.before = Before::of(master);
+        sequence
+    }
+
+    fn check_invariants(_: &Self, _: &Master) {}
+}
+
+#[test]
+fn any_sequence_of_calls_is_answered_by_the_table() {
+    let wanted = std::env::var("HELIOTORQUE_CALLS").ok().and_then(|it| it.parse().ok()).unwrap_or(CALLS);
+    let made = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    while made().values().sum::<u64>() < wanted {
+        let config = Config { cases: 500, failure_persistence: None, ..Config::default() };
+        let sequences = Master::sequential_strategy(1..LONGEST_SEQUENCE);
+        TestRunner::new(config.clone())
+            .run(&sequences, |(initial, calls, seen)| {
+                Sequence::test_sequential(config.clone(), initial, calls, seen);
+                Ok(())
+            })
+            .unwrap_or_else(|failure| panic!("{failure}"));
+    }
+    // Every cell was tried, in every state that an FMU without asynchronous steps can be in.
+    let made = made();
+    let needs_no_instance = ["GetTypesPlatform", "GetVersion"];
+    // Made before every `fmi2SerializeFMUstate`.
+    let never_alone = ["SerializedFMUstateSize"];
+    let apart = |function: &&str| !needs_no_instance.contains(function) && !never_alone.contains(function);
+    for function in table::functions().filter(apart) {
+        for state in "IMCFTE".chars() {
+            let count = made.get(&(function, state)).copied().unwrap_or_default();
+            assert!(count >= wanted / 200_000, "{function} was called {count} times in {state}");
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Table 1.1 of the rules typed a second time, as the text writes it: one letter a state, one row a function.
+
+/// instantiated, InitializationMode, stepComplete, stepInProgress, stepFailed, stepCanceled, terminated, error.
+pub const STATES: &str = "IMCPFXTE";
+
+/// `x` allowed, `.` forbidden, a digit: allowed under that note.
+const ROWS: &[(&str, &[&str])] = &[
+    ("xxxxxxxx", &["GetTypesPlatform", "GetVersion"]),
+    ("xxxxxxxx", &["SetDebugLogging"]),
+    ("xxx.xxxx", &["FreeInstance", "Reset", "SetFMUstate", "FreeFMUstate"]),
+    ("xxx.xxxx", &["SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate"]),
+    ("x.......", &["SetupExperiment", "EnterInitializationMode"]),
+    (".x......", &["ExitInitializationMode"]),
+    ("..x.x...", &["Terminate"]),
+    (".2x.87x7", &["GetReal", "GetInteger", "GetBoolean", "GetString"]),
+    ("136.....", &["SetReal", "SetInteger", "SetBoolean", "SetString"]),
+    ("xxx.87x7", &["GetFMUstate"]),
+    (".xx.87x7", &["GetDirectionalDerivative"]),
+    ("xxx.....", &["SetRealInputDerivatives"]),
+    ("..x.8xx7", &["GetRealOutputDerivatives"]),
+    ("..x.....", &["DoStep"]),
+    ("...x....", &["CancelStep"]),
+    ("..xxx.x.", &["GetStatus", "GetRealStatus", "GetIntegerStatus", "GetBooleanStatus", "GetStringStatus"]),
+];
+
+/// The cell of a function (without `fmi2`) and a state letter; `.` for the state that allows nothing, fatal.
+pub fn cell(function: &str, state: char) -> char {
+    let row = ROWS.iter().find(|(_, functions)| functions.contains(&function));
+    let (row, _) = row.unwrap_or_else(|| panic!("no row for {function}"));
+    STATES.find(state).map_or('.', |column| char::from(row.as_bytes()[column]))
+}
+
+/// Every function of the table.
+pub fn functions() -> impl Iterator<Item = &'static str> {
+    ROWS.iter().flat_map(|(_, functions)| functions.iter().copied())
+}
+
+/// Whether the function may be called at all in this state.
+pub fn allows(function: &str, state: char) -> bool {
+    cell(function, state) != '.'
+}
+
+mod tests {
+    use fmi_export::call_table::{Access, CALL_TABLE, Function, State};
+
+    use super::{STATES, cell};
+
+    /// Exporter, checker and documentation use one table; this is the second witness.
+    #[test]
+    fn the_exporters_table_is_the_standards() {
+        for (row, function) in Function::ALL.iter().enumerate() {
+            if *function == Function::Instantiate {
+                continue;
+            }
+            let name = function.symbol().strip_prefix("fmi2").unwrap();
+            for (letter, state) in STATES.chars().chain(['!']).zip(State::ALL) {
+                let found = match CALL_TABLE[row][state as usize] {
+                    Access::Forbidden => '.',
+                    Access::Allowed => 'x',
+                    Access::Conditional(condition) => char::from_digit(condition.number(), 10).unwrap(),
+                };
+                assert_eq!(found, cell(name, letter), "{name} in {}", state.name());
+            }
+        }
+    }
+}

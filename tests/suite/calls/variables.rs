@@ -1,0 +1,182 @@
+//! A few variables of AllTypes with their roles and limits, typed from its declarations.
+
+use std::sync::OnceLock;
+
+use crate::support::{self, Base};
+
+/// What a read gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Content {
+    /// What was set, or the start value.
+    Given,
+    /// The input or tunable parameter of this name, as the last computation saw it.
+    Echo(&'static str),
+    /// Not predicted here.
+    Other,
+}
+
+/// One value of any base type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    Real(f64),
+    Integer(i32),
+    Boolean(i32),
+    Text(&'static str),
+    /// A String that is not UTF-8.
+    Bytes,
+}
+
+/// One variable.
+#[derive(Clone, Copy, Debug)]
+pub struct Variable {
+    pub name: &'static str,
+    pub base: Base,
+    /// causality, variability, initial
+    pub role: (&'static str, &'static str, &'static str),
+    pub start: Value,
+    pub content: Content,
+    /// Values that may be set; anything else is out of range.
+    pub admits: fn(Value) -> bool,
+}
+
+use Base::{Boolean, Integer, Real, Text};
+use Content::{Echo, Given, Other};
+
+const PARAMETER: (&str, &str, &str) = ("parameter", "fixed", "exact");
+const TUNABLE: (&str, &str, &str) = ("parameter", "tunable", "exact");
+const INPUT: (&str, &str, &str) = ("input", "continuous", "");
+const DISCRETE_INPUT: (&str, &str, &str) = ("input", "discrete", "");
+const OUTPUT: (&str, &str, &str) = ("output", "continuous", "calculated");
+const DISCRETE_OUTPUT: (&str, &str, &str) = ("output", "discrete", "calculated");
+
+const fn row(
+    name: &'static str,
+    base: Base,
+    role: (&'static str, &'static str, &'static str),
+    start: Value,
+    content: Content,
+    admits: fn(Value) -> bool,
+) -> Variable {
+    Variable { name, base, role, start, content, admits }
+}
+
+/// By base type; the order within is free.
+pub const VARIABLES: &[Variable] = &[
+    row("parameter.real", Real, PARAMETER, Value::Real(1.5), Given, finite),
+    row("tunable.real", Real, TUNABLE, Value::Real(2.5), Given, |v| real(v, 0.0, 10.0)),
+    row("input.real", Real, INPUT, Value::Real(0.0), Given, |v| real(v, -1e6, 1e6)),
+    row("input.discreteReal", Real, DISCRETE_INPUT, Value::Real(0.25), Given, finite),
+    row("end.time", Real, TUNABLE, Value::Real(1e6), Given, finite),
+    row("output.real", Real, OUTPUT, Value::Real(0.0), Echo("input.real"), finite),
+    row("output.discreteReal", Real, DISCRETE_OUTPUT, Value::Real(0.0), Echo("input.discreteReal"), finite),
+    row("echo.real", Real, DISCRETE_OUTPUT, Value::Real(0.0), Echo("tunable.real"), finite),
+    row(
+        "role.calculatedFixed",
+        Real,
+        ("calculatedParameter", "fixed", "calculated"),
+        Value::Real(0.0),
+        Other,
+        finite,
+    ),
+    row(
+        "role.calculatedApprox",
+        Real,
+        ("calculatedParameter", "fixed", "approx"),
+        Value::Real(4.0),
+        Other,
+        finite,
+    ),
+    row("role.outputConstant", Real, ("output", "constant", "exact"), Value::Real(42.0), Given, finite),
+    row("role.outputApprox", Real, ("output", "continuous", "approx"), Value::Real(0.5), Other, finite),
+    row("role.localContinuous", Real, ("local", "continuous", "calculated"), Value::Real(0.0), Other, finite),
+    row("role.localExact", Real, ("local", "continuous", "exact"), Value::Real(9.0), Given, finite),
+    row("parameter.integer", Integer, PARAMETER, Value::Integer(-7), Given, |v| integer(v, -1000, 1000)),
+    row("tunable.integer", Integer, TUNABLE, Value::Integer(8), Given, |v| integer(v, -10, 10)),
+    row("tunable.choice", Integer, TUNABLE, Value::Integer(2), Given, colour),
+    row("input.integer", Integer, DISCRETE_INPUT, Value::Integer(1), Given, |v| integer(v, -1000, 1000)),
+    row("input.choice", Integer, DISCRETE_INPUT, Value::Integer(1), Given, colour),
+    row("output.integer", Integer, DISCRETE_OUTPUT, Value::Integer(0), Echo("input.integer"), any),
+    row("output.choice", Integer, DISCRETE_OUTPUT, Value::Integer(0), Echo("input.choice"), colour),
+    row("echo.choice", Integer, DISCRETE_OUTPUT, Value::Integer(0), Echo("tunable.choice"), colour),
+    row("role.localFixed", Integer, ("local", "fixed", "calculated"), Value::Integer(0), Other, any),
+    row("role.outputExact", Integer, ("output", "discrete", "exact"), Value::Integer(100), Other, any),
+    row("parameter.boolean", Boolean, PARAMETER, Value::Boolean(1), Given, boolean),
+    row("tunable.boolean", Boolean, TUNABLE, Value::Boolean(0), Given, boolean),
+    row("input.boolean", Boolean, DISCRETE_INPUT, Value::Boolean(0), Given, boolean),
+    row("output.boolean", Boolean, DISCRETE_OUTPUT, Value::Boolean(0), Echo("input.boolean"), boolean),
+    row("role.localTunable", Boolean, ("local", "tunable", "calculated"), Value::Boolean(0), Other, boolean),
+    row("parameter.text", Text, PARAMETER, Value::Text("Grüße, 世界 <&\"'> 🛰"), Given, any),
+    row("tunable.text", Text, TUNABLE, Value::Text("naïve café"), Given, any),
+    row("input.text", Text, DISCRETE_INPUT, Value::Text(""), Given, any),
+    row("output.text", Text, DISCRETE_OUTPUT, Value::Text(""), Echo("input.text"), any),
+    row("role.localConstant", Text, ("local", "constant", "exact"), Value::Text("constant"), Given, any),
+];
+
+fn real(value: Value, min: f64, max: f64) -> bool {
+    matches!(value, Value::Real(x) if (min..=max).contains(&x))
+}
+
+fn finite(value: Value) -> bool {
+    matches!(value, Value::Real(x) if x.is_finite())
+}
+
+fn integer(value: Value, min: i32, max: i32) -> bool {
+    matches!(value, Value::Integer(x) if (min..=max).contains(&x))
+}
+
+fn colour(value: Value) -> bool {
+    matches!(value, Value::Integer(1 | 2 | 4))
+}
+
+fn boolean(value: Value) -> bool {
+    matches!(value, Value::Boolean(0 | 1))
+}
+
+fn any(value: Value) -> bool {
+    value != Value::Bytes
+}
+
+/// Position of a name in [`VARIABLES`].
+pub fn position(name: &str) -> usize {
+    VARIABLES.iter().position(|variable| variable.name == name).unwrap()
+}
+
+/// The value reference of every row.
+pub fn references() -> &'static [u32] {
+    static REFERENCES: OnceLock<Vec<u32>> = OnceLock::new();
+    REFERENCES.get_or_init(|| {
+        let names = support::names("AllTypes");
+        VARIABLES.iter().map(|variable| names.of(variable.base, variable.name)).collect()
+    })
+}
+
+/// What each echo echoes, by row.
+pub fn echoes() -> &'static [Option<usize>] {
+    static ECHOES: OnceLock<Vec<Option<usize>>> = OnceLock::new();
+    ECHOES.get_or_init(|| {
+        let source = |variable: &Variable| match variable.content {
+            Echo(name) => Some(position(name)),
+            Given | Other => None,
+        };
+        VARIABLES.iter().map(source).collect()
+    })
+}
+
+impl Variable {
+    /// Whether the note of a table's cell for `fmi2SetXXX` admits the variable (1.1, notes 1, 3 and 6).
+    pub fn settable(&self, note: char) -> bool {
+        let (causality, variability, initial) = self.role;
+        let constant = variability == "constant";
+        match note {
+            '1' => !constant && (initial == "exact" || initial == "approx"),
+            '3' => !constant && (initial == "exact" || causality == "input"),
+            '6' => causality == "input" || (causality == "parameter" && variability == "tunable"),
+            _ => false,
+        }
+    }
+
+    /// Whether it is an input, which our FMUs accept before Initialization Mode too.
+    pub fn is_input(&self) -> bool {
+        self.role.0 == "input"
+    }
+}

@@ -1,0 +1,110 @@
+//! `modelDescription/golden` holds what the library describes today, to the byte.
+//!
+//! After a deliberate change: `HELIOTORQUE_BLESS=1 cargo test -p heliotorque-tests golden` rewrites it.
+
+use std::path::{Path, PathBuf};
+
+use loader::{Binary, Fmu};
+
+use crate::support::{built, description};
+
+const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque"];
+
+fn golden_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("modelDescription").join("golden")
+}
+
+#[test]
+fn every_shipped_model_is_described_as_in_its_golden_file() {
+    let bless = std::env::var_os("HELIOTORQUE_BLESS").is_some();
+    for model in SHIPPED {
+        let path = golden_folder().join(format!("{model}.xml"));
+        let found = model_description::to_xml(&description(model));
+        if bless {
+            std::fs::create_dir_all(golden_folder()).unwrap();
+            std::fs::write(&path, &found).unwrap();
+        }
+        let golden = std::fs::read_to_string(&path).unwrap_or_default();
+        let differs = golden.lines().zip(found.lines()).position(|(golden, found)| golden != found);
+        assert!(
+            golden == found,
+            "{} differs from line {}: found\n{}\nIf that is meant: HELIOTORQUE_BLESS=1 cargo test -p heliotorque-tests golden",
+            path.display(),
+            differs.map_or(golden.lines().count(), |line| line) + 1,
+            differs.and_then(|line| found.lines().nth(line)).unwrap_or("(one file is longer)"),
+        );
+    }
+}
+
+#[test]
+fn the_packed_fmus_carry_the_golden_descriptions() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    for model in SHIPPED {
+        let fmu = Fmu::open(dist.join(format!("{model}.fmu"))).unwrap();
+        let golden = std::fs::read(golden_folder().join(format!("{model}.xml"))).unwrap();
+        assert!(fmu.xml() == golden, "{model}.fmu was packed with another description");
+    }
+}
+
+/// What an FMI library exports: the standard's functions, our one, and nothing that could clash with another FMU.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_library_exports_what_it_must_and_nothing_else() {
+    for variable in ["HELIOTORQUE_LIBRARY", "HELIOTORQUE_PROBE_LIBRARY"] {
+        let Some(library) = built(variable) else { continue };
+        let Ok(output) =
+            std::process::Command::new("nm").args(["-D", "--defined-only"]).arg(&library).output()
+        else {
+            assert!(std::env::var_os("CI").is_none(), "nm is missing");
+            eprintln!("skipped: there is no nm on this machine");
+            return;
+        };
+        assert!(output.status.success(), "{output:?}");
+        let listed = String::from_utf8(output.stdout).unwrap();
+        let mut found: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().last()).collect();
+        found.sort_unstable();
+        let mut wanted = EXPORTS.to_vec();
+        wanted.sort_unstable();
+        assert_eq!(found, wanted, "{}", library.display());
+        Binary::load(&library).unwrap();
+    }
+}
+
+/// `fmi2Functions.h` of the standard without the model-exchange part, and the packer's function.
+const EXPORTS: [&str; 35] = [
+    "fmi2GetTypesPlatform",
+    "fmi2GetVersion",
+    "fmi2SetDebugLogging",
+    "fmi2Instantiate",
+    "fmi2FreeInstance",
+    "fmi2SetupExperiment",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2Terminate",
+    "fmi2Reset",
+    "fmi2GetReal",
+    "fmi2GetInteger",
+    "fmi2GetBoolean",
+    "fmi2GetString",
+    "fmi2SetReal",
+    "fmi2SetInteger",
+    "fmi2SetBoolean",
+    "fmi2SetString",
+    "fmi2GetFMUstate",
+    "fmi2SetFMUstate",
+    "fmi2FreeFMUstate",
+    "fmi2SerializedFMUstateSize",
+    "fmi2SerializeFMUstate",
+    "fmi2DeSerializeFMUstate",
+    "fmi2GetDirectionalDerivative",
+    "fmi2SetRealInputDerivatives",
+    "fmi2GetRealOutputDerivatives",
+    "fmi2DoStep",
+    "fmi2CancelStep",
+    "fmi2GetStatus",
+    "fmi2GetRealStatus",
+    "fmi2GetIntegerStatus",
+    "fmi2GetBooleanStatus",
+    "fmi2GetStringStatus",
+    "fmi_export_describe",
+];

@@ -1,0 +1,115 @@
+//! Instances do not know of each other: not by their numbers, not by their memory.
+
+use std::process::Command;
+
+use heliotorque_tests::counting::counted;
+
+use crate::flights::{Flight, Style};
+use crate::support::{fresh, ok};
+
+const INSTANCES: usize = 64;
+const THREADS: usize = 8;
+const STEPS: usize = 150;
+
+/// The bytes of the state after the whole flight: everything there is.
+fn alone(style: Style) -> Vec<u8> {
+    let mut flight = Flight::new(style);
+    (0..STEPS).for_each(|_| flight.step());
+    flight.bytes()
+}
+
+#[test]
+fn sixty_four_instances_on_eight_threads_fly_as_one() {
+    let wanted = Style::ALL.map(alone);
+    std::thread::scope(|scope| {
+        for _ in 0..THREADS {
+            scope.spawn(|| {
+                let mut flights: Vec<Flight> = (0..INSTANCES / THREADS)
+                    .map(|number| Flight::new(Style::ALL[number % Style::ALL.len()]))
+                    .collect();
+                // Turn and turn about, so that each finds the others' leavings.
+                for _ in 0..STEPS {
+                    flights.iter_mut().for_each(Flight::step);
+                }
+                for (number, flight) in flights.iter_mut().enumerate() {
+                    assert!(flight.bytes() == wanted[number % Style::ALL.len()], "{:?}", flight.style);
+                }
+            });
+        }
+    });
+}
+
+/// The seam between two threads: made on one, flown on another, freed on a third.
+#[test]
+fn an_instance_may_change_threads() {
+    let wanted = alone(Style::Commanded);
+    let flight = std::thread::spawn(|| Flight::new(Style::Commanded)).join().unwrap();
+    let found = std::thread::spawn(move || {
+        let mut flight = flight;
+        (0..STEPS).for_each(|_| flight.step());
+        let bytes = flight.bytes();
+        (flight, bytes)
+    });
+    let (flight, bytes) = found.join().unwrap();
+    assert!(bytes == wanted);
+    std::thread::spawn(move || drop(flight)).join().unwrap();
+}
+
+fn cycle(model: &str) {
+    let mut instance = fresh(model);
+    ok(instance.start(0.0, None));
+    ok(instance.do_step(0.0, 60.0));
+}
+
+#[test]
+fn freeing_an_instance_gives_back_every_byte() {
+    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant"] {
+        cycle(model);
+        let ((), count) = counted(|| (0..20).for_each(|_| cycle(model)));
+        assert_eq!(count.live_bytes, 0, "{model}");
+    }
+    for style in Style::ALL {
+        let ((), count) = counted(|| {
+            let mut flight = Flight::new(style);
+            (0..20).for_each(|_| flight.step());
+            let _ = flight.bytes();
+        });
+        assert_eq!(count.live_bytes, 0, "{style:?}");
+    }
+}
+
+const CHILD: &str = "HELIOTORQUE_TEST_MEMORY";
+const EMPTY_CYCLES: usize = 100_000;
+const PLANT_CYCLES: usize = 2_000;
+
+/// Resident memory of this process, in kB.
+#[cfg(target_os = "linux")]
+fn resident_kb() -> u64 {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = text.lines().find(|line| line.starts_with("VmRSS:")).unwrap();
+    line.split_whitespace().nth(1).unwrap().parse().unwrap()
+}
+
+/// In a process of its own: other tests would move its memory.
+#[test]
+#[cfg(target_os = "linux")]
+fn memory_stays_flat_over_a_hundred_thousand_instances() {
+    if std::env::var_os(CHILD).is_none() {
+        let name = "instances::memory_stays_flat_over_a_hundred_thousand_instances";
+        let program = std::env::current_exe().unwrap();
+        let output =
+            Command::new(program).args(["--exact", name, "--nocapture"]).env(CHILD, "1").output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        return;
+    }
+    for (model, cycles) in
+        [("Empty", EMPTY_CYCLES), ("MomentumPlant", PLANT_CYCLES), ("SpinPlant", PLANT_CYCLES)]
+    {
+        (0..cycles / 20).for_each(|_| drop(fresh(model)));
+        let before = resident_kb();
+        (0..cycles).for_each(|_| drop(fresh(model)));
+        let after = resident_kb();
+        eprintln!("{model}: {cycles} cycles, {before} kB -> {after} kB");
+        assert!(after <= before + 256, "{model}: {before} kB -> {after} kB");
+    }
+}

@@ -1,0 +1,19 @@
+//! Conformance: what the exported functions promise, checked from outside through those functions.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
+#![allow(missing_docs, reason = "tests")]
+
+mod allocations;
+mod bad_input;
+mod blobs;
+mod calls;
+mod flights;
+mod foreign;
+mod golden;
+mod instances;
+mod plant;
+mod shared_library;
+mod states;
+mod support;
+
+#[global_allocator]
+static ALLOCATOR: heliotorque_tests::counting::Counting = heliotorque_tests::counting::Counting;

@@ -1,0 +1,74 @@
+//! The shared library itself, not the code it was made from: panics do not cross its boundary, two copies of it
+//! live side by side.
+
+use std::fs;
+use std::path::Path;
+
+use fmi_export::Enumeration;
+use loader::{Fmu, InstanceOptions, Value, platform_folders};
+use probe::panicking::Accident;
+
+use crate::support::{LIBRARY, built, description};
+
+/// An unpacked FMU of a probe model around the library.
+fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
+    let folder = base.join(model);
+    let binaries = folder.join("binaries").join(platform_folders()[0]);
+    fs::create_dir_all(&binaries).unwrap();
+    let entry = LIBRARY.find(model).unwrap();
+    if let Some(file) = entry.setup_file() {
+        fs::create_dir_all(folder.join("resources")).unwrap();
+        fs::write(folder.join("resources").join(file), entry.default_setup()).unwrap();
+    }
+    fs::write(folder.join("modelDescription.xml"), model_description::to_xml(&description(model))).unwrap();
+    fs::copy(library, binaries.join(format!("{model}{}", std::env::consts::DLL_SUFFIX))).unwrap();
+    Fmu::open(&folder).unwrap()
+}
+
+fn flying(fmu: &Fmu, name: &str) -> loader::Instance {
+    let mut instance = fmu.instantiate(name, &InstanceOptions::default()).unwrap();
+    instance.setup_experiment(None, 0.0, None).unwrap();
+    instance.enter_initialization_mode().unwrap();
+    instance.exit_initialization_mode().unwrap();
+    instance
+}
+
+#[test]
+fn panics_stay_inside_the_library() {
+    let Some(library) = built("HELIOTORQUE_PROBE_LIBRARY") else { return };
+    let base = tempfile::tempdir().unwrap();
+    let fmu = folder(base.path(), "Panicking", &library);
+    let other = folder(base.path(), "AllTypes", &library);
+    let (mut neighbour, mut stranger) = (flying(&fmu, "neighbour"), flying(&other, "stranger"));
+    let in_step = [Accident::Step, Accident::StepPayload, Accident::StepPayloadDrop, Accident::StepIndex];
+    for (number, accident) in in_step.into_iter().enumerate() {
+        let mut unlucky = flying(&fmu, "unlucky");
+        let value = Value::Integer(accident.value());
+        unlucky.set("accident", &value).unwrap();
+        let error = unlucky.do_step(0.0, 0.5, true).unwrap_err().to_string();
+        assert!(error.contains("fmi2DoStep"), "{accident:?}: {error}");
+        assert!(unlucky.messages().iter().any(|it| it.text.contains("panic")), "{accident:?}");
+        // Nothing but freeing works, and that does.
+        assert!(unlucky.reset().is_err(), "{accident:?}");
+        drop(unlucky);
+        let time_s = 0.5 * number as f64;
+        neighbour.do_step(time_s, 0.5, true).unwrap();
+        stranger.do_step(time_s, 0.5, true).unwrap();
+        assert_eq!(neighbour.get_real("clock").unwrap(), time_s + 0.5);
+    }
+}
+
+#[test]
+fn both_copies_of_a_library_serve_their_own_states() {
+    let Some(library) = built("HELIOTORQUE_PROBE_LIBRARY") else { return };
+    let base = tempfile::tempdir().unwrap();
+    let copies = ["one", "two"].map(|name| folder(&base.path().join(name), "AllTypes", &library));
+    let mut instances = copies.each_ref().map(|fmu| flying(fmu, "all types"));
+    for (number, instance) in instances.iter_mut().enumerate() {
+        instance.set_real("input.real", number as f64 + 1.0).unwrap();
+        instance.do_step(0.0, 1.0, true).unwrap();
+    }
+    for (number, instance) in instances.iter_mut().enumerate() {
+        assert_eq!(instance.get_real("output.integral").unwrap(), number as f64 + 1.0);
+    }
+}

@@ -1,0 +1,180 @@
+//! The models in this process, their variables by name, and what else many tests need.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use fmi_export::abi::InProcess;
+use fmi_export::{Entry, Library, Status};
+use model_description::{Description, VariableKind};
+use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
+use probe::{AllTypes, Empty, Panicking};
+
+/// Every model at hand.
+pub static LIBRARY: Library = Library {
+    entries: &[
+        Entry::of::<Empty>(),
+        Entry::of::<AllTypes>(),
+        Entry::of::<Panicking>(),
+        Entry::of::<MomentumPlant>(),
+        Entry::of::<SpinPlant>(),
+        Entry::of::<DisturbanceTorque>(),
+    ],
+};
+
+/// Libraries of one model each, so that instantiating one does not describe the others.
+pub fn library(model: &str) -> &'static Library {
+    static EMPTY: Library = Library { entries: &[Entry::of::<Empty>()] };
+    static ALL_TYPES: Library = Library { entries: &[Entry::of::<AllTypes>()] };
+    static PANICKING: Library = Library { entries: &[Entry::of::<Panicking>()] };
+    static MOMENTUM_PLANT: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
+    static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
+    static DISTURBANCE_TORQUE: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
+    match model {
+        "SpinPlant" => &SPIN_PLANT,
+        "DisturbanceTorque" => &DISTURBANCE_TORQUE,
+        "Empty" => &EMPTY,
+        "AllTypes" => &ALL_TYPES,
+        "Panicking" => &PANICKING,
+        "MomentumPlant" => &MOMENTUM_PLANT,
+        other => panic!("no library of {other}"),
+    }
+}
+
+/// The four base types of the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Base {
+    Real,
+    Integer,
+    Boolean,
+    Text,
+}
+
+/// Value references by name.
+pub struct Names(BTreeMap<String, (Base, u32)>);
+
+impl Names {
+    /// The references of a description.
+    pub fn new(description: &Description) -> Self {
+        let entry = |variable: &model_description::ScalarVariable| {
+            let base = match variable.kind {
+                VariableKind::Real { .. } => Base::Real,
+                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Base::Integer,
+                VariableKind::Boolean { .. } => Base::Boolean,
+                VariableKind::String { .. } => Base::Text,
+            };
+            (variable.name.clone(), (base, variable.value_reference))
+        };
+        Self(description.variables.iter().map(entry).collect())
+    }
+
+    /// The reference of a variable of this type.
+    pub fn of(&self, base: Base, name: &str) -> u32 {
+        match self.0.get(name) {
+            Some((found, reference)) if *found == base => *reference,
+            other => panic!("{name}: {other:?} is no {base:?}"),
+        }
+    }
+
+    /// The reference of a Real.
+    pub fn real(&self, name: &str) -> u32 {
+        self.of(Base::Real, name)
+    }
+
+    /// The references of `name[1]` to `name[N]`.
+    pub fn vector<const N: usize>(&self, name: &str) -> [u32; N] {
+        std::array::from_fn(|i| self.real(&format!("{name}[{}]", i + 1)))
+    }
+
+    /// Every reference of a type.
+    pub fn all(&self, base: Base) -> Vec<u32> {
+        let mut all: Vec<u32> = self.0.values().filter(|(of, _)| *of == base).map(|(_, it)| *it).collect();
+        all.sort_unstable();
+        all
+    }
+}
+
+/// The description of a model with its compiled-in setup.
+pub fn description(model: &str) -> Description {
+    LIBRARY.find(model).unwrap().describe(None, None).unwrap()
+}
+
+/// The references of a model.
+pub fn names(model: &str) -> Names {
+    Names::new(&description(model))
+}
+
+/// A fresh instance of a model with its compiled-in setup.
+pub fn fresh(model: &str) -> InProcess {
+    InProcess::instantiate(library(model), guid(model), None).unwrap()
+}
+
+/// The GUID of a model with its compiled-in setup.
+pub fn guid(model: &str) -> &'static str {
+    static GUIDS: OnceLock<BTreeMap<&str, String>> = OnceLock::new();
+    let all = || LIBRARY.entries.iter().map(|entry| (entry.name(), description(entry.name()).guid)).collect();
+    &GUIDS.get_or_init(all)[model]
+}
+
+/// A fresh instance without log but for errors.
+pub fn silent(model: &str) -> InProcess {
+    let mut instance = fresh(model);
+    ok(instance.set_debug_logging(false, &[]));
+    instance
+}
+
+/// Fails unless the call went well.
+#[track_caller]
+pub fn ok(status: Status) {
+    assert_eq!(status, Status::Ok);
+}
+
+/// Every Real's bits.
+pub fn real_bits(instance: &mut InProcess, references: &[u32]) -> Vec<u64> {
+    let mut values = vec![0.0; references.len()];
+    ok(instance.get_real(references, &mut values));
+    values.into_iter().map(f64::to_bits).collect()
+}
+
+/// All that a master can see: Reals by their bits, Integers, Booleans and Strings.
+pub fn everything(instance: &mut InProcess, names: &Names) -> (Vec<u64>, Vec<i32>, Vec<i32>, Vec<String>) {
+    let (integers, booleans) = (names.all(Base::Integer), names.all(Base::Boolean));
+    let (mut integer_values, mut boolean_values) = (vec![0; integers.len()], vec![0; booleans.len()]);
+    ok(instance.get_integer(&integers, &mut integer_values));
+    ok(instance.get_boolean(&booleans, &mut boolean_values));
+    let (status, texts) = instance.get_string(&names.all(Base::Text));
+    ok(status);
+    (real_bits(instance, &names.all(Base::Real)), integer_values, boolean_values, texts)
+}
+
+/// Pseudo-random numbers, the same in every run: a Weyl sequence through an avalanche (splitmix64).
+pub struct Dice(pub u64);
+
+impl Dice {
+    /// Any 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// Below `limit`.
+    pub fn below(&mut self, limit: usize) -> usize {
+        (self.bits() % limit as u64) as usize
+    }
+
+    /// From 0 to 1.
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// The path in an environment variable that `cargo xtask test` sets; without it the test says so and ends.
+pub fn built(variable: &str) -> Option<PathBuf> {
+    let path = std::env::var_os(variable).map(PathBuf::from);
+    if path.is_none() {
+        eprintln!("skipped: {variable} is not set (cargo xtask test sets it)");
+    }
+    path
+}

@@ -1,0 +1,46 @@
+//! `cargo xtask bench`: medians as `bench <name> <value> <unit>` lines.
+
+use std::time::Instant;
+
+use crate::build::{self, Built};
+use crate::shell::{Outcome, cargo, command, need, output, root, run};
+use crate::test::compile_c;
+
+/// Kernel benchmarks, as examples of `physics`.
+const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
+/// The study is flown this often; the median counts.
+const STUDY_RUNS: usize = 3;
+
+/// Kernels (Rust examples of `physics`), the C interface, a whole study.
+pub fn all() -> Outcome {
+    let built = build::dist()?;
+    for example in EXAMPLES {
+        run(&mut cargo(&["run", "--locked", "--quiet", "--release", "-p", "physics", "--example", example]))?;
+    }
+    if need("gcc", "the benchmark through the C interface")? {
+        let scratch = build::scratch("bench")?;
+        let program = compile_c(&scratch, "bench")?;
+        run(command(&program).arg(&built.library).arg(&built.probe).current_dir(&scratch))?;
+    }
+    study(&built)
+}
+
+/// The whole of paper 000's Table 2: every shade, convention, threshold and offset, on all cores.
+fn study(built: &Built) -> Outcome {
+    let folder = build::scratch("bench")?.join("study");
+    let mut seconds = Vec::new();
+    for _ in 0..STUDY_RUNS {
+        let begin = Instant::now();
+        output(
+            command(&built.heliotorque)
+                .args(["study", "momentum/table2", "--quiet", "--dist"])
+                .arg(root().join("dist"))
+                .arg("--output")
+                .arg(&folder),
+        )?;
+        seconds.push(begin.elapsed().as_secs_f64());
+    }
+    seconds.sort_by(f64::total_cmp);
+    println!("bench study_momentum_table2_24_flights {:.2} s", seconds[STUDY_RUNS / 2]);
+    Ok(())
+}

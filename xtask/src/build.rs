@@ -1,0 +1,75 @@
+//! Building the library and the command line, and packing the shipped FMUs.
+
+use std::path::PathBuf;
+
+use crate::shell::{self, Outcome, cargo, command, root, run, target};
+
+/// Model name and the shipped spacecraft it is packed with.
+const SHIPPED: &[(&str, &str)] = &[
+    ("MomentumPlant", "messenger.toml"),
+    ("SpinPlant", "ace.toml"),
+    ("DisturbanceTorque", "messenger-thermal.toml"),
+];
+
+/// What a build leaves.
+pub struct Built {
+    /// The command line.
+    pub heliotorque: PathBuf,
+    /// The shared library of every shipped FMU.
+    pub library: PathBuf,
+    /// The probe's shared library.
+    pub probe: PathBuf,
+}
+
+/// Builds the shared library (whole-program optimised), the probe and the command line.
+pub fn build() -> Result<Built, String> {
+    run(&mut cargo(&["build", "--locked", "--profile", "fmu", "-p", "component"]))?;
+    run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "-p", "probe"]))?;
+    let library = |folder: &str, name: &str| {
+        let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+        target().join(folder).join(file)
+    };
+    Ok(Built {
+        heliotorque: target().join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
+        library: library("fmu", "heliotorque"),
+        probe: library("release", "probe"),
+    })
+}
+
+/// Builds, then packs every shipped FMU into `dist/`.
+pub fn dist() -> Result<Built, String> {
+    let built = build()?;
+    pack(&built)?;
+    Ok(built)
+}
+
+fn pack(built: &Built) -> Outcome {
+    for (model, spacecraft) in SHIPPED {
+        run(command(&built.heliotorque)
+            .args(["pack", "--model", model, "--library"])
+            .arg(&built.library)
+            .arg("--spacecraft")
+            .arg(root().join("fmu-src").join("resources").join(spacecraft))
+            .arg("--output")
+            .arg(root().join("dist").join(format!("{model}.fmu"))))?;
+    }
+    Ok(())
+}
+
+/// The environment in which tests find what was built.
+pub fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
+    [
+        ("HELIOTORQUE_LIBRARY", built.library.clone()),
+        ("HELIOTORQUE_PROBE_LIBRARY", built.probe.clone()),
+        ("HELIOTORQUE_DIST", root().join("dist")),
+        ("HELIOTORQUE", built.heliotorque.clone()),
+    ]
+}
+
+/// Where the tests may leave files.
+pub fn scratch(name: &str) -> Result<PathBuf, String> {
+    let folder = shell::target().join("scratch").join(name);
+    std::fs::create_dir_all(&folder)
+        .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;
+    Ok(folder)
+}

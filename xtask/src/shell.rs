@@ -1,0 +1,78 @@
+//! Running programs: what is run is shown, a failure names it.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What a task ends with; the text says what went wrong.
+pub type Outcome = Result<(), String>;
+
+/// The workspace folder.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
+}
+
+/// The folder cargo builds into.
+pub fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
+/// A command that runs in the workspace folder.
+pub fn command(program: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new(program);
+    command.current_dir(root());
+    command
+}
+
+/// `cargo` with the arguments.
+pub fn cargo(arguments: &[&str]) -> Command {
+    let mut command = command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments);
+    command
+}
+
+/// Runs to the end and wants success.
+pub fn run(command: &mut Command) -> Outcome {
+    let shown = show(command);
+    eprintln!("+ {shown}");
+    let status = command.status().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+    if status.success() { Ok(()) } else { Err(format!("`{shown}` ended with {status}")) }
+}
+
+/// Runs to the end, wants success, gives what it printed.
+pub fn output(command: &mut Command) -> Result<String, String> {
+    let shown = show(command);
+    let output = command.output().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+    if !output.status.success() {
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        return Err(format!("`{shown}` ended with {}: {complaint}", output.status));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// Whether a program answers to `--version`.
+pub fn available(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
+}
+
+/// In CI everything must be there; elsewhere a missing tool is named and its tests are left out.
+pub fn need(program: &str, what_for: &str) -> Result<bool, String> {
+    if available(program) {
+        return Ok(true);
+    }
+    if std::env::var_os("CI").is_some() {
+        return Err(format!("`{program}` is missing, needed for {what_for}"));
+    }
+    eprintln!("skipped: {what_for} (no `{program}` on this machine)");
+    Ok(false)
+}
+
+fn show(command: &Command) -> String {
+    let mut text =
+        Path::new(command.get_program()).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    for argument in command.get_args() {
+        text.push(' ');
+        text.push_str(&argument.to_string_lossy());
+    }
+    text
+}

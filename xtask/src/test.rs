@@ -1,0 +1,84 @@
+//! `cargo xtask test`: format, lints, Rust tests, FMPy, C client.
+
+use std::path::PathBuf;
+
+use crate::build::{self, Built};
+use crate::shell::{Outcome, cargo, command, need, root, run};
+use crate::{python, shell};
+
+/// Runs everything; stops at the first that fails.
+pub fn all() -> Outcome {
+    if need("rustfmt", "the format check")? {
+        run(&mut cargo(&["fmt", "--all", "--check"]))?;
+    }
+    if shell::output(&mut cargo(&["clippy", "--version"])).is_ok() {
+        run(&mut cargo(&[
+            "clippy",
+            "--locked",
+            "--release",
+            "--workspace",
+            "--all-targets",
+            "--all-features",
+            "--quiet",
+            "--",
+            "-D",
+            "warnings",
+        ]))?;
+    } else if std::env::var_os("CI").is_some() {
+        return Err("`cargo clippy` is missing".to_owned());
+    } else {
+        eprintln!("skipped: lints (no `cargo clippy` on this machine)");
+    }
+    let built = build::dist()?;
+    let mut environment = build::test_environment(&built).to_vec();
+    environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
+    run(cargo(&["test", "--locked", "--release", "--workspace", "--all-features"]).envs(environment.clone()))?;
+    run(command(python::interpreter()?)
+        .args(["-m", "pytest", "-q", "tests/python"])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .envs(environment))?;
+    c_client(&built)
+}
+
+/// An FMU whose library others built: FMPy's container around our plant.
+fn foreign_fmu() -> Result<PathBuf, String> {
+    let fmu = build::scratch("foreign")?.join("container.fmu");
+    run(command(python::interpreter()?)
+        .args(["tests/python/foreign_fmu.py"])
+        .arg(root().join("dist").join("MomentumPlant.fmu"))
+        .arg(&fmu))?;
+    Ok(fmu)
+}
+
+/// Compiles the C client against the standard's headers and runs it, under valgrind where there is one.
+fn c_client(built: &Built) -> Outcome {
+    if !need("gcc", "the C client")? {
+        return Ok(());
+    }
+    let scratch = build::scratch("c-client")?;
+    let client = compile_c(&scratch, "client")?;
+    run(command(&client).arg(&built.library).arg(&built.probe).current_dir(&scratch))?;
+    if need("valgrind", "the memory check of the C client")? {
+        run(command("valgrind")
+            .args(["--quiet", "--leak-check=full", "--errors-for-leak-kinds=definite", "--error-exitcode=9"])
+            .arg(&client)
+            .arg(&built.library)
+            .arg(&built.probe)
+            .arg("--short")
+            .current_dir(&scratch))?;
+    }
+    Ok(())
+}
+
+/// Compiles `tests/c/<name>.c` into the scratch folder.
+pub fn compile_c(scratch: &std::path::Path, name: &str) -> Result<std::path::PathBuf, String> {
+    let program = scratch.join(name);
+    run(command("gcc")
+        .args(["-std=c11", "-O2", "-g", "-Wall", "-Wextra", "-Werror", "-I"])
+        .arg(python::fmi_headers()?)
+        .arg(root().join("tests").join("c").join(format!("{name}.c")))
+        .arg("-o")
+        .arg(&program)
+        .args(["-ldl", "-lm"]))?;
+    Ok(program)
+}
