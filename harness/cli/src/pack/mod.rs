@@ -4,6 +4,7 @@
 //! archive, byte for byte.
 
 mod documentation;
+mod per_plate;
 mod picture;
 pub mod source;
 mod writer;
@@ -28,6 +29,12 @@ pub fn run(arguments: &Pack) -> Outcome {
     let file = arguments.spacecraft.as_deref().map(|path| path.display().to_string());
     let described = source.binary().describe(&model, file.as_deref(), spacecraft.as_deref())?;
     let mut description = model_description::parse(described.xml.as_bytes())?.description;
+    let mut setup = spacecraft.unwrap_or(described.default_setup);
+    if arguments.per_plate {
+        // After the user's own text was read as it stands, so that errors tell its lines.
+        setup = per_plate::asking(&setup)?;
+        description = per_plate::describe(source.binary(), &model, file.as_deref(), &setup)?;
+    }
     let identifier = arguments.name.as_deref().unwrap_or(&model);
     rename(&mut description, identifier)?;
 
@@ -35,7 +42,6 @@ pub fn run(arguments: &Pack) -> Outcome {
     entries.add("modelDescription.xml", model_description::to_xml(&description).into_bytes())?;
     source.add_libraries(&mut entries, identifier)?;
     source.add_licenses(&mut entries)?;
-    let setup = spacecraft.unwrap_or(described.default_setup);
     if let Some(name) = &described.setup_file {
         entries.add(&format!("resources/{name}"), setup.clone().into_bytes())?;
     }

@@ -40,9 +40,18 @@ pub fn shown(path: &Path) -> &str {
 
 /// The shared library of the probe models, or a line that says why a test is left out.
 pub fn probe_library() -> Option<PathBuf> {
-    let path = std::env::var_os("HELIOTORQUE_PROBE_LIBRARY").map(PathBuf::from);
+    built("HELIOTORQUE_PROBE_LIBRARY")
+}
+
+/// The shared library of the shipped models, likewise.
+pub fn library() -> Option<PathBuf> {
+    built("HELIOTORQUE_LIBRARY")
+}
+
+fn built(variable: &str) -> Option<PathBuf> {
+    let path = std::env::var_os(variable).map(PathBuf::from);
     if path.is_none() {
-        eprintln!("skipped: HELIOTORQUE_PROBE_LIBRARY is not set: run `cargo xtask test`");
+        eprintln!("skipped: {variable} is not set: run `cargo xtask test`");
     }
     path
 }

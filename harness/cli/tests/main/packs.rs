@@ -2,7 +2,9 @@
 
 use std::{fs, io::Read, path::Path};
 
-use crate::{packed, probe_library, run, shown};
+use crate::{library, packed, probe_library, run, shown};
+
+const ACE: &str = "../../fmu-src/resources/ace.toml";
 
 fn entries(path: &Path) -> Vec<(String, Vec<u8>)> {
     let mut zip = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
@@ -98,4 +100,84 @@ fn what_cannot_be_packed_says_why() {
     let text =
         run(&["pack", "--library", "no-such-library.so", "--model", "M", "--output", shown(&output)], 1);
     assert!(text.contains("does not load"), "{text}");
+}
+
+#[test]
+fn outputs_of_single_plates_are_added_on_request() {
+    let Some(library) = library() else { return };
+    let room = tempfile::tempdir().unwrap();
+    let shipped = "../../fmu-src/resources/messenger-thermal.toml";
+    let toml = room.path().join("mine.toml");
+    let body = fs::read_to_string(shipped).unwrap();
+    fs::write(&toml, format!("per_plate_outputs = false # for now\n{body}")).unwrap();
+    let pack = |spacecraft: &str, per_plate: bool, name: &str| {
+        let fmu = room.path().join(format!("{name}.fmu"));
+        let mut arguments = vec!["pack", "--library", shown(&library), "--model", "DisturbanceTorque"];
+        arguments.extend(["--spacecraft", spacecraft, "--output", shown(&fmu)]);
+        arguments.extend(per_plate.then_some("--per-plate"));
+        run(&arguments, 0);
+        let all = entries(&fmu);
+        let find = |name: &str| {
+            let bytes = &all.iter().find(|(entry, _)| entry == name).unwrap().1;
+            String::from_utf8(bytes.clone()).unwrap()
+        };
+        (find("modelDescription.xml"), find("resources/spacecraft.toml"), fmu)
+    };
+
+    let (plain, _, _) = pack(shipped, false, "Plain");
+    assert!(!plain.contains("plate[1]"));
+    let (added, file, fmu) = pack(shipped, true, "Added");
+    assert_eq!(file, format!("per_plate_outputs = true\n{body}"));
+    for variable in ["plate[1].temperature", "plate[1].force[3]"] {
+        assert!(added.contains(&format!("\"{variable}\"")), "{variable} is missing");
+    }
+    // Bound to the file as packed: the GUID is that of the same file given by hand.
+    let by_hand = room.path().join("by-hand.toml");
+    fs::write(&by_hand, &file).unwrap();
+    assert_eq!(pack(shown(&by_hand), false, "ByHand").0, added);
+    run(&["run", shown(&fmu), "--stop", "60", "--quiet"], 0);
+
+    let (overruled, file, _) = pack(shown(&toml), true, "Overruled");
+    assert_eq!(file, format!("per_plate_outputs = true # for now\n{body}"));
+    assert_eq!(overruled, added);
+}
+
+#[test]
+fn models_without_outputs_of_single_plates_refuse_them() {
+    let Some(library) = library() else { return };
+    let room = tempfile::tempdir().unwrap();
+    let output = room.path().join("x.fmu");
+    let arguments = ["pack", "--library", shown(&library), "--output", shown(&output), "--per-plate"];
+    for more in [["--model", "SpinPlant"].as_slice(), &["--model", "SpinPlant", "--spacecraft", ACE]] {
+        let text = run(&[&arguments, more].concat(), 1);
+        assert!(text.contains("--per-plate: SpinPlant has no outputs of single plates, allowed: "), "{text}");
+        assert!(text.contains("DisturbanceTorque"), "{text}");
+    }
+    // A model without a file would take any text.
+    if let Some(probe) = probe_library() {
+        let text = run(
+            &[
+                "pack",
+                "--library",
+                shown(&probe),
+                "--model",
+                "Empty",
+                "--output",
+                shown(&output),
+                "--per-plate",
+            ],
+            1,
+        );
+        assert!(
+            text.contains("Empty has no outputs of single plates, allowed: none of this library"),
+            "{text}"
+        );
+    }
+    // What is wrong with the file itself is told by the lines of the file itself.
+    let toml = room.path().join("odd.toml");
+    fs::write(&toml, "name = \"A\"\nwings = 2\n").unwrap();
+    let text =
+        run(&[&arguments[..], &["--model", "DisturbanceTorque", "--spacecraft", shown(&toml)]].concat(), 1);
+    assert!(text.contains("odd.toml:2: wings"), "{text}");
+    assert!(!output.exists());
 }
