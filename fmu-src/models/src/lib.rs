@@ -2,6 +2,7 @@
 
 mod disturbance_torque;
 mod momentum_plant;
+mod shared;
 mod spin_plant;
 
 pub use disturbance_torque::{DisturbanceSetup, DisturbanceTorque};

@@ -1,7 +1,6 @@
 //! `DisturbanceTorque`: geometry in, force and torque of light, heat and gravity gradient by source out, without
 //! memory, with exact partial derivatives; to embed in somebody else's dynamics.
 
-mod choices;
 mod outputs;
 mod prepared;
 mod setup;

@@ -4,7 +4,6 @@ use fmi_export::{Failure, Real, Values};
 use nalgebra::{Matrix3, Vector3};
 use physics::attitude::gravity_gradient_n_m;
 use physics::environment::eclipse::{Shadow, ShadowModel};
-use physics::environment::surface::{DayTemperature, PlanetSurface};
 use physics::numerics::scalar::{Dual64, Scalar};
 use physics::radiation::disturbance::{Disturbance, DisturbanceModel, Geometry, Options, Recoil, Workspace};
 use physics::spacecraft;
@@ -13,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::Plan;
 use super::variables::DisturbanceVariables;
 use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
+use crate::shared::SurfaceHandles;
 
 /// What parameters and spacecraft amount to.
 #[derive(Clone, Debug)]
@@ -101,16 +101,15 @@ impl Prepared {
         let spacecraft = &context.setup.spacecraft;
         let planet = &variables.planet;
         let present = values.boolean(planet.present);
-        let surface = PlanetSurface {
-            radius_m: values.real(planet.radius),
-            absorptivity: values.real(planet.absorptivity),
-            diffuse_reflectivity: values.real(planet.diffuse_reflectivity),
-            emissivity: values.real(planet.emissivity),
-            night_temperature_k: values.real(planet.night_temperature),
-            day_temperature: values
-                .choice(planet.day_temperature)
-                .map_or(DayTemperature::Uniform, Into::into),
-        };
+        let surface = SurfaceHandles {
+            radius: planet.radius,
+            absorptivity: planet.absorptivity,
+            diffuse_reflectivity: planet.diffuse_reflectivity,
+            emissivity: planet.emissivity,
+            night_temperature: planet.night_temperature,
+            day_temperature: planet.day_temperature,
+        }
+        .read(values);
         let sunshade_model = values.choice(variables.sunshade.model).map(|model| match model {
             SunshadeModel::Plates => spacecraft::SunshadeModel::Plates,
             SunshadeModel::Cylinder => spacecraft::SunshadeModel::Cylinder,

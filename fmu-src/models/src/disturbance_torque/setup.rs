@@ -1,7 +1,6 @@
 //! The immutable setup: the spacecraft.
 
 use fmi_export::SetupError;
-use physics::radiation::disturbance::{DisturbanceModel, Options};
 use physics::spacecraft::Spacecraft;
 use serde::Serialize;
 
@@ -10,23 +9,16 @@ use serde::Serialize;
 pub struct DisturbanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
-    /// Names of the faces reported one by one; empty unless the file asks for that.
+    /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
-    pub reported_faces: Vec<String>,
+    pub reported_faces: Vec<Option<usize>>,
 }
 
 impl DisturbanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
-        let reported_faces = if spacecraft.per_plate_outputs {
-            DisturbanceModel::new(&spacecraft, &Options::default())
-                .map_err(|error| SetupError(format!("{file}: {error}")))?
-                .face_names()
-                .collect()
-        } else {
-            Vec::new()
-        };
+        let reported_faces = crate::shared::reported_faces(file, &spacecraft)?;
         Ok(Self { spacecraft, reported_faces })
     }
 }

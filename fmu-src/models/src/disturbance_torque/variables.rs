@@ -3,11 +3,12 @@
 use fmi_export::{Boolean, Choice, Integer, Real, RealMatrix, RealVector, Variables};
 use physics::constants;
 use physics::environment::sun;
+use physics::environment::surface::MERCURY;
 
-use super::choices::DayTemperature;
 use super::setup::DisturbanceSetup;
 use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
 use crate::momentum_plant::defaults;
+use crate::shared::DayTemperature;
 
 /// Every variable, in the order of the XML.
 #[derive(Variables)]
@@ -63,22 +64,22 @@ pub struct PlanetVariables {
     #[parameter(start = true)]
     pub present: Boolean,
     /// Radius; the default is Mercury's. A spacecraft below it is refused.
-    #[parameter(unit = "m", display = "km", min = 1.0, start = constants::RADIUS_MERCURY_M)]
+    #[parameter(unit = "m", display = "km", min = 1.0, start = MERCURY.radius_m)]
     pub radius: Real,
     /// Gravitational parameter, for the gravity gradient; the default is Mercury's.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, start = constants::GM_MERCURY_M3_S2)]
     pub gravitational_parameter: Real,
     /// Absorbed fraction of sunlight; 0.88 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.88)]
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
     pub absorptivity: Real,
     /// Diffusely reflected fraction of sunlight; 0.12 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.12)]
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
     pub diffuse_reflectivity: Real,
     /// Infrared emissivity; 0.9 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.9)]
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
     pub emissivity: Real,
     /// Temperature of the night side; 100 K fits paper 004, which does not print it.
-    #[parameter(unit = "K", min = 0.0, max = 1e4, start = 100.0)]
+    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
     pub night_temperature: Real,
     /// How the day side's temperature is distributed.
     #[parameter(start = DayTemperature::Uniform)]

@@ -10,7 +10,7 @@ use physics::environment::orbit::{Elements, Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
 use physics::guidance::{self, Guided, Schedule};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
-use physics::plant::{self, Configuration, Motion, PanelSetting, SunLight};
+use physics::plant::{self, Configuration, LightEffects, LightModel, Motion, PanelSetting, SunLight};
 use physics::spacecraft;
 
 use super::choices::{
@@ -20,6 +20,7 @@ use super::choices::{
 use super::state::PlantState;
 use super::variables::PlantVariables;
 use super::{Plan, physics_vector};
+use crate::shared::SurfaceHandles;
 
 /// The configuration that parameters, inputs and state describe.
 pub fn configuration(
@@ -89,6 +90,14 @@ pub fn refreshed(
             SunLight::Distance { flux_w_m2: values.real(variables.solar.flux) }
         },
         shadow: shadow(variables, values, radius_m)?,
+        light_and_heat: LightEffects {
+            planet_light: values.boolean(variables.planet_light.enabled),
+            recoil: values.boolean(variables.thermal.enabled),
+            storage: values.boolean(variables.thermal.storage),
+            shadowing: values.boolean(variables.shadowing.enabled),
+            grid_s: values.real(variables.solver.disturbance_step),
+            tolerance: values.real(variables.solver.disturbance_tolerance),
+        },
         sunshade: match values.choice(variables.sunshade.model) {
             Some(SunshadeModel::Cylinder) => spacecraft::SunshadeModel::Cylinder,
             Some(SunshadeModel::Plates) | None => spacecraft::SunshadeModel::Plates,
@@ -104,6 +113,39 @@ pub fn refreshed(
         },
         momentum: settings(variables, values),
     })
+}
+
+/// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.
+pub fn light(
+    context: &Plan<'_>,
+    values: &Values,
+    configuration: &Configuration,
+) -> Result<Option<LightModel>, Failure> {
+    let variables = context.variables;
+    if !configuration.light_and_heat.any() && variables.plate.is_empty() {
+        return Ok(None);
+    }
+    let planet = &variables.planet;
+    let surface = SurfaceHandles {
+        radius: planet.radius,
+        absorptivity: planet.absorptivity,
+        diffuse_reflectivity: planet.diffuse_reflectivity,
+        emissivity: planet.emissivity,
+        night_temperature: planet.night_temperature,
+        day_temperature: planet.day_temperature,
+    }
+    .read(values);
+    let nodes = usize::try_from(values.integer(variables.planet_light.nodes)).unwrap_or(0);
+    let spacecraft = &context.setup.spacecraft;
+    let asked = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);
+    if !variables.plate.is_empty() && asked != configuration.sunshade {
+        return Err(Failure::new(
+            "sunshade.model: found another than the spacecraft file's, allowed: the file's, whose faces plate[k] are",
+        ));
+    }
+    LightModel::new(spacecraft, configuration, &surface, nodes)
+        .map(Some)
+        .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.model: {error}")))
 }
 
 fn shadow(variables: &PlantVariables, values: &Values, radius_m: f64) -> Result<Shadow, Failure> {

@@ -25,7 +25,7 @@ type Plan<'a> = Context<'a, MomentumPlant>;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 2;
+    const STATE_VERSION: u32 = 3;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
@@ -59,7 +59,9 @@ impl Model for MomentumPlant {
         let load = external(context, values);
         let craft = context.setup.craft(configuration.sunshade)?;
         state.course = Course::new(&configuration, start_s).map_err(ended)?;
-        let mut plant = Plant::new(craft, &configuration, &mut state.course, &mut state.ephemeris, |_| load);
+        state.light = configure::light(context, values, &configuration)?;
+        let (course, ephemeris) = (&mut state.course, &mut state.ephemeris);
+        let mut plant = Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), |_| load);
         plant.prepare(start_s).map_err(ended)?;
         let totals = Totals {
             momentum_inertial_n_m_s: plant.snapshot(start_s).frame.inertial_from_body
@@ -74,6 +76,7 @@ impl Model for MomentumPlant {
             .map_err(ended)?;
         let snapshot = plant.snapshot(start_s);
         flyable(&snapshot, start_s)?;
+        outputs::write_plates(context, values, &mut state, &configuration, start_s)?;
         let totals = state.accumulator.totals(start_s);
         outputs::write_calculated(context, values, &configuration);
         outputs::write(context, values, &state, &configuration, &snapshot, &totals, start_s);
@@ -104,7 +107,7 @@ impl Model for MomentumPlant {
             state.course.cut(&configuration, step.start_s);
         }
         if moved && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs)) {
-            state.course = Course::new(&configuration, step.start_s).map_err(ended)?;
+            state.course.move_to(&configuration, step.start_s).map_err(ended)?;
         }
         let load = |time_s| ExternalLoad {
             force_body_n: physics_vector(step.input_vector(values, context.variables.force.external, time_s)),
@@ -115,7 +118,11 @@ impl Model for MomentumPlant {
             )),
         };
         let craft = context.setup.craft(configuration.sunshade)?;
-        let mut plant = Plant::new(craft, &configuration, &mut state.course, &mut state.ephemeris, load);
+        if state.light.is_none() {
+            state.light = configure::light(context, values, &configuration)?;
+        }
+        let (course, ephemeris) = (&mut state.course, &mut state.ephemeris);
+        let mut plant = Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), load);
         let (accumulator, spacing) = (&mut state.accumulator, &mut state.spacing);
         if state.request.rises(values.boolean(context.variables.dump.request)) {
             let target = physics_vector(values.vector(context.variables.dump.target));
@@ -127,6 +134,7 @@ impl Model for MomentumPlant {
             .map_err(ended)?;
         let snapshot = plant.snapshot(step.end_s);
         flyable(&snapshot, step.end_s)?;
+        outputs::write_plates(context, values, state, &configuration, step.end_s)?;
         let totals = state.accumulator.totals(step.end_s);
         outputs::write(context, values, state, &configuration, &snapshot, &totals, step.end_s);
         state.configuration = Some(configuration);
@@ -134,6 +142,9 @@ impl Model for MomentumPlant {
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
+        if !state.course.light.as_ref().is_none_or(|light| light.covers(time_s)) {
+            return Err(Failure::new(format!("light and heat were computed elsewhere than at {time_s:?} s")));
+        }
         if !state.course.trajectory.covers(time_s) {
             return Err(Failure::new(format!("the orbit was integrated elsewhere than at {time_s:?} s")));
         }

@@ -1,15 +1,15 @@
 //! From a snapshot to the output variables.
 
-use fmi_export::{Real, Values};
+use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
 use physics::momentum::{Convention, Totals};
-use physics::plant::{Configuration, Snapshot};
+use physics::plant::{Configuration, ExternalLoad, PanelSetting, Plant, Snapshot};
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 use physics::spacecraft::guaranteed_threshold_of;
 
-use super::Plan;
 use super::state::PlantState;
+use super::{Plan, ended};
 
 /// Writes every output at `time_s`.
 pub fn write(
@@ -28,10 +28,16 @@ pub fn write(
     values.set_vector(variables.attitude.rate, rate_body_rad_s.into());
 
     values.set_vector(variables.torque.solar, snapshot.solar.torque_body_n_m.into());
+    values.set_vector(variables.torque.albedo, snapshot.albedo.torque_body_n_m.into());
+    values.set_vector(variables.torque.infrared, snapshot.infrared.torque_body_n_m.into());
+    values.set_vector(variables.torque.thermal, snapshot.thermal.torque_body_n_m.into());
     values.set_vector(variables.torque.gravity_gradient, snapshot.gravity_gradient_body_n_m.into());
     values.set_vector(variables.torque.total, snapshot.torque_body_n_m().into());
     let force_inertial_n = rotation * snapshot.force_body_n();
     values.set_vector(variables.force.solar, snapshot.solar.force_body_n.into());
+    values.set_vector(variables.force.albedo, snapshot.albedo.force_body_n.into());
+    values.set_vector(variables.force.infrared, snapshot.infrared.force_body_n.into());
+    values.set_vector(variables.force.thermal, snapshot.thermal.force_body_n.into());
     values.set_vector(variables.force.total, snapshot.force_body_n().into());
     values.set_vector(variables.force.inertial, force_inertial_n.into());
     values.set_vector(variables.acceleration, (force_inertial_n / configuration.mass_kg).into());
@@ -78,6 +84,32 @@ pub fn write(
     values.set_vector(variables.momentum.inertial, totals.momentum_inertial_n_m_s.into());
     write_wheels(context, values, configuration, totals, snapshot);
     write_dumps(context, values, state);
+}
+
+/// Writes the faces that are reported one by one; those of panels that are left out stay 0.
+pub fn write_plates(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    configuration: &Configuration,
+    time_s: f64,
+) -> Result<(), Failure> {
+    if context.variables.plate.is_empty() {
+        return Ok(());
+    }
+    let left_out = |panel: usize| configuration.panels.get(panel) == Some(&PanelSetting::Disabled);
+    let faces = context.variables.plate.iter().zip(&context.setup.reported_faces);
+    let mut flown = faces.filter(|(_, panel)| !panel.is_some_and(left_out)).map(|(plate, _)| plate);
+    let craft = context.setup.craft(configuration.sunshade)?;
+    let (course, ephemeris, light) = (&mut state.course, &mut state.ephemeris, state.light.as_mut());
+    Plant::new(craft, configuration, course, ephemeris, light, |_| ExternalLoad::default())
+        .faces(time_s, |temperature_k, force_body_n| {
+            if let Some(plate) = flown.next() {
+                values.set_real(plate.temperature, temperature_k);
+                values.set_vector(plate.force, force_body_n.into());
+            }
+        })
+        .map_err(ended)
 }
 
 /// Writes what follows from parameters alone.

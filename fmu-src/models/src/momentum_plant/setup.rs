@@ -19,6 +19,9 @@ pub struct PlantSetup {
     /// The same with the shade as a cylinder.
     #[serde(skip)]
     cylinder: Option<SolarModel>,
+    /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
+    #[serde(skip)]
+    pub reported_faces: Vec<Option<usize>>,
     /// Distribution of momentum over the wheels; absent unless they span all directions.
     #[serde(skip)]
     pub wheel_array: Option<WheelArray>,
@@ -34,6 +37,7 @@ impl PlantSetup {
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let prepared = |model| SolarModel::with_sunshade_model(&spacecraft, model).ok();
         Ok(Self {
+            reported_faces: crate::shared::reported_faces(file, &spacecraft)?,
             plates: prepared(SunshadeModel::Plates),
             cylinder: prepared(SunshadeModel::Cylinder),
             wheel_array: WheelArray::new(&axes),

@@ -4,7 +4,7 @@ use fmi_export::{Failure, Values};
 use physics::attitude::Attitude;
 use physics::environment::ephemeris::Ephemeris;
 use physics::momentum::{Accumulator, Event, Totals};
-use physics::plant::{Command, Configuration, Course};
+use physics::plant::{Command, Configuration, Course, LightModel};
 use serde::{Deserialize, Serialize};
 
 use super::choices::CommandKind;
@@ -35,6 +35,9 @@ pub struct PlantState {
     /// Cache of what parameters and inputs say.
     #[serde(skip)]
     pub configuration: Option<Configuration>,
+    /// Cache of what light and heat need; absent where direct sunlight is all there is.
+    #[serde(skip)]
+    pub light: Option<LightModel>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,6 +98,7 @@ impl PlantState {
             spacing: Spacing::default(),
             ephemeris: Ephemeris::default(),
             configuration: None,
+            light: None,
         };
         state.take_command(context, values, start_s)?;
         Ok(state)

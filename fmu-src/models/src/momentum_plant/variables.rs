@@ -8,6 +8,8 @@ use super::choices::{
     OrbitFrame, OrbitModel, OrbitSource, PanelControl, PanelTilt, ScienceRule, SunshadeModel,
 };
 use super::defaults;
+use crate::shared::DayTemperature;
+use physics::environment::surface::MERCURY;
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]
@@ -31,6 +33,12 @@ pub struct PlantVariables {
     pub solar: SolarVariables,
     #[group]
     pub eclipse: EclipseVariables,
+    #[group]
+    pub planet_light: PlanetLightVariables,
+    #[group]
+    pub thermal: ThermalVariables,
+    #[group]
+    pub shadowing: ShadowingVariables,
     #[group]
     pub gravity_gradient: GravityGradientVariables,
     #[group]
@@ -77,6 +85,8 @@ pub struct PlantVariables {
     /// Centre of mass in the body frame.
     #[output(unit = "m", display = "cm")]
     pub center_of_mass: RealVector<3>,
+    #[group(count = setup.reported_faces.len())]
+    pub plate: Vec<PlateVariables>,
 }
 
 /// Attitude: where it comes from, and what it is.
@@ -227,6 +237,21 @@ pub struct PlanetVariables {
     /// Declination of Mercury's north pole in EME2000 (IAU 2015).
     #[parameter(unit = "rad", display = "deg", start = defaults::MERCURY_POLE_DECLINATION_RAD)]
     pub pole_declination: Real,
+    /// Fraction of sunlight the planet absorbs; 0.88 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
+    pub absorptivity: Real,
+    /// Fraction of sunlight the planet reflects diffusely; 0.12 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
+    pub diffuse_reflectivity: Real,
+    /// Infrared emissivity of the planet; 0.9 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
+    pub emissivity: Real,
+    /// Temperature of the planet's night side; 100 K fits paper 004, which does not print it.
+    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
+    pub night_temperature: Real,
+    /// How the planet's day side is heated.
+    #[parameter(start = DayTemperature::Uniform)]
+    pub day_temperature: Choice<DayTemperature>,
 }
 
 /// Positions of Sun, Mercury and Earth.
@@ -279,6 +304,40 @@ pub struct EclipseVariables {
     /// How the planet's shadow dims the Sun.
     #[parameter(start = EclipseModel::Discs)]
     pub model: Choice<EclipseModel>,
+}
+
+/// Light of the planet.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PlanetLightVariables {
+    /// Whether sunlight reflected by the planet and its infrared light act and heat; paper 000 leaves them out.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+    /// Quadrature nodes over the planet's disc: 6 for 1e-4 of the force, 16 for 1e-5.
+    #[parameter(min = 1, max = 64, start = 6)]
+    pub nodes: Integer,
+}
+
+/// Heat the spacecraft radiates.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ThermalVariables {
+    /// Whether the recoil of radiated heat acts; paper 000 leaves it out.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+    /// Whether surfaces whose file gives a heat capacity store heat, and stay warm into an eclipse; otherwise every surface
+    /// is in balance with its light.
+    #[parameter(start = true)]
+    pub storage: Boolean,
+}
+
+/// Shadows of the spacecraft's surfaces on one another.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ShadowingVariables {
+    /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
 }
 
 /// Gravity-gradient torque.
@@ -445,6 +504,15 @@ pub struct TorqueVariables {
     /// Direct sunlight on sunshade and panels.
     #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
     pub solar: RealVector<3>,
+    /// Sunlight reflected by the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub albedo: RealVector<3>,
+    /// Infrared light of the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub infrared: RealVector<3>,
+    /// Recoil of the heat the spacecraft radiates; 0 unless thermal.enabled.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub thermal: RealVector<3>,
     /// Gravity gradient of the planet.
     #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
     pub gravity_gradient: RealVector<3>,
@@ -463,6 +531,15 @@ pub struct ForceVariables {
     /// Direct sunlight on sunshade and panels.
     #[output(unit = "N", display = "uN", nominal = 1e-4)]
     pub solar: RealVector<3>,
+    /// Sunlight reflected by the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub albedo: RealVector<3>,
+    /// Infrared light of the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub infrared: RealVector<3>,
+    /// Recoil of the heat the spacecraft radiates; 0 unless thermal.enabled.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub thermal: RealVector<3>,
     /// Sum of all sources, the external one included.
     #[output(unit = "N", display = "uN", nominal = 1e-4)]
     pub total: RealVector<3>,
@@ -529,4 +606,25 @@ pub struct SolverVariables {
     /// Largest last Chebyshev term of momentum and delta-v in an internal step, which is halved until it holds.
     #[parameter(unit = "1", min = 1e-15, max = 1.0, start = 1e-10)]
     pub tolerance: Real,
+    /// Longest stretch over which planet light, recoil and shadowing are computed at a few nodes and read from a
+    /// polynomial in between; stretches end at its multiples and where light or attitude change abruptly.
+    #[parameter(unit = "s", min = 1e-3, max = 86_400.0, start = 600.0)]
+    pub disturbance_step: Real,
+    /// Largest last Chebyshev term of such a stretch relative to the largest force and torque in it; the stretch is
+    /// shortened until it holds.
+    #[parameter(unit = "1", min = 1e-12, max = 1.0, start = 1e-5)]
+    pub disturbance_tolerance: Real,
+}
+
+/// One face of a plate or panel, in the file's order: plates, sunshade, panels, the rear after the front. There if the
+/// FMU was packed with per-plate outputs.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PlateVariables {
+    /// Temperature.
+    #[output(unit = "K", nominal = 300.0)]
+    pub temperature: Real,
+    /// Force of sunlight and of whatever else acts of planet light and recoil, body frame.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub force: RealVector<3>,
 }

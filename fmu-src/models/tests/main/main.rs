@@ -4,4 +4,5 @@
 mod disturbance_torque;
 mod pilot;
 mod plant_cuts;
+mod plant_light;
 mod spin_plant;

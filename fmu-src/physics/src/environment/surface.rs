@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
+use crate::constants::{RADIUS_MERCURY_M, STEFAN_BOLTZMANN_W_M2_K4};
 use crate::numerics::scalar::Scalar;
 
 /// How the day side's temperature is distributed.
@@ -36,6 +36,16 @@ pub struct PlanetSurface {
     /// Distribution of the day side's temperature.
     pub day_temperature: DayTemperature,
 }
+
+/// Mercury as it fits paper 004, which prints none of this.
+pub const MERCURY: PlanetSurface = PlanetSurface {
+    radius_m: RADIUS_MERCURY_M,
+    absorptivity: 0.88,
+    diffuse_reflectivity: 0.12,
+    emissivity: 0.9,
+    night_temperature_k: 100.0,
+    day_temperature: DayTemperature::Uniform,
+};
 
 /// A planet surface that cannot be.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

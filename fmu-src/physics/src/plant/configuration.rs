@@ -13,6 +13,8 @@ use crate::guidance::Guided;
 use crate::momentum::Settings;
 use crate::spacecraft::{Panel, SunshadeModel};
 
+use super::light::LightEffects;
+
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AttitudeSource {
@@ -161,6 +163,8 @@ pub struct Configuration {
     pub light: SunLight,
     /// Shadow of the planet.
     pub shadow: Shadow,
+    /// Light and heat beyond direct sunlight.
+    pub light_and_heat: LightEffects,
     /// Attitude.
     pub attitude: AttitudeSource,
     /// Model of the shade.

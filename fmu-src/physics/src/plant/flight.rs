@@ -13,6 +13,7 @@ use crate::spacecraft::Panel;
 
 use super::configuration::{AttitudeSource, Configuration, SunLight};
 use super::geometry::Geometry;
+use super::light::{LightModel, Loads};
 use super::stretch::{Course, PlantError};
 
 /// The attitude law's branch numbers stay below this bit.
@@ -42,6 +43,12 @@ pub struct Snapshot {
     pub lit_fraction: f64,
     /// Direct sunlight.
     pub solar: ForceTorque<f64>,
+    /// Sunlight reflected by the planet.
+    pub albedo: ForceTorque<f64>,
+    /// Infrared light of the planet.
+    pub infrared: ForceTorque<f64>,
+    /// Recoil of the heat the spacecraft radiates.
+    pub thermal: ForceTorque<f64>,
     /// Torque by the planet's gravity gradient, body frame, in N m.
     pub gravity_gradient_body_n_m: Vector3<f64>,
     /// From outside.
@@ -53,12 +60,21 @@ pub struct Snapshot {
 impl Snapshot {
     /// Sum of all torques, body frame, in N m.
     pub fn torque_body_n_m(&self) -> Vector3<f64> {
-        self.solar.torque_body_n_m + self.gravity_gradient_body_n_m + self.external.torque_body_n_m
+        self.solar.torque_body_n_m
+            + self.gravity_gradient_body_n_m
+            + self.external.torque_body_n_m
+            + self.albedo.torque_body_n_m
+            + self.infrared.torque_body_n_m
+            + self.thermal.torque_body_n_m
     }
 
     /// Sum of all forces but gravity, body frame, in N.
     pub fn force_body_n(&self) -> Vector3<f64> {
-        self.solar.force_body_n + self.external.force_body_n
+        self.solar.force_body_n
+            + self.external.force_body_n
+            + self.albedo.force_body_n
+            + self.infrared.force_body_n
+            + self.thermal.force_body_n
     }
 }
 
@@ -79,19 +95,22 @@ pub struct Plant<'a, L> {
     pub(super) configuration: &'a Configuration,
     pub(super) course: &'a mut Course,
     pub(super) ephemeris: &'a mut Ephemeris,
+    pub(super) light: Option<&'a mut LightModel>,
     external: L,
 }
 
 impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
-    /// `course` belongs to this configuration; `external` gives the load from outside at any time.
+    /// `course` belongs to this configuration, and so does `light`, without which direct sunlight is all there is;
+    /// `external` gives the load from outside at any time.
     pub fn new(
         craft: Craft<'a>,
         configuration: &'a Configuration,
         course: &'a mut Course,
         ephemeris: &'a mut Ephemeris,
+        light: Option<&'a mut LightModel>,
         external: L,
     ) -> Self {
-        Self { craft, configuration, course, ephemeris, external }
+        Self { craft, configuration, course, ephemeris, light, external }
     }
 
     /// Everything at `time_s`, which the course must have reached ([`Flight::prepare`]).
@@ -115,12 +134,19 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
             ),
             None => Vector3::zeros(),
         };
+        let Loads { shadowed_solar, albedo, infrared, thermal } = self.loads(time_s);
+        let solar = shadowed_solar.unwrap_or_else(|| {
+            self.sunlight(&Beam { source_body: sun_body, pressure_pa: pressure_pa * lit_fraction })
+        });
         Snapshot {
             geometry,
             frame,
             sun_body,
             earth_body: to_body * direction(&geometry.to_earth.position_m),
-            solar: self.sunlight(&Beam { source_body: sun_body, pressure_pa: pressure_pa * lit_fraction }),
+            solar,
+            albedo,
+            infrared,
+            thermal,
             lit_fraction,
             gravity_gradient_body_n_m,
             external: (self.external)(time_s),
@@ -131,6 +157,16 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
         self.course.trajectory.time_since_periapsis_s(self.configuration, time_s)
+    }
+
+    fn loads(&self, time_s: f64) -> Loads {
+        match (&self.course.light, &self.light) {
+            (Some(cell), Some(light)) if self.configuration.light_and_heat.any() => {
+                let shadowed = self.configuration.light_and_heat.shadowing && light.model.can_shadow();
+                cell.loads(time_s, shadowed)
+            }
+            _ => Loads::none(),
+        }
     }
 
     fn sunlight(&self, beam: &Beam<f64>) -> ForceTorque<f64> {

@@ -1,12 +1,15 @@
 //! The three-axis spacecraft put together: orbit, attitude, light and gravity gradient in one flight.
 //!
 //! [`Configuration`] says what flies where; [`Plant`] evaluates it and is the [`crate::momentum::Flight`] that momentum
-//! accumulates over. What it has to remember between two evaluations is a [`Course`]: an integrated orbit, and the
-//! [`stretch`] of time at hand.
+//! accumulates over. What it has to remember between two evaluations is a [`Course`]: an integrated orbit, and a
+//! [`LightCell`] of slowly changing light and heat.
 
 mod configuration;
 mod flight;
 mod geometry;
+mod light;
+mod light_cell;
+mod stored_heat;
 mod stretch;
 mod trajectory;
 
@@ -16,5 +19,7 @@ pub use configuration::{
 };
 pub use flight::{Craft, ExternalLoad, Plant, Snapshot};
 pub use geometry::Geometry;
+pub use light::{LightEffects, LightModel, Loads};
+pub use light_cell::LightCell;
 pub use stretch::{Course, PlantError};
 pub use trajectory::Trajectory;

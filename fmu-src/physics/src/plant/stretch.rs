@@ -12,9 +12,11 @@ use crate::environment::orbit::FlightError;
 use crate::momentum::Flight;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::stretches::first_change_s;
+use crate::radiation::disturbance::GeometryError;
 
 use super::configuration::{Configuration, Motion};
 use super::flight::{ExternalLoad, Plant};
+use super::light_cell::LightCell;
 use super::trajectory::Trajectory;
 
 /// Nodes at which the acceleration of a stretch is taken.
@@ -29,6 +31,23 @@ pub enum PlantError {
     /// The orbit.
     #[error(transparent)]
     Orbit(#[from] FlightError),
+    /// Light and heat have no meaning where the spacecraft is.
+    #[error(transparent)]
+    Light(#[from] GeometryError),
+    /// Restored bytes of another spacecraft.
+    #[error("the state holds {found} temperatures, allowed: {allowed}, one for each face")]
+    Temperatures {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        allowed: usize,
+    },
+    /// Restored bytes that are no flight's.
+    #[error("the state holds a temperature of {found_k} K, allowed: 0 to 1e5 K")]
+    Temperature {
+        /// What was found.
+        found_k: f64,
+    },
     /// An orbit that goes no further: restored bytes that belong to another kind of motion.
     #[error(
         "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.model"
@@ -47,6 +66,8 @@ pub enum PlantError {
 pub struct Course {
     /// Where the spacecraft is.
     pub trajectory: Trajectory,
+    /// Light and heat of the stretch at hand; absent before the first one.
+    pub light: Option<LightCell>,
 }
 
 impl Course {
@@ -55,12 +76,27 @@ impl Course {
     /// # Errors
     /// A start below the surface.
     pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, PlantError> {
-        Ok(Self { trajectory: Trajectory::new(configuration, time_s)? })
+        Ok(Self { trajectory: Trajectory::new(configuration, time_s)?, light: None })
+    }
+
+    /// Goes on from another place; the heat stored in the surfaces comes along.
+    ///
+    /// # Errors
+    /// A place below the surface.
+    pub fn move_to(&mut self, configuration: &Configuration, time_s: f64) -> Result<(), PlantError> {
+        self.trajectory = Trajectory::new(configuration, time_s)?;
+        if let Some(light) = &mut self.light {
+            light.cut(time_s);
+        }
+        Ok(())
     }
 
     /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far.
     pub fn cut(&mut self, configuration: &Configuration, time_s: f64) {
         self.trajectory.cut(configuration, time_s);
+        if let Some(light) = &mut self.light {
+            light.cut(time_s);
+        }
     }
 }
 
@@ -68,13 +104,14 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// Makes sure that `start_s` lies in the stretch at hand, and tells where that ends.
     pub(super) fn reach(&mut self, start_s: f64) -> Result<f64, PlantError> {
         if self.course.trajectory.end_s() > start_s {
-            return Ok(self.course.trajectory.end_s());
+            return self.light_up(start_s, self.course.trajectory.end_s());
         }
         self.course.trajectory.leave(self.configuration, start_s);
         let before = self.course.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
         if let Motion::Disturbed { feedback: true, .. } = self.configuration.motion {
-            let end_s = self.smooth_until(start_s, self.course.trajectory.end_s());
+            let lit_s = self.light_up(start_s, self.course.trajectory.end_s())?;
+            let end_s = self.smooth_until(start_s, lit_s);
             let acceleration_m_s2 =
                 Segment::<3, NODES>::fit(start_s, end_s, |at_s| self.sample(at_s).acceleration_inertial_m_s2);
             let predicted = core::mem::replace(&mut self.course.trajectory, before);
@@ -83,7 +120,11 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         }
         let end_s = self.course.trajectory.end_s();
         // Written so that a NaN is stuck too.
-        if end_s > start_s { Ok(end_s) } else { Err(PlantError::Stuck { start_s, end_s }) }
+        if end_s > start_s {
+            self.light_up(start_s, end_s)
+        } else {
+            Err(PlantError::Stuck { start_s, end_s })
+        }
     }
 
     fn integrate(
@@ -97,7 +138,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     }
 
     /// The latest time up to `limit_s` until which the branch just after `start_s` lasts.
-    fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+    pub(super) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
         // The edge this stretch starts at was found on an orbit that has been computed anew since.
         let start_s = (start_s + MOVED_S).min(limit_s);
         let branch = self.branch(start_s);

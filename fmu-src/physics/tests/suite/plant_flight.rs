@@ -13,8 +13,8 @@ use physics::guidance::{Guided, Schedule, ScienceRule};
 use physics::momentum::{Accumulator, Convention, DumpPolicy, Flight, Reinitialise, Settings, Totals};
 use physics::numerics::quadrature;
 use physics::plant::{
-    AttitudeSource, Command, Configuration, Course, Craft, EphemerisSource, ExternalLoad, Motion,
-    OrbitCenter, PanelSetting, Plant, SunLight, orbit_from_elements,
+    AttitudeSource, Command, Configuration, Course, Craft, EphemerisSource, ExternalLoad, LightEffects,
+    Motion, OrbitCenter, PanelSetting, Plant, SunLight, orbit_from_elements,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -41,6 +41,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         ephemeris: EphemerisSource::Vsop87,
         light: SunLight::Distance { flux_w_m2: 1353.0 },
         shadow: Shadow::new(ShadowModel::Off, RADIUS_MERCURY_M).unwrap(),
+        light_and_heat: LightEffects::OFF,
         attitude,
         sunshade: SunshadeModel::Plates,
         panels: vec![PanelSetting::Disabled; 2],
@@ -114,7 +115,7 @@ impl Rig {
         load: L,
     ) -> Plant<'a, L> {
         let craft = Craft { panels: &self.spacecraft.panels, solar: &self.solar, orbit_method: &self.method };
-        Plant::new(craft, configuration, &mut self.course, &mut self.ephemeris, load)
+        Plant::new(craft, configuration, &mut self.course, &mut self.ephemeris, None, load)
     }
 }
 

@@ -30,12 +30,7 @@ impl DisturbanceModel {
         workspace: &mut Workspace<T>,
     ) -> Result<Disturbance<T>, GeometryError> {
         geometry.check(self.panels.len())?;
-        if let Recoil::Stored(temperatures_k) = recoil
-            && temperatures_k.len() != self.faces.faces.len()
-        {
-            let (found, allowed) = (temperatures_k.len(), self.faces.faces.len());
-            return Err(GeometryError::Temperatures { found, allowed });
-        }
+        self.check_temperatures(recoil)?;
         workspace.prepare(self.faces.normals.len(), self.faces.faces.len());
         self.turn_normals(geometry, workspace);
         self.light_planet(geometry, workspace)?;
@@ -49,6 +44,34 @@ impl DisturbanceModel {
             sum.solar += cylinder.sunshade(&beam(geometry), &geometry.center_of_mass_body_m);
         }
         Ok(sum)
+    }
+
+    /// Recoil of heat anew for the light of the last evaluation, at other temperatures.
+    ///
+    /// # Errors
+    /// Not one temperature for each face, or a workspace of another model.
+    pub fn recoil<T: Scalar>(
+        &self,
+        geometry: &Geometry<'_, T>,
+        recoil: Recoil<'_>,
+        workspace: &mut Workspace<T>,
+    ) -> Result<ForceTorque<T>, GeometryError> {
+        self.check_temperatures(recoil)?;
+        let (found, allowed) = (workspace.faces.len(), self.faces.faces.len());
+        if found != allowed {
+            return Err(GeometryError::Temperatures { found, allowed });
+        }
+        Ok(self.radiate(geometry, recoil, workspace))
+    }
+
+    fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), GeometryError> {
+        let allowed = self.faces.faces.len();
+        match recoil {
+            Recoil::Stored(temperatures_k) if temperatures_k.len() != allowed => {
+                Err(GeometryError::Temperatures { found: temperatures_k.len(), allowed })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Heat every face takes in, in W, as of the last evaluation: absorbed light and heat from inside. Written to

@@ -1,6 +1,6 @@
 //! A spacecraft and a planet prepared for evaluation.
 
-use super::faces::Faces;
+use super::faces::{Faces, Normal};
 use crate::environment::surface::{PlanetSurface, SurfaceError};
 use crate::radiation::ring::{NodesError, RingRule};
 use crate::radiation::shadow::{Hinge, Outline, ShadowScene};
@@ -104,6 +104,14 @@ impl DisturbanceModel {
         self.faces.surfaces.iter().flat_map(|surface| {
             let rear = surface.two_sided.then(|| format!("{}, rear", surface.name));
             core::iter::once(surface.name.clone()).chain(rear)
+        })
+    }
+
+    /// For every face the panel it belongs to, if to one.
+    pub fn face_panels(&self) -> impl Iterator<Item = Option<usize>> + '_ {
+        self.faces.faces.iter().map(|face| match self.faces.normals[face.normal] {
+            Normal::Fixed(_) => None,
+            Normal::Front(panel) | Normal::Rear(panel) => Some(panel),
         })
     }
 

@@ -20,6 +20,9 @@ const MOST_COLUMNS: usize = 8;
 /// A step is halved at most this often.
 const MOST_HALVINGS: u32 = 40;
 
+/// Steps after which the rest is taken as one: no temperature of a spacecraft needs a tenth of them.
+const MOST_STEPS: u32 = 10_000;
+
 /// Temperatures of every face, in the order of the model's faces.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ThermalState {
@@ -49,10 +52,18 @@ impl HeatStore {
         if !(duration_s > 0.0 && duration_s.is_finite()) {
             return temperatures_k.into();
         }
+        if (temperatures_k + from + to).iter().any(|x| !x.is_finite()) {
+            return [f64::NAN; 2];
+        }
         let heat_at = |time_s: f64| from + (to - from) * (time_s / duration_s);
         let shortest_s = duration_s * 0.5_f64.powi(MOST_HALVINGS as i32);
         let (mut time_s, mut step_s) = (0.0, duration_s);
+        let mut steps = 0;
         while time_s < duration_s {
+            steps += 1;
+            if steps > MOST_STEPS {
+                return self.substeps(&temperatures_k, time_s, duration_s, 1, &heat_at).into();
+            }
             let last = time_s + step_s >= duration_s;
             let end_s = if last { duration_s } else { time_s + step_s };
             match self.extrapolate(&temperatures_k, time_s, end_s, &heat_at) {

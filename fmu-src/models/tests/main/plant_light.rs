@@ -1,0 +1,274 @@
+//! Planet light, recoil, stored heat and self-shadowing inside the momentum plant: cut and restored to the bit through
+//! eclipses, equal to the memoryless model at every communication point, cooling by the closed form in the dark.
+
+use models::{DisturbanceTorque, MomentumPlant};
+use nalgebra::Vector3;
+use physics::attitude::Attitude;
+use physics::constants::STEFAN_BOLTZMANN_W_M2_K4;
+
+use super::pilot::{Hangar, Pilot};
+
+const DAY_S: f64 = 86_400.0;
+
+/// A shade that shadows one of two panels, surfaces that store heat, and one that does not.
+const CRAFT: &str = r#"
+name = "Warm"
+per_plate_outputs = true
+[mass_properties]
+mass_kg = 100
+center_of_mass_m = [0.1, 0.05, -0.2]
+inertia_kg_m2 = [[10, 0.5, -0.2], [0.5, 12, 0.3], [-0.2, 0.3, 15]]
+[optics.white]
+specular = 0.2
+diffuse = 0.5
+emissivity = 0.8
+infrared_absorptivity = 0.7
+[[plates]]
+name = "shade"
+polygon_m = [[-0.5, -1.2, -0.4], [0.6, -1.2, -0.4], [0.5, -1.2, 0.6], [-0.4, -1.2, 0.5]]
+normal = [0.0, -1.0, 0.0]
+optics = "white"
+rear_optics = "white"
+[[plates]]
+name = "radiator"
+polygon_m = [[-1.0, 0.3, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.3, 1.0]]
+normal = [-0.1483404, -0.9889364, 0.0]
+optics = "white"
+thermal.heat_capacity_j_m2_k = 4000.0
+[[panels]]
+name = "inner"
+polygon_m = [[0.2, -0.2, -1.0], [1.6, -0.2, -1.0], [1.6, -0.2, 1.0], [0.2, -0.2, 1.0]]
+axis = [1.0, 0.0, 0.0]
+zero_normal = [0.0, -1.0, 0.0]
+optics = "white"
+rear_optics = "white"
+control = "angle"
+thermal.conduction = { conductance_w_m2_k = 10.0, radiative_exchange = 0.1 }
+thermal.heat_capacity_j_m2_k = 2000.0
+[[panels]]
+name = "outer"
+area_m2 = 1.5
+center_m = [-3.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+zero_normal = [0.0, -1.0, 0.0]
+optics = "white"
+control = "sun_offset"
+sun_offset_deg = 30.0
+"#;
+
+/// Faces of the craft: shade front and rear, radiator, inner panel front and rear, outer panel.
+const FACES: usize = 6;
+const RADIATOR: usize = 3;
+
+const EFFECTS: &[(&str, f64)] =
+    &[("planetLight.enabled", 1.0), ("thermal.enabled", 1.0), ("shadowing.enabled", 1.0)];
+
+/// Orbits that pass through the planet's shadow.
+const SHADOWED: &[(&str, f64)] =
+    &[("ephemeris.source", 2.0), ("ephemeris.trueAnomaly", 1.7), ("orbit.frame", 1.0)];
+
+/// Everything else that divides a flight into pieces.
+const BUSY: &[(&str, f64)] = &[
+    ("orbit.model", 2.0),
+    ("guided.slewRate", 3e-3),
+    ("guided.downlinkEvery", 1.0),
+    ("dump.threshold[1]", 0.02),
+    ("dump.threshold[2]", 0.02),
+    ("dump.threshold[3]", 0.02),
+];
+
+fn warm<M: fmi_export::Model>() -> Hangar<M> {
+    Hangar::with("warm.toml", CRAFT)
+}
+
+fn assert_same(a: &Pilot<'_, MomentumPlant>, b: &Pilot<'_, MomentumPlant>) {
+    for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
+        assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
+    }
+}
+
+#[test]
+fn the_cut_changes_no_bit() {
+    let hangar = warm::<MomentumPlant>();
+    let sets = [EFFECTS, SHADOWED, BUSY].concat();
+    let mut coarse = hangar.fly(0.0, &sets).unwrap();
+    let mut fine = hangar.fly(0.0, &sets).unwrap();
+    let mut odd = hangar.fly(0.0, &sets).unwrap();
+    let (mut shaded, mut felt) = (0, [0; 3]);
+    while coarse.time_s() < DAY_S {
+        let end_s = coarse.time_s() + 1800.0;
+        coarse.step_to(end_s).unwrap();
+        fine.fly_to(end_s, 60.0).unwrap();
+        odd.fly_to(end_s, 97.3).unwrap();
+        assert_same(&coarse, &fine);
+        assert_same(&coarse, &odd);
+        shaded += i32::from(coarse.real("sun.litFraction") == 0.0);
+        for (count, name) in felt.iter_mut().zip(["torque.albedo", "torque.infrared", "torque.thermal"]) {
+            *count += i32::from(coarse.vector(name).norm() > 1e-8);
+        }
+    }
+    assert!(shaded > 0 && coarse.integer("dump.count") > 3, "{shaded} {}", coarse.integer("dump.count"));
+    assert!(felt.iter().all(|&count| count > 5), "{felt:?}");
+}
+
+#[test]
+fn a_restored_flight_goes_on_to_the_bit() {
+    let hangar = warm::<MomentumPlant>();
+    let sets = [EFFECTS, SHADOWED, BUSY].concat();
+    let mut whole = hangar.fly(0.0, &sets).unwrap();
+    let mut relay = hangar.fly(0.0, &sets).unwrap();
+    let (mut shaded, mut steps) = (0, 0);
+    while whole.time_s() < DAY_S / 2.0 {
+        let end_s = whole.time_s() + 130.0;
+        // A panel that turns cuts cells, in both alike.
+        if steps % 40 == 20 {
+            whole.set("panel[1].angle", f64::from(steps) * 1e-3);
+            relay.set("panel[1].angle", f64::from(steps) * 1e-3);
+        }
+        whole.step_to(end_s).unwrap();
+        relay = relay.restored();
+        relay.step_to(end_s).unwrap();
+        assert_same(&whole, &relay);
+        shaded += i32::from(whole.real("sun.litFraction") < 1.0);
+        steps += 1;
+    }
+    assert!(shaded > 0);
+}
+
+/// The memoryless model at the plant's own Sun, planet and panels.
+fn memoryless<'a>(
+    hangar: &'a Hangar<DisturbanceTorque>,
+    plant: &Pilot<'_, MomentumPlant>,
+    sets: &[(&str, f64)],
+) -> Pilot<'a, DisturbanceTorque> {
+    let q = [1, 2, 3, 4].map(|i| plant.real(&format!("attitude.q[{i}]")));
+    let to_body = Attitude::from_quaternion(q).unwrap().inertial_from_body().inverse();
+    let position_m = plant.vector("position");
+    let mut all: Vec<(String, f64)> = sets.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+    let mut put = |name: &str, vector: Vector3<f64>| {
+        all.extend((0..3).map(|i| (format!("{name}[{}]", i + 1), vector[i])));
+    };
+    put("sun.position", to_body * -plant.vector("heliocentric.position"));
+    put("planet.position", to_body * -position_m);
+    all.extend(
+        (1..=2).map(|k| (format!("panel[{k}].angle"), plant.real(&format!("panel[{k}].angleActual")))),
+    );
+    let all: Vec<(&str, f64)> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    hangar.fly(0.0, &all).unwrap()
+}
+
+#[test]
+fn in_balance_every_source_is_that_of_the_memoryless_model() {
+    let plants = warm::<MomentumPlant>();
+    let models = warm::<DisturbanceTorque>();
+    let sets = [EFFECTS, SHADOWED, &[("thermal.storage", 0.0), ("solar.flux", 1365.0)]].concat();
+    let mut plant = plants.fly(0.0, &sets).unwrap();
+    let (mut shaded, mut worst) = (0, 0.0_f64);
+    while plant.time_s() < DAY_S / 2.0 {
+        plant.step_to(plant.time_s() + 61.7).unwrap();
+        let lit = plant.real("sun.litFraction");
+        shaded += i32::from(lit == 0.0);
+        let model = memoryless(&models, &plant, &[("solar.flux", 1365.0)]);
+        let scale_n = 1e-6 + model.vector("force.total").norm();
+        for source in ["solar", "albedo", "infrared", "thermal"] {
+            for (what, arm_m) in [("force", 1.0), ("torque", 1.0)] {
+                let name = format!("{what}.{source}");
+                let apart = (plant.vector(&name) - model.vector(&name)).norm() / (scale_n * arm_m);
+                worst = worst.max(apart);
+                // The tolerance is for the last term of a cell; kinks within its shortest cells come on top.
+                assert!(apart < 2e-4, "{name} at {} s: {apart:e}", plant.time_s());
+            }
+        }
+    }
+    assert!(shaded > 5 && worst > 1e-9, "{shaded} {worst:e}");
+}
+
+#[test]
+fn momentum_does_not_depend_on_how_light_is_resolved() {
+    let hangar = warm::<MomentumPlant>();
+    let flown = |step_s: f64, tolerance: f64| {
+        let solver = [("solver.disturbanceStep", step_s), ("solver.disturbanceTolerance", tolerance)];
+        let mut plant = hangar.fly(0.0, &[EFFECTS, SHADOWED, &solver].concat()).unwrap();
+        plant.step_to(DAY_S).unwrap();
+        plant.vector("momentum.inertial")
+    };
+    let fine = flown(60.0, 1e-9);
+    for (step_s, tolerance, allowed) in [(600.0, 1e-5, 2e-5), (3600.0, 1e-5, 2e-5), (300.0, 1e-7, 2e-6)] {
+        let apart = (flown(step_s, tolerance) - fine).norm() / fine.norm();
+        assert!(apart < allowed, "{step_s} {tolerance} {apart:e}");
+    }
+}
+
+#[test]
+fn in_the_dark_a_radiator_cools_by_the_closed_form() {
+    let hangar = warm::<MomentumPlant>();
+    let mut plant = hangar.fly(0.0, &[&[("thermal.enabled", 1.0)], SHADOWED].concat()).unwrap();
+    let kelvin = |plant: &Pilot<'_, MomentumPlant>| plant.real(&format!("plate[{RADIATOR}].temperature"));
+    plant.step_to(3.0 * 3600.0).unwrap();
+    assert_eq!(plant.real("sun.litFraction"), 1.0);
+    while plant.real("sun.litFraction") > 0.0 {
+        plant.step_to(plant.time_s() + 30.0).unwrap();
+    }
+    let (from_s, from_k) = (plant.time_s(), kelvin(&plant));
+    assert!(from_k > 250.0, "{from_k}");
+    let mut compared = 0;
+    loop {
+        plant.step_to(plant.time_s() + 30.0).unwrap();
+        if plant.real("sun.litFraction") > 0.0 {
+            break;
+        }
+        // dT/dt = -eps sigma T^4 / C gives 1/T^3 = 1/T0^3 + 3 eps sigma t / C.
+        let cooled = 3.0 * 0.8 * STEFAN_BOLTZMANN_W_M2_K4 * (plant.time_s() - from_s) / 4000.0;
+        let expected_k = (from_k.powi(-3) + cooled).powf(-1.0 / 3.0);
+        let found_k = kelvin(&plant);
+        assert!((found_k / expected_k - 1.0).abs() < 2e-5, "{found_k} {expected_k}");
+        compared += 1;
+    }
+    assert!(compared > 20 && kelvin(&plant) < from_k - 40.0, "{compared} {}", kelvin(&plant));
+}
+
+#[test]
+fn faces_add_up_to_the_total_and_a_panel_left_out_has_none() {
+    let hangar = warm::<MomentumPlant>();
+    for panel_on in [1.0, 0.0] {
+        let sets = [EFFECTS, SHADOWED, &[("panel[1].enabled", panel_on)]].concat();
+        let mut plant = hangar.fly(0.0, &sets).unwrap();
+        for _ in 0..100 {
+            plant.step_to(plant.time_s() + 211.0).unwrap();
+            let forces: Vec<Vector3<f64>> =
+                (1..=FACES).map(|k| plant.vector(&format!("plate[{k}].force"))).collect();
+            let total = plant.vector("force.total");
+            let sum: Vector3<f64> = forces.iter().sum();
+            assert!((sum - total).norm() < 2e-4 * (1e-6 + total.norm()), "{sum} {total}");
+            let inner = forces[3].norm() + forces[4].norm();
+            assert_eq!(inner > 0.0, panel_on > 0.0);
+            assert!(forces[5].norm() > 0.0 || plant.real("sun.litFraction") < 1.0);
+        }
+    }
+}
+
+#[test]
+fn effects_that_are_off_are_zero_and_change_nothing() {
+    let hangar = warm::<MomentumPlant>();
+    let mut bare = hangar.fly(0.0, &[("planetLight.enabled", 0.0)]).unwrap();
+    let mut odd = hangar
+        .fly(0.0, &[("solver.disturbanceStep", 7.0), ("thermal.storage", 0.0), ("planet.emissivity", 0.1)])
+        .unwrap();
+    for _ in 0..50 {
+        bare.step_to(bare.time_s() + 600.0).unwrap();
+        odd.step_to(odd.time_s() + 600.0).unwrap();
+        for name in ["torque.albedo", "force.infrared", "force.thermal"] {
+            assert_eq!(bare.vector(name), Vector3::zeros());
+        }
+        assert_eq!(bare.vector("momentum.inertial"), odd.vector("momentum.inertial"));
+    }
+}
+
+#[test]
+fn impossible_settings_are_refused_by_name() {
+    let hangar = warm::<MomentumPlant>();
+    let sets =
+        [("planetLight.enabled", 1.0), ("planet.absorptivity", 0.9), ("planet.diffuseReflectivity", 0.2)];
+    let Err(failure) = hangar.fly(0.0, &sets) else { panic!("flown") };
+    assert!(failure.to_string().contains("planet.*") && failure.to_string().contains("1.1"), "{failure}");
+}

@@ -1,0 +1,225 @@
+//! Light and heat beyond plain sunlight, as the plant meets them: planet light, recoil, shadows of its own surfaces.
+
+use nalgebra::Vector3;
+
+use crate::constants::{ASTRONOMICAL_UNIT_M, SPEED_OF_LIGHT_M_S};
+use crate::environment::surface::PlanetSurface;
+use crate::radiation::ForceTorque;
+use crate::radiation::disturbance::{
+    self, Disturbance, DisturbanceModel, GeometryError, ModelError, Options, PlanetGeometry, Recoil,
+    Workspace,
+};
+use crate::spacecraft::Spacecraft;
+
+use super::configuration::{Configuration, OrbitCenter, PanelSetting, SunLight};
+use super::flight::{ExternalLoad, Plant};
+use super::light_cell::NODES;
+use super::stored_heat::HeatRule;
+
+/// Which of light's and heat's effects act, and how finely they are resolved in time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightEffects {
+    /// Light of the planet: albedo and infrared.
+    pub planet_light: bool,
+    /// Recoil of the heat the spacecraft radiates.
+    pub recoil: bool,
+    /// Whether surfaces with a heat capacity store heat; otherwise all are in balance with their light.
+    pub storage: bool,
+    /// Whether surfaces given as polygons shadow one another from the Sun.
+    pub shadowing: bool,
+    /// Cells of light and heat end at multiples of this, in s.
+    pub grid_s: f64,
+    /// Largest last Chebyshev term of a cell relative to the largest force and torque in it.
+    pub tolerance: f64,
+}
+
+impl LightEffects {
+    /// Direct sunlight alone, unshadowed.
+    pub const OFF: Self = Self {
+        planet_light: false,
+        recoil: false,
+        storage: false,
+        shadowing: false,
+        grid_s: 600.0,
+        tolerance: 1e-5,
+    };
+
+    /// Whether there is anything beyond direct sunlight.
+    pub fn any(&self) -> bool {
+        self.planet_light || self.recoil || self.shadowing
+    }
+}
+
+/// Force and torque about the centre of mass of everything a [`super::LightCell`] holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loads {
+    /// Direct sunlight with the shadows of the spacecraft's own surfaces, where those count.
+    pub shadowed_solar: Option<ForceTorque<f64>>,
+    /// Sunlight reflected by the planet.
+    pub albedo: ForceTorque<f64>,
+    /// Infrared light of the planet.
+    pub infrared: ForceTorque<f64>,
+    /// Recoil of the heat the spacecraft radiates.
+    pub thermal: ForceTorque<f64>,
+}
+
+impl Loads {
+    /// No loads.
+    pub fn none() -> Self {
+        Self {
+            shadowed_solar: None,
+            albedo: ForceTorque::zero(),
+            infrared: ForceTorque::zero(),
+            thermal: ForceTorque::zero(),
+        }
+    }
+}
+
+/// The spacecraft and the planet's surface prepared for light and heat, with the scratch space of a flight. All of it
+/// follows from the setup and the configuration: cache, not state.
+#[derive(Clone, Debug)]
+pub struct LightModel {
+    pub(super) model: DisturbanceModel,
+    /// Place among all panels of those that take part.
+    pub(super) panels: Vec<usize>,
+    pub(super) moments: Vec<Moment>,
+    pub(super) heat_rule: HeatRule,
+}
+
+/// One time at which light and heat are computed.
+#[derive(Clone, Debug)]
+pub(super) struct Moment {
+    sight: Sight,
+    pub found: Disturbance<f64>,
+    pub workspace: Workspace<f64>,
+    pub heat_w: Vec<f64>,
+    pub temperatures_k: Vec<f64>,
+}
+
+/// Sun and planet from the spacecraft, and how it stands.
+#[derive(Clone, Debug)]
+struct Sight {
+    sun_direction_body: Vector3<f64>,
+    sun_flux_w_m2: f64,
+    lit_fraction: f64,
+    planet: Option<PlanetGeometry<f64>>,
+    panel_angles_rad: Vec<f64>,
+    center_of_mass_body_m: Vector3<f64>,
+}
+
+impl LightModel {
+    /// Prepares `spacecraft` without the panels the configuration leaves out; `planet` is the surface it flies over.
+    ///
+    /// # Errors
+    /// An impossible planet surface, number of nodes or form of the sunshade.
+    pub fn new(
+        spacecraft: &Spacecraft,
+        configuration: &Configuration,
+        planet: &PlanetSurface,
+        quadrature_nodes: usize,
+    ) -> Result<Self, ModelError> {
+        let takes_part = |index: &usize| configuration.panels.get(*index) != Some(&PanelSetting::Disabled);
+        let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
+        let mut flown = spacecraft.clone();
+        flown.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
+        let effects = &configuration.light_and_heat;
+        let over_planet = effects.planet_light && configuration.center == OrbitCenter::Mercury;
+        let options = Options {
+            planet: over_planet.then_some(*planet),
+            quadrature_nodes,
+            self_shadowing: effects.shadowing,
+            sunshade_model: spacecraft.sunshade.as_ref().map(|_| configuration.sunshade),
+        };
+        let model = DisturbanceModel::new(&flown, &options)?;
+        let moment = Moment::new(panels.len(), model.face_count());
+        Ok(Self { moments: vec![moment; NODES], heat_rule: HeatRule::new(), panels, model })
+    }
+
+    /// Number of faces: those of plates, sunshade and the panels that take part, in this order.
+    pub fn face_count(&self) -> usize {
+        self.model.face_count()
+    }
+}
+
+impl Moment {
+    fn new(panels: usize, faces: usize) -> Self {
+        Self {
+            sight: Sight {
+                sun_direction_body: Vector3::zeros(),
+                sun_flux_w_m2: 0.0,
+                lit_fraction: 1.0,
+                planet: None,
+                panel_angles_rad: vec![0.0; panels],
+                center_of_mass_body_m: Vector3::zeros(),
+            },
+            found: Disturbance::zero(),
+            workspace: Workspace::default(),
+            heat_w: vec![0.0; faces],
+            temperatures_k: vec![0.0; faces],
+        }
+    }
+
+    /// Computes light and heat, every surface in balance with its light.
+    pub fn balance(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
+        self.found = model.evaluate(&self.sight.geometry(), Recoil::Balance, &mut self.workspace)?;
+        model.heat_w(&self.workspace, &mut self.heat_w);
+        Ok(())
+    }
+
+    /// After [`Moment::balance`]: the recoil anew, at this moment's stored temperatures.
+    pub fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
+        let stored = Recoil::Stored(&self.temperatures_k);
+        self.found.thermal = model.recoil(&self.sight.geometry(), stored, &mut self.workspace)?;
+        Ok(())
+    }
+}
+
+impl Sight {
+    fn geometry(&self) -> disturbance::Geometry<'_, f64> {
+        disturbance::Geometry {
+            sun_direction_body: self.sun_direction_body,
+            sun_flux_w_m2: self.sun_flux_w_m2,
+            lit_fraction: self.lit_fraction,
+            planet: self.planet,
+            panel_angles_rad: &self.panel_angles_rad,
+            center_of_mass_body_m: self.center_of_mass_body_m,
+        }
+    }
+}
+
+/// Flux of sunlight at a distance from the Sun, in W/m2.
+fn flux_w_m2(light: &SunLight, distance_m: f64) -> f64 {
+    match *light {
+        SunLight::Fixed { pressure_pa } => pressure_pa * SPEED_OF_LIGHT_M_S,
+        SunLight::Distance { flux_w_m2 } => flux_w_m2 * (ASTRONOMICAL_UNIT_M / distance_m).powi(2),
+    }
+}
+
+impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
+    /// Turns everything at `time_s` into the body frame for `moment`.
+    pub(super) fn look(&mut self, time_s: f64, light_panels: &[usize], moment: &mut Moment) {
+        let configuration = self.configuration;
+        let geometry = self.geometry(time_s);
+        let (frame, _) = self.attitude(time_s, &geometry);
+        let to_body = frame.inertial_from_body.inverse();
+        let sun_body_m = to_body * geometry.to_sun.position_m;
+        let sun_distance_m = sun_body_m.norm();
+        let sight = &mut moment.sight;
+        sight.sun_direction_body = sun_body_m / sun_distance_m;
+        sight.sun_flux_w_m2 = flux_w_m2(&configuration.light, sun_distance_m);
+        sight.lit_fraction = self.lit_fraction(&geometry).0;
+        sight.center_of_mass_body_m = configuration.center_of_mass_body_m;
+        sight.planet = geometry.to_planet.map(|to_planet| {
+            let position_body_m = to_body * to_planet.position_m;
+            let sun_from_planet_body_m = sun_body_m - position_body_m;
+            let sun_flux_w_m2 = flux_w_m2(&configuration.light, sun_from_planet_body_m.norm());
+            PlanetGeometry { position_body_m, sun_from_planet_body_m, sun_flux_w_m2 }
+        });
+        for (angle_rad, &index) in sight.panel_angles_rad.iter_mut().zip(light_panels) {
+            let setting = configuration.panels.get(index).zip(self.craft.panels.get(index));
+            *angle_rad = setting
+                .and_then(|(setting, panel)| setting.angle_rad(panel, &sight.sun_direction_body))
+                .unwrap_or(0.0);
+        }
+    }
+}

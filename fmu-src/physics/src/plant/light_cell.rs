@@ -1,0 +1,315 @@
+//! Cells of light and heat: they change slowly and cost more than everything else, so they are computed at a few nodes of
+//! a cell of their own and read from a polynomial in between. How the flight is stepped does not matter to them.
+
+use nalgebra::{SVector, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::Segment;
+use crate::numerics::stretches::next_multiple_s;
+use crate::radiation::ForceTorque;
+use crate::radiation::disturbance::{Disturbance, FaceState, GeometryError};
+
+use super::flight::{ExternalLoad, Plant};
+use super::light::{LightEffects, LightModel, Loads};
+use super::stretch::PlantError;
+
+/// Chebyshev nodes a cell.
+pub(super) const NODES: usize = 6;
+/// Force and torque of solar, albedo, infrared, thermal.
+const ROWS: usize = 24;
+/// No cell is shortened below this, in s: kinks where a face turns dark end here.
+const SHORTEST_S: f64 = 1.0;
+/// Torque is resolved as if the largest force had at least this arm, in m: on a symmetric body there is none.
+const LEAST_ARM_M: f64 = 0.01;
+/// No surface is hotter, in K.
+const HOTTEST_K: f64 = 1e5;
+
+/// Light and heat over a stretch of flight, and the heat stored at its end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LightCell {
+    start_s: f64,
+    end_s: f64,
+    /// Length the tolerance will probably allow the next cell, in s.
+    next_longest_s: f64,
+    /// Absent before the first cell.
+    loads: Option<Segment<ROWS, NODES>>,
+    /// Temperature of every face in K; empty where no heat is stored.
+    temperatures_k: Vec<Segment<1, NODES>>,
+    /// The same at the end.
+    end_k: Vec<f64>,
+}
+
+impl LightCell {
+    /// Before the first cell.
+    pub(super) fn before() -> Self {
+        Self {
+            start_s: f64::INFINITY,
+            end_s: f64::NEG_INFINITY,
+            next_longest_s: f64::INFINITY,
+            loads: None,
+            temperatures_k: Vec::new(),
+            end_k: Vec::new(),
+        }
+    }
+
+    /// Whether it has come to `time_s` and no cell further; so in every flight, not in every sequence of bytes.
+    pub fn covers(&self, time_s: f64) -> bool {
+        self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
+    }
+
+    /// Force and torque at `time_s`.
+    pub(super) fn loads(&self, time_s: f64, shadowed: bool) -> Loads {
+        let Some(series) = &self.loads else { return Loads::none() };
+        let values = series.value(time_s);
+        let at = |row: usize| ForceTorque {
+            force_body_n: Vector3::new(values[row], values[row + 1], values[row + 2]),
+            torque_body_n_m: Vector3::new(values[row + 3], values[row + 4], values[row + 5]),
+        };
+        Loads { shadowed_solar: shadowed.then(|| at(0)), albedo: at(6), infrared: at(12), thermal: at(18) }
+    }
+
+    /// Temperatures in K of the faces at `time_s`; leaves `temperatures_k` alone where no heat is stored.
+    fn temperatures_at(&self, time_s: f64, temperatures_k: &mut [f64]) {
+        for (face, kelvin) in temperatures_k.iter_mut().enumerate() {
+            let inside = self.temperatures_k.get(face).filter(|_| time_s < self.end_s);
+            if let Some(known_k) =
+                inside.map(|series| series.value(time_s)[0]).or(self.end_k.get(face).copied())
+            {
+                *kelvin = known_k;
+            }
+        }
+    }
+
+    /// Ends at `time_s`: the flight changes there.
+    pub(super) fn cut(&mut self, time_s: f64) {
+        if time_s > self.start_s && time_s < self.end_s {
+            for (kelvin, series) in self.end_k.iter_mut().zip(&self.temperatures_k) {
+                *kelvin = series.value(time_s)[0];
+            }
+        }
+        self.end_s = self.end_s.min(time_s);
+    }
+}
+
+impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
+    /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
+    pub(super) fn light_up(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        if !self.configuration.light_and_heat.any() {
+            return Ok(limit_s);
+        }
+        if let Some(cell) = &self.course.light
+            && cell.start_s <= start_s
+            && start_s < cell.end_s
+        {
+            return Ok(cell.end_s.min(limit_s));
+        }
+        let Some(light) = self.light.take() else { return Ok(limit_s) };
+        let mut cell = self.course.light.take().unwrap_or_else(LightCell::before);
+        let built = self.build_light(light, &mut cell, start_s, limit_s);
+        let end_s = cell.end_s;
+        self.course.light = Some(cell);
+        self.light = Some(light);
+        built.map(|()| end_s)
+    }
+
+    /// Builds the cell that begins at `start_s`. It ends at the next multiple of the grid or sooner: at `limit_s`, where
+    /// the branch changes, or where the last Chebyshev terms would exceed the tolerance.
+    fn build_light(
+        &mut self,
+        light: &mut LightModel,
+        cell: &mut LightCell,
+        start_s: f64,
+        limit_s: f64,
+    ) -> Result<(), PlantError> {
+        let effects = self.configuration.light_and_heat;
+        let stores = effects.storage && effects.recoil && light.model.stores_heat();
+        if stores {
+            self.take_heat(light, cell, start_s)?;
+        } else {
+            cell.end_k.clear();
+        }
+        // Written so that a NaN from restored bytes is the shortest.
+        let longest_s = cell.next_longest_s.max(SHORTEST_S);
+        let limit_s = next_multiple_s(start_s, effects.grid_s)
+            .min(start_s + longest_s)
+            .min(limit_s)
+            .max(start_s.next_up());
+        let mut end_s = self.smooth_until(start_s, limit_s);
+        let mut shortened = false;
+        let (series, growth) = loop {
+            let length_s = end_s - start_s;
+            let shorter_s = match self.light_between(light, stores, &cell.end_k, start_s, end_s) {
+                Ok(series) => {
+                    let unresolved = unresolved(&series, &effects);
+                    let growth = 0.9 * (effects.tolerance / unresolved).powf(1.0 / NODES as f64);
+                    let shorter_s = start_s + length_s * growth.clamp(0.1, 0.7);
+                    // A number that is not finite cannot be resolved by shortening; it shows in the outputs.
+                    if unresolved <= effects.tolerance
+                        || !unresolved.is_finite()
+                        || length_s <= SHORTEST_S
+                        || shorter_s <= start_s
+                    {
+                        break (series, growth);
+                    }
+                    shorter_s
+                }
+                // The flight may be over before it comes to where light has no meaning.
+                Err(error) if length_s <= SHORTEST_S => return Err(error.into()),
+                Err(_) => start_s + 0.5 * length_s,
+            };
+            end_s = shorter_s;
+            shortened = true;
+        };
+        let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
+        cell.next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
+        (cell.start_s, cell.end_s, cell.loads) = (start_s, end_s, Some(series));
+        cell.temperatures_k.clear();
+        if stores {
+            cell.temperatures_k.extend((0..light.face_count()).map(|face| {
+                let samples =
+                    core::array::from_fn(|j| SVector::from([light.moments[j].temperatures_k[face]]));
+                Segment::from_samples(start_s, end_s, &samples)
+            }));
+            cell.end_k.copy_from_slice(light.heat_rule.end_k());
+        }
+        Ok(())
+    }
+
+    /// The heat stored at `start_s`: that at the end of the cell before, at the start of a flight that of balance.
+    fn take_heat(
+        &mut self,
+        light: &mut LightModel,
+        cell: &mut LightCell,
+        start_s: f64,
+    ) -> Result<(), PlantError> {
+        if cell.loads.is_none() && cell.end_k.is_empty() {
+            let LightModel { model, panels, moments, .. } = light;
+            if let Some(moment) = moments.first_mut() {
+                self.look(start_s, panels, moment);
+                moment.balance(model)?;
+                cell.end_k.extend(moment.workspace.faces().iter().map(|face| face.temperature_k));
+            }
+        }
+        let (found, allowed) = (cell.end_k.len(), light.face_count());
+        if found != allowed {
+            return Err(PlantError::Temperatures { found, allowed });
+        }
+        match cell.end_k.iter().find(|kelvin| !(0.0..=HOTTEST_K).contains(*kelvin)) {
+            Some(&found_k) => Err(PlantError::Temperature { found_k }),
+            None => Ok(()),
+        }
+    }
+
+    /// Light and heat from `start_s` to `end_s`.
+    fn light_between(
+        &mut self,
+        light: &mut LightModel,
+        stores: bool,
+        start_k: &[f64],
+        start_s: f64,
+        end_s: f64,
+    ) -> Result<Segment<ROWS, NODES>, GeometryError> {
+        let LightModel { model, panels, moments, heat_rule } = light;
+        let times_s = Segment::<ROWS, NODES>::nodes(start_s, end_s);
+        for (moment, time_s) in moments.iter_mut().zip(times_s) {
+            self.look(time_s, panels, moment);
+            moment.balance(model)?;
+        }
+        if stores {
+            heat_rule.warm(model, moments, start_k, end_s - start_s);
+            for moment in moments.iter_mut() {
+                moment.radiate_stored(model)?;
+            }
+        }
+        let effects = &self.configuration.light_and_heat;
+        let samples = core::array::from_fn(|j| rows(&moments[j].found, effects));
+        Ok(Segment::from_samples(start_s, end_s, &samples))
+    }
+
+    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
+    /// force of the effects that act.
+    ///
+    /// # Errors
+    /// A geometry without meaning.
+    pub fn faces(
+        &mut self,
+        time_s: f64,
+        mut report: impl FnMut(f64, Vector3<f64>),
+    ) -> Result<(), PlantError> {
+        let Some(light) = self.light.take() else { return Ok(()) };
+        let outcome = self.light_at(light, time_s);
+        if outcome.is_ok()
+            && let Some(moment) = light.moments.first()
+        {
+            let effects = &self.configuration.light_and_heat;
+            for face in moment.workspace.faces() {
+                report(face.temperature_k, force_of(face, effects));
+            }
+        }
+        self.light = Some(light);
+        outcome
+    }
+
+    /// Light and heat at one time, in the first of the moments.
+    fn light_at(&mut self, light: &mut LightModel, time_s: f64) -> Result<(), PlantError> {
+        let LightModel { model, panels, moments, .. } = light;
+        let Some(moment) = moments.first_mut() else { return Ok(()) };
+        self.look(time_s, panels, moment);
+        moment.balance(model)?;
+        let effects = &self.configuration.light_and_heat;
+        if let Some(cell) = &self.course.light
+            && effects.recoil
+            && effects.storage
+            && model.stores_heat()
+        {
+            cell.temperatures_at(time_s, &mut moment.temperatures_k);
+            moment.radiate_stored(model)?;
+        }
+        Ok(())
+    }
+}
+
+/// The effects that act, row by row; sunlight always, as a measure for the others.
+fn rows(found: &Disturbance<f64>, effects: &LightEffects) -> SVector<f64, ROWS> {
+    let mut rows = SVector::<f64, ROWS>::zeros();
+    let planet_light = effects.planet_light;
+    for (index, (load, acts)) in [
+        (&found.solar, true),
+        (&found.albedo, planet_light),
+        (&found.infrared, planet_light),
+        (&found.thermal, effects.recoil),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        if acts {
+            rows.fixed_rows_mut::<3>(6 * index).copy_from(&load.force_body_n);
+            rows.fixed_rows_mut::<3>(6 * index + 3).copy_from(&load.torque_body_n_m);
+        }
+    }
+    rows
+}
+
+fn force_of(face: &FaceState<f64>, effects: &LightEffects) -> Vector3<f64> {
+    let [solar, albedo, infrared, thermal] = face.forces_body_n;
+    let planet = if effects.planet_light { albedo + infrared } else { Vector3::zeros() };
+    solar + planet + if effects.recoil { thermal } else { Vector3::zeros() }
+}
+
+/// Largest of the last two terms of force and torque, relative to the largest force and torque of all.
+fn unresolved(series: &Segment<ROWS, NODES>, effects: &LightEffects) -> f64 {
+    let terms = series.coefficients();
+    // Sunlight comes from the closed form unless it is shadowed.
+    let first = if effects.shadowing { 0 } else { 6 };
+    let (mut scale, mut last) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for row in 0..ROWS {
+        let kind = row / 3 % 2;
+        scale[kind] = scale[kind].max(terms.row(row).amax());
+        if row >= first {
+            last[kind] = last[kind].max(terms[(row, NODES - 1)].abs()).max(terms[(row, NODES - 2)].abs());
+        }
+    }
+    let [force, torque] = scale;
+    let torque = torque.max(force * LEAST_ARM_M);
+    if force > 0.0 { (last[0] / force).max(last[1] / torque) } else { last[0] }
+}
