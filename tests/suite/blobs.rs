@@ -49,6 +49,16 @@ fn genuine(model: &str) -> Vec<Vec<u8>> {
         ok(instance.do_step(60.0 * f64::from(step), 60.0));
     }
     save(&mut instance);
+    if model == "MomentumPlant" {
+        let mut instance = fresh(model);
+        let names = support::names(model);
+        let on = |name: &str| names.of(support::Base::Boolean, name);
+        ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
+        ok(instance.set_integer(&[names.of(support::Base::Integer, "orbit.model")], &[2]));
+        ok(instance.start(0.0, None));
+        ok(instance.do_step(0.0, 1000.0));
+        save(&mut instance);
+    }
     blobs
 }
 

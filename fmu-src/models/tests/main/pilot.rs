@@ -186,4 +186,23 @@ impl<M: Model> Pilot<'_, M> {
         let (values, state) = postcard::from_bytes(&bytes).unwrap();
         Self { hangar: self.hangar, values, state, time_s: self.time_s, changed: self.changed }
     }
+
+    /// The state's bytes.
+    pub fn state_bytes(&self) -> Vec<u8> {
+        postcard::to_stdvec(&self.state).unwrap()
+    }
+
+    /// Another flight with the state of these bytes; `None` where they are refused.
+    pub fn with_state(&self, bytes: &[u8]) -> Option<Self> {
+        let state = postcard::from_bytes(bytes).ok()?;
+        M::check_state(&self.hangar.setup, &state).ok()?;
+        M::check_time(&state, self.time_s).ok()?;
+        Some(Self {
+            hangar: self.hangar,
+            values: self.values.clone(),
+            state,
+            time_s: self.time_s,
+            changed: false,
+        })
+    }
 }

@@ -9,6 +9,8 @@ use physics::constants::STEFAN_BOLTZMANN_W_M2_K4;
 use super::pilot::{Hangar, Pilot};
 
 const DAY_S: f64 = 86_400.0;
+/// Torn states tried, with and without feedback each.
+const CASES: usize = 1_500;
 
 /// A shade that shadows one of two panels, surfaces that store heat, and one that does not.
 const CRAFT: &str = r#"
@@ -271,4 +273,41 @@ fn impossible_settings_are_refused_by_name() {
         [("planetLight.enabled", 1.0), ("planet.absorptivity", 0.9), ("planet.diffuseReflectivity", 0.2)];
     let Err(failure) = hangar.fly(0.0, &sets) else { panic!("flown") };
     assert!(failure.to_string().contains("planet.*") && failure.to_string().contains("1.1"), "{failure}");
+}
+
+#[test]
+fn states_torn_at_random_are_refused_or_flown_on() {
+    let hangar = warm::<MomentumPlant>();
+    let mut seed = 1_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize
+    };
+    let (mut refused, mut flown, mut failed) = (0, 0, 0);
+    for feedback in [0.0, 1.0] {
+        let sets = [EFFECTS, SHADOWED, BUSY, &[("orbit.radiationFeedback", feedback)]].concat();
+        let mut start = hangar.fly(0.0, &sets).unwrap();
+        start.step_to(5_000.0).unwrap();
+        let bytes = start.state_bytes();
+        for _ in 0..CASES {
+            let mut torn = bytes.clone();
+            let at = random() % torn.len();
+            match random() % 3 {
+                0 => torn[at] = random() as u8,
+                1 => torn[at] ^= 1 << (random() % 8),
+                _ => {
+                    let extremes = [f64::NAN, f64::INFINITY, f64::MAX, -1e300, 5e-324, 1e9, -1.0, 1e-9];
+                    let number = extremes[random() % extremes.len()].to_le_bytes();
+                    torn.iter_mut().skip(at).zip(number).for_each(|(to, from)| *to = from);
+                }
+            }
+            let Some(mut other) = start.with_state(&torn) else {
+                refused += 1;
+                continue;
+            };
+            flown += 1;
+            failed += i32::from(other.step_to(5_060.0).is_err());
+        }
+    }
+    assert!(refused > 20 && flown > 500 && failed > 5, "{refused} {flown} {failed}");
 }
