@@ -114,6 +114,59 @@ static void ninety_days(const Library *library, const char *xml) {
     printf("bench momentum_plant_peak_memory %.1f MB\n", (double)usage.ru_maxrss / 1024.0);
 }
 
+static char *text_of(const char *folder, const char *file) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, file);
+    FILE *stream = fopen(path, "rb");
+    CHECK(stream && fseek(stream, 0, SEEK_END) == 0);
+    long length = ftell(stream);
+    CHECK(length > 0);
+    rewind(stream);
+    char *text = calloc((size_t)length + 1, 1);
+    CHECK(text && fread(text, 1, (size_t)length, stream) == (size_t)length);
+    fclose(stream);
+    return text;
+}
+
+/* A year of Mercury in steps of 60 s with every effect: planet light, stored heat, conducting panels, self-shadowing,
+   eclipses, gravity gradient, and an orbit that all of this, Mercury's flattening and the Sun's tide act on. */
+static void mercury_year(const Library *library, const char *folder, const char *name) {
+    char *setup = text_of(folder, "spacecraft.toml"), *xml = NULL;
+    CHECK(library->describe("MomentumPlant", "spacecraft.toml", setup, &xml, keep_text) == 0);
+    const char *effects[] = {"planetLight.enabled", "thermal.enabled", "shadowing.enabled"};
+    char location[4200];
+    snprintf(location, sizeof location, "file://%s", folder);
+    const int steps = 126675;
+    double wall[RUNS];
+    for (int run = 0; run < RUNS; run++) {
+        double begin = now_s();
+        fmi2Component c = instantiate(library, xml, location);
+        CHECK(c);
+        for (int i = 0; i < 3; i++) {
+            fmi2ValueReference effect = reference_of(xml, effects[i]);
+            fmi2Boolean on = fmi2True;
+            CHECK(library->SetBoolean(c, &effect, 1, &on) == fmi2OK);
+        }
+        fmi2ValueReference model = reference_of(xml, "orbit.model");
+        fmi2Integer disturbed = 2;
+        CHECK(library->SetInteger(c, &model, 1, &disturbed) == fmi2OK);
+        CHECK(library->SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK);
+        CHECK(library->EnterInitializationMode(c) == fmi2OK);
+        CHECK(library->ExitInitializationMode(c) == fmi2OK);
+        for (int i = 0; i < steps; i++) CHECK(library->DoStep(c, i * 60.0, 60.0, fmi2True) == fmi2OK);
+        fmi2ValueReference thermal = reference_of(xml, "force.thermal[2]");
+        fmi2Real force = 0;
+        CHECK(library->GetReal(c, &thermal, 1, &force) == fmi2OK && force != 0);
+        library->FreeInstance(c);
+        wall[run] = now_s() - begin;
+    }
+    char line[128];
+    snprintf(line, sizeof line, "mercury_year_60s_all_effects_%s", name);
+    report(line, wall, "s");
+    free(xml);
+    free(setup);
+}
+
 /* SpinPlant: 32 ms steps through a burn, and paper 002's 1400 s manoeuvre in one step. */
 static void spinner(const Library *library, const char *xml) {
     double rate[RUNS], manoeuvre[RUNS];
@@ -140,8 +193,8 @@ static void spinner(const Library *library, const char *xml) {
 }
 
 int main(int count, char **arguments) {
-    if (count < 3) {
-        fprintf(stderr, "usage: %s libheliotorque libprobe\n", arguments[0]);
+    if (count < 5) {
+        fprintf(stderr, "usage: %s libheliotorque libprobe orbiter-folder messenger-folder\n", arguments[0]);
         return 2;
     }
     Library library = open_library(arguments[1]);
@@ -151,6 +204,8 @@ int main(int count, char **arguments) {
     first_step(&library, xml);
     ten_reals(&library, xml);
     free(xml);
+    mercury_year(&library, arguments[3], "orbiter");
+    mercury_year(&library, arguments[4], "messenger");
     xml = description_of(&library, "SpinPlant");
     spinner(&library, xml);
     free(xml);

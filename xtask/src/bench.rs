@@ -1,5 +1,6 @@
 //! `cargo xtask bench`: medians as `bench <name> <value> <unit>` lines.
 
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::build::{self, Built};
@@ -20,9 +21,30 @@ pub fn all() -> Outcome {
     if need("gcc", "the benchmark through the C interface")? {
         let scratch = build::scratch("bench")?;
         let program = compile_c(&scratch, "bench")?;
-        run(command(&program).arg(&built.library).arg(&built.probe).current_dir(&scratch))?;
+        let [orbiter, messenger] = spacecraft_folders(&scratch)?;
+        run(command(&program)
+            .arg(&built.library)
+            .arg(&built.probe)
+            .args([orbiter, messenger])
+            .current_dir(&scratch))?;
     }
     study(&built)
+}
+
+/// Folders as an FMU's `resources/`, with two spacecraft whose surfaces give off heat.
+fn spacecraft_folders(scratch: &Path) -> Result<[PathBuf; 2], String> {
+    let resources = root().join("fmu-src").join("resources");
+    let folder = |name: &str, file: PathBuf| {
+        let folder = scratch.join(name);
+        let copy = || {
+            std::fs::create_dir_all(&folder)?;
+            std::fs::copy(&file, folder.join("spacecraft.toml"))
+        };
+        copy().map_err(|error| format!("{}: {error}", file.display()))?;
+        Ok::<_, String>(folder)
+    };
+    let orbiter = folder("orbiter", resources.join("examples").join("mercury-orbiter.toml"))?;
+    Ok([orbiter, folder("messenger", resources.join("messenger-thermal.toml"))?])
 }
 
 /// The whole of paper 000's Table 2: every shade, convention, threshold and offset, on all cores.
