@@ -42,14 +42,15 @@ control = "angle"
 thermal.conduction = { conductance_w_m2_k = 10.0, radiative_exchange = 0.1 }
 "#;
 
-fn shadowed_file() -> std::path::PathBuf {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("shadowed");
+fn resources(name: &str, text: &str) -> std::path::PathBuf {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("spacecraft.toml"), SHADOWED).unwrap();
+    std::fs::write(folder.join("spacecraft.toml"), text).unwrap();
     folder
 }
 
-struct Disturbance {
+/// The model through FMI's functions, its variables by name.
+pub struct Disturbance {
     fmu: InProcess,
     description: Description,
     names: BTreeMap<String, u32>,
@@ -63,16 +64,21 @@ impl Disturbance {
     }
 
     /// MESSENGER as shipped.
-    fn messenger() -> Self {
+    pub fn messenger() -> Self {
         let description = LIBRARY.find("DisturbanceTorque").unwrap().describe(None, None).unwrap();
         Self::new(InProcess::of(&LIBRARY, "DisturbanceTorque").unwrap(), description)
     }
 
     /// The spacecraft with shadows.
-    fn shadowed() -> Self {
-        let folder = shadowed_file();
+    pub fn shadowed() -> Self {
+        Self::of("shadowed", SHADOWED)
+    }
+
+    /// The spacecraft of a TOML text, in a folder of its own.
+    pub fn of(name: &str, text: &str) -> Self {
+        let folder = resources(name, text);
         let entry = LIBRARY.find("DisturbanceTorque").unwrap();
-        let description = entry.describe(Some("spacecraft.toml"), Some(SHADOWED)).unwrap();
+        let description = entry.describe(Some("spacecraft.toml"), Some(text)).unwrap();
         let location = format!("file://{}", folder.display());
         let fmu = InProcess::instantiate(&LIBRARY, &description.guid, Some(&location)).unwrap();
         Self::new(fmu, description)
@@ -82,18 +88,18 @@ impl Disturbance {
         *self.names.get(name).unwrap_or_else(|| panic!("no variable {name}"))
     }
 
-    fn put(&mut self, name: &str, value: f64) {
+    pub fn put(&mut self, name: &str, value: f64) {
         let at = self.at(name);
         assert_eq!(self.fmu.set_real(&[at], &[value]), Status::Ok, "{name} = {value}");
     }
 
-    fn put_vector(&mut self, name: &str, value: [f64; 3]) {
+    pub fn put_vector(&mut self, name: &str, value: [f64; 3]) {
         for (i, value) in value.into_iter().enumerate() {
             self.put(&format!("{name}[{}]", i + 1), value);
         }
     }
 
-    fn start(&mut self) {
+    pub fn start(&mut self) {
         assert_eq!(self.fmu.start(0.0, None), Status::Ok, "{:?}", self.fmu.take_messages());
     }
 
@@ -119,14 +125,14 @@ impl Disturbance {
     }
 
     /// Name of a Real.
-    fn name(&self, reference: u32) -> &str {
+    pub fn name(&self, reference: u32) -> &str {
         let is = |v: &&model_description::ScalarVariable| {
             v.value_reference == reference && matches!(v.kind, model_description::VariableKind::Real { .. })
         };
         &self.description.variables.iter().find(is).unwrap().name
     }
 
-    fn references(&self, causality: Causality) -> Vec<u32> {
+    pub fn references(&self, causality: Causality) -> Vec<u32> {
         let real = |v: &&model_description::ScalarVariable| {
             v.causality == causality && matches!(v.kind, model_description::VariableKind::Real { .. })
         };
@@ -134,13 +140,13 @@ impl Disturbance {
     }
 
     /// Every output after a step with these inputs.
-    fn outputs_at(&mut self, inputs: &[u32], values: &[f64], outputs: &[u32]) -> Vec<f64> {
+    pub fn outputs_at(&mut self, inputs: &[u32], values: &[f64], outputs: &[u32]) -> Vec<f64> {
         assert_eq!(self.fmu.set_real(inputs, values), Status::Ok);
         assert_eq!(self.step(), Status::Ok, "{:?}", self.fmu.take_messages());
         self.read(outputs)
     }
 
-    fn slopes(&mut self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
+    pub fn slopes(&mut self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
         let mut result = vec![f64::NAN; unknowns.len()];
         let status = self.fmu.get_directional_derivative(unknowns, knowns, seed, &mut result);
         assert_eq!(status, Status::Ok, "{:?}", self.fmu.take_messages());

@@ -1,6 +1,7 @@
 //! The models through the functions a master calls.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod disturbance_degenerate;
 mod disturbance_torque;
 mod pilot;
 mod plant_cuts;

@@ -29,6 +29,10 @@ pub trait Scalar:
 
     /// Whether two numbers agree, derivatives included.
     fn same(self, other: Self) -> bool;
+
+    /// Angle in (-pi, pi] from the x axis to the direction (x, y), in rad. Its derivative is finite in every direction;
+    /// the origin has none and counts as one that stays. (That of `atan2` divides y by x.)
+    fn polar_angle(y: Self, x: Self) -> Self;
 }
 
 impl Scalar for f64 {
@@ -45,6 +49,11 @@ impl Scalar for f64 {
     #[inline]
     fn same(self, other: Self) -> bool {
         self == other
+    }
+
+    #[inline]
+    fn polar_angle(y: Self, x: Self) -> Self {
+        y.atan2(x)
     }
 }
 
@@ -63,6 +72,13 @@ impl Scalar for Dual64 {
     fn same(self, other: Self) -> bool {
         self.re == other.re && self.eps == other.eps
     }
+
+    #[inline]
+    fn polar_angle(y: Self, x: Self) -> Self {
+        let squared = x.re * x.re + y.re * y.re;
+        let slope = if squared > 0.0 { (x.re * y.eps - y.re * x.eps) / squared } else { 0.0 };
+        Self::new(y.re.atan2(x.re), slope)
+    }
 }
 
 /// A constant vector as kernel numbers.
@@ -80,6 +96,8 @@ pub fn vector_value<T: Scalar>(vector: &Vector3<T>) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     //! Derivatives carried along agree with derivatives known in closed form.
+
+    use nalgebra::ComplexField;
 
     use super::*;
 
@@ -101,6 +119,22 @@ mod tests {
         let x = Dual64::new(1.5, 1.0);
         assert_eq!((x * x * x).eps, 3.0 * 1.5 * 1.5);
         assert_eq!(Dual64::constant(4.0).eps, 0.0);
+    }
+
+    /// On the unit circle the angle is the arc's length, whichever axis the direction lies on.
+    #[test]
+    fn a_polar_angle_grows_with_the_arc_everywhere() {
+        for eighth in 0..8 {
+            let angle = f64::from(eighth) * core::f64::consts::FRAC_PI_4 - 3.0;
+            let arc = Dual64::new(angle, 0.5);
+            let found = Dual64::polar_angle(arc.sin() * 3.0, arc.cos() * 3.0);
+            assert!((found.re - angle).abs() < 1e-15 && (found.eps - 0.5).abs() < 1e-15, "{found}");
+        }
+        for (y, x) in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
+            let found = Dual64::polar_angle(Dual64::new(y, x), Dual64::new(x, -y));
+            assert_eq!((found.re, found.eps), (f64::polar_angle(y, x), 1.0), "y {y}, x {x}");
+        }
+        assert_eq!(Dual64::polar_angle(Dual64::new(0.0, 1.0), Dual64::new(0.0, 1.0)).eps, 0.0);
     }
 
     #[test]

@@ -86,7 +86,7 @@ fn lit_arcs<T: Scalar>(half_angle_rad: f64, sun: &Vector3<T>) -> [Option<[T; 2]>
     if sun.x.value() == 0.0 && sun.y.value() == 0.0 {
         return [None; 3];
     }
-    let azimuth = sun.x.atan2(-sun.y);
+    let azimuth = T::polar_angle(sun.x, -sun.y);
     [-TAU, 0.0, TAU].map(|turn| {
         let from = later(azimuth + (turn - FRAC_PI_2), -half_angle_rad);
         let to = -later(-(azimuth + (turn + FRAC_PI_2)), -half_angle_rad);

@@ -77,7 +77,7 @@ impl Panel {
         if in_plane_squared.value() == 0.0 {
             return T::constant(0.0);
         }
-        let facing = toward_quarter.atan2(toward_zero);
+        let facing = T::polar_angle(toward_quarter, toward_zero);
         // n.s = |s in the plane| cos(angle - facing): at least -|s|, at most |s|.
         let cos_tilt = in_plane_squared.sqrt().recip() * sun_offset_rad.cos();
         let tilt = if cos_tilt.value() >= 1.0 {

@@ -55,8 +55,9 @@ impl<T: Scalar> Discs<T> {
         let half = (a + b + c) * 0.5;
         let (to_a, to_b, to_c) = ((b - a + c) * 0.5, (a - b + c) * 0.5, (a + b - c) * 0.5);
         let root = |x: T| if x.value() > 0.0 { x.sqrt() } else { dark };
-        let at_sun_rad = root(to_a.sin() * to_c.sin()).atan2(root(half.sin() * to_b.sin())) * 2.0;
-        let at_planet_rad = root(to_b.sin() * to_c.sin()).atan2(root(half.sin() * to_a.sin())) * 2.0;
+        let at_sun_rad = T::polar_angle(root(to_a.sin() * to_c.sin()), root(half.sin() * to_b.sin())) * 2.0;
+        let at_planet_rad =
+            T::polar_angle(root(to_b.sin() * to_c.sin()), root(half.sin() * to_a.sin())) * 2.0;
         let tangents = (half * 0.5).tan() * (to_a * 0.5).tan() * (to_b * 0.5).tan() * (to_c * 0.5).tan();
         let excess = root(tangents).atan() * 4.0;
         // The lens: a sector of each circle less the two triangles counted twice.

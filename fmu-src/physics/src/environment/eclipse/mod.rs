@@ -159,7 +159,7 @@ impl Shadow {
         Ok(Discs {
             sun_radius_rad: (T::constant(self.sun_radius_m) / sun_distance).asin(),
             planet_radius_rad,
-            separation_rad: across.atan2(-spacecraft_m.dot(&to_sun)),
+            separation_rad: T::polar_angle(across, -spacecraft_m.dot(&to_sun)),
             planet_in_front: planet_distance_m < sun_distance_m,
         })
     }

@@ -29,6 +29,13 @@ impl<T: Scalar> Arc<T> {
             return Self::Empty;
         }
         let cos_half = -level / reach;
+        // Rounded to a closed arc or to none, where the root has no slope.
+        if cos_half.value() <= -1.0 {
+            return Self::Full;
+        }
+        if cos_half.value() >= 1.0 {
+            return Self::Empty;
+        }
         let sin_half = ((cos_half * -1.0 + 1.0) * (cos_half + 1.0)).sqrt();
         Self::Part { half: cos_half.acos(), cos_half, sin_half }
     }

@@ -19,4 +19,6 @@ pub use rule::{NodesError, RingRule};
 pub use view::{PlanetView, ViewError};
 
 #[cfg(test)]
+mod degenerate_tests;
+#[cfg(test)]
 mod tests;

@@ -18,6 +18,11 @@ const MOST_NODES: usize = 64;
 /// Rings computed side by side.
 const AT_ONCE: usize = 8;
 
+/// Where a plate's horizon or its crossing with the terminator touches the limb or a ring, or where plate and Sun are
+/// nearly aligned, the break moves as the inverse of how near that is. Nearer than this it is held: its speed would turn
+/// the quadrature's error into a slope.
+const RACING: f64 = 0.02;
+
 /// A normal whose horizontal part is shorter leans nowhere.
 const LEAST_REACH: f64 = 1e-9;
 
@@ -132,7 +137,7 @@ impl<T: Scalar> Plate<T> {
             normal: azimuth.turned_back(normal),
             reach,
             sun: azimuth.turned_back(&sun),
-            sun_ahead: sun_azimuth.sin.atan2(sun_azimuth.cos),
+            sun_ahead: T::polar_angle(sun_azimuth.sin, sun_azimuth.cos),
             sun_azimuth,
         }
     }
@@ -151,6 +156,7 @@ impl<T: Scalar> PlanetView<T> {
         let along = self.relative_distance * plate.reach;
         let under_root = along * along - self.limb_squared;
         let horizon = (under_root.value() > 0.0).then(|| (self.limb / (along + under_root.sqrt())).ln());
+        let horizon = horizon.map(|x| if x.value() > -RACING { self.held(x) } else { x });
         if horizon.is_none() && plate.normal.z.value() <= 0.0 {
             return breaks;
         }
@@ -178,6 +184,12 @@ impl<T: Scalar> PlanetView<T> {
         breaks
     }
 
+    /// A break that keeps its part of the way from nadir to the limb: as good a place to split there, whatever the
+    /// geometry does next, and one that does not move faster than nadir itself.
+    fn held(&self, x: T) -> T {
+        self.nearest * (x.value() / self.nearest.value())
+    }
+
     /// Where both arcs end at one point of a ring: points p with n.p = 0, sun.p = d sun.nadir on the sphere.
     fn crossings(&self, plate: &Plate<T>, inside: &mut impl FnMut(T, bool)) {
         let (n, sun) = (&plate.normal, &plate.sun);
@@ -201,7 +213,10 @@ impl<T: Scalar> PlanetView<T> {
             let t_squared = foot.dot(&foot) + lambda * lambda;
             // Beyond the limb the point is on the far side.
             if t_squared.value() < self.limb_squared.value() {
-                inside((t_squared / self.limb_squared).ln() * 0.5, false);
+                let x = (t_squared / self.limb_squared).ln() * 0.5;
+                let races = root.value().powi(2) < RACING * RACING * t_squared.value()
+                    || sine_squared.value() < RACING * RACING;
+                inside(if races { self.held(x) } else { x }, false);
             }
         }
     }
