@@ -22,6 +22,9 @@ const INTERRUPTED: u8 = 130;
 
 /// Flies the FMU.
 pub fn run(arguments: &Run) -> Outcome {
+    if let Some(path) = &arguments.plot {
+        plot::check_path(path)?;
+    }
     let fmu = Fmu::open(&arguments.fmu)?;
     let times = Times::of(&fmu, arguments.start, arguments.stop, arguments.step)?;
     let mut sets = Vec::new();

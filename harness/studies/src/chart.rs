@@ -2,6 +2,8 @@
 //!
 //! Used by `heliotorque run --plot` and by the studies. The text is SVG text, so no font is needed to draw it.
 
+mod legend;
+
 use std::path::Path;
 
 use plotters::{
@@ -97,7 +99,6 @@ const SINGLE_HEIGHT: u32 = 420;
 const TITLE_HEIGHT: u32 = 44;
 const TOP: u32 = 14;
 const X_AXIS_HEIGHT: u32 = 52;
-const LEGEND_HEIGHT: u32 = 26;
 const Y_AXIS_WIDTH: u32 = 74;
 const LEFT: u32 = 14;
 const BOTTOM: u32 = 12;
@@ -109,8 +110,8 @@ const QUIET: RGBColor = RGBColor(0x5c, 0x65, 0x70);
 const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
 const FRAME: RGBColor = RGBColor(0x9a, 0xa2, 0xac);
 
-/// Told apart by people with any colour vision (Okabe and Ito).
-const COLOURS: [RGBColor; 7] = [
+/// Colours of a panel's lines in their order; told apart by people with any colour vision (Okabe and Ito).
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),
     RGBColor(0x00, 0x9e, 0x73),
@@ -150,8 +151,8 @@ impl Chart {
     fn draw(&self, svg: &mut String, x_range: (f64, f64)) -> Drawn {
         let title_height = if self.title.is_empty() { TOP } else { TITLE_HEIGHT };
         let panel_height = if self.panels.len() == 1 { SINGLE_HEIGHT } else { PANEL_HEIGHT };
-        let panels = u32::try_from(self.panels.len())?;
-        let height = title_height + panels * panel_height + X_AXIS_HEIGHT;
+        let panels: u32 = self.panels.iter().map(|panel| panel.height(panel_height)).sum();
+        let height = title_height + panels + X_AXIS_HEIGHT;
         let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
         root.fill(&WHITE)?;
         if !self.title.is_empty() {
@@ -159,12 +160,13 @@ impl Chart {
             let style = style.pos(Pos::new(HPos::Left, VPos::Center));
             root.draw_text(&self.title, &style, (pixel(LEFT + Y_AXIS_WIDTH), pixel(title_height / 2)))?;
         }
-        for (index, panel) in (0..panels).zip(&self.panels) {
-            let last = index + 1 == panels;
-            let top = title_height + index * panel_height;
-            let bottom = top + panel_height + if last { X_AXIS_HEIGHT } else { 0 };
-            let area = root.clone().shrink((0, top), (WIDTH, bottom - top));
+        let mut top = title_height;
+        for (index, panel) in self.panels.iter().enumerate() {
+            let last = index + 1 == self.panels.len();
+            let height = panel.height(panel_height) + if last { X_AXIS_HEIGHT } else { 0 };
+            let area = root.clone().shrink((0, top), (WIDTH, height));
             self.draw_panel(&area, panel, x_range, last)?;
+            top += height;
         }
         root.present()?;
         Ok(())
@@ -174,7 +176,7 @@ impl Chart {
         let y_range = panel.y_range.unwrap_or_else(|| panel.data_range());
         let axis_height = if last { X_AXIS_HEIGHT - BOTTOM } else { 0 };
         let mut chart = ChartBuilder::on(area)
-            .margin_top(if panel.has_legend() { LEGEND_HEIGHT } else { 8 })
+            .margin_top(panel.top())
             .margin_bottom(if last { BOTTOM } else { 8 })
             .margin_left(LEFT)
             .margin_right(RIGHT)
@@ -222,13 +224,20 @@ impl Chart {
                 }
             }
         }
-        draw_legend(area, panel)
+        legend::draw(area, panel)
     }
 }
 
 impl Panel {
-    fn has_legend(&self) -> bool {
-        self.series.iter().any(|series| !series.label.is_empty())
+    /// Height above the lines: the legend's rows, or a little room.
+    fn top(&self) -> u32 {
+        (legend::height(self)).max(8)
+    }
+
+    /// The panel's whole height with lines `height` high.
+    fn height(&self, height: u32) -> u32 {
+        // The first row of the legend counts as part of every panel, so that panels are alike.
+        height + self.top().saturating_sub(legend::ROW_HEIGHT)
     }
 
     fn data_range(&self) -> (f64, f64) {
@@ -238,45 +247,6 @@ impl Panel {
             None => (0.0, 1.0),
         }
     }
-}
-
-/// The legend stands above the panel, right-aligned.
-fn draw_legend(area: &Area<'_>, panel: &Panel) -> Drawn {
-    const SWATCH: i32 = 18;
-    const GAP: i32 = 6;
-    const BETWEEN: i32 = 20;
-    let style = (FONT, 13).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
-    let labelled: Vec<(usize, &Series)> =
-        panel.series.iter().enumerate().filter(|(_, series)| !series.label.is_empty()).collect();
-    let mut x = pixel(WIDTH - RIGHT)
-        - labelled.iter().map(|(_, series)| SWATCH + GAP + text_width(&series.label) + BETWEEN).sum::<i32>()
-        + BETWEEN;
-    let y = pixel(LEGEND_HEIGHT / 2);
-    for (index, series) in labelled {
-        let colour = COLOURS[index % COLOURS.len()];
-        match series.mark {
-            Mark::Line => {
-                area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], colour.stroke_width(3)))?;
-            }
-            Mark::Dots => area.draw(&Circle::new((x + SWATCH / 2, y), 4, colour.filled()))?,
-        }
-        area.draw_text(&series.label, &style, (x + SWATCH + GAP, y))?;
-        x += SWATCH + GAP + text_width(&series.label) + BETWEEN;
-    }
-    Ok(())
-}
-
-/// Width of a legend label in pixels, estimated: the font is the viewer's.
-fn text_width(text: &str) -> i32 {
-    let eighths: i32 = text
-        .chars()
-        .map(|c| match c {
-            'i' | 'j' | 'l' | '.' | ',' | '[' | ']' | '(' | ')' | ' ' | 't' | 'f' => 32,
-            'm' | 'w' | 'M' | 'W' => 84,
-            _ => 58,
-        })
-        .sum();
-    eighths / 8
 }
 
 fn pixel(length: u32) -> i32 {

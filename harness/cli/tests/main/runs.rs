@@ -146,6 +146,15 @@ fn an_error_on_the_way_leaves_what_was_flown() {
     assert_eq!(csv(&output).1.len(), 4);
 }
 
+#[test]
+fn a_picture_of_another_kind_is_refused_before_the_flight() {
+    let Some((room, fmu)) = packed("Empty") else { return };
+    let picture = room.path().join("out.png");
+    let text = run(&["run", shown(&fmu), "--plot", shown(&picture)], 1);
+    assert!(text.contains("out.png") && text.contains("allowed: one that ends in .svg"), "{text}");
+    assert!(!picture.exists());
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn ctrl_c_leaves_a_valid_partial_csv() {
