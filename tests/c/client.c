@@ -58,6 +58,47 @@ static void fly(const Library *library, const char *xml, int steps) {
     library->FreeInstance(c);
 }
 
+/* The memoryless model: the planet passes before the Sun, slopes are finite, a state gives the same values again. */
+static void place(const Library *library, const char *xml, int steps) {
+    fmi2Component c = start(library, xml);
+    CHECK(library->ExitInitializationMode(c) == fmi2OK);
+    fmi2ValueReference planet[3] = {reference_of(xml, "planet.position[1]"), reference_of(xml, "planet.position[2]"),
+                                    reference_of(xml, "planet.position[3]")};
+    fmi2ValueReference outputs[3] = {reference_of(xml, "sun.litFraction"), reference_of(xml, "torque.total[1]"),
+                                     reference_of(xml, "torque.total[2]")};
+    fmi2FMUstate state = NULL;
+    fmi2Real kept[3] = {0}, values[3], slopes[3], along[3] = {1.0, 0.5, -0.25};
+    int dark = 0;
+    for (int i = 0; i < steps; i++) {
+        fmi2Real angle = 6.28318530717958648 * i / steps;
+        fmi2Real at[3] = {5e6 * sin(angle), -5e6 * cos(angle), 1e5};
+        CHECK(library->SetReal(c, planet, 3, at) == fmi2OK);
+        CHECK(library->DoStep(c, 60.0 * i, 60.0, fmi2True) == fmi2OK);
+        CHECK(library->GetReal(c, outputs, 3, values) == fmi2OK);
+        CHECK(library->GetDirectionalDerivative(c, outputs, 3, planet, 3, along, slopes) == fmi2OK);
+        for (int k = 0; k < 3; k++) CHECK(isfinite(values[k]) && isfinite(slopes[k]));
+        dark += values[0] == 0.0;
+        if (i == steps / 2) {
+            CHECK(library->GetFMUstate(c, &state) == fmi2OK);
+            memcpy(kept, values, sizeof kept);
+        }
+    }
+    CHECK(dark > 0 && dark < steps);
+    CHECK(library->SetFMUstate(c, state) == fmi2OK);
+    CHECK(library->GetReal(c, outputs, 3, values) == fmi2OK);
+    CHECK(memcmp(values, kept, sizeof kept) == 0);
+    CHECK(library->FreeFMUstate(c, &state) == fmi2OK);
+
+    /* Into the planet: an error, and Reset brings the instance back. */
+    fmi2Real inside[3] = {1e3, 0.0, 0.0};
+    int before = logged_messages;
+    CHECK(library->SetReal(c, planet, 3, inside) == fmi2OK);
+    CHECK(library->DoStep(c, 60.0 * (steps / 2 + 1), 60.0, fmi2True) == fmi2Error);
+    CHECK(logged_messages > before);
+    CHECK(library->Reset(c) == fmi2OK);
+    library->FreeInstance(c);
+}
+
 int main(int count, char **arguments) {
     if (count < 3) {
         fprintf(stderr, "usage: %s libheliotorque libprobe [--short]\n", arguments[0]);
@@ -69,6 +110,9 @@ int main(int count, char **arguments) {
     CHECK(strcmp(library.GetTypesPlatform(), "default") == 0);
     char *xml = description_of(&library, "MomentumPlant");
     fly(&library, xml, short_flight ? 40 : 4000);
+    free(xml);
+    xml = description_of(&library, "DisturbanceTorque");
+    place(&library, xml, short_flight ? 40 : 4000);
     free(xml);
     Library probe = open_library(arguments[2]);
     xml = description_of(&probe, "AllTypes");

@@ -64,7 +64,7 @@ fn genuine(model: &str) -> Vec<Vec<u8>> {
 
 #[test]
 fn the_seal_is_the_documented_one() {
-    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant"] {
+    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
         for blob in genuine(model) {
             assert_eq!(seal(&blob, &blob[HEADER..]), blob, "{model}");
         }
@@ -229,6 +229,11 @@ fn resealed_payloads_of_the_spinner_are_refused_or_lived_in() {
 }
 
 #[test]
+fn resealed_payloads_of_the_memoryless_model_are_refused_or_lived_in() {
+    resealed("DisturbanceTorque", 5_000);
+}
+
+#[test]
 fn raw_bytes_are_refused() {
     let target = std::cell::RefCell::new(Target::new("AllTypes"));
     run(10_000, prop::collection::vec(any::<u8>(), 0..200), |bytes| target.borrow_mut().offer(&bytes));
@@ -256,7 +261,7 @@ fn every_truncation_and_every_flipped_bit_is_refused() {
 #[test]
 fn states_of_other_models_and_other_setups_are_refused() {
     let own = genuine("AllTypes").remove(2);
-    for other in ["Empty", "Panicking", "MomentumPlant", "SpinPlant"] {
+    for other in ["Empty", "Panicking", "MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
         let foreign = fresh(other).state_bytes().1;
         let mut target = Target::new("AllTypes");
         target.offer(&foreign);

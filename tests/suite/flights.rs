@@ -16,16 +16,19 @@ pub enum Style {
     Burning,
     /// SpinPlant with pulses, held thrusters and torques from outside.
     Fired,
+    /// DisturbanceTorque with Sun, planet, panels and mass placed anew, with slopes, in and out of eclipses.
+    Placed,
 }
 
 impl Style {
-    pub const ALL: [Self; 4] = [Self::Guided, Self::Commanded, Self::Burning, Self::Fired];
+    pub const ALL: [Self; 5] = [Self::Guided, Self::Commanded, Self::Burning, Self::Fired, Self::Placed];
 
     /// The model that flies so.
     pub fn model(self) -> &'static str {
         match self {
             Self::Guided | Self::Commanded => "MomentumPlant",
             Self::Burning | Self::Fired => "SpinPlant",
+            Self::Placed => "DisturbanceTorque",
         }
     }
 
@@ -34,6 +37,7 @@ impl Style {
         match self {
             Self::Guided | Self::Commanded => [60.0, 600.0, 97.3, 1_200.0],
             Self::Burning | Self::Fired => [0.5, 0.1, 1.3, 7.0],
+            Self::Placed => [60.0, 1.0, 7.3, 0.02],
         }
     }
 
@@ -52,14 +56,15 @@ impl Style {
                 let plan = if self == Self::Burning { 1 } else { 4 };
                 ok(instance.set_integer(&[names.of(Integer, "burn.plan")], &[plan]));
             }
+            Self::Placed => {}
         }
     }
 
     fn set_inputs(self, instance: &mut InProcess, names: &Names, step_number: u64, dice: &mut Dice) {
         // Held for six steps, so that a state saved in between must know of it.
         let held = i32::from(Dice(1_000_000 + step_number / 6).below(2) == 0);
-        let torque = names.vector::<3>("torque.external");
         if matches!(self, Self::Commanded | Self::Fired) {
+            let torque = names.vector::<3>("torque.external");
             match dice.below(4) {
                 0 => ok(instance.set_real(&torque, &[1e-5 * (dice.unit() - 0.5), 1e-6, -2e-6])),
                 1 => ok(instance.set_input_derivatives(&torque, &[1; 3], &[1e-9, -2e-9, 3e-10])),
@@ -90,8 +95,33 @@ impl Style {
                 let fire = names.of(Boolean, "thruster[1].fire");
                 ok(instance.set_boolean(&[fire], &[held]));
             }
+            Self::Placed => {
+                let planet = names.vector::<3>("planet.position");
+                match dice.below(4) {
+                    0 => ok(instance.set_real(&planet, &behind_or_aside(dice))),
+                    1 => ok(instance.set_input_derivatives(&planet, &[1; 3], &[500.0, -30.0, 800.0])),
+                    2 => {
+                        let sun =
+                            [0, 1, 2].map(|i| 1e10 * (dice.unit() - 0.5) - if i == 1 { 6e10 } else { 0.0 });
+                        ok(instance.set_real(&names.vector::<3>("sun.position"), &sun));
+                    }
+                    _ => {}
+                }
+                if dice.below(3) == 0 {
+                    let angles = [names.real("panel[1].angle"), names.real("panel[2].angle")];
+                    ok(instance.set_real(&angles, &[dice.unit() - 0.5, 3.0 * dice.unit()]));
+                    ok(instance
+                        .set_real(&names.vector::<3>("centerOfMass"), &[0.01, 0.02 * dice.unit(), 0.0]));
+                }
+            }
         }
     }
+}
+
+/// Where the planet is, in m: before the Sun half of the time.
+fn behind_or_aside(dice: &mut Dice) -> [f64; 3] {
+    let aside_m = if dice.below(2) == 0 { 2e6 } else { 5e6 };
+    [aside_m * dice.unit(), -3e6 - 1e6 * dice.unit(), aside_m * dice.unit()]
 }
 
 /// An instance in flight with the input sequence of its style, which depends on the step number alone.

@@ -63,7 +63,7 @@ fn cycle(model: &str) {
 
 #[test]
 fn freeing_an_instance_gives_back_every_byte() {
-    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant"] {
+    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
         cycle(model);
         let ((), count) = counted(|| (0..20).for_each(|_| cycle(model)));
         assert_eq!(count.live_bytes, 0, "{model}");
@@ -102,9 +102,12 @@ fn memory_stays_flat_over_a_hundred_thousand_instances() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         return;
     }
-    for (model, cycles) in
-        [("Empty", EMPTY_CYCLES), ("MomentumPlant", PLANT_CYCLES), ("SpinPlant", PLANT_CYCLES)]
-    {
+    for (model, cycles) in [
+        ("Empty", EMPTY_CYCLES),
+        ("MomentumPlant", PLANT_CYCLES),
+        ("SpinPlant", PLANT_CYCLES),
+        ("DisturbanceTorque", PLANT_CYCLES),
+    ] {
         (0..cycles / 20).for_each(|_| drop(fresh(model)));
         let before = resident_kb();
         (0..cycles).for_each(|_| drop(fresh(model)));

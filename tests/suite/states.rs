@@ -39,7 +39,7 @@ fn restored(mut instance: InProcess, bytes: &[u8]) -> InProcess {
     instance
 }
 
-/// Length of a flight, in s: the plant's 90 days, the spinner's burn and what follows.
+/// Length of a flight, in s: the plant's 90 days, the spinner's burn and what follows, some hundred geometries.
 fn length_s(style: Style) -> f64 {
     match style.model() {
         "MomentumPlant" => 90.0 * 86_400.0,
@@ -128,6 +128,11 @@ fn a_commanded_flight_goes_on_from_any_saved_point() {
 #[test]
 fn a_burn_goes_on_from_any_saved_point() {
     in_this_process_and_another(Style::Burning, "states::a_burn_goes_on_from_any_saved_point");
+}
+
+#[test]
+fn a_memoryless_model_goes_on_from_any_saved_point() {
+    in_this_process_and_another(Style::Placed, "states::a_memoryless_model_goes_on_from_any_saved_point");
 }
 
 #[test]
