@@ -230,6 +230,30 @@ fn in_the_dark_a_radiator_cools_by_the_closed_form() {
 }
 
 #[test]
+fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
+    let hangar = warm::<MomentumPlant>();
+    let sets = [EFFECTS, SHADOWED].concat();
+    let mut still = hangar.fly(0.0, &sets).unwrap();
+    let mut disturbed = hangar.fly(0.0, &sets).unwrap();
+    let mut steps = 0;
+    while still.time_s() < DAY_S / 2.0 {
+        let end_s = still.time_s() + 77.0;
+        steps += 1;
+        // Moves nothing but ends every cell at hand.
+        disturbed.set("dump.target[1]", f64::from(steps));
+        still.step_to(end_s).unwrap();
+        disturbed.step_to(end_s).unwrap();
+        for face in 1..=FACES {
+            let name = format!("plate[{face}].temperature");
+            let (a, b) = (still.real(&name), disturbed.real(&name));
+            assert!((a - b).abs() < 3e-5 * a.max(100.0), "{name} at {end_s} s: {a} {b}");
+        }
+    }
+    let (a, b) = (still.vector("momentum.inertial"), disturbed.vector("momentum.inertial"));
+    assert!((a - b).norm() < 2e-5 * a.norm(), "{a} {b}");
+}
+
+#[test]
 fn faces_add_up_to_the_total_and_a_panel_left_out_has_none() {
     let hangar = warm::<MomentumPlant>();
     for panel_on in [1.0, 0.0] {
