@@ -4,7 +4,16 @@ import tomllib
 
 import numpy as np
 import pytest
-from fmpy import read_model_description, simulate_fmu
+from fmpy import calloc, extract, free, read_model_description, simulate_fmu
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    fmi2Error,
+)
 from fmpy.validation import validate_fmu
 
 from spacecraft import RESOURCES, call
@@ -15,6 +24,45 @@ SOURCES = ["solar", "albedo", "infrared", "thermal"]
 @pytest.fixture(scope="session")
 def disturbance_torque(dist):
     return str(dist / "DisturbanceTorque.fmu")
+
+
+class Placed:
+    """DisturbanceTorque stepped by hand, its inputs set by name."""
+
+    def __init__(self, fmu, folder):
+        description = read_model_description(fmu)
+        self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.messages = []
+        self.slave = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=extract(fmu, unzipdir=str(folder)),
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="placed",
+        )
+        callbacks = fmi2CallbackFunctions()
+        callbacks.logger = fmi2CallbackLoggerTYPE(
+            lambda environment, instance, status, category, message: self.messages.append(message.decode())
+        )
+        callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+        callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+        self.slave.instantiate(callbacks=callbacks)
+        self.time = 0.0
+
+    def put(self, name, values):
+        self.slave.setReal([self.references[f"{name}[{i}]"] for i in (1, 2, 3)], values)
+
+    def start(self):
+        self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+        self.time = 0.0
+
+    def step(self):
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=60.0)
+        self.time += 60.0
+
+    def total(self):
+        return self.slave.getReal([self.references[f"torque.total[{i}]"] for i in (1, 2, 3)])
 
 
 def total_and_parts(fmu, quantity, extra, start=None):
@@ -80,3 +128,36 @@ def test_plates_reported_one_by_one_add_up_to_the_force(heliotorque, dist, tmp_p
     for k, plate in enumerate(craft["plates"], 1):
         sunlit = 1365.0 * (1.495978707e11 / sun_m) ** 2 * max(0.0, -plate["normal"][1])
         assert np.isclose(result[f"plate[{k}].temperature"][-1], (sunlit / 5.670374419e-8) ** 0.25, rtol=1e-9)
+
+
+IMPOSSIBLE = {
+    "inside the planet": ("planet.position", [1e6, -1e6, 0.0], "radius"),
+    "at the planet's centre": ("planet.position", [0.0, 0.0, 0.0], "radius"),
+    "in the Sun": ("sun.position", [0.0, 0.0, 0.0], "Sun"),
+}
+
+
+@pytest.mark.parametrize("place", IMPOSSIBLE)
+@pytest.mark.parametrize("flying", [False, True], ids=["at the start", "in flight"])
+def test_an_impossible_place_is_an_error_that_names_it_and_reset_forgets_it(place, flying, disturbance_torque, tmp_path):
+    variable, values, why = IMPOSSIBLE[place]
+    untouched = Placed(disturbance_torque, tmp_path / "untouched")
+    untouched.start()
+    untouched.step()
+    placed = Placed(disturbance_torque, tmp_path / "placed")
+    if flying:
+        placed.start()
+        placed.step()
+    assert placed.messages == []
+    with pytest.raises(FMICallException) as refused:
+        placed.put(variable, values)
+        placed.step() if flying else placed.start()
+    assert refused.value.status == fmi2Error
+    assert any(variable in message and why in message for message in placed.messages), placed.messages
+    placed.slave.reset()
+    placed.start()
+    placed.step()
+    assert placed.total() == untouched.total() and any(placed.total())
+    for instance in (placed, untouched):
+        instance.slave.terminate()
+        instance.slave.freeInstance()

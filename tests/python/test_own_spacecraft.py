@@ -240,6 +240,20 @@ BAD = {
     "a key given twice": (
         "capacity_n_m_s = 4", "capacity_n_m_s = 4\ncapacity_n_m_s = 5", "capacity_n_m_s = 5",
         "found text that is not TOML (duplicate key"),
+    "a polygon that is not flat": (
+        "center_m = [0, -1, 0]", "polygon_m = [[-1, -1, 0], [0, -1, -1], [1, -1, 0], [0, -1.5, 1]]",
+        "polygon_m = [[-1, -1, 0], [0, -1, -1], [1, -1, 0], [0, -1.5, 1]]",
+        "plates[1].polygon_m: found vertex 1 lies 8.084520834544423e-2 m off the plane of the polygon, allowed: "),
+    "a polygon that crosses itself": (
+        "area_m2 = 1.5", "area_m2 = 1.5\npolygon_m = [[1, 0, -1], [2, 0, 1], [2, 0, -1], [1, 0, 2]]",
+        "polygon_m = [[1, 0, -1], [2, 0, 1], [2, 0, -1], [1, 0, 2]]",
+        "panels[1].polygon_m: found edges 1 and 3 cross or touch, allowed: an outline that does not cross itself"),
+    "a polygon of two points": (
+        "center_m = [2, 0, 0]", "center_m = [2, 0, 0]\npolygon_m = [[1, 0, -1], [2, 0, 1]]",
+        "polygon_m = [[1, 0, -1], [2, 0, 1]]", "panels[1].polygon_m: found 2 vertices, allowed: at least 3"),
+    "a polygon of another area": (
+        "area_m2 = 1.5", "area_m2 = 1.5\npolygon_m = [[1, 0, -1], [3, 0, -1], [3, 0, 1], [1, 0, 1]]", "area_m2 = 1.5",
+        "panels[1].area_m2: found 1.5, allowed: the polygon's 4 within 1e-3"),
     "no surface": (PLATE + PANEL, "", "", "found no surface, allowed: at least one of `plates`, `sunshade`, `panels`"),
 }
 

@@ -233,6 +233,10 @@ impl Builder<'_> {
     }
 
     fn missing<V>(&mut self, at: &Place, key: &str, stand_in: V) -> V {
+        // An outline that was refused would have given it.
+        if self.check.has_reported(&at.key("polygon_m")) {
+            return stand_in;
+        }
         let found = format!("no key `{key}`");
         self.check.report(at, found, format_args!("a value for `{key}`, or an outline `polygon_m`"));
         stand_in

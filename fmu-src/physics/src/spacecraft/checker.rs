@@ -42,6 +42,12 @@ impl<'d> Checker<'d> {
         });
     }
 
+    /// Whether something was reported at this very place.
+    pub fn has_reported(&self, at: &Place) -> bool {
+        let key = at.to_string();
+        self.problems.iter().any(|problem| problem.key == key)
+    }
+
     /// A number, not NaN, infinite or beyond all measure.
     pub fn finite(&mut self, at: &Place, value: f64) -> f64 {
         self.within(at, value, -GREATEST, GREATEST, "a finite number up to 1e12 in magnitude")

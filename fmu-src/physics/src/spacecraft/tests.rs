@@ -283,6 +283,10 @@ fn bad_outlines_and_heat_are_named() {
     assert!(bent.found.contains("off the plane"), "{bent:?}");
     let crossing = with("polygon_m = [[-1, -1, -0.5], [1, -1, 0.5], [1, -1, -0.5], [-1, -1, 1.5]]");
     assert!(crossing.found.contains("cross"), "{crossing:?}");
+    // What the outline would have given is not reported as missing besides.
+    let given = "area_m2 = 2.0\ncenter_m = [0.0, -1.0, 0.0]\nnormal = [0.0, -1.0, 0.0]";
+    let alone = problem(given, "polygon_m = [[-1, -1, -0.5], [1, -1, 0.5], [1, -1, -0.5], [-1, -1, 1.5]]");
+    assert_eq!(alone.key, "plates[1].polygon_m");
     let small = with("polygon_m = [[-0.5, -1, -0.5], [0.5, -1, -0.5], [0.5, -1, 0.5], [-0.5, -1, 0.5]]");
     assert_eq!((small.key.as_str(), small.found.as_str()), ("plates[1].area_m2", "2"));
     let one_sided = with("thermal.conduction.conductance_w_m2_k = 3.0");
