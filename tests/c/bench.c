@@ -167,6 +167,32 @@ static void mercury_year(const Library *library, const char *folder, const char 
     free(setup);
 }
 
+/* A 50 Hz master that changes a torque from outside at every step. */
+static void fifty_hertz(const Library *library, const char *xml, fmi2Boolean effects, const char *name) {
+    double per_step[RUNS];
+    const int steps = 50000;
+    fmi2ValueReference enabled[2], torque = reference_of(xml, "torque.external[1]");
+    enabled[0] = reference_of(xml, "planetLight.enabled");
+    enabled[1] = reference_of(xml, "thermal.enabled");
+    fmi2Boolean values[2] = {effects, effects};
+    for (int run = 0; run < RUNS; run++) {
+        fmi2Component c = instantiate(library, xml, NULL);
+        CHECK(c && library->SetBoolean(c, enabled, 2, values) == fmi2OK);
+        CHECK(library->SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK);
+        CHECK(library->EnterInitializationMode(c) == fmi2OK);
+        CHECK(library->ExitInitializationMode(c) == fmi2OK);
+        double begin = now_s();
+        for (int i = 0; i < steps; i++) {
+            fmi2Real value = 1e-9 * (i + 1);
+            CHECK(library->SetReal(c, &torque, 1, &value) == fmi2OK);
+            CHECK(library->DoStep(c, i * 0.02, 0.02, fmi2True) == fmi2OK);
+        }
+        per_step[run] = (now_s() - begin) / steps * 1e6;
+        library->FreeInstance(c);
+    }
+    report(name, per_step, "us");
+}
+
 /* SpinPlant: 32 ms steps through a burn, and paper 002's 1400 s manoeuvre in one step. */
 static void spinner(const Library *library, const char *xml) {
     double rate[RUNS], manoeuvre[RUNS];
@@ -203,6 +229,8 @@ int main(int count, char **arguments) {
     ninety_days(&library, xml);
     first_step(&library, xml);
     ten_reals(&library, xml);
+    fifty_hertz(&library, xml, fmi2False, "momentum_plant_50_hz_new_torque_each_step");
+    fifty_hertz(&library, xml, fmi2True, "momentum_plant_50_hz_new_torque_each_step_light_and_heat");
     free(xml);
     mercury_year(&library, arguments[3], "orbiter");
     mercury_year(&library, arguments[4], "messenger");

@@ -15,7 +15,7 @@ use physics::plant::{Course, ExternalLoad, Plant, PlantError, Snapshot};
 
 use choices::OrbitSource;
 pub use setup::PlantSetup;
-use state::PlantState;
+use state::{Changes, PlantState};
 use variables::PlantVariables;
 
 /// The momentum plant.
@@ -90,9 +90,9 @@ impl Model for MomentumPlant {
         state: &mut PlantState,
         step: &Step<'_>,
     ) -> Result<(), Failure> {
-        let mut moved = false;
+        let mut changes = Changes::default();
         if step.changed {
-            moved = state.inputs_changed(context, values, step.start_s)?;
+            changes = state.inputs_changed(context, values, step.start_s)?;
             state.accumulator.cut(step.start_s);
         }
         let configuration = match state.configuration.take() {
@@ -104,9 +104,10 @@ impl Model for MomentumPlant {
             }
         };
         if step.changed {
-            state.course.cut(&configuration, step.start_s);
+            state.course.cut(&configuration, step.start_s, changes.light);
         }
-        if moved && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs)) {
+        if changes.orbit && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
+        {
             state.course.move_to(&configuration, step.start_s).map_err(ended)?;
         }
         let load = |time_s| ExternalLoad {

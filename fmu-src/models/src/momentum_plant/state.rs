@@ -25,6 +25,8 @@ pub struct PlantState {
     /// When the orbit's position and velocity inputs last changed, in s.
     pub orbit_since_s: f64,
     orbit_inputs: [[f64; 3]; 2],
+    /// Inputs and tunables that light and heat depend on, beside command and orbit, at the last change.
+    light_inputs: Vec<f64>,
     /// `dump.request` at the last step.
     pub request: Request,
     /// Time between dumps.
@@ -38,6 +40,15 @@ pub struct PlantState {
     /// Cache of what light and heat need; absent where direct sunlight is all there is.
     #[serde(skip)]
     pub light: Option<LightModel>,
+}
+
+/// What a change of inputs and tunables touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Changes {
+    /// Position and velocity are given anew.
+    pub orbit: bool,
+    /// Light and heat are no longer what they were going to be.
+    pub light: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -94,6 +105,7 @@ impl PlantState {
             command_inputs: CommandInputs::read(context, values),
             orbit_since_s: start_s,
             orbit_inputs: orbit_inputs(context, values),
+            light_inputs: light_inputs(context, values).collect(),
             request: Request::default(),
             spacing: Spacing::default(),
             ephemeris: Ephemeris::default(),
@@ -104,15 +116,16 @@ impl PlantState {
         Ok(state)
     }
 
-    /// Takes over commands and orbit inputs that differ from the last ones; tells whether the orbit's do.
+    /// Takes over inputs and tunables that differ from the last ones.
     pub fn inputs_changed(
         &mut self,
         context: &Plan<'_>,
         values: &Values,
         time_s: f64,
-    ) -> Result<bool, Failure> {
+    ) -> Result<Changes, Failure> {
         let inputs = CommandInputs::read(context, values);
-        if inputs != self.command_inputs {
+        let commanded = inputs != self.command_inputs;
+        if commanded {
             self.command_inputs = inputs;
             self.take_command(context, values, time_s)?;
         }
@@ -122,7 +135,12 @@ impl PlantState {
             self.orbit_inputs = orbit;
             self.orbit_since_s = time_s;
         }
-        Ok(moved)
+        let lit = !light_inputs(context, values).eq(self.light_inputs.iter().copied());
+        if lit {
+            self.light_inputs.clear();
+            self.light_inputs.extend(light_inputs(context, values));
+        }
+        Ok(Changes { orbit: moved, light: lit || moved || commanded })
     }
 
     fn take_command(&mut self, context: &Plan<'_>, values: &Values, time_s: f64) -> Result<(), Failure> {
@@ -156,4 +174,12 @@ impl CommandInputs {
 fn orbit_inputs(context: &Plan<'_>, values: &Values) -> [[f64; 3]; 2] {
     let orbit = &context.variables.orbit;
     [values.vector(orbit.position), values.vector(orbit.velocity)]
+}
+
+fn light_inputs<'a>(context: &'a Plan<'_>, values: &'a Values) -> impl Iterator<Item = f64> + 'a {
+    let variables = context.variables;
+    let vectors = [variables.sun.position, variables.earth.position, variables.spacecraft.center_of_mass];
+    let panels =
+        variables.panel.iter().flat_map(|panel| [values.real(panel.angle), values.real(panel.sun_offset)]);
+    vectors.into_iter().flat_map(|vector| values.vector(vector)).chain(panels)
 }

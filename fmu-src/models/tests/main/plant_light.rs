@@ -239,8 +239,8 @@ fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
     while still.time_s() < DAY_S / 2.0 {
         let end_s = still.time_s() + 77.0;
         steps += 1;
-        // Moves nothing but ends every cell at hand.
-        disturbed.set("dump.target[1]", f64::from(steps));
+        // Not used with this ephemeris; it moves nothing but ends every cell at hand.
+        disturbed.set("sun.position[1]", f64::from(steps));
         still.step_to(end_s).unwrap();
         disturbed.step_to(end_s).unwrap();
         for face in 1..=FACES {
@@ -251,6 +251,29 @@ fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
     }
     let (a, b) = (still.vector("momentum.inertial"), disturbed.vector("momentum.inertial"));
     assert!((a - b).norm() < 2e-5 * a.norm(), "{a} {b}");
+}
+
+#[test]
+fn a_torque_from_outside_leaves_light_and_heat_alone() {
+    let hangar = warm::<MomentumPlant>();
+    let sets = [EFFECTS, SHADOWED].concat();
+    let mut still = hangar.fly(0.0, &sets).unwrap();
+    let mut pushed = hangar.fly(0.0, &sets).unwrap();
+    let mut relay = hangar.fly(0.0, &sets).unwrap();
+    for step in 1..=600 {
+        for flight in [&mut pushed, &mut relay] {
+            flight.set("torque.external[2]", 1e-7 * f64::from(step));
+        }
+        // Whether a cell goes on must not depend on what is not saved.
+        relay = relay.restored();
+        for flight in [&mut still, &mut pushed, &mut relay] {
+            flight.step_to(f64::from(step) * 50.0).unwrap();
+        }
+        assert_same(&pushed, &relay);
+        for name in ["force.thermal", "torque.infrared", "plate[3].force"] {
+            assert_eq!(still.vector(name), pushed.vector(name), "{name}");
+        }
+    }
 }
 
 #[test]

@@ -91,10 +91,13 @@ impl Course {
         Ok(())
     }
 
-    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far.
-    pub fn cut(&mut self, configuration: &Configuration, time_s: f64) {
+    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far;
+    /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
+    pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
         self.trajectory.cut(configuration, time_s);
-        if let Some(light) = &mut self.light {
+        // An orbit that light and forces act on goes elsewhere from here.
+        let orbit_changes = matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
+        if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
             light.cut(time_s);
         }
     }
