@@ -1,6 +1,6 @@
 //! `model.png`: the spacecraft's plates and panels, seen from sunward, below and aside.
 //!
-//! The TOML gives areas, centres and normals; every surface is drawn as a square of its area.
+//! A surface given by its outline is drawn as that polygon, any other as a square of its area; panels stand at angle 0.
 
 use std::fmt::Write;
 
@@ -19,11 +19,13 @@ const LIGHT: [f64; 3] = [-0.25, -0.85, -0.46];
 
 type Vector = [f64; 3];
 
-/// A square in space.
+/// A flat polygon in space.
 struct Surface {
-    corners: [Vector; 4],
+    corners: Vec<Vector>,
     center: Vector,
     normal: Vector,
+    /// Two directions in the plane that the grid of a solar panel follows.
+    grid: [Vector; 2],
     cells: bool,
 }
 
@@ -39,12 +41,17 @@ pub fn png(spacecraft_toml: &str) -> Option<Vec<u8>> {
 
 fn surfaces(spacecraft: &Table) -> Vec<Surface> {
     let mut surfaces = Vec::new();
-    let shade = spacecraft.get("sunshade").and_then(|shade| shade.get("plates"));
-    for plate in rows(shade).chain(rows(spacecraft.get("plates"))) {
-        surfaces.extend(surface(plate, "normal", false));
+    let shade = spacecraft.get("sunshade");
+    let shade_turn = shade.map_or(UNTURNED, |shade| turn(shade, "dcm_body_from_shade"));
+    for plate in rows(shade.and_then(|shade| shade.get("plates"))) {
+        surfaces.extend(surface(plate, vector_of(plate, "normal"), shade_turn, false));
+    }
+    for plate in rows(spacecraft.get("plates")) {
+        surfaces.extend(surface(plate, vector_of(plate, "normal"), UNTURNED, false));
     }
     for panel in rows(spacecraft.get("panels")) {
-        surfaces.extend(surface(panel, "zero_normal", true));
+        let normal = vector_of(panel, "zero_normal").unwrap_or([0.0, -1.0, 0.0]);
+        surfaces.extend(surface(panel, Some(normal), turn(panel, "dcm_body_from_panel"), true));
     }
     surfaces
 }
@@ -53,20 +60,72 @@ fn rows(array: Option<&Value>) -> impl Iterator<Item = &Value> {
     array.and_then(Value::as_array).into_iter().flatten()
 }
 
-fn surface(row: &Value, normal_key: &str, cells: bool) -> Option<Surface> {
-    let area_m2 = number(row.get("area_m2")?)?;
-    let center = vector(row.get("center_m")?)?;
-    let normal = unit(vector(row.get(normal_key)?)?)?;
-    // One edge lies along the panel's axis, or across the plane of normal and Z.
-    let along = row.get("axis").and_then(vector).or_else(|| Some(cross(normal, UP)));
-    let along = along.and_then(unit).or_else(|| unit(cross(normal, [1.0, 0.0, 0.0])))?;
+fn surface(row: &Value, normal: Option<Vector>, turn: [Vector; 3], cells: bool) -> Option<Surface> {
+    let outline = row.get("polygon_m").and_then(polygon);
+    let across_outline = outline.as_deref().and_then(|outline| unit(area_vector(outline)));
+    let normal = normal.and_then(unit).or(across_outline)?;
+    // One edge of a square lies along the panel's axis, or across the plane of normal and Z.
+    let along = vector_of(row, "axis").or(cells.then_some([1.0, 0.0, 0.0]));
+    let along = along.or_else(|| Some(cross(normal, UP))).and_then(unit);
+    let along = along.or_else(|| unit(cross(normal, [1.0, 0.0, 0.0])))?;
     let across = unit(cross(normal, along))?;
+    let corners = match outline {
+        Some(outline) => outline,
+        None => square(number(row.get("area_m2")?)?, vector_of(row, "center_m")?, along, across)?,
+    };
+    let share = 1.0 / corners.len() as f64;
+    let center = std::array::from_fn(|i| corners.iter().map(|corner| corner[i] * share).sum());
+    let turned = |v: Vector| turn.map(|row| dot(row, v));
+    Some(Surface {
+        corners: corners.into_iter().map(turned).collect(),
+        center: turned(center),
+        normal: turned(normal),
+        grid: [turned(along), turned(across)],
+        cells,
+    })
+}
+
+fn square(area_m2: f64, center: Vector, along: Vector, across: Vector) -> Option<Vec<Vector>> {
     let half = area_m2.sqrt() / 2.0;
-    let corner = |a: f64, b: f64| -> Vector {
+    let corner = |(a, b): (f64, f64)| -> Vector {
         std::array::from_fn(|i| center[i] + half * (a * along[i] + b * across[i]))
     };
-    let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-    (half.is_finite() && half > 0.0).then_some(Surface { corners, center, normal, cells })
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner);
+    (half.is_finite() && half > 0.0).then(|| corners.to_vec())
+}
+
+/// At least three points with an area.
+fn polygon(value: &Value) -> Option<Vec<Vector>> {
+    let corners: Vec<Vector> = value.as_array()?.iter().map(vector).collect::<Option<_>>()?;
+    (corners.len() >= 3 && unit(area_vector(&corners)).is_some()).then_some(corners)
+}
+
+/// Area times normal, for corners that run counter-clockwise seen from where it points.
+fn area_vector(corners: &[Vector]) -> Vector {
+    let mut sum = [0.0; 3];
+    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let part = cross(*a, *b);
+        sum = std::array::from_fn(|i| sum[i] + part[i] / 2.0);
+    }
+    sum
+}
+
+const UNTURNED: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Rows of the matrix from the frame of a shade or panel to the body: as given, or turns about X, then Y, then Z.
+fn turn(row: &Value, matrix_key: &str) -> [Vector; 3] {
+    let given = row.get(matrix_key).and_then(Value::as_array);
+    let given: Option<Vec<Vector>> = given.and_then(|rows| rows.iter().map(vector).collect());
+    if let Some(rows) = given.and_then(|rows| rows.try_into().ok()) {
+        return rows;
+    }
+    let Some(degrees) = vector_of(row, "rotation_deg") else { return UNTURNED };
+    let [(sx, cx), (sy, cy), (sz, cz)] = degrees.map(|angle| angle.to_radians().sin_cos());
+    [
+        [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx],
+        [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx],
+        [-sy, cy * sx, cy * cx],
+    ]
 }
 
 fn svg(surfaces: &[Surface]) -> Option<String> {
@@ -74,7 +133,8 @@ fn svg(surfaces: &[Surface]) -> Option<String> {
     let right = unit(cross(UP, view))?;
     let up = cross(view, right);
     let flat = |point: Vector| (dot(point, right), -dot(point, up));
-    let all: Vec<(f64, f64)> = surfaces.iter().flat_map(|surface| surface.corners).map(flat).collect();
+    let all: Vec<(f64, f64)> =
+        surfaces.iter().flat_map(|surface| &surface.corners).map(|corner| flat(*corner)).collect();
     let (&first, rest) = all.split_first()?;
     let (mut low, mut high) = (first, first);
     for point in rest {
@@ -97,7 +157,7 @@ fn svg(surfaces: &[Surface]) -> Option<String> {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\">\
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#ffffff\"/>"
     );
-    for surface in order {
+    for (number, surface) in order.into_iter().enumerate() {
         let path: Vec<String> = surface
             .corners
             .iter()
@@ -107,14 +167,19 @@ fn svg(surfaces: &[Surface]) -> Option<String> {
             })
             .collect();
         let fill = colour(surface, view);
+        let path = path.join(" ");
         let _ = write!(
             svg,
-            "<polygon points=\"{}\" fill=\"{fill}\" stroke=\"#2b3440\" stroke-width=\"1.4\" \
-             stroke-linejoin=\"round\"/>",
-            path.join(" ")
+            "<polygon points=\"{path}\" fill=\"{fill}\" stroke=\"#2b3440\" stroke-width=\"1.4\" \
+             stroke-linejoin=\"round\"/>"
         );
         if surface.cells {
-            svg.push_str(&cell_lines(surface, &screen));
+            let _ = write!(
+                svg,
+                "<clipPath id=\"panel{number}\"><polygon points=\"{path}\"/></clipPath>\
+                 <g clip-path=\"url(#panel{number})\">{}</g>",
+                cell_lines(surface, &screen)
+            );
         }
     }
     svg.push_str("</svg>");
@@ -135,19 +200,29 @@ fn colour(surface: &Surface, view: Vector) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The grid that makes a solar panel look like one.
+/// The grid that makes a solar panel look like one: nearly square cells over the rectangle around the outline.
 fn cell_lines(surface: &Surface, screen: &dyn Fn(Vector) -> (f64, f64)) -> String {
-    const CELLS: u32 = 5;
-    let [a, b, c, d] = surface.corners;
-    let between = |from: Vector, to: Vector, t: f64| -> Vector {
-        std::array::from_fn(|i| from[i] + (to[i] - from[i]) * t)
+    const CELLS: f64 = 25.0;
+    let [low, high] = [f64::min, f64::max].map(|pick| {
+        surface.grid.map(|direction| {
+            let along = surface.corners.iter().map(|corner| dot(*corner, direction));
+            along.reduce(pick).unwrap_or_default()
+        })
+    });
+    let size = [high[0] - low[0], high[1] - low[1]];
+    let cell = (size[0] * size[1] / CELLS).sqrt();
+    let offset = dot(surface.center, surface.normal);
+    let point = |a: f64, b: f64| -> Vector {
+        std::array::from_fn(|i| a * surface.grid[0][i] + b * surface.grid[1][i] + offset * surface.normal[i])
     };
     let mut path = String::new();
-    for k in 1..CELLS {
-        let t = f64::from(k) / f64::from(CELLS);
-        for (from, to) in [(between(a, b, t), between(d, c, t)), (between(a, d, t), between(b, c, t))] {
-            let ((x1, y1), (x2, y2)) = (screen(from), screen(to));
-            let _ = write!(path, "M{x1:.2},{y1:.2}L{x2:.2},{y2:.2}");
+    for axis in 0..2 {
+        let count = (size[axis] / cell).round().clamp(1.0, CELLS) as u32;
+        for k in 1..count {
+            let at = low[axis] + size[axis] * f64::from(k) / f64::from(count);
+            let ends = [low[1 - axis], high[1 - axis]];
+            let [from, to] = ends.map(|end| screen(if axis == 0 { point(at, end) } else { point(end, at) }));
+            let _ = write!(path, "M{:.2},{:.2}L{:.2},{:.2}", from.0, from.1, to.0, to.1);
         }
     }
     format!(
@@ -162,6 +237,10 @@ fn number(value: &Value) -> Option<f64> {
 fn vector(value: &Value) -> Option<Vector> {
     let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(number).collect();
     numbers?.try_into().ok()
+}
+
+fn vector_of(row: &Value, key: &str) -> Option<Vector> {
+    vector(row.get(key)?)
 }
 
 fn dot(a: Vector, b: Vector) -> f64 {
@@ -183,19 +262,28 @@ mod tests {
 
     #[test]
     fn plates_and_panels_become_a_picture() {
-        let text = include_str!("../../../../fmu-src/resources/messenger.toml");
-        let png = png(text).unwrap();
-        assert_eq!(&png[1..4], b"PNG");
-        if let Ok(path) = std::env::var("PICTURE_SAMPLE") {
-            std::fs::write(path, png).unwrap();
+        let outlines = include_str!("../../../../fmu-src/resources/examples/mercury-orbiter.toml");
+        for (name, text) in [
+            ("squares", include_str!("../../../../fmu-src/resources/messenger.toml")),
+            ("outlines", outlines),
+        ] {
+            let png = png(text).unwrap();
+            assert_eq!(&png[1..4], b"PNG");
+            if let Ok(folder) = std::env::var("PICTURE_SAMPLES") {
+                std::fs::write(format!("{folder}/{name}.png"), png).unwrap();
+            }
         }
+    }
+
+    fn drawn(text: &str) -> Vec<Surface> {
+        surfaces(&text.parse().unwrap())
     }
 
     #[test]
     fn a_square_has_its_area_and_faces_its_normal() {
-        let row: Table = "area_m2 = 2.25\ncenter_m = [1, 2, 3]\nnormal = [0.0, 3.0, 4.0]".parse().unwrap();
-        let surface = surface(&Value::Table(row), "normal", false).unwrap();
-        let [a, b, c, d] = surface.corners;
+        let surfaces = drawn("[[plates]]\narea_m2 = 2.25\ncenter_m = [1, 2, 3]\nnormal = [0.0, 3.0, 4.0]");
+        let [surface] = surfaces.as_slice() else { panic!("one surface") };
+        let [a, b, c, d] = surface.corners[..] else { panic!("four corners") };
         let edge = |from: Vector, to: Vector| -> Vector { std::array::from_fn(|i| to[i] - from[i]) };
         let normal = cross(edge(a, b), edge(a, d));
         assert!((dot(normal, normal).sqrt() - 2.25).abs() < 1e-12);
@@ -206,9 +294,34 @@ mod tests {
     }
 
     #[test]
+    fn an_outline_is_drawn_as_it_is() {
+        // An L in the plane y = -1, counter-clockwise seen from -Y; nothing but the outline is given.
+        let l = "[[0, -1, 0], [2, -1, 0], [2, -1, 1], [1, -1, 1], [1, -1, 2], [0, -1, 2]]";
+        let surfaces = drawn(&format!(
+            "[[plates]]\npolygon_m = {l}\n[[panels]]\npolygon_m = {l}\nrotation_deg = [0, 0, 90]"
+        ));
+        let [plate, panel] = surfaces.as_slice() else { panic!("two surfaces") };
+        assert_eq!(plate.corners.len(), 6);
+        assert_eq!(plate.corners[3], [1.0, -1.0, 1.0]);
+        assert_eq!(plate.normal, [0.0, -1.0, 0.0]);
+        // A quarter turn about Z takes X to Y and -Y to X.
+        for i in 0..3 {
+            assert!((panel.corners[3][i] - [1.0, 1.0, 1.0][i]).abs() < 1e-15, "{:?}", panel.corners);
+            assert!((panel.normal[i] - [1.0, 0.0, 0.0][i]).abs() < 1e-15, "{:?}", panel.normal);
+        }
+        assert!(!plate.cells && panel.cells);
+    }
+
+    #[test]
     fn anything_else_gives_no_picture() {
-        for text in ["", "plates = 3", "[[plates]]\narea_m2 = -1", "not toml [", "[[plates]]\narea_m2 = nan"]
-        {
+        for text in [
+            "",
+            "plates = 3",
+            "[[plates]]\narea_m2 = -1",
+            "not toml [",
+            "[[plates]]\narea_m2 = nan",
+            "[[plates]]\npolygon_m = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]",
+        ] {
             assert!(png(text).is_none(), "{text}");
         }
     }
