@@ -86,7 +86,8 @@ impl Accumulator {
 
     /// Forgets what was computed ahead of `time_s`: the flight changes there.
     pub fn cut(&mut self, time_s: f64) {
-        self.cell = Cell::point(time_s, self.cell.totals(time_s));
+        let longest_s = self.cell.next_longest_s();
+        self.cell = Cell::point(time_s, self.cell.totals(time_s)).expecting(longest_s);
     }
 
     /// Dumps at `time_s` on request: momentum goes to `target_body_n_m_s` in the watched convention.

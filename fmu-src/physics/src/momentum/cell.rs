@@ -106,6 +106,11 @@ impl Cell {
         Self { start_s: time_s, end_s: time_s, at_start: totals, next_longest_s: f64::INFINITY, totals: None }
     }
 
+    /// The same, expecting that the tolerance allows the next cell this length, in s.
+    pub fn expecting(self, next_longest_s: f64) -> Self {
+        Self { next_longest_s, ..self }
+    }
+
     /// Builds the cell that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
     /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, where the branch changes, where
     /// the last Chebyshev terms of a total would exceed the tolerance, or where momentum exceeds a dump threshold.
