@@ -149,7 +149,7 @@ pub struct Pack {
     #[arg(long, value_name = "TOML")]
     pub spacecraft: Option<PathBuf>,
     /// Add outputs of every plate: plate[k].temperature and plate[k].force[i], as with `per_plate_outputs = true` in the
-    /// spacecraft's file; for models that have them: DisturbanceTorque
+    /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
     #[arg(long)]
     pub per_plate: bool,
     /// Name of the new FMU, a C identifier; otherwise the model's
