@@ -1,7 +1,8 @@
-//! `cargo xtask demo | test | dist | bench`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test | dist | bench | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod bench;
 mod build;
+mod notices;
 mod python;
 mod shell;
 mod test;
@@ -17,6 +18,7 @@ cargo xtask <task>
   test    everything that must hold: format, lints, Rust tests, FMPy, C client
   dist    build and pack every shipped FMU into dist/
   bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
+  notices write anew what licences the linked crates have, after Cargo.lock has changed
 ";
 
 fn main() -> ExitCode {
@@ -26,11 +28,12 @@ fn main() -> ExitCode {
         "test" => test::all(),
         "dist" => build::dist().map(|_| ()),
         "bench" => bench::all(),
+        "notices" => notices::write(),
         "" | "help" | "--help" | "-h" => {
             print!("{HELP}");
             Ok(())
         }
-        other => Err(format!("unknown task `{other}`; there are demo, test, dist and bench")),
+        other => Err(format!("unknown task `{other}`; there are demo, test, dist, bench and notices")),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

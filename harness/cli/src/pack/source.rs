@@ -7,10 +7,11 @@ use loader::{Binary, Described, Fmu};
 use super::writer::Entries;
 use crate::args::Pack;
 
-/// The licences of this project, for FMUs packed from its own library.
-const LICENSES: [(&str, &[u8]); 2] = [
+/// The licences of this project and of the crates it links, for FMUs packed from its own library.
+const LICENSES: [(&str, &[u8]); 3] = [
     ("licenses/LICENSE-APACHE.txt", include_bytes!("../../../../LICENSE-APACHE")),
     ("licenses/LICENSE-MIT.txt", include_bytes!("../../../../LICENSE-MIT")),
+    ("licenses/THIRD-PARTY.txt", include_bytes!("../../../../fmu-src/component/THIRD-PARTY.txt")),
 ];
 
 /// A shared library, or an FMU that has one for each of its platforms.

@@ -28,7 +28,12 @@ fn the_same_input_gives_the_same_archive() {
 
     let names: Vec<String> = entries(&first).into_iter().map(|(name, _)| name).collect();
     assert!(names.is_sorted(), "{names:?}");
-    for wanted in ["modelDescription.xml", "documentation/index.html", "licenses/LICENSE-MIT.txt"] {
+    for wanted in [
+        "modelDescription.xml",
+        "documentation/index.html",
+        "licenses/LICENSE-MIT.txt",
+        "licenses/THIRD-PARTY.txt",
+    ] {
         assert!(names.iter().any(|name| name == wanted), "{wanted} is missing of {names:?}");
     }
     let libraries = names.iter().filter(|name| name.starts_with("binaries/") && name.contains("/AllTypes."));

@@ -1,0 +1,178 @@
+//! `cargo xtask notices`: the licences of the crates linked into the shared library, as every FMU carries them.
+//!
+//! The text is committed, so that packing needs no sources, and a test compares it with what `Cargo.lock` asks for.
+
+use std::{
+    collections::BTreeMap,
+    fmt::Write as _,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use crate::shell::{self, Outcome, cargo};
+
+/// The same crates wherever the notices are made.
+const TARGET: &str = "x86_64-unknown-linux-gnu";
+
+const HEAD: &str = "\
+Third-party notices
+===================
+
+The shared library of this FMU is made from heliotorque, whose own licences are the other files of this folder, and
+from the crates below. Where a crate offers a choice that includes the MIT licence, that is the one taken.
+
+The Rust standard library is linked in too: MIT OR Apache-2.0, by the Rust project's contributors, taken under the
+Apache licence; its text is given below.
+
+";
+
+/// A crate and the licences it is offered under.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Crate {
+    name: String,
+    version: String,
+    license: String,
+}
+
+/// Where the notices are kept.
+fn path() -> PathBuf {
+    shell::root().join("fmu-src").join("component").join("THIRD-PARTY.txt")
+}
+
+/// Writes the notices anew.
+pub fn write() -> Outcome {
+    let path = path();
+    fs::write(&path, text()?).map_err(|error| format!("cannot write {}: {error}", path.display()))
+}
+
+/// The notices as the lock file and the crates' own files give them.
+fn text() -> Result<String, String> {
+    let crates = linked()?;
+    let metadata = shell::output(&mut cargo(&[
+        "metadata",
+        "--locked",
+        "--format-version",
+        "1",
+        "--filter-platform",
+        TARGET,
+    ]))?;
+    let mut text = HEAD.to_owned();
+    let mut texts: BTreeMap<String, Vec<&Crate>> = BTreeMap::new();
+    for it in &crates {
+        let _ = writeln!(text, "{} {}: {}", it.name, it.version, it.license);
+        let folder = folder(&metadata, it).ok_or_else(|| format!("cargo knows no folder of {it:?}"))?;
+        for notice in notices(&folder, &it.license)? {
+            texts.entry(notice).or_default().push(it);
+        }
+    }
+    // In the order of the first crate of each, not of the texts.
+    let mut texts: Vec<(String, Vec<&Crate>)> = texts.into_iter().collect();
+    texts.sort_by(|a, b| a.1.cmp(&b.1));
+    for (notice, crates) in texts {
+        let names: Vec<&str> = crates.iter().map(|it| it.name.as_str()).collect();
+        let _ = write!(text, "\n\n{0}\n{1}\n{0}\n\n{notice}", "-".repeat(80), names.join(", "));
+    }
+    Ok(text)
+}
+
+/// Crates in the library that are not ours, by name.
+fn linked() -> Result<Vec<Crate>, String> {
+    let tree = shell::output(&mut cargo(&[
+        "tree",
+        "--locked",
+        "--package",
+        "component",
+        "--edges",
+        "normal,no-proc-macro",
+        "--prefix",
+        "none",
+        "--target",
+        TARGET,
+        "--format",
+        "{p}|{l}",
+    ]))?;
+    let mut crates: Vec<Crate> = tree.lines().filter_map(crate_of).collect();
+    crates.sort();
+    crates.dedup();
+    Ok(crates)
+}
+
+/// A line of the tree: `name vVersion|license`, for ours with the folder behind the version.
+fn crate_of(line: &str) -> Option<Crate> {
+    let (package, license) = line.split_once('|')?;
+    let mut words = package.split_whitespace();
+    let (name, version) = (words.next()?, words.next()?.strip_prefix('v')?);
+    let ours = words.next().is_some();
+    // Seen before in the tree.
+    let license = license.trim_end_matches("(*)").trim();
+    let text = str::to_owned;
+    (!ours).then(|| Crate { name: text(name), version: text(version), license: text(license) })
+}
+
+/// The crate's folder, from cargo's description of the workspace.
+fn folder(metadata: &str, it: &Crate) -> Option<PathBuf> {
+    let head = format!("{{\"name\":\"{}\",\"version\":\"{}\",\"id\":", it.name, it.version);
+    let (_, package) = metadata.split_once(&head)?;
+    let (_, path) = package.split_once("\"manifest_path\":\"")?;
+    let (path, _) = path.split_once('"')?;
+    Path::new(&path.replace("\\\\", "\\")).parent().map(Path::to_owned)
+}
+
+/// The texts a crate's licence asks to be passed on.
+fn notices(folder: &Path, license: &str) -> Result<Vec<String>, String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let name = entry.map_err(failed)?.file_name().to_string_lossy().into_owned();
+        let upper = name.to_uppercase();
+        if ["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| upper.starts_with(start)) {
+            names.push(name);
+        }
+    }
+    names.sort();
+    let choice = license.contains(" OR ") || license.contains('/');
+    let mit = |name: &String| name.to_uppercase().contains("MIT");
+    if choice && !license.contains(" AND ") && names.iter().any(mit) {
+        names.retain(|name| mit(name) || name.to_uppercase().starts_with("NOTICE"));
+    }
+    if names.is_empty() {
+        return Err(format!("{}: no file with its licence ({license})", folder.display()));
+    }
+    names
+        .iter()
+        .map(|name| fs::read_to_string(folder.join(name)).map(|text| tidy(&text)).map_err(failed))
+        .collect()
+}
+
+/// Lines end alike and without blanks, whatever the crate's authors use.
+fn tidy(text: &str) -> String {
+    let lines: Vec<&str> = text.trim_start_matches('\u{feff}').lines().map(str::trim_end).collect();
+    lines.join("\n").trim_matches('\n').to_owned() + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+
+    #[test]
+    fn the_committed_notices_are_those_of_the_lock_file() {
+        let committed = fs::read_to_string(path()).unwrap_or_default().replace("\r\n", "\n");
+        assert!(committed == text().unwrap(), "other crates are linked now: run `cargo xtask notices`");
+    }
+
+    #[test]
+    fn lines_of_the_tree_are_crates_of_others() {
+        let found = crate_of("toml v1.2.1+spec-1.1.0|MIT OR Apache-2.0 (*)").unwrap();
+        let wanted = ["toml", "1.2.1+spec-1.1.0", "MIT OR Apache-2.0"];
+        assert_eq!([found.name.as_str(), found.version.as_str(), found.license.as_str()], wanted);
+        assert_eq!(crate_of("physics v0.1.0 (/home/me/physics)|MIT OR Apache-2.0"), None);
+        assert_eq!(crate_of(""), None);
+    }
+
+    #[test]
+    fn texts_are_compared_without_their_authors_line_ends() {
+        assert_eq!(tidy("\u{feff}\r\na \r\n\r\n b\r\n\r\n"), "a\n\n b\n");
+    }
+}
