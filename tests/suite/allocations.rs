@@ -5,7 +5,7 @@ use fmi_export::abi::InProcess;
 use heliotorque_tests::counting::{Count, counted};
 
 use crate::flights::{Flight, Style};
-use crate::support::{Base, Names, names, ok, silent};
+use crate::support::{Base, LIBRARY, Names, library, names, ok, silent};
 
 /// References and room for values, made before counting begins.
 struct Client {
@@ -83,6 +83,43 @@ fn happened(flight: &mut Flight) -> i32 {
     let mut count = [0];
     ok(flight.instance.get_integer(&[flight.names.of(Base::Integer, name)], &mut count));
     count[0]
+}
+
+/// Surfaces that store heat, through eclipses; shadows of one another are left out, they may allocate.
+#[test]
+fn stored_heat_allocates_nothing() {
+    let text = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("spacecraft.toml"), text).unwrap();
+    let description =
+        LIBRARY.find("MomentumPlant").unwrap().describe(Some("spacecraft.toml"), Some(text)).unwrap();
+    let names = Names::new(&description);
+    let location = format!("file://{}", folder.path().display());
+    let mut instance =
+        InProcess::instantiate(library("MomentumPlant"), &description.guid, Some(&location)).unwrap();
+    ok(instance.set_debug_logging(false, &[]));
+    Style::Lit.prepare(&mut instance, &names);
+    ok(instance.start(0.0, None));
+    let watched = [names.real("sun.litFraction"), names.real("force.thermal[2]")];
+    let mut step = |number: u32| {
+        let mut values = [0.0; 2];
+        ok(instance.do_step(300.0 * f64::from(number), 300.0));
+        ok(instance.get_real(&watched, &mut values));
+        values
+    };
+    for number in 0..300 {
+        step(number);
+    }
+    let mut dark = 0;
+    let ((), count) = counted(|| {
+        for number in 300..1_500 {
+            let [lit, recoil_n] = step(number);
+            dark += i32::from(lit == 0.0);
+            assert!(recoil_n != 0.0);
+        }
+    });
+    assert_eq!(count, Count::default());
+    assert!(dark > 20, "{dark}");
 }
 
 /// The memoryless model: Sun, planet, panels and mass placed anew before every step, through eclipses.

@@ -12,6 +12,8 @@ pub enum Style {
     Guided,
     /// MomentumPlant by commanded attitudes and rates, external torques with slopes, dump requests, shifting mass.
     Commanded,
+    /// MomentumPlant by its own guidance with planet light and recoil on an orbit they move, through eclipses.
+    Lit,
     /// SpinPlant nutating, with its damper, through its own burn; nothing is set during the flight.
     Burning,
     /// SpinPlant with pulses, held thrusters and torques from outside.
@@ -21,12 +23,13 @@ pub enum Style {
 }
 
 impl Style {
-    pub const ALL: [Self; 5] = [Self::Guided, Self::Commanded, Self::Burning, Self::Fired, Self::Placed];
+    pub const ALL: [Self; 6] =
+        [Self::Guided, Self::Commanded, Self::Lit, Self::Burning, Self::Fired, Self::Placed];
 
     /// The model that flies so.
     pub fn model(self) -> &'static str {
         match self {
-            Self::Guided | Self::Commanded => "MomentumPlant",
+            Self::Guided | Self::Commanded | Self::Lit => "MomentumPlant",
             Self::Burning | Self::Fired => "SpinPlant",
             Self::Placed => "DisturbanceTorque",
         }
@@ -35,7 +38,7 @@ impl Style {
     /// Lengths of steps, in s: no multiples of one another.
     fn steps_s(self) -> [f64; 4] {
         match self {
-            Self::Guided | Self::Commanded => [60.0, 600.0, 97.3, 1_200.0],
+            Self::Guided | Self::Commanded | Self::Lit => [60.0, 600.0, 97.3, 1_200.0],
             Self::Burning | Self::Fired => [0.5, 0.1, 1.3, 7.0],
             Self::Placed => [60.0, 1.0, 7.3, 0.02],
         }
@@ -48,6 +51,14 @@ impl Style {
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[1.0; 3]));
                 let source = names.of(Integer, "attitude.source");
                 ok(instance.set_integer(&[source], &[if self == Self::Guided { 1 } else { 2 }]));
+            }
+            Self::Lit => {
+                let on = |name: &str| names.of(Boolean, name);
+                ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
+                let choices = ["orbit.model", "ephemeris.source", "orbit.frame"];
+                ok(instance.set_integer(&choices.map(|name| names.of(Integer, name)), &[2, 2, 1]));
+                ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[0.5; 3]));
+                ok(instance.set_real(&[names.real("ephemeris.trueAnomaly")], &[1.7]));
             }
             Self::Burning | Self::Fired => {
                 let reals = [names.real("initial.nutation"), names.real("damper.timeConstant")];
@@ -72,7 +83,7 @@ impl Style {
             }
         }
         match self {
-            Self::Guided | Self::Burning => {}
+            Self::Guided | Self::Lit | Self::Burning => {}
             Self::Commanded => {
                 if dice.below(3) == 0 {
                     let sine = dice.unit().sin();

@@ -126,6 +126,11 @@ fn a_commanded_flight_goes_on_from_any_saved_point() {
 }
 
 #[test]
+fn a_lit_flight_goes_on_from_any_saved_point() {
+    in_this_process_and_another(Style::Lit, "states::a_lit_flight_goes_on_from_any_saved_point");
+}
+
+#[test]
 fn a_burn_goes_on_from_any_saved_point() {
     in_this_process_and_another(Style::Burning, "states::a_burn_goes_on_from_any_saved_point");
 }
