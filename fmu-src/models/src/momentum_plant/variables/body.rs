@@ -1,0 +1,106 @@
+//! The spacecraft itself: mass, shade, panels, wheels, faces.
+
+use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
+
+use super::super::choices::{PanelControl, PanelTilt, SunshadeModel};
+use super::super::defaults;
+use super::super::setup::PlantSetup;
+
+/// Mass properties.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct SpacecraftVariables {
+    /// Spacecraft mass.
+    #[parameter(tunable, unit = "kg", min = 1e-3, start = setup.spacecraft.mass_properties.mass_kg)]
+    pub mass: Real,
+    /// Inertia about the centre of mass, body frame.
+    #[parameter(unit = "kg.m2", start = defaults::inertia_kg_m2(setup))]
+    pub inertia: RealMatrix<3, 3>,
+    /// Centre of mass in the body frame.
+    #[parameter(tunable, unit = "m", display = "cm", start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
+    pub center_of_mass: RealVector<3>,
+}
+
+/// Sunshade.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct SunshadeVariables {
+    /// Which model of the shade takes the light.
+    #[parameter(start = defaults::sunshade_model(setup))]
+    pub model: Choice<SunshadeModel>,
+    /// Coefficients of paper 000's eq 3 for the shade in use, about the centre of mass, in the shade's frame: rows are
+    /// torque components x, y, z; columns the monomials x, y, z, xy, xz, yz, xx, yy, zz of the Sun direction. Torque
+    /// is pressure times the polynomial while sunshade.polynomialValid holds.
+    #[calculated_parameter(tunable, unit = "m3")]
+    pub coefficient: RealMatrix<3, 9>,
+    /// Whether all of the shade is lit, so that the polynomial gives its torque; elsewhere it is clipped.
+    #[output]
+    pub polynomial_valid: Boolean,
+}
+
+/// One solar panel.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PanelVariables {
+    /// What sets the panel's rotation angle.
+    #[parameter(start = defaults::panel_control(setup, index))]
+    pub control: Choice<PanelControl>,
+    /// Angle between the panel's normal and the Sun direction when it is held by Sun offset.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    pub sun_offset: Real,
+    /// Sense of that tilt; the paper does not print it.
+    #[parameter(start = defaults::panel_tilt(setup, index))]
+    pub tilt: Choice<PanelTilt>,
+    /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
+    #[parameter(start = true)]
+    pub enabled: Boolean,
+    /// Rotation angle when panel control is by angle.
+    #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
+    pub angle: Real,
+    /// Rotation angle in effect, about the panel's axis from its zero position.
+    #[output(unit = "rad", display = "deg")]
+    pub angle_actual: Real,
+}
+
+/// One reaction wheel. In guided and commanded flight the wheels hold the system momentum less the body's own.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct WheelVariables {
+    /// Greatest spin momentum the wheel can hold.
+    #[parameter(unit = "N.m.s", min = 0.0, start = setup.spacecraft.wheels[index].capacity_n_m_s)]
+    pub capacity: Real,
+    /// Spin momentum about the wheel's axis; stays 0 unless the wheels' axes span all directions.
+    #[output(unit = "N.m.s", nominal = 1.0)]
+    pub momentum: Real,
+    /// Whether the wheel would have to hold more than its capacity.
+    #[output]
+    pub saturated: Boolean,
+}
+
+/// Sun keep-in zone.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct KeepInVariables {
+    /// Largest Sun azimuth.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::keep_in(setup).azimuth_rad)]
+    pub azimuth: Real,
+    /// Largest Sun elevation; guided attitudes stay within.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::FRAC_PI_2, start = defaults::keep_in(setup).elevation_rad)]
+    pub elevation: Real,
+    /// How far inside the zone the Sun stands; negative outside.
+    #[output(unit = "rad", display = "deg")]
+    pub margin: Real,
+}
+
+/// One face of a plate or panel, in the file's order: plates, sunshade, panels, the rear after the front. There if the
+/// FMU was packed with per-plate outputs.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PlateVariables {
+    /// Temperature.
+    #[output(unit = "K", nominal = 300.0)]
+    pub temperature: Real,
+    /// Force of sunlight and of whatever else acts of planet light and recoil, body frame.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub force: RealVector<3>,
+}

@@ -1,0 +1,183 @@
+//! Light, heat and gravity gradient, and what they add up to.
+
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+
+use super::super::choices::{DumpReinit, MomentumConvention};
+use super::super::defaults;
+use super::super::setup::PlantSetup;
+
+/// Light of the planet.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PlanetLightVariables {
+    /// Whether sunlight reflected by the planet and its infrared light act and heat; paper 000 leaves them out.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+    /// Quadrature nodes over the planet's disc: 6 for 1e-4 of the force, 16 for 1e-5.
+    #[parameter(min = 1, max = 64, start = 6)]
+    pub nodes: Integer,
+}
+
+/// Heat the spacecraft radiates.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ThermalVariables {
+    /// Whether the recoil of radiated heat acts; paper 000 leaves it out.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+    /// Whether surfaces whose file gives a heat capacity store heat, and stay warm into an eclipse; otherwise every surface
+    /// is in balance with its light.
+    #[parameter(start = true)]
+    pub storage: Boolean,
+}
+
+/// Shadows of the spacecraft's surfaces on one another.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ShadowingVariables {
+    /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+}
+
+/// Gravity-gradient torque.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct GravityGradientVariables {
+    /// Whether the planet's gravity gradient acts; paper 000 leaves it out.
+    #[parameter(start = true)]
+    pub enabled: Boolean,
+}
+
+/// Torque about the centre of mass by source, body frame.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct TorqueVariables {
+    /// Torque from outside this model, body frame.
+    #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
+    pub external: RealVector<3>,
+    /// Direct sunlight on sunshade and panels.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
+    pub solar: RealVector<3>,
+    /// Sunlight reflected by the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub albedo: RealVector<3>,
+    /// Infrared light of the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub infrared: RealVector<3>,
+    /// Recoil of the heat the spacecraft radiates; 0 unless thermal.enabled.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
+    pub thermal: RealVector<3>,
+    /// Gravity gradient of the planet.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
+    pub gravity_gradient: RealVector<3>,
+    /// Sum of all sources, the external one included.
+    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
+    pub total: RealVector<3>,
+}
+
+/// Force by source, body frame unless said otherwise.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ForceVariables {
+    /// Force from outside this model, body frame, through the centre of mass.
+    #[input(unit = "N", display = "uN", start = [0.0; 3])]
+    pub external: RealVector<3>,
+    /// Direct sunlight on sunshade and panels.
+    #[output(unit = "N", display = "uN", nominal = 1e-4)]
+    pub solar: RealVector<3>,
+    /// Sunlight reflected by the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub albedo: RealVector<3>,
+    /// Infrared light of the planet; 0 unless planetLight.enabled.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub infrared: RealVector<3>,
+    /// Recoil of the heat the spacecraft radiates; 0 unless thermal.enabled.
+    #[output(unit = "N", display = "uN", nominal = 1e-5)]
+    pub thermal: RealVector<3>,
+    /// Sum of all sources, the external one included.
+    #[output(unit = "N", display = "uN", nominal = 1e-4)]
+    pub total: RealVector<3>,
+    /// The total in EME2000.
+    #[output(unit = "N", display = "uN", nominal = 1e-4)]
+    pub inertial: RealVector<3>,
+}
+
+/// How the accumulation is carried out.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct SolverVariables {
+    /// Longest internal step; steps end at its multiples, at attitude changes and at dumps.
+    #[parameter(unit = "s", min = 1e-3, max = 86_400.0, start = 600.0)]
+    pub step: Real,
+    /// Largest last Chebyshev term of momentum and delta-v in an internal step, which is halved until it holds.
+    #[parameter(unit = "1", min = 1e-15, max = 1.0, start = 1e-10)]
+    pub tolerance: Real,
+    /// Longest stretch over which planet light, recoil and shadowing are computed at a few nodes and read from a
+    /// polynomial in between; stretches end at its multiples and where light or attitude change abruptly.
+    #[parameter(unit = "s", min = 1e-3, max = 86_400.0, start = 600.0)]
+    pub disturbance_step: Real,
+    /// Largest last Chebyshev term of such a stretch relative to the largest force and torque in it; the stretch is
+    /// shortened until it holds.
+    #[parameter(unit = "1", min = 1e-12, max = 1.0, start = 1e-5)]
+    pub disturbance_tolerance: Real,
+}
+
+/// System momentum.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct MomentumVariables {
+    /// What momentum.body and the dump thresholds mean.
+    #[parameter(start = MomentumConvention::Inertial)]
+    pub convention: Choice<MomentumConvention>,
+    /// System momentum in the body frame, by momentum.convention.
+    #[output(unit = "N.m.s", nominal = 1.0)]
+    pub body: RealVector<3>,
+    /// System momentum in EME2000: always the physical total.
+    #[output(unit = "N.m.s", nominal = 1.0)]
+    pub inertial: RealVector<3>,
+}
+
+/// Thruster dumps, taken as instantaneous.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct DumpVariables {
+    /// Magnitude of a body component of momentum that triggers a dump; a very large value means never.
+    #[parameter(tunable, unit = "N.m.s", min = 0.0, start = defaults::dump_threshold_n_m_s(setup))]
+    pub threshold: RealVector<3>,
+    /// Where a component goes that exceeded its threshold.
+    #[parameter(start = DumpReinit::Opposite)]
+    pub reinit: Choice<DumpReinit>,
+    /// Fraction of the threshold, of opposite sign, after a dump: 1 is paper 000's, which dumps again within minutes
+    /// where the drift reverses; 0.9 is robust; 0 dumps to zero.
+    #[parameter(tunable, unit = "1", min = 0.0, max = 1.0, start = 0.9)]
+    pub reinit_fraction: Real,
+    /// A rising edge dumps all components to dump.target.
+    #[input(start = false)]
+    pub request: Boolean,
+    /// Momentum after a requested dump, body frame.
+    #[input(unit = "N.m.s", start = [0.0; 3])]
+    pub target: RealVector<3>,
+    /// Time that must lie between dumps; paper 000's mission asks for five days.
+    #[parameter(unit = "s", display = "d", min = 0.0, start = 432_000.0)]
+    pub required_spacing: Real,
+    /// Largest threshold the wheels can honour on all axes at once, by their capacities and spin axes; 0 without wheels
+    /// in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
+    #[calculated_parameter(unit = "N.m.s")]
+    pub guaranteed_threshold: Real,
+    /// Whether two dumps lay closer together than dump.requiredSpacing.
+    #[output]
+    pub too_close: Boolean,
+    /// Dumps so far.
+    #[output]
+    pub count: Integer,
+    /// Time of the last dump; -1 before any.
+    #[output(discrete, unit = "s", display = "d")]
+    pub last_time: Real,
+    /// Shortest time between two dumps so far; -1 before the second.
+    #[output(discrete, unit = "s", display = "d")]
+    pub closest: Real,
+    /// Angular impulse of the last dump, body frame.
+    #[output(discrete, unit = "N.m.s")]
+    pub impulse: RealVector<3>,
+}

@@ -1,0 +1,101 @@
+//! The plant's variables at its public face.
+
+mod body;
+mod effects;
+mod motion;
+mod surroundings;
+
+use fmi_export::{Real, RealVector, Variables};
+
+use body::{
+    KeepInVariables, PanelVariables, PlateVariables, SpacecraftVariables, SunshadeVariables, WheelVariables,
+};
+use effects::{
+    DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
+    ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
+};
+use motion::{AttitudeVariables, CommandVariables, GuidedVariables, InitialVariables, OrbitVariables};
+use surroundings::{
+    EarthVariables, EclipseVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables,
+    SolarVariables, SunVariables,
+};
+
+use super::setup::PlantSetup;
+
+/// Every variable of the plant, in the order of the XML.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PlantVariables {
+    #[group]
+    pub attitude: AttitudeVariables,
+    #[group]
+    pub command: CommandVariables,
+    #[group]
+    pub guided: GuidedVariables,
+    #[group]
+    pub initial: InitialVariables,
+    #[group]
+    pub orbit: OrbitVariables,
+    #[group]
+    pub planet: PlanetVariables,
+    #[group]
+    pub ephemeris: EphemerisVariables,
+    #[group]
+    pub solar: SolarVariables,
+    #[group]
+    pub eclipse: EclipseVariables,
+    #[group]
+    pub planet_light: PlanetLightVariables,
+    #[group]
+    pub thermal: ThermalVariables,
+    #[group]
+    pub shadowing: ShadowingVariables,
+    #[group]
+    pub gravity_gradient: GravityGradientVariables,
+    #[group]
+    pub spacecraft: SpacecraftVariables,
+    #[group]
+    pub sunshade: SunshadeVariables,
+    #[group(count = setup.spacecraft.panels.len())]
+    pub panel: Vec<PanelVariables>,
+    #[group(count = setup.spacecraft.wheels.len())]
+    pub wheel: Vec<WheelVariables>,
+    #[group]
+    pub keep_in: KeepInVariables,
+    #[group]
+    pub momentum: MomentumVariables,
+    #[group]
+    pub dump: DumpVariables,
+    #[group]
+    pub torque: TorqueVariables,
+    #[group]
+    pub force: ForceVariables,
+    #[group]
+    pub sun: SunVariables,
+    #[group]
+    pub earth: EarthVariables,
+    #[group]
+    pub heliocentric: HeliocentricVariables,
+    #[group]
+    pub solver: SolverVariables,
+    /// Acceleration by the forces listed here, without gravity, in EME2000.
+    #[output(unit = "m/s2", display = "nm/s2", nominal = 1e-7)]
+    pub acceleration: RealVector<3>,
+    /// Velocity change since the start by the forces listed here, without gravity, in EME2000.
+    #[output(unit = "m/s", display = "mm/s", nominal = 1e-3)]
+    pub delta_v: RealVector<3>,
+    /// Position about the orbit's centre, in EME2000.
+    #[output(unit = "m", display = "km", nominal = 1e7)]
+    pub position: RealVector<3>,
+    /// Velocity about the orbit's centre, in EME2000.
+    #[output(unit = "m/s", display = "km/s", nominal = 1e3)]
+    pub velocity: RealVector<3>,
+    /// Spacecraft mass.
+    #[output(unit = "kg", nominal = 1e3)]
+    pub mass: Real,
+    /// Centre of mass in the body frame.
+    #[output(unit = "m", display = "cm")]
+    pub center_of_mass: RealVector<3>,
+    #[group(count = setup.reported_faces.len())]
+    pub plate: Vec<PlateVariables>,
+}

@@ -1,0 +1,135 @@
+//! Attitude and orbit: where they come from and what they are.
+
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+
+use super::super::choices::{
+    AttitudeSource, CommandKind, OrbitCenter, OrbitFrame, OrbitModel, OrbitSource, ScienceRule,
+};
+use super::super::defaults;
+use super::super::setup::PlantSetup;
+
+/// Attitude: where it comes from, and what it is.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct AttitudeVariables {
+    /// Where the attitude comes from.
+    #[parameter(start = AttitudeSource::Guided)]
+    pub source: Choice<AttitudeSource>,
+    /// Attitude quaternion, scalar last, from EME2000 to the body frame; the scalar is never negative.
+    #[output(unit = "1", nominal = 1.0)]
+    pub q: RealVector<4>,
+    /// Angular rate of the body in EME2000, in body components.
+    #[output(unit = "rad/s", display = "deg/s", nominal = 1e-3)]
+    pub rate: RealVector<3>,
+}
+
+/// The command followed when attitude.source is commanded.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct CommandVariables {
+    /// What the command gives. A command takes effect when any of its inputs changes, and is propagated from then on.
+    #[input(start = CommandKind::Attitude)]
+    pub kind: Choice<CommandKind>,
+    /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame.
+    #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    pub q: RealVector<4>,
+    /// Commanded angular rate in body components; the attitude is propagated with it.
+    #[input(unit = "rad/s", display = "deg/s", start = [0.0; 3])]
+    pub rate: RealVector<3>,
+    /// Error quaternion, scalar last: the rotation from the attitude held to the one commanded.
+    #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    pub error: RealVector<4>,
+}
+
+/// The guidance law when attitude.source is guided.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct GuidedVariables {
+    /// How the spacecraft stands while it observes.
+    #[parameter(start = ScienceRule::Scaled)]
+    pub science_rule: Choice<ScienceRule>,
+    /// Sun elevation per (Sun-nadir angle - 90 deg) under the scaled rule; 0.25 is fitted to paper 000's Table 2.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.25)]
+    pub science_gain: Real,
+    /// Begin of downlink after periapsis.
+    #[parameter(unit = "s", display = "h", min = 0.0, start = 7_200.0)]
+    pub downlink_start: Real,
+    /// End of downlink after periapsis.
+    #[parameter(unit = "s", display = "h", min = 0.0, start = 36_000.0)]
+    pub downlink_end: Real,
+    /// A downlink after every how many periapses; 0 = never.
+    #[parameter(min = 0, max = 1_000, start = 2)]
+    pub downlink_every: Integer,
+    /// Turn rate between science and downlink attitudes; 0 = at once, as in paper 000.
+    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, start = 0.0)]
+    pub slew_rate: Real,
+}
+
+/// Where the flight starts.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct InitialVariables {
+    /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
+    #[parameter(unit = "s", display = "d", start = defaults::EPOCH_TDB_S)]
+    pub epoch: Real,
+    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it.
+    #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    pub q: RealVector<4>,
+    /// System momentum at the start, body frame.
+    #[parameter(unit = "N.m.s", start = [0.0; 3])]
+    pub momentum: RealVector<3>,
+}
+
+/// The spacecraft's orbit.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct OrbitVariables {
+    /// What the spacecraft flies around.
+    #[parameter(start = OrbitCenter::Mercury)]
+    pub center: Choice<OrbitCenter>,
+    /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity.
+    #[parameter(start = OrbitSource::Elements)]
+    pub source: Choice<OrbitSource>,
+    /// What moves the spacecraft. On a disturbed orbit downlinks are counted from the periapses it really passes.
+    #[parameter(start = OrbitModel::TwoBody)]
+    pub model: Choice<OrbitModel>,
+    /// Whether the Sun's tide acts on a disturbed orbit.
+    #[parameter(start = true)]
+    pub sun_tide: Boolean,
+    /// Whether light, heat and force.external move the spacecraft on a disturbed orbit.
+    #[parameter(start = true)]
+    pub radiation_feedback: Boolean,
+    /// Longest integration step of a disturbed orbit; 300 s keep a revolution of the default orbit to 0.1 mm.
+    #[parameter(unit = "s", min = 1.0, max = 1_800.0, start = 300.0)]
+    pub step: Real,
+    /// Frame of the elements.
+    #[parameter(start = OrbitFrame::MercuryEquator)]
+    pub frame: Choice<OrbitFrame>,
+    /// Semi-major axis; the default gives a period of 12 h.
+    #[parameter(unit = "m", display = "km", min = 1.0, start = defaults::semi_major_axis_m())]
+    pub semi_major_axis: Real,
+    /// Eccentricity.
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = 0.74)]
+    pub eccentricity: Real,
+    /// Inclination.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = 82.52_f64.to_radians())]
+    pub inclination: Real,
+    /// Longitude of the ascending node.
+    #[parameter(unit = "rad", display = "deg", start = 350.17_f64.to_radians())]
+    pub ascending_node: Real,
+    /// Argument of periapsis.
+    #[parameter(unit = "rad", display = "deg", start = 119.16_f64.to_radians())]
+    pub periapsis_argument: Real,
+    /// True anomaly at the start.
+    #[parameter(unit = "rad", display = "deg", start = 0.0)]
+    pub true_anomaly: Real,
+    /// Position about the centre in EME2000 when orbit.source is inputs; the orbit starts anew when it changes.
+    #[input(unit = "m", display = "km", start = [0.0; 3])]
+    pub position: RealVector<3>,
+    /// Velocity about the centre in EME2000 when orbit.source is inputs.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
+    /// Time since the last periapsis.
+    #[output(unit = "s", display = "h", nominal = 1e4)]
+    pub time_since_periapsis: Real,
+}

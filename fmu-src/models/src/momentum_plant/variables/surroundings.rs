@@ -1,0 +1,148 @@
+//! Planet, Sun and Earth.
+
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::environment::surface::MERCURY;
+
+use super::super::choices::{EclipseModel, EphemerisSource};
+use super::super::defaults;
+use super::super::setup::PlantSetup;
+use crate::shared::DayTemperature;
+
+/// The planet the spacecraft orbits.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PlanetVariables {
+    /// Gravitational parameter of Mercury.
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 1.0, start = defaults::MERCURY_GM_M3_S2)]
+    pub gravitational_parameter: Real,
+    /// Radius of Mercury; a flight below it is refused.
+    #[parameter(unit = "m", display = "km", min = 1.0, start = defaults::MERCURY_RADIUS_M)]
+    pub radius: Real,
+    /// Flattening of Mercury's gravity on a disturbed orbit: second zonal harmonic, unnormalised (HgM005); 0 = none.
+    #[parameter(unit = "1", start = defaults::MERCURY_J2)]
+    pub j2: Real,
+    /// Radius to which planet.j2 refers.
+    #[parameter(unit = "m", display = "km", min = 1.0, start = defaults::MERCURY_J2_RADIUS_M)]
+    pub j2_radius: Real,
+    /// Right ascension of Mercury's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", start = defaults::MERCURY_POLE_RIGHT_ASCENSION_RAD)]
+    pub pole_right_ascension: Real,
+    /// Declination of Mercury's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", start = defaults::MERCURY_POLE_DECLINATION_RAD)]
+    pub pole_declination: Real,
+    /// Fraction of sunlight the planet absorbs; 0.88 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
+    pub absorptivity: Real,
+    /// Fraction of sunlight the planet reflects diffusely; 0.12 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
+    pub diffuse_reflectivity: Real,
+    /// Infrared emissivity of the planet; 0.9 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
+    pub emissivity: Real,
+    /// Temperature of the planet's night side; 100 K fits paper 004, which does not print it.
+    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
+    pub night_temperature: Real,
+    /// How the planet's day side is heated.
+    #[parameter(start = DayTemperature::Uniform)]
+    pub day_temperature: Choice<DayTemperature>,
+}
+
+/// Positions of Sun, Mercury and Earth.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct EphemerisVariables {
+    /// Where the positions of Sun and Earth come from.
+    #[parameter(start = EphemerisSource::Vsop87)]
+    pub source: Choice<EphemerisSource>,
+    /// Semi-major axis of the planet's orbit about the Sun when source is keplerAsPrinted; elements are in the ecliptic and
+    /// equinox of J2000, paper 004's Table 4 (whose axis is printed a digit short).
+    #[parameter(unit = "m", display = "AU", min = 1e9, start = defaults::PRINTED.semi_major_axis_m)]
+    pub semi_major_axis: Real,
+    /// Its eccentricity.
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = defaults::PRINTED.eccentricity)]
+    pub eccentricity: Real,
+    /// Its inclination.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::PRINTED.inclination_rad)]
+    pub inclination: Real,
+    /// Longitude of its ascending node.
+    #[parameter(unit = "rad", display = "deg", start = defaults::PRINTED.ascending_node_rad)]
+    pub ascending_node: Real,
+    /// Its argument of perihelion; paper 004 uses Mercury's longitude of perihelion, 77.46 deg, in its place.
+    #[parameter(unit = "rad", display = "deg", start = defaults::PRINTED.periapsis_argument_rad)]
+    pub periapsis_argument: Real,
+    /// The planet's true anomaly at initial.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
+    #[parameter(unit = "rad", display = "deg", start = defaults::PRINTED.true_anomaly_rad)]
+    pub true_anomaly: Real,
+}
+
+/// Sunlight.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct SolarVariables {
+    /// Solar flux at 1 AU; 1353 W/m2 reproduces paper 000's pressure (well-known simulators use 1349 to 1368).
+    #[parameter(unit = "W/m2", min = 0.0, start = defaults::SOLAR_FLUX_W_M2)]
+    pub flux: Real,
+    /// Whether the pressure is solar.pressure everywhere instead of following the distance from the Sun.
+    #[parameter(start = false)]
+    pub fixed_pressure: Boolean,
+    /// Radiation pressure when it is fixed; the default is paper 000's value at 0.3 AU.
+    #[parameter(unit = "Pa", display = "uPa", min = 0.0, start = 5.0145e-5)]
+    pub pressure: Real,
+}
+
+/// Shadow of the planet.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct EclipseVariables {
+    /// How the planet's shadow dims the Sun.
+    #[parameter(start = EclipseModel::Discs)]
+    pub model: Choice<EclipseModel>,
+}
+
+/// The Sun as seen from the spacecraft.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct SunVariables {
+    /// Sun's position from the orbit's centre in EME2000 when ephemeris.source is inputs.
+    #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    pub position: RealVector<3>,
+    /// Unit vector to the Sun, body frame.
+    #[output(unit = "1", nominal = 1.0)]
+    pub direction: RealVector<3>,
+    /// Azimuth of the Sun in the body frame, from -Y toward +X.
+    #[output(unit = "rad", display = "deg")]
+    pub azimuth: Real,
+    /// Elevation of the Sun in the body frame, positive toward -Z.
+    #[output(unit = "rad", display = "deg")]
+    pub elevation: Real,
+    /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
+    #[output(unit = "1", nominal = 1.0)]
+    pub lit_fraction: Real,
+    /// Distance from the Sun.
+    #[output(unit = "m", display = "AU", nominal = 1e11)]
+    pub distance: Real,
+}
+
+/// The Earth as seen from the spacecraft.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct EarthVariables {
+    /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs.
+    #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    pub position: RealVector<3>,
+    /// Azimuth of the Earth in the body frame, from -Y toward +X.
+    #[output(unit = "rad", display = "deg")]
+    pub azimuth: Real,
+    /// Elevation of the Earth in the body frame, positive toward -Z.
+    #[output(unit = "rad", display = "deg")]
+    pub elevation: Real,
+}
+
+/// Position about the Sun.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct HeliocentricVariables {
+    /// Position about the Sun in EME2000.
+    #[output(unit = "m", display = "AU", nominal = 1e11)]
+    pub position: RealVector<3>,
+}
