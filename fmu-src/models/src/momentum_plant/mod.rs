@@ -166,7 +166,11 @@ impl Model for MomentumPlant {
 }
 
 fn ended(error: PlantError) -> Failure {
-    Failure::new(error.to_string())
+    let hint = match error {
+        PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
+        _ => "",
+    };
+    Failure::new(format!("{error}{hint}"))
 }
 
 /// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.

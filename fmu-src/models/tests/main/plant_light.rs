@@ -10,7 +10,7 @@ use super::pilot::{Hangar, Pilot};
 
 const DAY_S: f64 = 86_400.0;
 /// Torn states tried, with and without feedback each.
-const CASES: usize = 1_500;
+const CASES: usize = 700;
 
 /// A shade that shadows one of two panels, surfaces that store heat, and one that does not.
 const CRAFT: &str = r#"
@@ -357,4 +357,34 @@ fn states_torn_at_random_are_refused_or_flown_on() {
         }
     }
     assert!(refused > 20 && flown > 500 && failed > 5, "{refused} {flown} {failed}");
+}
+
+#[test]
+fn a_flight_that_ends_in_the_planet_says_where() {
+    let hangar = warm::<MomentumPlant>();
+    let place = |position_m: f64, velocity_m_s: f64| {
+        let state =
+            [("orbit.source", 2.0), ("orbit.position[1]", position_m), ("orbit.velocity[2]", velocity_m_s)];
+        hangar.fly(0.0, &[EFFECTS, &state].concat())
+    };
+    let Err(failure) = place(1e6, 3000.0) else { panic!("flown") };
+    let text = failure.to_string();
+    assert!(
+        text.contains("1000000") && text.contains("more than its radius") && text.contains("orbit.*"),
+        "{text}"
+    );
+    // Falls from 10,000 km: it flies while it is above the surface, and no cell ahead ends it early.
+    let mut falling = place(1e7, 100.0).unwrap();
+    let failure = loop {
+        match falling.step_to(falling.time_s() + 5.0) {
+            Ok(()) => assert!(falling.vector("position").norm() > 2.4394e6),
+            Err(failure) => break failure.to_string(),
+        }
+    };
+    assert!(
+        falling.vector("position").norm() < 2.4394e6 + 5.0 * 2_000.0,
+        "{}",
+        falling.vector("position").norm()
+    );
+    assert!(failure.contains("inside the planet") || failure.contains("more than its radius"), "{failure}");
 }

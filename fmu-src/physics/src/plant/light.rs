@@ -207,7 +207,9 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let sight = &mut moment.sight;
         sight.sun_direction_body = sun_body_m / sun_distance_m;
         sight.sun_flux_w_m2 = flux_w_m2(&configuration.light, sun_distance_m);
-        sight.lit_fraction = self.lit_fraction(&geometry).0;
+        // Inside the planet there is no fraction; what is wrong there is the place.
+        let lit_fraction = self.lit_fraction(&geometry).0;
+        sight.lit_fraction = if lit_fraction.is_nan() { 0.0 } else { lit_fraction };
         sight.center_of_mass_body_m = configuration.center_of_mass_body_m;
         sight.planet = geometry.to_planet.map(|to_planet| {
             let position_body_m = to_body * to_planet.position_m;

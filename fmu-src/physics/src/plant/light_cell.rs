@@ -154,7 +154,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
                     shorter_s
                 }
                 // The flight may be over before it comes to where light has no meaning.
-                Err(error) if length_s <= SHORTEST_S => return Err(error.into()),
+                Err(error) if length_s <= SHORTEST_S => return Err(self.no_light(start_s, error)),
                 Err(_) => start_s + 0.5 * length_s,
             };
             end_s = shorter_s;
@@ -186,7 +186,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
             let LightModel { model, panels, moments, .. } = light;
             if let Some(moment) = moments.first_mut() {
                 self.look(start_s, panels, moment);
-                moment.balance(model)?;
+                moment.balance(model).map_err(|error| self.no_light(start_s, error))?;
                 cell.end_k.extend(moment.workspace.faces().iter().map(|face| face.temperature_k));
             }
         }
@@ -255,7 +255,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let LightModel { model, panels, moments, .. } = light;
         let Some(moment) = moments.first_mut() else { return Ok(()) };
         self.look(time_s, panels, moment);
-        moment.balance(model)?;
+        moment.balance(model).map_err(|error| self.no_light(time_s, error))?;
         let effects = &self.configuration.light_and_heat;
         if let Some(cell) = &self.course.light
             && effects.recoil
@@ -263,9 +263,14 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
             && model.stores_heat()
         {
             cell.temperatures_at(time_s, &mut moment.temperatures_k);
-            moment.radiate_stored(model)?;
+            moment.radiate_stored(model).map_err(|error| self.no_light(time_s, error))?;
         }
         Ok(())
+    }
+
+    fn no_light(&self, time_s: f64, source: GeometryError) -> PlantError {
+        let position_m = self.course.trajectory.state_at(self.configuration, time_s).position_m.into();
+        PlantError::Light { time_s, position_m, source }
     }
 }
 

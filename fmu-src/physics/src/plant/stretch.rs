@@ -32,8 +32,17 @@ pub enum PlantError {
     #[error(transparent)]
     Orbit(#[from] FlightError),
     /// Light and heat have no meaning where the spacecraft is.
-    #[error(transparent)]
-    Light(#[from] GeometryError),
+    #[error(
+        "at {time_s} s, the spacecraft being at {position_m:?} m about the orbit's centre, light has no meaning: {source}"
+    )]
+    Light {
+        /// When, in s.
+        time_s: f64,
+        /// Position about the orbit's centre, EME2000, in m.
+        position_m: [f64; 3],
+        /// Why.
+        source: GeometryError,
+    },
     /// Restored bytes of another spacecraft.
     #[error("the state holds {found} temperatures, allowed: {allowed}, one for each face")]
     Temperatures {
