@@ -41,8 +41,8 @@ impl Model for MomentumPlant {
     fn about(setup: &PlantSetup) -> About {
         About {
             description: format!(
-                "{}: solar-radiation torque, gravity gradient, system momentum and thruster dumps of a three-axis \
-                 spacecraft near Mercury or the Sun",
+                "{}: solar-radiation torque, planet light, thermal recoil, gravity gradient, system momentum and thruster \
+                 dumps of a three-axis spacecraft near Mercury or the Sun",
                 setup.spacecraft.name
             ),
             start_time_s: 0.0,
