@@ -195,7 +195,8 @@ pub struct PlateVariables {
     /// Temperature.
     #[output(unit = "K", nominal = 300.0)]
     pub temperature: Real,
-    /// Force of sunlight, planet light and recoil, body frame.
+    /// Force of sunlight, planet light and recoil, body frame; all add up to force.total, but for sunlight on a
+    /// cylindrical shade, which is round there and of flat strips here.
     #[output(unit = "N", display = "uN", nominal = 1e-5)]
     pub force: RealVector<3>,
 }

@@ -143,9 +143,9 @@ impl DisturbanceModel {
                 state.lit_center_body_m = lit_center_m;
                 state.absorbed_sun_w =
                     sunlight.pressure_pa * lit_area_m2 * (face.optics.absorptivity * SPEED_OF_LIGHT_M_S);
+                let force_n = force_per_area_pa(&face.optics, normal, &sunlight) * lit_area_m2;
+                state.forces_body_n[0] = force_n;
                 if !surface.closed_form_sun {
-                    let force_n = force_per_area_pa(&face.optics, normal, &sunlight) * lit_area_m2;
-                    state.forces_body_n[0] = force_n;
                     let lit_arm_m = lit_center_m - geometry.center_of_mass_body_m;
                     sum.solar += ForceTorque::at_arm(&lit_arm_m, force_n);
                 }

@@ -228,6 +228,9 @@ fn a_cylinder_of_strips_recoils_like_its_light_says() {
     let absorbed: f64 = workspace.faces()[..24].iter().map(|face| face.absorbed_sun_w).sum();
     let shadow_m2 = 2.0 * 0.991 * 61_f64.to_radians().sin() * 2.489;
     assert_relative_eq!(absorbed, 0.5 * geometry.sun_flux_w_m2 * shadow_m2, max_relative = 1e-3);
+    // Flat strips of 5 deg stand for the round shade to the square of their half angle.
+    let faces: Vector3<f64> = workspace.faces().iter().map(|face| face.forces_body_n[0]).sum();
+    assert_relative_eq!(faces.y, found.solar.force_body_n.y, max_relative = 1e-3);
     assert!(found.thermal.force_body_n.y > 0.0 && found.thermal.force_body_n.x.abs() < 1e-12);
 }
 

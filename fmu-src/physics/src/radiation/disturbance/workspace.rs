@@ -40,7 +40,8 @@ impl<T: Scalar> Disturbance<T> {
 /// What one face receives, gives off and feels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceState<T: Scalar> {
-    /// Force by effect, body frame, in N: solar, albedo, infrared, thermal.
+    /// Force by effect, body frame, in N: solar, albedo, infrared, thermal. They add up to the effects' forces, but for
+    /// sunlight on the strips of a cylindrical shade: there the strips are flat and the effect has the closed form.
     pub forces_body_n: [Vector3<T>; 4],
     /// Lit area, in m2; 0 where the face looks away from the Sun.
     pub lit_area_m2: T,
