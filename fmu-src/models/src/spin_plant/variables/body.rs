@@ -1,0 +1,156 @@
+//! The spinning body: mass properties, spin, nutation, momentum.
+
+use super::RPM_RAD_S;
+use fmi_export::{Choice, Integer, Real, RealVector, Variables};
+
+use super::super::choices::MassSource;
+use physics::spin::spinner::Spinner;
+
+/// Inertia as it is.
+#[derive(Variables)]
+pub struct InertiaVariables {
+    /// I3/IT with IT = sqrt(I1 I2), paper 002 eq 11.
+    #[output(unit = "1", nominal = 1.0)]
+    pub ratio: Real,
+    /// Principal moments now; they follow the propellant if massProperties.source says so.
+    #[output(unit = "kg.m2", nominal = 300.0)]
+    pub current: RealVector<3>,
+}
+
+/// Mass properties.
+#[derive(Variables)]
+pub struct MassVariables {
+    /// Where the moments of inertia come from.
+    #[parameter(start = MassSource::Fixed)]
+    pub source: Choice<MassSource>,
+}
+
+/// Propellant.
+#[derive(Variables)]
+#[variables(setup = Spinner)]
+pub struct PropellantVariables {
+    /// On board at the start.
+    #[parameter(unit = "kg", min = 0.0, start = setup.mass_properties.initial_propellant_kg)]
+    pub initial: Real,
+    /// Used since the start.
+    #[output(unit = "kg", nominal = 0.01)]
+    pub used: Real,
+    /// Left on board.
+    #[output(unit = "kg", nominal = 100.0)]
+    pub left: Real,
+}
+
+/// Spin about the third axis.
+#[derive(Variables)]
+#[variables(setup = Spinner)]
+pub struct SpinRateVariables {
+    /// Rate about the third axis at the start.
+    #[parameter(unit = "rad/s", display = "rpm", min = 0.0, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
+    pub initial_rate: Real,
+    /// Rate about the third axis.
+    #[output(unit = "rad/s", display = "rpm", nominal = 0.5)]
+    pub rate: Real,
+    /// Time between the last two Sun crossings; that of the present rate before there are two.
+    #[output(discrete, unit = "s", nominal = 10.0)]
+    pub period: Real,
+    /// Change of the Sun-crossing period over the last turn.
+    #[output(discrete, unit = "s", display = "ms", nominal = 1e-3)]
+    pub period_change: Real,
+    /// Variation of the Sun-crossing period by nutation, paper 002 eq 1; diverges as the Sun angle goes to 0 and is
+    /// cut at one period.
+    #[output(unit = "s", display = "ms", nominal = 1e-3)]
+    pub period_variation: Real,
+    /// Sectors by which the end of the last turn was misplaced, having been divided by the period of the turn before.
+    #[output(discrete, unit = "1", nominal = 1.0)]
+    pub sector_error: Real,
+    /// Sun crossings since the start.
+    #[output]
+    pub sun_crossings: Integer,
+}
+
+/// Where the flight starts.
+#[derive(Variables)]
+pub struct InitialVariables {
+    /// Attitude quaternion at the start, scalar last, from EME2000 to body.
+    #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    pub q: RealVector<4>,
+    /// Angle between momentum and spin axis at the start.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = 1.5, start = 0.0)]
+    pub nutation: Real,
+    /// Azimuth of the transverse momentum at the start, from body X toward Y.
+    #[parameter(unit = "rad", display = "deg", start = 0.0)]
+    pub nutation_phase: Real,
+}
+
+/// The passive nutation damper.
+#[derive(Variables)]
+#[variables(setup = Spinner)]
+pub struct DamperVariables {
+    /// Time in which the nutation angle falls to 1/e about the axis of greatest inertia, and grows by e about another; 0
+    /// = no damper. It conserves angular momentum.
+    #[parameter(unit = "s", display = "h", min = 0.0, start = setup.damper_time_constant_s)]
+    pub time_constant: Real,
+}
+
+/// Attitude.
+#[derive(Variables)]
+pub struct AttitudeVariables {
+    /// Attitude quaternion, scalar last, from EME2000 to the body frame; continuous, so its sign follows the turns.
+    #[output(unit = "1", nominal = 1.0)]
+    pub q: RealVector<4>,
+    /// Angular rate J^-1 h of the body in EME2000, in body components.
+    #[output(unit = "rad/s", display = "deg/s", nominal = 1e-2)]
+    pub rate: RealVector<3>,
+}
+
+/// Nutation: as it is and as theory foresees it.
+#[derive(Variables)]
+pub struct NutationVariables {
+    /// Angle from the momentum to the spin axis.
+    #[output(unit = "rad", display = "deg", nominal = 1e-4)]
+    pub angle: Real,
+    /// Azimuth of the transverse momentum in the body, from X toward Y.
+    #[output(unit = "rad", display = "deg", nominal = 1.0)]
+    pub phase: Real,
+    /// Foreseen after the last pulse by the linear theory (paper 002 eq 8 with the nutation kick for Gamma/n, for any
+    /// train), without damper and initial nutation.
+    #[output(discrete, unit = "rad", display = "deg", nominal = 1e-4)]
+    pub predicted: Real,
+    /// 1 + lambda/Omega: inertial nutation rate over spin rate; I3/IT for an axisymmetric body.
+    #[calculated_parameter(unit = "1")]
+    pub ratio: Real,
+    /// Nutation that the burn's widest pulse raises from rest.
+    #[calculated_parameter(unit = "rad", display = "deg")]
+    pub kick: Real,
+    /// Greatest nutation of a uniform train of such pulses: kick / |sin(phi/2)|.
+    #[calculated_parameter(unit = "rad", display = "deg")]
+    pub envelope: Real,
+    /// Paper 002 eq 9 (half turns) or eq 10 as printed, for comparison; both are wrong.
+    #[calculated_parameter(unit = "rad", display = "deg")]
+    pub envelope_printed: Real,
+}
+
+/// Angular momentum.
+#[derive(Variables)]
+pub struct MomentumVariables {
+    /// In EME2000.
+    #[output(unit = "N.m.s", nominal = 100.0)]
+    pub inertial: RealVector<3>,
+    /// In the body frame.
+    #[output(unit = "N.m.s", nominal = 100.0)]
+    pub body: RealVector<3>,
+    /// Angle from where it pointed at the start: the manoeuvre done.
+    #[output(unit = "rad", display = "deg", nominal = 1e-2)]
+    pub displacement: Real,
+}
+
+/// The spin axis +Z.
+#[derive(Variables)]
+pub struct SpinAxisVariables {
+    /// Unit vector in EME2000.
+    #[output(unit = "1", nominal = 1.0)]
+    pub inertial: RealVector<3>,
+    /// Angle from where it pointed at the start.
+    #[output(unit = "rad", display = "deg", nominal = 1e-2)]
+    pub displacement: Real,
+}

@@ -1,0 +1,135 @@
+//! Thrusters, pulses and the burn they make.
+
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
+
+use super::super::choices::{BurnPlan, BurnTiming};
+use physics::spin::spinner::{Spinner, Thruster};
+
+/// The burn the spacecraft flies by itself.
+#[derive(Variables)]
+pub struct BurnVariables {
+    /// Shape of the train of pulses.
+    #[parameter(start = BurnPlan::Uniform)]
+    pub plan: Choice<BurnPlan>,
+    /// What pulses are timed by.
+    #[parameter(start = BurnTiming::Clock)]
+    pub timing: Choice<BurnTiming>,
+    /// No pulse begins before this time.
+    #[parameter(unit = "s", start = 0.0)]
+    pub start: Real,
+    /// Number of the thruster, from 1 in the order of the setup; 8 is ACE's IIIR.
+    #[parameter(start = 8)]
+    pub thruster: Integer,
+    /// Number of the thruster that fires on odd half turns, opposite to the first; 0 = none.
+    #[parameter(start = 10)]
+    pub opposite_thruster: Integer,
+    /// Name of a group or thruster of the setup to fire instead of the numbers; empty = use the numbers.
+    #[parameter(start = "")]
+    pub group: Text,
+    /// Width of a pulse; of the first and last for the tapered plan.
+    #[parameter(unit = "s", display = "ms", min = 0.0, start = 0.032)]
+    pub pulse_width: Real,
+    /// Turns from pulse to pulse: 0.5, 1, 1.5 and so on; half turns alternate the two thrusters.
+    #[parameter(unit = "1", start = 1.0)]
+    pub turns_per_pulse: Real,
+    /// Number of pulses, used where burn.angle is 0.
+    #[parameter(start = 114)]
+    pub count: Integer,
+    /// How far the momentum shall move; 0 = by burn.count.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, start = 0.0)]
+    pub angle: Real,
+    /// Order of the taper: 1 is 1 2 2 ... 2 1, 2 is 1 3 4 ... 4 3 1.
+    #[parameter(min = 1, max = 6, start = 1)]
+    pub taper_order: Integer,
+    /// Direction in EME2000 toward which the momentum moves; only its part across the momentum counts.
+    #[parameter(unit = "1", start = [1.0, 0.0, 0.0])]
+    pub target_direction: RealVector<3>,
+    /// (assumed - true) / true spin rate: what clock and Sun-crossing delays are computed with.
+    #[parameter(unit = "1", display = "%", min = -0.5, max = 0.5, start = 0.0)]
+    pub spin_rate_error: Real,
+    /// Half width of the range of inertia ratios over which burn.maxNutation shall hold.
+    #[parameter(unit = "1", min = 0.0, start = 0.0)]
+    pub ratio_uncertainty: Real,
+    /// Refuse a plan whose nutation would exceed this at any time; 0 = no limit.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, start = 0.0)]
+    pub max_nutation: Real,
+    /// Refuse a plan that takes longer; 0 = no limit.
+    #[parameter(unit = "s", display = "min", min = 0.0, start = 0.0)]
+    pub max_duration: Real,
+    /// Pulses that ended.
+    #[output]
+    pub pulses_fired: Integer,
+    /// Whether the burn runs: from the first edge of its first pulse to the last edge of its last.
+    #[output]
+    pub active: Boolean,
+    /// Whether its last pulse ended.
+    #[output]
+    pub done: Boolean,
+    /// Next edge of the burn; -1 without one.
+    #[output(discrete, unit = "s")]
+    pub next_edge: Real,
+    /// Pulses of the plan.
+    #[calculated_parameter]
+    pub planned_count: Integer,
+    /// From the plan's first edge to its last.
+    #[calculated_parameter(unit = "s", display = "min")]
+    pub planned_duration: Real,
+    /// How far the plan moves the momentum: the sum of paper 002 eq 3.
+    #[calculated_parameter(unit = "rad", display = "deg")]
+    pub planned_angle: Real,
+    /// How far its widest pulse moves the momentum, eq 3.
+    #[calculated_parameter(unit = "rad", display = "deg")]
+    pub pulse_angle: Real,
+}
+
+/// Pulses commanded from outside.
+#[derive(Variables)]
+#[variables(setup = Spinner)]
+pub struct PulseVariables {
+    /// Step to which thruster[k].onDelay and onTime are rounded, and the widths of a taper; 0 = not rounded.
+    #[parameter(unit = "s", display = "ms", min = 0.0, start = setup.resolution_s)]
+    pub resolution: Real,
+}
+
+/// One thruster.
+#[derive(Variables)]
+#[variables(setup = Thruster)]
+pub struct ThrusterVariables {
+    /// From the start of each step to the pulse.
+    #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
+    pub on_delay: Real,
+    /// Length of a pulse in each step; 0 = none. A pulse that reaches beyond the step is cut there.
+    #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
+    pub on_time: Real,
+    /// Fires over the whole step.
+    #[input(start = false)]
+    pub fire: Boolean,
+    /// Whether it is on.
+    #[output]
+    pub active: Boolean,
+    /// Moment arm across the spin axis, paper 002 Table 1.
+    #[output(constant, unit = "m", start = setup.torque_body_n_m.xy().norm() / setup.force_body_n.norm())]
+    pub arm: Real,
+    /// Name in the setup.
+    #[output(constant, start = setup.name.as_str())]
+    pub name: Text,
+}
+
+/// Torques on the body.
+#[derive(Variables)]
+pub struct TorqueVariables {
+    /// Outside torque, body frame.
+    #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
+    pub external: RealVector<3>,
+    /// Of the thrusters that are on, body frame.
+    #[output(discrete, unit = "N.m", nominal = 1.0)]
+    pub thruster: RealVector<3>,
+}
+
+/// Forces on the body.
+#[derive(Variables)]
+pub struct ForceVariables {
+    /// Of the thrusters that are on, body frame.
+    #[output(discrete, unit = "N", nominal = 1.0)]
+    pub thruster: RealVector<3>,
+}

@@ -1,0 +1,95 @@
+//! The spinner's variables at its public face.
+
+mod body;
+mod burn;
+mod observation;
+
+use core::f64::consts::PI;
+
+use fmi_export::{Integer, Real, RealVector, Variables};
+
+use body::{
+    AttitudeVariables, DamperVariables, InertiaVariables, InitialVariables, MassVariables, MomentumVariables,
+    NutationVariables, PropellantVariables, SpinAxisVariables, SpinRateVariables,
+};
+use burn::{BurnVariables, ForceVariables, PulseVariables, ThrusterVariables, TorqueVariables};
+use observation::{
+    EarthVariables, GeometryVariables, LimitVariables, StarTrackerVariables, StarVariables,
+    SunSensorVariables, SunVariables,
+};
+
+use physics::spin::spinner::Spinner;
+
+const RPM_RAD_S: f64 = PI / 30.0;
+const DEG_RAD: f64 = PI / 180.0;
+
+/// Every variable of the spinner, in the order of the XML.
+#[derive(Variables)]
+#[variables(setup = Spinner)]
+pub struct SpinVariables {
+    /// Principal moments of inertia about the centre of mass; the third axis is the spin axis.
+    #[parameter(unit = "kg.m2", start = initial_inertia(setup))]
+    pub inertia: RealVector<3>,
+    #[group(name = "inertia")]
+    pub inertia_now: InertiaVariables,
+    #[group]
+    pub mass_properties: MassVariables,
+    #[group]
+    pub propellant: PropellantVariables,
+    #[group]
+    pub spin: SpinRateVariables,
+    #[group]
+    pub initial: InitialVariables,
+    #[group]
+    pub damper: DamperVariables,
+    #[group]
+    pub burn: BurnVariables,
+    #[group]
+    pub pulse: PulseVariables,
+    #[group(count = setup.thrusters.len(), setup = &setup.thrusters[index])]
+    pub thruster: Vec<ThrusterVariables>,
+    #[group]
+    pub torque: TorqueVariables,
+    #[group]
+    pub force: ForceVariables,
+    #[group]
+    pub geometry: GeometryVariables,
+    #[group]
+    pub sun: SunVariables,
+    #[group]
+    pub earth: EarthVariables,
+    #[group]
+    pub star: StarVariables,
+    #[group]
+    pub limit: LimitVariables,
+    #[group]
+    pub attitude: AttitudeVariables,
+    #[group]
+    pub nutation: NutationVariables,
+    #[group]
+    pub momentum: MomentumVariables,
+    #[group]
+    pub spin_axis: SpinAxisVariables,
+    #[group]
+    pub sun_sensor: SunSensorVariables,
+    #[group]
+    pub star_tracker: StarTrackerVariables,
+    /// Velocity change by the thrusters since the start, in EME2000.
+    #[output(unit = "m/s", display = "mm/s", nominal = 1e-2)]
+    pub delta_v: RealVector<3>,
+    /// Spacecraft mass with the propellant left.
+    #[output(unit = "kg", nominal = 1e3)]
+    pub mass: Real,
+    /// Kinetic energy of rotation.
+    #[output(unit = "N.m", nominal = 50.0)]
+    pub energy: Real,
+    /// Seed of all sensor noise; the same seed gives the same draws.
+    #[parameter(start = 1)]
+    pub seed: Integer,
+}
+
+/// The moments in force at the start: the setup's table at the initial propellant.
+fn initial_inertia(setup: &Spinner) -> [f64; 3] {
+    let mass = &setup.mass_properties;
+    mass.inertia(mass.initial_propellant_kg).map_or([1.0; 3], |inertia| inertia.principal_kg_m2())
+}
