@@ -84,6 +84,19 @@ pub enum Error {
     /// Start, stop or step that make no run.
     #[error("{0}")]
     Times(String),
+    /// More would be recorded than memory is given for.
+    #[error(
+        "the run would record {points} points of {columns} variables, allowed are {allowed} points of them: \
+         record less often (--every), fewer variables (--record) or take longer steps (--step)"
+    )]
+    TooMuch {
+        /// Points that would be recorded.
+        points: u64,
+        /// Variables at each.
+        columns: usize,
+        /// Points of as many variables that are allowed.
+        allowed: u64,
+    },
 }
 
 /// An FMI call that was not answered with fmi2OK or fmi2Warning, or was not allowed to be made.

@@ -12,6 +12,7 @@ mod error;
 mod fmu;
 mod inputs;
 mod instance;
+mod recorder;
 mod recording;
 mod select;
 mod simulate;

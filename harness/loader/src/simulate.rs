@@ -2,10 +2,11 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use model_description::{Causality, Initial, Variability, VariableKind, rules};
+use model_description::{Causality, Initial, Variability, rules};
 
 use crate::{
-    Column, Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Value, values,
+    Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Value,
+    recorder::Recorder,
 };
 
 /// What to fly. `Options::default()` flies the FMU's default experiment and records its outputs.
@@ -147,9 +148,11 @@ pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Flight, Box<Stopp
         Some(positions) => positions,
         None => outputs(fmu),
     };
+    let every = steps_between_points(&times, options.record_every_s)?;
     let mut recorder = Recorder::new(fmu, &positions);
+    recorder.fits(times.steps().div_ceil(every).saturating_add(1))?;
     let mut instance = fmu.instantiate("run", &options.instance)?;
-    let outcome = fly(fmu, &mut instance, &times, &mut options, &mut recorder);
+    let outcome = fly(fmu, &mut instance, (&times, every), &mut options, &mut recorder);
     let messages = instance.messages();
     match outcome {
         Ok(ended) => Ok(Flight { recording: recorder.recording, ended, messages }),
@@ -157,10 +160,21 @@ pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Flight, Box<Stopp
     }
 }
 
+/// How many steps lie between two recorded points.
+fn steps_between_points(times: &Times, every_s: Option<f64>) -> Result<u64, Error> {
+    match every_s {
+        None => Ok(1),
+        Some(every_s) if every_s >= 0.0 => Ok(((every_s / times.step_s).round() as u64).max(1)),
+        Some(every_s) => Err(Error::Times(format!(
+            "recording every {every_s} s is not possible, allowed: 0 s (at every step) or longer: see --every"
+        ))),
+    }
+}
+
 fn fly(
     fmu: &Fmu,
     instance: &mut Instance,
-    times: &Times,
+    (times, every): (&Times, u64),
     options: &mut Options<'_>,
     recorder: &mut Recorder,
 ) -> Result<Ended, Error> {
@@ -185,7 +199,6 @@ fn fly(
     recorder.record(instance, times.start_s)?;
 
     let steps = times.steps();
-    let every = options.record_every_s.map_or(1, |every_s| ((every_s / times.step_s).round() as u64).max(1));
     for k in 0..steps {
         let time_s = times.point_s(k);
         let end_s = times.point_s(k + 1);
@@ -303,90 +316,5 @@ impl<'a> Feed<'a> {
             return Ok(());
         }
         instance.set_input_derivatives(&self.references, &self.orders, &self.values)
-    }
-}
-
-/// Reads the recorded variables, one call per base type.
-struct Recorder {
-    recording: Recording,
-    groups: [Group; 4],
-    reals: Vec<f64>,
-    integers: Vec<i32>,
-    booleans: Vec<i32>,
-}
-
-/// The recorded variables of one base type: their columns and value references.
-#[derive(Default)]
-struct Group {
-    columns: Vec<usize>,
-    references: Vec<u32>,
-}
-
-impl Recorder {
-    fn new(fmu: &Fmu, positions: &[usize]) -> Self {
-        let mut recording = Recording::default();
-        let mut groups: [Group; 4] = Default::default();
-        for &position in positions {
-            let variable = &fmu.description().variables[position];
-            let (group, column) = match variable.kind {
-                VariableKind::Real { .. } => (0, Column::Real(Vec::new())),
-                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
-                    (1, Column::Integer(Vec::new()))
-                }
-                VariableKind::Boolean { .. } => (2, Column::Boolean(Vec::new())),
-                VariableKind::String { .. } => (3, Column::Text(Vec::new())),
-            };
-            groups[group].columns.push(recording.columns.len());
-            groups[group].references.push(variable.value_reference);
-            recording.names.push(variable.name.clone());
-            recording.units.push(values::unit(fmu.description(), variable).unwrap_or_default().to_owned());
-            recording.columns.push(column);
-        }
-        let reals = vec![0.0; groups[0].columns.len()];
-        let integers = vec![0; groups[1].columns.len()];
-        let booleans = vec![0; groups[2].columns.len()];
-        Self { recording, groups, reals, integers, booleans }
-    }
-
-    /// Appends a row; an error leaves none.
-    fn record(&mut self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
-        let [reals, integers, booleans, strings] = &self.groups;
-        if !reals.columns.is_empty() {
-            instance.get_reals(&reals.references, &mut self.reals)?;
-        }
-        let texts = if strings.columns.is_empty() {
-            Vec::new()
-        } else {
-            instance.get_strings(&strings.references)?
-        };
-        if !integers.columns.is_empty() {
-            instance.get_integers(&integers.references, &mut self.integers)?;
-        }
-        if !booleans.columns.is_empty() {
-            instance.get_booleans(&booleans.references, &mut self.booleans)?;
-        }
-        self.recording.times_s.push(time_s);
-        let columns = &mut self.recording.columns;
-        for (&column, &value) in reals.columns.iter().zip(&self.reals) {
-            if let Column::Real(values) = &mut columns[column] {
-                values.push(value);
-            }
-        }
-        for (&column, &value) in integers.columns.iter().zip(&self.integers) {
-            if let Column::Integer(values) = &mut columns[column] {
-                values.push(value);
-            }
-        }
-        for (&column, &value) in booleans.columns.iter().zip(&self.booleans) {
-            if let Column::Boolean(values) = &mut columns[column] {
-                values.push(value != 0);
-            }
-        }
-        for (&column, value) in strings.columns.iter().zip(texts) {
-            if let Column::Text(values) = &mut columns[column] {
-                values.push(value);
-            }
-        }
-        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Communication points carry no accumulated error and the last one is the stop time itself.
 
-use loader::Times;
+use loader::{Options, Times, simulate};
 use model_description::DefaultExperiment;
 
 use crate::{description, folder};
@@ -77,4 +77,33 @@ fn an_fmu_of_one_step_size_gets_no_shortened_step() {
     let error = Times::of(&fmu, None, Some(1.0), None).unwrap_err().to_string();
     assert!(error.contains("does not divide"), "{error}");
     assert!(Times::of(&fmu, None, Some(1.2), None).is_ok());
+}
+
+#[test]
+fn more_points_than_memory_is_given_for_are_refused_before_the_flight() {
+    // The folder has no library: what would be flown fails for that reason.
+    let (_folder, fmu) = folder(&description());
+    let fly = |stop_s: f64, step_s: f64, record_every_s: Option<f64>, record: Option<Vec<usize>>| {
+        let times = Options { stop_s: Some(stop_s), step_s: Some(step_s), ..Options::default() };
+        simulate(&fmu, Options { record_every_s, record, ..times }).unwrap_err().to_string()
+    };
+    // Two outputs and the time are 24 bytes a point, so that 41,666,666 points stay within 1e9 bytes.
+    let error = fly(5.0, 1e-9, None, None);
+    for part in
+        ["5000000001 points of 2 variables", "allowed are 41666666 points", "--every", "--record", "--step"]
+    {
+        assert!(error.contains(part), "{error} lacks {part}");
+    }
+    assert!(fly(41_666_666.0, 1.0, None, None).contains("41666667 points"));
+    for error in [
+        fly(41_666_665.0, 1.0, None, None),
+        fly(5.0, 1e-9, Some(1e-6), None),
+        fly(1e12, 1.0, Some(1e5), None),
+        fly(100_000_000.0, 1.0, None, Some(vec![])),
+    ] {
+        assert!(error.contains("no shared library"), "{error}");
+    }
+    for every_s in [-1.0, f64::NAN] {
+        assert!(fly(5.0, 1.0, Some(every_s), None).contains("--every"), "{every_s}");
+    }
 }
