@@ -113,6 +113,13 @@ fn bad_settings_name_the_variable_and_what_is_allowed() {
         let text = run(&["run", shown(&fmu), "--set", setting], 1);
         assert!(text.contains(says), "{setting}: {text}");
     }
+    // What the FMU itself refuses is told with its reason, although nobody asked for the log.
+    for (setting, says) in
+        [("input.real=1e7", "-1000000.0 to 1000000.0"), ("input.integer=2000", "-1000 to 1000")]
+    {
+        let text = run(&["run", shown(&fmu), "--set", setting], 1);
+        assert!(text.contains("fmi2Discard") && text.contains("allowed is") && text.contains(says), "{text}");
+    }
     let text = run(&["run", shown(&fmu), "--output", "no/such/folder/out.csv"], 1);
     assert!(text.contains("no/such/folder/out.csv") && text.contains("--output"), "{text}");
 }

@@ -30,9 +30,9 @@ pub enum Resources {
 /// How to instantiate; the default suits any FMU.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct InstanceOptions {
-    /// Turns on the FMU's log.
+    /// Turns on the FMU's whole log; otherwise only the categories that tell why a call failed.
     pub logging: bool,
-    /// Categories to log; empty means all.
+    /// Categories of the whole log; empty means all.
     pub categories: Vec<String>,
     /// The resource location.
     pub resources: Resources,
@@ -104,7 +104,21 @@ impl Instance {
             let categories: Vec<&str> = options.categories.iter().map(String::as_str).collect();
             instance.set_debug_logging(true, &categories)?;
         }
+        if !options.logging {
+            instance.listen_to_reasons();
+        }
         Ok(instance)
+    }
+
+    /// Asks for the messages that say why a call failed, so that its error can tell.
+    fn listen_to_reasons(&mut self) {
+        let declared = self.fmu.description().log_categories.iter().map(|category| category.name.clone());
+        let wanted: Vec<String> = declared.filter(|name| REASONS.contains(&name.as_str())).collect();
+        if !wanted.is_empty() {
+            let wanted: Vec<&str> = wanted.iter().map(String::as_str).collect();
+            // An FMU that does not do it only stays silent.
+            let _ = self.component.set_debug_logging(true, &wanted);
+        }
     }
 
     /// The FMU it came from.
@@ -359,6 +373,9 @@ impl Instance {
         }))
     }
 }
+
+/// The standard's log categories (2.2.4) that say why a call failed.
+const REASONS: [&str; 3] = ["logStatusDiscard", "logStatusError", "logStatusFatal"];
 
 /// `fmi2LastSuccessfulTime`.
 const LAST_SUCCESSFUL_TIME: i32 = 2;
