@@ -81,7 +81,7 @@ pub struct Check {
     #[arg(long, value_name = "TEXT")]
     pub only: Option<String>,
     /// Longest time a probe may take, in s or with a unit
-    #[arg(long, value_name = "TIME", value_parser = duration, default_value = "60s")]
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "60s")]
     pub patience: f64,
     /// Show every check, not only the findings
     #[arg(long, short)]
@@ -103,13 +103,13 @@ pub struct Run {
     /// The FMU: an .fmu file or the folder it was unpacked into
     pub fmu: PathBuf,
     /// Start time, in s or with a unit (s, min, h, d); otherwise the FMU's default
-    #[arg(long, value_name = "TIME", value_parser = duration, allow_negative_numbers = true)]
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
     pub start: Option<f64>,
     /// Stop time, in s or with a unit: 90d; otherwise the FMU's default
-    #[arg(long, value_name = "TIME", value_parser = duration, allow_negative_numbers = true)]
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
     pub stop: Option<f64>,
     /// Communication step, in s or with a unit: 10min; otherwise the FMU's default
-    #[arg(long, value_name = "TIME", value_parser = duration)]
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub step: Option<f64>,
     /// Set a parameter, input or start value; repeatable. Takes units (spacecraft.centerOfMass[3]=-2.54cm),
     /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4)
@@ -125,7 +125,7 @@ pub struct Run {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub record: Vec<String>,
     /// Record at most this often, in s or with a unit; otherwise at every step
-    #[arg(long, value_name = "TIME", value_parser = duration)]
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Write what was recorded as CSV
     #[arg(long, value_name = "CSV")]
@@ -173,6 +173,7 @@ pub struct Pack {
 #[derive(Debug, Subcommand)]
 pub enum Plan {
     /// The train of thruster pulses that turns a spinner with the least nutation
+    #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
     Spin(planner::spin::Options),
 }
 
@@ -209,6 +210,14 @@ fn duration(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A time that passes, so more than 0 s.
+fn span(text: &str) -> Result<f64, String> {
+    match duration(text)? {
+        span_s if span_s > 0.0 => Ok(span_s),
+        _ => Err("allowed is more than 0 s".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,6 +236,10 @@ mod tests {
         assert_eq!(duration("250ms"), Ok(0.25));
         for bad in ["", "d", "ten", "1e999", "nan", "3w"] {
             assert!(duration(bad).is_err(), "{bad}");
+        }
+        assert_eq!(span("1 h"), Ok(3600.0));
+        for bad in ["0", "-5", "-1d", "soon"] {
+            assert!(span(bad).is_err(), "{bad}");
         }
     }
 }

@@ -21,6 +21,29 @@ fn wrong_usage_is_two() {
 }
 
 #[test]
+fn negative_values_are_values() {
+    // Whatever can be negative is taken: the file is the first thing that fails.
+    for arguments in [["--start", "-1d"], ["--start", "-1.5e3"], ["--stop", "-0.5 h"]] {
+        let text = run(&[&["run", "no/such.fmu"], &arguments[..]].concat(), 1);
+        assert!(text.contains("no/such.fmu"), "{text}");
+    }
+    // Whatever cannot be is refused by its name.
+    for (arguments, status) in [
+        (["run", "no/such.fmu", "--step", "-5"], 2),
+        (["run", "no/such.fmu", "--every", "-1h"], 2),
+        (["check", "no/such.fmu", "--patience", "-2s"], 2),
+        (["plan", "spin", "--campaign", "-1"], 1),
+        (["plan", "spin", "--angle", "-2"], 1),
+    ] {
+        let text = run(&arguments, status);
+        assert!(
+            text.contains(arguments[2]) && text.contains(arguments[3].trim_end_matches(['h', 's'])),
+            "{text}"
+        );
+    }
+}
+
+#[test]
 fn failure_is_one_and_names_the_file() {
     for command in ["run", "info", "check"] {
         assert!(run(&[command, "no/such.fmu"], 1).contains("no/such.fmu"), "{command}");
