@@ -49,7 +49,7 @@ impl Model for SpinPlant {
         values: &mut Values,
         start_time_s: f64,
     ) -> Result<Plant, Failure> {
-        let directions = read::directions(|handle| values.vector(handle), context);
+        let directions = read::directions(context, values, |handle| values.vector(handle))?;
         let start = read::start(context, values);
         let commands = read::commands(context, values);
         let plant = Plant::start(context.setup, &start, directions, commands, start_time_s)
@@ -76,7 +76,7 @@ impl Model for SpinPlant {
                     step.start_s, step.end_s
                 ));
             }
-            plant.command(commands, read::directions(at_end, context));
+            plant.command(commands, read::directions(context, values, at_end)?);
         }
         let (fired, log) = (plant.sequencer().map_or(0, |s| s.fired()), context.log);
         plant.advance(context.setup, step.end_s).map_err(|error| Failure::new(error.to_string()))?;

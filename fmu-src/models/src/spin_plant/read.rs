@@ -137,17 +137,31 @@ pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<Bo
     Ok(torque)
 }
 
-/// Where Sun, Earth and star stand, as unit vectors; 0 where the master gave none.
-pub fn directions(read: impl Fn(RealVector<3>) -> [f64; 3], context: &Plan<'_>) -> Directions {
-    let unit = |handle| {
-        let direction = Vector3::from(read(handle));
-        let norm = direction.norm();
-        if norm > 0.0 && norm.is_finite() { direction / norm } else { Vector3::zeros() }
-    };
+/// Where Sun, Earth and star stand, as unit vectors; Sun and Earth as 0 where the L1 orbit has them.
+///
+/// # Errors
+/// A vector that is used and has no direction.
+pub fn directions(
+    context: &Plan<'_>,
+    values: &Values,
+    read: impl Fn(RealVector<3>) -> [f64; 3],
+) -> Result<Directions, Failure> {
     let v = context.variables;
-    Directions {
-        sun_inertial: unit(v.sun.direction),
-        earth_inertial: unit(v.earth.direction),
-        star_inertial: unit(v.star.direction),
-    }
+    let unit = |name: &str, handle| {
+        let given = read(handle);
+        let direction = Vector3::from(given);
+        let norm = direction.norm();
+        // Beyond these the squares of components under- or overflow.
+        if (1e-100..=1e100).contains(&norm) {
+            return Ok(direction / norm);
+        }
+        Err(Failure::new(format!("{name} is {given:?}; allowed is a vector of length 1e-100 to 1e100")))
+    };
+    let from_inputs = values.choice(v.geometry.source) != Some(GeometrySource::L1Orbit);
+    let unless_orbit = |name, handle| if from_inputs { unit(name, handle) } else { Ok(Vector3::zeros()) };
+    Ok(Directions {
+        sun_inertial: unless_orbit("sun.direction", v.sun.direction)?,
+        earth_inertial: unless_orbit("earth.direction", v.earth.direction)?,
+        star_inertial: unit("star.direction", v.star.direction)?,
+    })
 }

@@ -16,6 +16,34 @@ const GREATEST_RATE_RAD_S: f64 = 1e4;
 /// Nor is one that needs shorter cells.
 const SHORTEST_CELL_S: f64 = 1e-5;
 
+/// Why a motion cannot be followed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Runaway {
+    /// The rate, or a number that is none.
+    #[error(
+        "at {time_s} s the body turns at up to {rate_rad_s:e} rad/s; allowed is up to {GREATEST_RATE_RAD_S:e} rad/s: look \
+         at torque.external and at what fires"
+    )]
+    TooFast {
+        /// When, in s.
+        time_s: f64,
+        /// Momentum over the least moment of inertia, in rad/s; NaN where the state is not finite.
+        rate_rad_s: f64,
+    },
+    /// The torque.
+    #[error(
+        "at {time_s} s a torque with a component of {torque_n_m:e} N m changes the motion within less than \
+         {SHORTEST_CELL_S:e} s; allowed is what keeps the body below {GREATEST_RATE_RAD_S:e} rad/s: look at torque.external \
+         and its derivatives"
+    )]
+    TooSudden {
+        /// When, in s.
+        time_s: f64,
+        /// Greatest component of the torque, in N m.
+        torque_n_m: f64,
+    },
+}
+
 /// Where the body is and how it turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidState {
@@ -113,14 +141,47 @@ impl Motion {
         }
     }
 
-    /// Whether the body turns faster than cells can follow, or its numbers are not finite.
+    /// Whether the body turns faster than cells can follow, or its numbers are not finite or no body's.
     pub fn runs_away(&self) -> bool {
-        let length_s = self.cell_end_s() - self.anchor_s;
-        let finite = self.momentum_inertial.iter().chain(&self.attitude.0).all(|x| x.is_finite());
-        let sound = finite && Inertia::new(self.inertia.principal_kg_m2()).is_ok();
-        let fastest = self.momentum_inertial.norm()
-            / self.inertia.principal_kg_m2().into_iter().fold(f64::INFINITY, f64::min);
-        !(length_s >= SHORTEST_CELL_S && sound && fastest <= GREATEST_RATE_RAD_S)
+        self.check().is_err() || Inertia::new(self.inertia.principal_kg_m2()).is_err()
+    }
+
+    /// Whether the motion can be followed from the anchor on.
+    ///
+    /// # Errors
+    /// The body turns too fast there, is not finite, or its torque leaves it a cell too short.
+    pub fn check(&self) -> Result<(), Runaway> {
+        self.check_rate(self.anchor_s, &self.momentum_inertial, &self.attitude)?;
+        // Written so that a NaN is refused.
+        if self.cell_end_s() - self.anchor_s >= SHORTEST_CELL_S {
+            return Ok(());
+        }
+        let torque_n_m = self.torque.at(self.anchor_s).amax();
+        Err(Runaway::TooSudden { time_s: self.anchor_s, torque_n_m })
+    }
+
+    /// Whether the body has a finite state at a time within the present cell, and a rate that can be followed.
+    ///
+    /// # Errors
+    /// It turns too fast or is not finite.
+    pub fn check_at(&self, time_s: f64) -> Result<(), Runaway> {
+        let state = self.at(time_s);
+        self.check_rate(time_s, &state.momentum_inertial, &state.attitude)
+    }
+
+    fn check_rate(
+        &self,
+        time_s: f64,
+        momentum_inertial: &Vector3<f64>,
+        attitude: &Quaternion,
+    ) -> Result<(), Runaway> {
+        let least_kg_m2 = self.inertia.principal_kg_m2().into_iter().fold(f64::INFINITY, f64::min);
+        let finite = attitude.0.iter().all(|x| x.is_finite());
+        let rate_rad_s = if finite { momentum_inertial.norm() / least_kg_m2 } else { f64::NAN };
+        if rate_rad_s <= GREATEST_RATE_RAD_S {
+            return Ok(());
+        }
+        Err(Runaway::TooFast { time_s, rate_rad_s })
     }
 
     /// The torque of the present stretch.

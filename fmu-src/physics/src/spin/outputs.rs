@@ -133,7 +133,7 @@ impl Plant {
         let nutation_rad = state.nutation_rad();
         let spin_axis_inertial = state.attitude.spin_axis_inertial();
         let directions = self.directions_at(time_s);
-        let sun_angle_rad = angle_or_zero(&spin_axis_inertial, &directions.sun_inertial);
+        let sun_angle_rad = angle_between_rad(&spin_axis_inertial, &directions.sun_inertial);
         let nominal_period_s = 2.0 * PI / rate_rad_s.z.abs();
         let sun = self.sun_watch();
         let period_s = sun.period_s().unwrap_or(nominal_period_s);
@@ -175,7 +175,7 @@ impl Plant {
             earth_inertial: directions.earth_inertial,
             sun_angle_rad,
             sun_angle_measured_rad: self.sun_sample_rad(),
-            earth_angle_rad: angle_or_zero(&-spin_axis_inertial, &directions.earth_inertial),
+            earth_angle_rad: angle_between_rad(&-spin_axis_inertial, &directions.earth_inertial),
             declination_rad: spin_axis_inertial.dot(&directions.star_inertial).clamp(-1.0, 1.0).asin(),
             sample: self.sample(),
             estimate: self.estimator().estimate(spinner.star_tracker.noise_deg.to_radians()),
@@ -232,10 +232,6 @@ impl Plant {
 /// Infinity as the greatest number: masters and XML have no infinity.
 fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::MAX }
-}
-
-fn angle_or_zero(axis: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
-    if *direction == Vector3::zeros() { 0.0 } else { angle_between_rad(axis, direction) }
 }
 
 /// First time derivatives of the continuous outputs.

@@ -150,10 +150,20 @@ impl Cell {
                 cell.expand(inertia, &torque, &gain, length_s);
             }
         }
+        // Convergence is judged by the greatest term, and a NaN is never the greatest.
+        if !cell.is_finite() {
+            cell.length_s = 0.0;
+        }
         cell
     }
 
-    /// How long the cell holds, in s.
+    /// Whether its highest coefficients, which all others go into, are finite.
+    fn is_finite(&self) -> bool {
+        let order = usize::from(self.order).min(ORDER);
+        self.momentum_body.iter().chain(&self.attitude).all(|coefficients| coefficients[order].is_finite())
+    }
+
+    /// How long the cell holds, in s; 0 where it does not at all.
     pub fn length_s(&self) -> f64 {
         self.length_s
     }

@@ -33,7 +33,7 @@ pub struct GeometryVariables {
 /// The Sun.
 #[derive(Variables)]
 pub struct SunVariables {
-    /// Direction of the Sun in EME2000, of any length; 0 = no Sun.
+    /// Direction of the Sun in EME2000, of any length but 0; unused on the L1 orbit.
     #[input(unit = "1", start = [(10.0 * DEG_RAD).sin(), 0.0, (10.0 * DEG_RAD).cos()])]
     pub direction: RealVector<3>,
     /// From the spin axis +Z to the Sun.
@@ -47,7 +47,7 @@ pub struct SunVariables {
 /// The Earth.
 #[derive(Variables)]
 pub struct EarthVariables {
-    /// Direction of the Earth in EME2000, of any length; 0 = no Earth.
+    /// Direction of the Earth in EME2000, of any length but 0; unused on the L1 orbit.
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]
     pub direction: RealVector<3>,
     /// From the antenna -Z to the Earth.
@@ -61,7 +61,7 @@ pub struct EarthVariables {
 /// The star that the tracker follows.
 #[derive(Variables)]
 pub struct StarVariables {
-    /// Direction of the star in EME2000, of any length; 0 = no star.
+    /// Direction of the star in EME2000, of any length but 0.
     #[input(unit = "1", start = [0.3, 0.95, 0.02])]
     pub direction: RealVector<3>,
 }

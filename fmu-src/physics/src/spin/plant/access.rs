@@ -119,6 +119,7 @@ impl Plant {
         masks.iter().all(|&mask| u64::from(mask) & !known == 0)
             && now_s.is_finite()
             && (self.mask == 0 || now_s - self.mask_since_s.max(self.delta_v_until_s) < 1e6)
+            && self.directions.are_directions()
             && cell_holds
             && !self.motion.runs_away()
             && ticks

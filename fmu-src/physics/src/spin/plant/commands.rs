@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::spin::{series::BodyTorque, spinner::MOST_THRUSTERS};
 
-/// Directions in inertial space that the sensors look for; unit vectors, or 0 where the master gave none.
+/// Directions in inertial space that the sensors look for; unit vectors. On the L1 orbit those of Sun and Earth do not
+/// count.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Directions {
     /// Sun.
@@ -36,6 +37,14 @@ pub struct Commands {
     pub any_pulse: bool,
     /// Outside torque, body components.
     pub torque: BodyTorque,
+}
+
+impl Directions {
+    /// Whether all are unit vectors.
+    pub(super) fn are_directions(&self) -> bool {
+        let unit = |direction: &Vector3<f64>| (direction.norm() - 1.0).abs() < 1e-6;
+        [&self.sun_inertial, &self.earth_inertial, &self.star_inertial].into_iter().all(unit)
+    }
 }
 
 impl Commands {

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::{MassSource, Plant, Runaway};
-use crate::spin::{inertia::Inertia, spinner::Spinner, tracker::NutationEstimator};
+use super::{MassSource, Plant};
+use crate::spin::{inertia::Inertia, motion::Runaway, spinner::Spinner, tracker::NutationEstimator};
 
 /// A turning force is summed over stretches of this much turn.
 const IMPULSE_PANEL_RAD: f64 = 2.0;
@@ -59,9 +59,7 @@ impl Plant {
 
     /// Goes on to the next cell, summing delta-v as the present one is left.
     pub(super) fn next_cell(&mut self, spinner: &Spinner) -> Result<(), Runaway> {
-        if self.motion.runs_away() {
-            return Err(Runaway { time_s: self.motion.anchor_s() });
-        }
+        self.motion.check()?;
         let end_s = self.motion.cell_end_s();
         if self.mask != 0 {
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, end_s);

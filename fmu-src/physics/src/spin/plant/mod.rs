@@ -14,7 +14,7 @@ pub use start::{MassSource, Sampling, Start, StartError};
 
 use super::{
     geometry::L1Flight,
-    motion::Motion,
+    motion::{Motion, Runaway},
     nutation::{LinearNutation, Spin},
     sequencer::{Phase, Sequencer},
     spinner::Spinner,
@@ -85,14 +85,6 @@ struct SensorAzimuths {
     star: Vector3<f64>,
 }
 
-/// The body spins faster than it can be followed.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("at {time_s} s the body spins faster than the motion can be followed: look at torque.external")]
-pub struct Runaway {
-    /// When.
-    pub time_s: f64,
-}
-
 impl Plant {
     /// New commands and directions, from the present time on.
     ///
@@ -114,6 +106,9 @@ impl Plant {
     }
 
     /// Flies to `end_s`. Pulses commanded beyond it are cut there.
+    ///
+    /// # Errors
+    /// A body that cannot be followed to there; the flight is then of no further use.
     pub fn advance(&mut self, spinner: &Spinner, end_s: f64) -> Result<(), Runaway> {
         let from_s = self.time_s;
         let near_s = end_s + SAME_TIME * end_s.abs().max(1.0);
@@ -122,9 +117,7 @@ impl Plant {
             self.switch(spinner, from_s, now_s, f64::INFINITY)?;
             self.commanded = false;
         }
-        if self.motion.runs_away() {
-            return Err(Runaway { time_s: from_s });
-        }
+        self.motion.check()?;
         loop {
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
             let command_s = self.commands.edge_after_s(from_s, now_s);
@@ -159,6 +152,7 @@ impl Plant {
             }
         }
         self.reach(spinner, end_s)?;
+        self.motion.check_at(end_s)?;
         self.time_s = end_s;
         Ok(())
     }
@@ -181,6 +175,7 @@ impl Plant {
             self.settle_pulse(spinner, now_s);
             let inertia = self.inertia_now(spinner);
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s);
+            self.motion.check()?;
             self.mask = mask;
             self.mask_since_s = now_s;
             self.sun.forget(now_s);

@@ -4,10 +4,10 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Plant, Runaway, Sampling, StarSample};
+use super::{Plant, Sampling, StarSample};
 use crate::spin::{
     crossing::{Crossing, Pole},
-    motion::RigidState,
+    motion::{RigidState, Runaway},
     noise::{Channel, normal},
     rotation::angle_between_rad,
     spinner::Spinner,
@@ -34,14 +34,8 @@ impl Plant {
         let (sun, star) = (self.directions.sun_inertial, self.directions.star_inertial);
         let azimuths = self.sensor_azimuths;
         let look = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
-        let sun_s = if sun == Vector3::zeros() {
-            f64::INFINITY
-        } else {
-            self.sun.due_s(&self.motion, look(azimuths.sun, sun), until_s).unwrap_or(f64::INFINITY)
-        };
-        let star_s = if star == Vector3::zeros() {
-            f64::INFINITY
-        } else if self.sampling == Sampling::Clock {
+        let sun_s = self.sun.due_s(&self.motion, look(azimuths.sun, sun), until_s).unwrap_or(f64::INFINITY);
+        let star_s = if self.sampling == Sampling::Clock {
             let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
             if tick_s <= until_s { tick_s } else { f64::INFINITY }
         } else {
@@ -100,7 +94,7 @@ impl Plant {
         Ok(())
     }
 
-    /// Picket of the star: its azimuth about the momentum after the Sun's (after the first inertial axis without one).
+    /// Picket of the star: its azimuth about the momentum after the Sun's.
     pub(super) fn star_picket(&self, spinner: &Spinner, state: &RigidState) -> u32 {
         let pole = state.momentum_inertial;
         let ahead = |direction: &Vector3<f64>| {
@@ -109,14 +103,12 @@ impl Plant {
                 .body_from_inertial(&(direction - pole * (pole.dot(direction) / pole.norm_squared())));
             seen.y.atan2(seen.x)
         };
-        let reference = if self.directions.sun_inertial == Vector3::zeros() {
-            Vector3::x()
-        } else {
-            self.directions.sun_inertial
-        };
         // Half a picket of margin keeps a star that starts on a border off it.
         let pickets = spinner.star_tracker.pickets;
         let margin = PI / f64::from(pickets);
-        picket_of(ahead(&self.directions.star_inertial) - ahead(&reference) + margin, pickets)
+        picket_of(
+            ahead(&self.directions.star_inertial) - ahead(&self.directions.sun_inertial) + margin,
+            pickets,
+        )
     }
 }

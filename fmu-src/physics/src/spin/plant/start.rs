@@ -186,7 +186,7 @@ impl Plant {
         let state = self.motion.at(self.time_s);
         let angle = angle_between_rad(&state.momentum_inertial, &self.directions.sun_inertial);
         let least = start.nutation_rad.max(1e-3);
-        if by_sun && (angle.sin() <= least || self.directions.sun_inertial == Vector3::zeros()) {
+        if by_sun && angle.sin() <= least {
             return Err(StartError::Parameter {
                 name: "burn.timing",
                 found: format!("Sun crossing with the Sun {:.4} deg off the spin axis", angle.to_degrees()),

@@ -1,0 +1,5 @@
+//! SpinPlant through the functions a master calls.
+
+mod driver;
+mod flights;
+mod refusals;
