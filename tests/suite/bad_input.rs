@@ -150,7 +150,7 @@ fn nan_and_infinity_are_discarded_and_the_instance_lives() {
     }
     let threshold = names.real("dump.threshold[1]");
     assert_eq!(instance.set_real(&[threshold], &[-1.0]), Status::Discard);
-    says(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "from 0.0 up"]);
+    says(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "from 1e-6 up"]);
     assert_eq!(instance.set_input_derivatives(&torque[..1], &[1], &[f64::NAN]), Status::Discard);
     let kind = names.of(Base::Integer, "command.kind");
     assert_eq!(instance.set_integer(&[kind], &[17]), Status::Discard);

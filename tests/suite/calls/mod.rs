@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use fmi_export::Status;
 use fmi_export::abi::{InProcess, StatePointer};
 use proptest::prelude::*;
-use proptest::test_runner::{Config, TestRunner};
+use proptest::test_runner::{Config, RngSeed, TestRunner};
 use proptest_state_machine::{ReferenceStateMachine, StateMachineTest};
 
 use crate::support::{self, Base};
@@ -288,8 +288,13 @@ impl StateMachineTest for Sequence {
 fn any_sequence_of_calls_is_answered_by_the_table() {
     let wanted = std::env::var("HELIOTORQUE_CALLS").ok().and_then(|it| it.parse().ok()).unwrap_or(CALLS);
     let made = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut batch = 0;
     while made().values().sum::<u64>() < wanted {
-        let config = Config { cases: 500, failure_persistence: None, ..Config::default() };
+        let mut config = Config { cases: 500, failure_persistence: None, ..Config::default() };
+        if let RngSeed::Fixed(seed) = config.rng_seed {
+            config.rng_seed = RngSeed::Fixed(seed.wrapping_add(batch));
+        }
+        batch += 1;
         let sequences = Master::sequential_strategy(1..LONGEST_SEQUENCE);
         TestRunner::new(config.clone())
             .run(&sequences, |(initial, calls, seen)| {

@@ -151,6 +151,14 @@ fn update(
     prepared: &Prepared,
 ) -> Result<(), Failure> {
     let outcome = prepared.evaluate(&state.inputs, &mut state.workspace)?;
+    let total = outcome.disturbance.total();
+    let numbers = total.force_body_n + total.torque_body_n_m + outcome.gravity_gradient_n_m;
+    if !numbers.iter().all(|number| number.is_finite()) {
+        return Err(Failure::new(
+            "force or torque is no number at these inputs; see sun.position, planet.position, centerOfMass, solar.flux and \
+             spacecraft.inertia, allowed: values a spacecraft can have",
+        ));
+    }
     outputs::write(context.variables, values, &outcome, &state.workspace);
     Ok(())
 }

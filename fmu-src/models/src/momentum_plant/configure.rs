@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 use physics::constants;
 use physics::environment::State;
 use physics::environment::eclipse::{Shadow, ShadowModel};
+use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::frames::{self, Frame};
 use physics::environment::orbit::{Elements, Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
@@ -50,11 +51,24 @@ pub fn refreshed(
     };
     let orbit = orbit(variables, values, state, gm_m3_s2, epoch_minus_time_s)?;
     let radius_m = values.real(variables.planet.radius);
+    let (inside, limit_m) = match center {
+        plant::OrbitCenter::Mercury => ("the planet, whose planet.radius", radius_m),
+        plant::OrbitCenter::Sun => ("the Sun, whose radius", constants::RADIUS_SUN_M),
+    };
     let lowest_m = orbit.elements().periapsis_distance_m();
     let from_elements = !matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
-    if center == plant::OrbitCenter::Mercury && from_elements && lowest_m <= radius_m {
+    if from_elements && lowest_m <= limit_m {
         return Err(Failure::new(format!(
-            "the orbit's periapsis at {lowest_m:.0} m lies inside the planet, whose planet.radius is {radius_m:.0} m"
+            "orbit.semiMajorAxis, orbit.eccentricity: the periapsis at {lowest_m:.0} m lies inside {inside} is \
+             {limit_m:.0} m"
+        )));
+    }
+    let epoch_s = values.real(variables.initial.epoch);
+    let computed = !matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs));
+    if computed && epoch_s.abs() > VALID_EPOCH_S {
+        return Err(Failure::new(format!(
+            "initial.epoch: found {epoch_s:?} s, allowed: within {VALID_EPOCH_S:e} s (4000 years) of J2000, for which \
+             VSOP87 is made"
         )));
     }
     let inertia_body_kg_m2 = Matrix3::from(values.matrix(variables.spacecraft.inertia)).transpose();
@@ -261,12 +275,19 @@ fn attitude(
         Some(AttitudeSource::Guided) | None => {
             let guided = &variables.guided;
             let planet = center == plant::OrbitCenter::Mercury;
+            let [start_s, end_s] = [guided.downlink_start, guided.downlink_end].map(|time| values.real(time));
+            if values.integer(guided.downlink_every) != 0 && start_s > end_s {
+                return Err(Failure::new(format!(
+                    "guided.downlinkStart, guided.downlinkEnd: found {start_s:?} s and {end_s:?} s, allowed: a start not \
+                     after the end; guided.downlinkEvery = 0 for no downlink"
+                )));
+            }
             Ok(plant::AttitudeSource::Guided(Guided {
                 schedule: Schedule {
                     periapsis_s: orbit.periapsis_epoch_s(0),
                     period_s: if planet { orbit.period_s() } else { f64::INFINITY },
-                    downlink_start_s: values.real(guided.downlink_start),
-                    downlink_end_s: values.real(guided.downlink_end),
+                    downlink_start_s: start_s,
+                    downlink_end_s: end_s,
                     every: values.integer(guided.downlink_every).unsigned_abs(),
                 },
                 science: match values.choice(guided.science_rule) {

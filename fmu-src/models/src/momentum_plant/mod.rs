@@ -10,6 +10,7 @@ mod state;
 mod variables;
 
 use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values};
+use physics::constants::RADIUS_SUN_M;
 use physics::momentum::{Accumulator, Event, Flight, Totals};
 use physics::plant::{Course, ExternalLoad, Plant, PlantError, Snapshot};
 
@@ -168,6 +169,7 @@ impl Model for MomentumPlant {
 fn ended(error: PlantError) -> Failure {
     let hint = match error {
         PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
+        PlantError::Dumps(_) => "; see dump.threshold, dump.reinit and torque.external",
         _ => "",
     };
     Failure::new(format!("{error}{hint}"))
@@ -176,7 +178,8 @@ fn ended(error: PlantError) -> Failure {
 /// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
 fn flyable(snapshot: &Snapshot, time_s: f64) -> Result<(), Failure> {
     let numbers = snapshot.torque_body_n_m() + snapshot.force_body_n();
-    if snapshot.lit_fraction.is_finite() && numbers.iter().all(|x| x.is_finite()) {
+    let outside_the_sun = snapshot.geometry.to_sun.position_m.norm() > RADIUS_SUN_M;
+    if outside_the_sun && snapshot.lit_fraction.is_finite() && numbers.iter().all(|x| x.is_finite()) {
         return Ok(());
     }
     let spacecraft = snapshot.geometry.spacecraft.position_m;

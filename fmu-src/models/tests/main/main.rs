@@ -6,4 +6,5 @@ mod disturbance_torque;
 mod pilot;
 mod plant_cuts;
 mod plant_light;
+mod plant_refusals;
 mod spin_plant;

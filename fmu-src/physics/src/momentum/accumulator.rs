@@ -6,6 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::cell::{Cell, Flight, Sample, Totals};
 use super::dump::DumpPolicy;
 
+/// No thruster dumps this often within [`CROWD_S`].
+const MOST_IN_CROWD: u32 = 1_000;
+/// See [`MOST_IN_CROWD`], in s.
+const CROWD_S: f64 = 1.0;
+
 /// What "system momentum in the body frame" means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convention {
@@ -35,6 +40,21 @@ pub struct Dumps {
     pub count: i32,
     /// The last one, once there was one.
     pub last: Option<Event>,
+    /// The first of those that followed one another within [`CROWD_S`], and how many followed.
+    crowd: (f64, u32),
+}
+
+/// Dumps without end: the torque outruns what a dump leaves.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "{MOST_IN_CROWD} dumps between {from_s:?} s and {to_s:?} s, allowed: fewer within {CROWD_S} s; the thresholds are too low \
+     for the torque"
+)]
+pub struct TooManyDumps {
+    /// The first of them, in s.
+    pub from_s: f64,
+    /// The last of them, in s.
+    pub to_s: f64,
 }
 
 /// A dump as it happens; instantaneous.
@@ -126,6 +146,7 @@ impl Accumulator {
                     settings.policy.after(before)
                 });
                 report(&event);
+                self.dumps.check()?;
                 totals = self.cell.totals(start_s);
             }
             self.cell = Cell::build(flight, settings, start_s, horizon_s, totals, &first, longest_s);
@@ -146,8 +167,24 @@ impl Accumulator {
         totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
         totals.momentum_inertial_n_m_s += sample.inertial_from_body * event.impulse_body_n_m_s();
         self.cell = Cell::point(time_s, totals);
-        self.dumps = Dumps { count: self.dumps.count.saturating_add(1), last: Some(event) };
+        self.dumps = self.dumps.with(event);
         event
+    }
+}
+
+impl Dumps {
+    fn with(self, event: Event) -> Self {
+        let (from_s, count) = self.crowd;
+        // Written so that a restored NaN begins anew.
+        let goes_on = event.time_s - from_s < CROWD_S;
+        let crowd = if goes_on && count > 0 { (from_s, count.saturating_add(1)) } else { (event.time_s, 1) };
+        Self { count: self.count.saturating_add(1), last: Some(event), crowd }
+    }
+
+    fn check(&self) -> Result<(), TooManyDumps> {
+        let (from_s, count) = self.crowd;
+        let to_s = self.last.map_or(from_s, |event| event.time_s);
+        if count < MOST_IN_CROWD { Ok(()) } else { Err(TooManyDumps { from_s, to_s }) }
     }
 }
 
@@ -171,7 +208,7 @@ mod tests {
     const FREQUENCY_RAD_S: f64 = 2e-4;
 
     impl Flight for Known {
-        type Failure = core::convert::Infallible;
+        type Failure = TooManyDumps;
 
         fn prepare(&mut self, _: f64) -> Result<f64, Self::Failure> {
             Ok(f64::INFINITY)
@@ -274,6 +311,28 @@ mod tests {
         for step_s in [7.0, 60.0, 300.0, 700.0] {
             assert_eq!(fly(step_s), reference);
         }
+    }
+
+    #[test]
+    fn dumps_without_end_are_refused_wherever_the_steps_are_cut() {
+        let policy = DumpPolicy {
+            threshold_body_n_m_s: Vector3::new(2e-9, f64::INFINITY, f64::INFINITY),
+            reinitialise: Reinitialise::Opposite { fraction: 0.5 },
+        };
+        let setting = Settings { policy, ..settings(1.0, Convention::Inertial) };
+        let refused = |step_s: f64| {
+            let mut accumulator = Accumulator::new(0.0, Totals::default());
+            let mut k = 0.0;
+            loop {
+                k += 1.0;
+                if let Err(failure) = accumulator.advance(&mut Known, &setting, k * step_s, |_| {}) {
+                    return failure;
+                }
+            }
+        };
+        let failure = refused(100.0);
+        assert_eq!(failure, refused(0.01));
+        assert!(failure.to_s - failure.from_s < CROWD_S, "{failure}");
     }
 
     #[test]

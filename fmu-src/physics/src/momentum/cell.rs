@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::stretches::{first_change_s, next_multiple_s};
 
+use super::accumulator::TooManyDumps;
 use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
 use super::{Convention, Settings};
 
@@ -34,7 +35,7 @@ pub struct Sample {
 /// Anything that has an attitude and disturbances at any time.
 pub trait Flight {
     /// Why a flight cannot go on.
-    type Failure;
+    type Failure: From<TooManyDumps>;
 
     /// Makes the flight ready for samples from `start_s` on, and tells up to where: a cell that starts there ends at
     /// that time or before. Called with rising times, and again with the same one.

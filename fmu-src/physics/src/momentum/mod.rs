@@ -10,7 +10,7 @@ mod cell;
 mod dump;
 mod wheels;
 
-pub use accumulator::{Accumulator, Convention, Dumps, Event, Settings};
+pub use accumulator::{Accumulator, Convention, Dumps, Event, Settings, TooManyDumps};
 pub use cell::{Flight, Sample, Totals};
 pub use dump::{DumpPolicy, Reinitialise};
 pub use wheels::WheelArray;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::environment::orbit::FlightError;
-use crate::momentum::Flight;
+use crate::momentum::{Flight, TooManyDumps};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::stretches::first_change_s;
 use crate::radiation::disturbance::GeometryError;
@@ -57,6 +57,9 @@ pub enum PlantError {
         /// What was found.
         found_k: f64,
     },
+    /// Dumps without end.
+    #[error(transparent)]
+    Dumps(#[from] TooManyDumps),
     /// An orbit that goes no further: restored bytes that belong to another kind of motion.
     #[error(
         "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.model"

@@ -143,7 +143,7 @@ pub struct MomentumVariables {
 #[variables(setup = PlantSetup)]
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum that triggers a dump; a very large value means never.
-    #[parameter(tunable, unit = "N.m.s", min = 0.0, start = defaults::dump_threshold_n_m_s(setup))]
+    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = defaults::dump_threshold_n_m_s(setup))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.
     #[parameter(start = DumpReinit::Opposite)]

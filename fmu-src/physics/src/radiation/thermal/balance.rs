@@ -78,7 +78,8 @@ pub fn conducting_temperatures_k<T: Scalar>(
 
 /// A change that neither halves nor doubles the temperature more than once.
 fn damped(change_k: f64, temperature_k: f64) -> f64 {
-    change_k.clamp(-0.5 * temperature_k, temperature_k)
+    // Not `clamp`, which panics where heat without bound has made the temperature no number.
+    change_k.max(-0.5 * temperature_k).min(temperature_k)
 }
 
 /// Heat flow out of each face, into space and to the other face, with its slopes.

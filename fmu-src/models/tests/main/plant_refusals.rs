@@ -1,0 +1,54 @@
+//! What cannot be flown is refused by name, with what was found and what is allowed.
+
+use models::MomentumPlant;
+
+use super::pilot::Hangar;
+
+fn refusal(sets: &[(&str, f64)]) -> String {
+    match Hangar::<MomentumPlant>::shipped().fly(0.0, sets) {
+        Ok(_) => panic!("flown: {sets:?}"),
+        Err(failure) => failure.to_string(),
+    }
+}
+
+fn says(sets: &[(&str, f64)], words: &[&str]) {
+    let text = refusal(sets);
+    assert!(words.iter().all(|word| text.contains(word)), "{words:?}: {text}");
+}
+
+#[test]
+fn orbits_inside_planet_or_sun() {
+    says(
+        &[("orbit.semiMajorAxis", 5e6)],
+        &["orbit.semiMajorAxis", "1300000 m", "planet.radius is 2439400 m"],
+    );
+    says(&[("orbit.center", 2.0)], &["orbit.semiMajorAxis", "the Sun", "695700000 m"]);
+    // Above the Sun's surface it flies.
+    let hangar = Hangar::<MomentumPlant>::shipped();
+    let far = [("orbit.center", 2.0), ("orbit.semiMajorAxis", 6e10), ("orbit.eccentricity", 0.2)];
+    hangar.fly(0.0, &far).unwrap().step_to(86_400.0).unwrap();
+    let near = [("orbit.source", 2.0), ("orbit.position[1]", 1e8), ("orbit.velocity[2]", 4e5)];
+    says(&[&[("orbit.center", 2.0)][..], &near].concat(), &["inside the planet or the Sun", "orbit.*"]);
+}
+
+#[test]
+fn downlinks_that_end_before_they_begin() {
+    let backwards = [("guided.downlinkStart", 36_000.0), ("guided.downlinkEnd", 7_200.0)];
+    says(&backwards, &["guided.downlinkStart", "guided.downlinkEnd", "36000.0", "7200.0", "allowed"]);
+    let never = [&backwards[..], &[("guided.downlinkEvery", 0.0)]].concat();
+    Hangar::<MomentumPlant>::shipped().fly(0.0, &never).unwrap().step_to(86_400.0).unwrap();
+}
+
+#[test]
+fn epochs_beyond_the_theory_of_the_planets() {
+    says(&[("initial.epoch", 1e12)], &["initial.epoch", "1000000000000.0", "allowed", "VSOP87"]);
+}
+
+#[test]
+fn thresholds_the_torque_outruns() {
+    let hangar = Hangar::<MomentumPlant>::shipped();
+    let sets = [("dump.threshold[1]", 1e-6), ("torque.external[1]", 1.0)];
+    let mut flight = hangar.fly(0.0, &sets).unwrap();
+    let failure = flight.step_to(600.0).unwrap_err().to_string();
+    assert!(failure.contains("1000 dumps") && failure.contains("dump.threshold"), "{failure}");
+}
