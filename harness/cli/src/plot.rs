@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use loader::{Fmu, Recording};
+use loader::{Column, Fmu, Recording};
+use model_description::Causality;
 use studies::chart::{COLOURS, Chart, Panel, Series};
 
 /// Panels drawn at most; more would not be readable.
@@ -45,10 +46,7 @@ pub fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
         TIME_UNITS.into_iter().find(|(from_s, _, _)| span_s >= *from_s).unwrap_or((0.0, "s", 1.0));
     let mut panels: Vec<(String, Panel)> = Vec::new();
     let mut left_out = 0;
-    for (name, column) in recording.names.iter().zip(&recording.columns) {
-        if matches!(column, loader::Column::Text(_)) {
-            continue;
-        }
+    for (name, column) in drawn(fmu, recording) {
         let vector = &group(name);
         let variable = fmu.find(name);
         let display = variable.and_then(|variable| loader::display_unit(fmu.description(), variable));
@@ -56,18 +54,18 @@ pub fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
         let points = recording.times_s.iter().zip(column.numbers());
         let points = points.map(|(time_s, value)| (time_s / seconds, factor * value + offset)).collect();
-        let series = Series::line(name.clone(), points);
+        let series = Series::line(name, points);
         let y_label =
             if unit.is_empty() || unit == "1" { vector.to_owned() } else { format!("{vector} [{unit}]") };
         let full = panels.len() == PANELS;
-        match panels.last_mut() {
-            Some((last, panel))
-                if last == vector && panel.y_label == y_label && panel.series.len() < COLOURS.len() =>
-            {
-                panel.series.push(series);
-            }
-            _ if full => left_out += 1,
-            _ => {
+        // What belongs together may stand apart in the description: wheel[1].momentum, wheel[1].speed, wheel[2]...
+        let with_room = panels.iter_mut().find(|(group, panel)| {
+            group == vector && panel.y_label == y_label && panel.series.len() < COLOURS.len()
+        });
+        match with_room {
+            Some((_, panel)) => panel.series.push(series),
+            None if full => left_out += 1,
+            None => {
                 panels.push((vector.to_owned(), Panel { y_label, series: vec![series], ..Panel::default() }))
             }
         }
@@ -92,10 +90,69 @@ pub fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
     }
 }
 
+/// The columns worth drawing: no texts, and no inputs that nobody used, unless there is nothing else.
+fn drawn<'a>(fmu: &Fmu, recording: &'a Recording) -> Vec<(&'a str, &'a Column)> {
+    let columns = recording.names.iter().map(String::as_str).zip(&recording.columns);
+    let numbers: Vec<_> = columns.filter(|(_, column)| !matches!(column, Column::Text(_))).collect();
+    let unused = |name: &str, column: &Column| {
+        fmu.find(name).is_some_and(|variable| variable.causality == Causality::Input)
+            && column.numbers().iter().all(|value| *value == 0.0)
+    };
+    let used: Vec<_> = numbers.iter().copied().filter(|(name, column)| !unused(name, column)).collect();
+    if used.is_empty() { numbers } else { used }
+}
+
 #[cfg(test)]
 mod tests {
     //! What belongs together shares a panel.
     use super::*;
+
+    const SHIP: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="Ship" guid="{ship}">
+  <CoSimulation modelIdentifier="Ship"/>
+  <ModelVariables>
+    <ScalarVariable name="push[1]" valueReference="0" causality="input"><Real start="0"/></ScalarVariable>
+    <ScalarVariable name="push[2]" valueReference="1" causality="input"><Real start="0"/></ScalarVariable>
+  </ModelVariables>
+  <ModelStructure/>
+</fmiModelDescription>"#;
+
+    /// The labels of each panel of a recording of two points.
+    fn panels(columns: &[(&str, f64)]) -> Vec<Vec<String>> {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("modelDescription.xml"), SHIP).unwrap();
+        let recording = Recording {
+            times_s: vec![0.0, 1.0],
+            names: columns.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            units: vec![String::new(); columns.len()],
+            columns: columns.iter().map(|(_, last)| Column::Real(vec![0.0, *last])).collect(),
+        };
+        let chart = chart(&Fmu::open(folder.path()).unwrap(), &recording);
+        let labels = |panel: Panel| panel.series.into_iter().map(|series| series.label).collect();
+        chart.panels.into_iter().map(labels).collect()
+    }
+
+    #[test]
+    fn a_group_shares_a_panel_wherever_its_variables_stand() {
+        let wheels = ["momentum", "speed", "torque"]
+            .map(|quantity| ["wheel[1].", "wheel[2]."].map(|wheel| format!("{wheel}{quantity}")));
+        let order: Vec<(&str, f64)> =
+            (0..2).flat_map(|wheel| wheels.iter().map(move |names| (names[wheel].as_str(), 1.0))).collect();
+        assert_eq!(order[1].0, "wheel[1].speed");
+        assert_eq!(panels(&order), wheels.map(Vec::from));
+        // An eighth line opens a panel of its own.
+        let many: Vec<String> = (1..=8).map(|k| format!("plate[{k}].temperature")).collect();
+        let many: Vec<(&str, f64)> = many.iter().map(|name| (name.as_str(), 1.0)).collect();
+        let counts: Vec<usize> = panels(&many).iter().map(Vec::len).collect();
+        assert_eq!(counts, [COLOURS.len(), 1]);
+    }
+
+    #[test]
+    fn inputs_that_nobody_used_are_not_drawn() {
+        let all = [("push[1]", 0.0), ("push[2]", 2.0), ("torque[1]", 0.0)];
+        assert_eq!(panels(&all), [["push[2]"], ["torque[1]"]]);
+        assert_eq!(panels(&all[..1]), [["push[1]"]], "nothing else is there");
+    }
 
     #[test]
     fn vectors_and_counted_quantities_are_groups() {

@@ -65,9 +65,13 @@ fn lists(table: &Table) -> Vec<String> {
     let tables =
         |value: &Value| value.as_array().filter(|list| list.iter().all(Value::is_table)).map(Vec::len);
     let counted = table.iter().filter_map(|(key, value)| tables(value).map(|count| (key, count)));
-    counted
-        .map(|(key, count)| format!("{count} {}", if count == 1 { key.trim_end_matches('s') } else { key }))
-        .collect()
+    counted.map(|(key, count)| format!("{count} {}", counted_word(key, count))).collect()
+}
+
+/// A list's key as a word; some keys are singular, as in `[[thruster]]`.
+fn counted_word(key: &str, count: usize) -> String {
+    let singular = key.trim_end_matches('s').replace('_', " ");
+    if count == 1 { singular } else { singular + "s" }
 }
 
 #[cfg(test)]
@@ -81,6 +85,8 @@ mod tests {
         let text =
             "center = [1, 2]\n[[panels]]\n[[panels]]\n[[wheels]]\n[[sunshade.plates]]\n[optics.foil]\n";
         assert_eq!(contents(text), "2 panels, 1 wheel, a sunshade of 1 plate");
+        let keys_in_singular = "[[group]]\n[[group]]\n[[thruster]]\n";
+        assert_eq!(contents(keys_in_singular), "2 groups, 1 thruster");
         assert_eq!(contents("[sunshade.cylinder]"), "a sunshade of a cylinder");
         assert_eq!(contents("no toml"), "");
     }
