@@ -3,6 +3,8 @@
 //! Used by `heliotorque run --plot` and by the studies. The text is SVG text, so no font is needed to draw it.
 
 mod legend;
+#[cfg(test)]
+mod tests;
 
 use std::path::Path;
 
@@ -93,16 +95,20 @@ pub enum ChartError {
     },
 }
 
-const WIDTH: u32 = 960;
-const PANEL_HEIGHT: u32 = 210;
-const SINGLE_HEIGHT: u32 = 420;
-const TITLE_HEIGHT: u32 = 44;
-const TOP: u32 = 14;
-const X_AXIS_HEIGHT: u32 = 52;
-const Y_AXIS_WIDTH: u32 = 74;
-const LEFT: u32 = 14;
-const BOTTOM: u32 = 12;
-const RIGHT: u32 = 24;
+/// Drawing units per pixel at which the picture shows: the library rounds coordinates to whole units, and a curve drawn
+/// in whole pixels is a staircase.
+const FINE: u32 = 4;
+
+const WIDTH: u32 = 960 * FINE;
+const PANEL_HEIGHT: u32 = 210 * FINE;
+const SINGLE_HEIGHT: u32 = 420 * FINE;
+const TITLE_HEIGHT: u32 = 44 * FINE;
+const TOP: u32 = 14 * FINE;
+const X_AXIS_HEIGHT: u32 = 52 * FINE;
+const Y_AXIS_WIDTH: u32 = 74 * FINE;
+const LEFT: u32 = 14 * FINE;
+const BOTTOM: u32 = 12 * FINE;
+const RIGHT: u32 = 24 * FINE;
 
 const FONT: &str = "'Source Sans 3','Segoe UI','Helvetica Neue',Arial,sans-serif";
 const INK: RGBColor = RGBColor(0x26, 0x2b, 0x33);
@@ -129,9 +135,15 @@ impl Chart {
     pub fn to_svg(&self) -> Result<String, ChartError> {
         let range = self.x_range().ok_or_else(|| ChartError::Empty(self.title.clone()))?;
         let mut svg = String::new();
-        self.draw(&mut svg, range)
-            .map_err(|error| ChartError::Drawing { title: self.title.clone(), reason: error.to_string() })?;
-        Ok(svg)
+        let cannot = |reason: String| ChartError::Drawing { title: self.title.clone(), reason };
+        self.draw(&mut svg, range).map_err(|error| cannot(error.to_string()))?;
+        let size = |height: u32| format!("<svg width=\"{}\" height=\"{height}\" ", WIDTH / FINE);
+        let fine = format!("<svg width=\"{WIDTH}\" height=\"{}\" ", self.height());
+        let Some(rest) = svg.strip_prefix(&fine) else {
+            return Err(cannot(format!("its picture does not begin with {fine}")));
+        };
+        // The view box keeps the fine units.
+        Ok(size(self.height() / FINE) + rest)
     }
 
     /// Writes the chart as an SVG file.
@@ -148,15 +160,26 @@ impl Chart {
         Some(if low < high { (low, high) } else { padded(low, high) })
     }
 
+    fn title_height(&self) -> u32 {
+        if self.title.is_empty() { TOP } else { TITLE_HEIGHT }
+    }
+
+    /// Of the lines of a panel with one row of legend.
+    fn panel_height(&self) -> u32 {
+        if self.panels.len() == 1 { SINGLE_HEIGHT } else { PANEL_HEIGHT }
+    }
+
+    fn height(&self) -> u32 {
+        let panels: u32 = self.panels.iter().map(|panel| panel.height(self.panel_height())).sum();
+        self.title_height() + panels + X_AXIS_HEIGHT
+    }
+
     fn draw(&self, svg: &mut String, x_range: (f64, f64)) -> Drawn {
-        let title_height = if self.title.is_empty() { TOP } else { TITLE_HEIGHT };
-        let panel_height = if self.panels.len() == 1 { SINGLE_HEIGHT } else { PANEL_HEIGHT };
-        let panels: u32 = self.panels.iter().map(|panel| panel.height(panel_height)).sum();
-        let height = title_height + panels + X_AXIS_HEIGHT;
-        let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
+        let (title_height, panel_height) = (self.title_height(), self.panel_height());
+        let root = SVGBackend::with_string(svg, (WIDTH, self.height())).into_drawing_area();
         root.fill(&WHITE)?;
         if !self.title.is_empty() {
-            let style = (FONT, 20).into_font().style(FontStyle::Bold).color(&INK);
+            let style = (FONT, 20 * FINE).into_font().style(FontStyle::Bold).color(&INK);
             let style = style.pos(Pos::new(HPos::Left, VPos::Center));
             root.draw_text(&self.title, &style, (pixel(LEFT + Y_AXIS_WIDTH), pixel(title_height / 2)))?;
         }
@@ -177,7 +200,7 @@ impl Chart {
         let axis_height = if last { X_AXIS_HEIGHT - BOTTOM } else { 0 };
         let mut chart = ChartBuilder::on(area)
             .margin_top(panel.top())
-            .margin_bottom(if last { BOTTOM } else { 8 })
+            .margin_bottom(if last { BOTTOM } else { 8 * FINE })
             .margin_left(LEFT)
             .margin_right(RIGHT)
             .x_label_area_size(axis_height)
@@ -187,18 +210,19 @@ impl Chart {
         let x_step = tick_step(x_range, 10);
         let y_step = tick_step(y_range, y_ticks);
         let (x_format, y_format) = (|x: &f64| tick_text(*x, x_step), |y: &f64| tick_text(*y, y_step));
-        let label_style = (FONT, 13).into_font().color(&QUIET);
+        let label_style = (FONT, 13 * FINE).into_font().color(&QUIET);
         let mut mesh = chart.configure_mesh();
-        mesh.light_line_style(TRANSPARENT)
-            .bold_line_style(GRID)
-            .axis_style(FRAME)
+        mesh.set_all_tick_mark_size(pixel(5 * FINE))
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID.stroke_width(FINE))
+            .axis_style(FRAME.stroke_width(FINE))
             .x_labels(10)
             .y_labels(y_ticks)
             .x_label_formatter(&x_format)
             .y_label_formatter(&y_format)
             .x_label_style(label_style.clone())
             .y_label_style(label_style)
-            .axis_desc_style((FONT, 14).into_font().color(&INK))
+            .axis_desc_style((FONT, 14 * FINE).into_font().color(&INK))
             .y_desc(panel.y_label.as_str());
         if last {
             mesh.x_desc(self.x_label.as_str());
@@ -206,21 +230,21 @@ impl Chart {
         mesh.draw()?;
         for mark in &panel.marks {
             let ends = [(x_range.0, *mark), (x_range.1, *mark)];
-            chart.draw_series(DashedLineSeries::new(ends, 6, 5, QUIET.stroke_width(1)))?;
+            chart.draw_series(DashedLineSeries::new(ends, 6 * FINE, 5 * FINE, QUIET.stroke_width(FINE)))?;
         }
-        let columns = 2 * (WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT);
+        let columns = 2 * (WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT) / FINE;
         for (index, series) in panel.series.iter().enumerate() {
             let colour = COLOURS[index % COLOURS.len()];
             match series.mark {
                 Mark::Line => {
                     for piece in pieces(&series.points) {
                         let points = thinned(piece, x_range, columns);
-                        chart.draw_series(LineSeries::new(points, colour.stroke_width(2)))?;
+                        chart.draw_series(LineSeries::new(points, colour.stroke_width(2 * FINE)))?;
                     }
                 }
                 Mark::Dots => {
                     let finite = series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
-                    chart.draw_series(finite.map(|point| Circle::new(*point, 3, colour.filled())))?;
+                    chart.draw_series(finite.map(|point| Circle::new(*point, 3 * FINE, colour.filled())))?;
                 }
             }
         }
@@ -231,7 +255,7 @@ impl Chart {
 impl Panel {
     /// Height above the lines: the legend's rows, or a little room.
     fn top(&self) -> u32 {
-        (legend::height(self)).max(8)
+        legend::height(self).max(8 * FINE)
     }
 
     /// The panel's whole height with lines `height` high.
@@ -264,7 +288,12 @@ fn padded(low: f64, high: f64) -> (f64, f64) {
     let span = high - low;
     let magnitude = low.abs().max(high.abs());
     // Differences too small for the axis to write are drawn as a flat line.
-    let room = if span > 1e-5 * magnitude { 0.06 * span } else { (0.1 * magnitude).max(1e-12) };
+    let room = match span > 1e-5 * magnitude {
+        true => 0.06 * span,
+        // Nothing but zero has no size of its own.
+        false if magnitude < f64::MIN_POSITIVE => 1.0,
+        false => 0.1 * magnitude,
+    };
     (low - room, high + room)
 }
 
@@ -322,106 +351,4 @@ fn tick_text(value: f64, step: f64) -> String {
     }
     let digits = (magnitude.log10().floor() - step.log10().floor()).clamp(0.0, 6.0);
     format!("{value:.*e}", digits as usize)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn sample() -> Chart {
-        let line = |phase: f64, scale: f64| {
-            (0..130_000)
-                .map(|k| {
-                    let day = f64::from(k) * 90.0 / 130_000.0;
-                    // A sawtooth, as momentum between dumps.
-                    (day, scale * ((day / 7.0 + phase).fract() * 8.0 - 4.0) + 0.2 * (day * 6.0).sin())
-                })
-                .collect::<Vec<_>>()
-        };
-        Chart {
-            title: "System momentum, thruster dumps only".to_owned(),
-            x_label: "time [d]".to_owned(),
-            panels: vec![
-                Panel {
-                    y_label: "momentum.body [N.m.s]".to_owned(),
-                    series: vec![
-                        Series::line("momentum.body[1]", line(0.0, 1.0)),
-                        Series::line("momentum.body[2]", line(0.4, 0.3)),
-                        Series::line("momentum.body[3]", line(0.7, -0.6)),
-                    ],
-                    marks: vec![4.0, -4.0],
-                    ..Panel::default()
-                },
-                Panel {
-                    y_label: "torque.solar [uN.m]".to_owned(),
-                    series: vec![Series::line("torque.solar[1]", line(0.1, 20.0))],
-                    ..Panel::default()
-                },
-                Panel {
-                    y_label: "dump.count".to_owned(),
-                    series: vec![Series::dots(
-                        "",
-                        (0..12).map(|k| (f64::from(k) * 7.5, f64::from(k))).collect(),
-                    )],
-                    ..Panel::default()
-                },
-            ],
-        }
-    }
-
-    #[test]
-    fn a_chart_names_its_axes_and_stays_small() {
-        let svg = sample().to_svg().unwrap();
-        for text in
-            ["System momentum, thruster dumps only", "time [d]", "momentum.body [N.m.s]", "torque.solar[1]"]
-        {
-            assert!(svg.contains(text), "{text} is missing");
-        }
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "a coordinate is not finite");
-        assert!(svg.len() < 1_000_000, "{} bytes", svg.len());
-        if let Ok(path) = std::env::var("CHART_SAMPLE") {
-            std::fs::write(path, svg).unwrap();
-        }
-    }
-
-    #[test]
-    fn thinning_keeps_every_spike() {
-        let mut points: Vec<(f64, f64)> = (0..100_000).map(|k| (f64::from(k), 0.0)).collect();
-        points[31_415].1 = 7.0;
-        points[27_182].1 = -3.0;
-        let kept = thinned(&points, (0.0, 99_999.0), 1000);
-        assert!(kept.len() <= 4000);
-        assert!(kept.contains(&(31_415.0, 7.0)) && kept.contains(&(27_182.0, -3.0)));
-        assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[99_999]));
-        assert!(kept.is_sorted_by(|a, b| a.0 < b.0));
-    }
-
-    #[test]
-    fn odd_data_is_drawn_or_refused_but_never_panics() {
-        let chart = |points: Vec<(f64, f64)>| Chart {
-            panels: vec![Panel { series: vec![Series::line("x", points)], ..Panel::default() }],
-            ..Chart::default()
-        };
-        assert!(matches!(chart(vec![]).to_svg(), Err(ChartError::Empty(_))));
-        assert!(matches!(chart(vec![(0.0, f64::NAN)]).to_svg(), Err(ChartError::Empty(_))));
-        for points in [
-            vec![(0.0, 0.0)],
-            vec![(5.0, 1e300), (6.0, 1e300)],
-            vec![(0.0, 1.0), (1.0, f64::INFINITY), (2.0, 1.0 + 1e-16)],
-            vec![(1e-300, -1e-300), (2e-300, 1e-300)],
-            vec![(-1e15, 3.0), (1e15, 4.0)],
-        ] {
-            assert!(chart(points.clone()).to_svg().is_ok(), "{points:?}");
-        }
-    }
-
-    #[test]
-    fn ticks_read_well() {
-        assert_eq!(tick_step((0.0, 90.0), 10), 10.0);
-        assert_eq!(tick_text(-0.1 - 0.2, 0.1), "-0.3");
-        assert_eq!(tick_text(1e-20, 0.5), "0.0");
-        assert_eq!(tick_text(2e-9, 1e-9), "2e-9");
-        assert_eq!(tick_text(1_500_000.0, 500_000.0), "1.5e6");
-        assert_eq!(tick_text(20.0, 10.0), "20");
-    }
 }

@@ -3,22 +3,25 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Area, COLOURS, Drawn, FONT, INK, LEFT, Mark, Panel, RIGHT, Series, WIDTH, Y_AXIS_WIDTH, pixel};
+use super::{
+    Area, COLOURS, Drawn, FINE, FONT, INK, LEFT, Mark, Panel, RIGHT, Series, WIDTH, Y_AXIS_WIDTH, pixel,
+};
 
-/// Height of a row in pixels.
-pub(super) const ROW_HEIGHT: u32 = 26;
-const SWATCH: i32 = 18;
-const GAP: i32 = 6;
-const BETWEEN: i32 = 20;
+/// Height of a row in drawing units.
+pub(super) const ROW_HEIGHT: u32 = 26 * FINE;
+const SWATCH: i32 = 18 * UNITS;
+const GAP: i32 = 6 * UNITS;
+const BETWEEN: i32 = 20 * UNITS;
+const UNITS: i32 = FINE as i32;
 
-/// Height of the panel's legend in pixels; 0 for none.
+/// Height of the panel's legend in drawing units; 0 for none.
 pub(super) fn height(panel: &Panel) -> u32 {
     u32::try_from(rows(panel).len()).unwrap_or(0) * ROW_HEIGHT
 }
 
 /// Draws it.
 pub(super) fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
-    let style = (FONT, 13).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+    let style = (FONT, 13 * FINE).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
     let mut y = pixel(ROW_HEIGHT / 2);
     for row in rows(panel) {
         let width: i32 = row.iter().map(|(_, series)| entry_width(series)).sum();
@@ -27,9 +30,9 @@ pub(super) fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
             let colour = COLOURS[index % COLOURS.len()];
             match series.mark {
                 Mark::Line => {
-                    area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], colour.stroke_width(3)))?;
+                    area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], colour.stroke_width(3 * FINE)))?;
                 }
-                Mark::Dots => area.draw(&Circle::new((x + SWATCH / 2, y), 4, colour.filled()))?,
+                Mark::Dots => area.draw(&Circle::new((x + SWATCH / 2, y), 4 * UNITS, colour.filled()))?,
             }
             area.draw_text(&series.label, &style, (x + SWATCH + GAP, y))?;
             x += entry_width(series);
@@ -63,7 +66,7 @@ fn entry_width(series: &Series) -> i32 {
     SWATCH + GAP + text_width(&series.label) + BETWEEN
 }
 
-/// Width of a legend label in pixels, estimated: the font is the viewer's.
+/// Width of a legend label in drawing units, estimated: the font is the viewer's.
 fn text_width(text: &str) -> i32 {
     let eighths: i32 = text
         .chars()
@@ -73,7 +76,7 @@ fn text_width(text: &str) -> i32 {
             _ => 58,
         })
         .sum();
-    eighths / 8
+    eighths * UNITS / 8
 }
 
 #[cfg(test)]

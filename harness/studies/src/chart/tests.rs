@@ -1,0 +1,140 @@
+//! Charts name what they show, lose nothing visible, and survive any data.
+
+use super::*;
+
+fn sample() -> Chart {
+    let line = |phase: f64, scale: f64| {
+        (0..130_000)
+            .map(|k| {
+                let day = f64::from(k) * 90.0 / 130_000.0;
+                // A sawtooth, as momentum between dumps.
+                (day, scale * ((day / 7.0 + phase).fract() * 8.0 - 4.0) + 0.2 * (day * 6.0).sin())
+            })
+            .collect::<Vec<_>>()
+    };
+    Chart {
+        title: "System momentum, thruster dumps only".to_owned(),
+        x_label: "time [d]".to_owned(),
+        panels: vec![
+            Panel {
+                y_label: "momentum.body [N.m.s]".to_owned(),
+                series: vec![
+                    Series::line("momentum.body[1]", line(0.0, 1.0)),
+                    Series::line("momentum.body[2]", line(0.4, 0.3)),
+                    Series::line("momentum.body[3]", line(0.7, -0.6)),
+                ],
+                marks: vec![4.0, -4.0],
+                ..Panel::default()
+            },
+            Panel {
+                y_label: "torque.solar [uN.m]".to_owned(),
+                series: vec![Series::line("torque.solar[1]", line(0.1, 20.0))],
+                ..Panel::default()
+            },
+            Panel {
+                y_label: "dump.count".to_owned(),
+                series: vec![Series::dots("", (0..12).map(|k| (f64::from(k) * 7.5, f64::from(k))).collect())],
+                ..Panel::default()
+            },
+        ],
+    }
+}
+
+#[test]
+fn a_chart_names_its_axes_and_stays_small() {
+    let svg = sample().to_svg().unwrap();
+    for text in
+        ["System momentum, thruster dumps only", "time [d]", "momentum.body [N.m.s]", "torque.solar[1]"]
+    {
+        assert!(svg.contains(text), "{text} is missing");
+    }
+    assert!(!svg.contains("NaN") && !svg.contains("inf"), "a coordinate is not finite");
+    assert!(svg.len() < 1_000_000, "{} bytes", svg.len());
+    if let Ok(path) = std::env::var("CHART_SAMPLE") {
+        std::fs::write(path, svg).unwrap();
+    }
+}
+
+#[test]
+fn thinning_keeps_every_spike() {
+    let mut points: Vec<(f64, f64)> = (0..100_000).map(|k| (f64::from(k), 0.0)).collect();
+    points[31_415].1 = 7.0;
+    points[27_182].1 = -3.0;
+    let kept = thinned(&points, (0.0, 99_999.0), 1000);
+    assert!(kept.len() <= 4000);
+    assert!(kept.contains(&(31_415.0, 7.0)) && kept.contains(&(27_182.0, -3.0)));
+    assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[99_999]));
+    assert!(kept.is_sorted_by(|a, b| a.0 < b.0));
+}
+
+#[test]
+fn odd_data_is_drawn_or_refused_but_never_panics() {
+    let chart = |points: Vec<(f64, f64)>| Chart {
+        panels: vec![Panel { series: vec![Series::line("x", points)], ..Panel::default() }],
+        ..Chart::default()
+    };
+    assert!(matches!(chart(vec![]).to_svg(), Err(ChartError::Empty(_))));
+    assert!(matches!(chart(vec![(0.0, f64::NAN)]).to_svg(), Err(ChartError::Empty(_))));
+    for points in [
+        vec![(0.0, 0.0)],
+        vec![(5.0, 1e300), (6.0, 1e300)],
+        vec![(5.0, 5e-324), (6.0, 5e-324)],
+        vec![(5.0, 3e-308), (6.0, 3e-308)],
+        vec![(0.0, 1.0), (1.0, f64::INFINITY), (2.0, 1.0 + 1e-16)],
+        vec![(1e-300, -1e-300), (2e-300, 1e-300)],
+        vec![(-1e15, 3.0), (1e15, 4.0)],
+    ] {
+        assert!(chart(points.clone()).to_svg().is_ok(), "{points:?}");
+    }
+}
+
+/// The points of the first line that is drawn wider than one pixel, in units of the view box.
+fn drawn_line(svg: &str) -> Vec<(f64, f64)> {
+    let mut lines = svg.split("<polyline ").filter(|tag| tag.contains("stroke=\"#0072B2\""));
+    let tag = lines.find(|tag| tag.matches(',').count() > 10).unwrap();
+    let points = tag.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    points
+        .split_whitespace()
+        .map(|pair| pair.split_once(',').unwrap())
+        .map(|(x, y)| (number(x), number(y)))
+        .collect()
+}
+
+#[test]
+fn a_smooth_curve_is_no_staircase() {
+    // A ramp that rises by 20 pixels over the width of the picture.
+    let points = (0..=400).map(|k| (f64::from(k), f64::from(k))).collect();
+    let panel =
+        Panel { series: vec![Series::line("x", points)], y_range: Some((0.0, 6000.0)), ..Panel::default() };
+    let svg = Chart { panels: vec![panel.clone(), panel], ..Chart::default() }.to_svg().unwrap();
+    let tag: Vec<&str> = svg.split('"').take(6).collect();
+    let [width, height, view] = [tag[1], tag[3], tag[5]].map(|text| text.to_owned());
+    assert_eq!((width.as_str(), view.starts_with("0 0 ")), ("960", true), "{tag:?}");
+    let sides: Vec<f64> = view.split(' ').map(|side| side.parse().unwrap()).collect();
+    let unit = 960.0 / sides[2];
+    assert_eq!(height.parse::<f64>().unwrap(), unit * sides[3]);
+    let line = drawn_line(&svg);
+    let ((x0, y0), (x1, y1)) = (line[0], line[line.len() - 1]);
+    for (x, y) in &line {
+        let on_the_line = y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+        assert!((y - on_the_line).abs() * unit < 0.25, "{x},{y}: {} pixels off", (y - on_the_line) * unit);
+    }
+}
+
+#[test]
+fn a_flat_line_has_a_readable_axis() {
+    assert_eq!(padded(0.0, 0.0), (-1.0, 1.0));
+    assert_eq!(padded(20.0, 20.0), (18.0, 22.0));
+    assert_eq!(padded(-1e-15, -1e-15), (-1e-15 - 1e-16, -1e-15 + 1e-16));
+}
+
+#[test]
+fn ticks_read_well() {
+    assert_eq!(tick_step((0.0, 90.0), 10), 10.0);
+    assert_eq!(tick_text(-0.1 - 0.2, 0.1), "-0.3");
+    assert_eq!(tick_text(1e-20, 0.5), "0.0");
+    assert_eq!(tick_text(2e-9, 1e-9), "2e-9");
+    assert_eq!(tick_text(1_500_000.0, 500_000.0), "1.5e6");
+    assert_eq!(tick_text(20.0, 10.0), "20");
+}
