@@ -20,8 +20,17 @@ pub fn table2(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Thruster dumps in 90 days (paper 000, Table 2, rows \"thruster dumps only\")\n");
     let rows: Vec<Vec<String>> = flown.iter().map(count_row).collect();
-    let header =
-        ["threshold", "shade", "momentum", "Z offset", "paper", "ours", "closest", "typical", "verdict"];
+    let header = [
+        "threshold",
+        "shade",
+        "momentum",
+        "Z offset",
+        "paper",
+        "ours",
+        "verdict",
+        "paper's gaps",
+        "our gaps",
+    ];
     report.table(&header, &rows);
     report.line(REMARK);
     report.csv(options, "table2.csv", &header, rows)?;
@@ -44,13 +53,15 @@ pub fn table3(options: &Options) -> Result<Report, StudyError> {
                 flight.case.shade.label().to_owned(),
                 flight.case.convention.label().to_owned(),
                 flight.case.offset_label(),
-                PaperRow::of(&flight.case).map_or("-", |row| row.spacing).to_owned(),
+                PaperRow::of(&flight.case).map_or("-".to_owned(), |row| row.spacing.to_string()),
                 spacing.to_string(),
+                PaperRow::of(&flight.case).map_or("", |row| spacing.against(&row.spacing)).to_owned(),
                 if spacing.closer_than_five_days { "closer than 5 days" } else { "" }.to_owned(),
             ]
         })
         .collect();
-    let header = ["threshold", "shade", "momentum", "Z offset", "paper", "ours", "mission requirement"];
+    let header =
+        ["threshold", "shade", "momentum", "Z offset", "paper", "ours", "verdict", "mission requirement"];
     report.table(&header, &rows);
     report.line(REMARK);
     report.csv(options, "table3.csv", &header, rows)?;
@@ -95,9 +106,9 @@ fn count_row(flight: &Flown) -> Vec<String> {
         flight.case.offset_label(),
         paper.map_or("-".to_owned(), |paper| paper.to_string()),
         ours.to_string(),
-        spacing.closest_d.map_or("-".to_owned(), |days| format!("{days:.1} d")),
-        spacing.typical_d.map_or("-".to_owned(), |(low, high)| format!("{low:.0}-{high:.0} d")),
         verdict.to_owned(),
+        PaperRow::of(&flight.case).map_or("-".to_owned(), |row| row.spacing.to_string()),
+        spacing.to_string(),
     ]
 }
 

@@ -1,6 +1,7 @@
 //! What the paper prints.
 
 use super::cases::{Case, Convention};
+use super::spacing::Spacing;
 
 /// One cell of Tables 2 and 3, strategy "thruster dumps only".
 pub struct PaperRow {
@@ -9,19 +10,26 @@ pub struct PaperRow {
     /// Table 2.
     pub dumps: i64,
     /// Table 3.
-    pub spacing: &'static str,
+    pub spacing: Spacing,
 }
 
 const ROWS: &[PaperRow] = &[
-    row(4.0, 0.0, 4, "closest 7 d, farthest 45 d, typical 7-10 d"),
-    row(4.0, -0.0254, 9, "closest 5 d, farthest 15.5 d, typical 5-11 d"),
-    row(4.0, -0.0508, 14, "closest 4 d, farthest 21 d, typical 4-6 d"),
-    row(7.0, 0.0, 2, "2, 55 d apart"),
-    row(7.0, -0.0254, 6, "closest 3.5 d, farthest 25.5 d, typical 10-20 d"),
-    row(7.0, -0.0508, 8, "closest 7 d, farthest 25 d, typical 7-12 d"),
+    row(4.0, 0.0, 4, [7.0, 45.0, 7.0, 10.0]),
+    row(4.0, -0.0254, 9, [5.0, 15.5, 5.0, 11.0]),
+    row(4.0, -0.0508, 14, [4.0, 21.0, 4.0, 6.0]),
+    row(7.0, 0.0, 2, [55.0; 4]),
+    row(7.0, -0.0254, 6, [3.5, 25.5, 10.0, 20.0]),
+    row(7.0, -0.0508, 8, [7.0, 25.0, 7.0, 12.0]),
 ];
 
-const fn row(threshold_n_m_s: f64, offset_m: f64, dumps: i64, spacing: &'static str) -> PaperRow {
+/// Gaps in days: closest, farthest, and the typical range.
+const fn row(
+    threshold_n_m_s: f64,
+    offset_m: f64,
+    dumps: i64,
+    [closest_d, farthest_d, low_d, high_d]: [f64; 4],
+) -> PaperRow {
+    let spacing = Spacing::stated(dumps as usize, closest_d, farthest_d, (low_d, high_d));
     PaperRow { threshold_n_m_s, offset_m, dumps, spacing }
 }
 

@@ -17,6 +17,33 @@ pub struct Spacing {
 }
 
 impl Spacing {
+    /// As somebody states it.
+    pub const fn stated(dumps: usize, closest_d: f64, farthest_d: f64, typical_d: (f64, f64)) -> Self {
+        Self {
+            closest_d: Some(closest_d),
+            farthest_d: Some(farthest_d),
+            typical_d: Some(typical_d),
+            closer_than_five_days: closest_d < 5.0,
+            dumps,
+        }
+    }
+
+    /// How this compares with what a paper states, whose "typical" is not defined.
+    pub fn against(&self, stated: &Self) -> &'static str {
+        let (Some((low, high)), Some((stated_low, stated_high))) = (self.typical_d, stated.typical_d) else {
+            return "off";
+        };
+        let near = |ours: Option<f64>, theirs: Option<f64>| {
+            ours.zip(theirs).is_some_and(|(ours, theirs)| (ours / theirs - 1.0).abs() <= 0.25)
+        };
+        match (low <= stated_high && stated_low <= high, near(self.closest_d, stated.closest_d)) {
+            (true, true) => "typical gaps overlap, closest within 25 %",
+            (true, false) => "typical gaps overlap, closest off",
+            (false, true) => "typical gaps off, closest within 25 %",
+            (false, false) => "off",
+        }
+    }
+
     /// Of rising dump times, in days.
     pub fn of(dumps_d: &[f64]) -> Self {
         let mut gaps_d: Vec<f64> = dumps_d.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -62,6 +89,13 @@ mod tests {
         assert_eq!(spacing.typical_d, Some((4.0, 10.0)));
         assert!(spacing.closer_than_five_days);
         assert_eq!(spacing.to_string(), "closest 2.0 d, farthest 20.0 d, typical 4-10 d");
+        let stated = |closest_d, typical_d| Spacing::stated(9, closest_d, 30.0, typical_d);
+        let overlapping = "typical gaps overlap, closest within 25 %";
+        assert_eq!(spacing.against(&stated(2.5, (9.0, 30.0))), overlapping);
+        assert_eq!(spacing.against(&stated(2.7, (9.0, 30.0))), "typical gaps overlap, closest off");
+        assert_eq!(spacing.against(&stated(2.0, (11.0, 30.0))), "typical gaps off, closest within 25 %");
+        assert_eq!(spacing.against(&stated(9.0, (1.0, 3.0))), "off");
+        assert_eq!(Spacing::of(&[1.0]).against(&stated(2.0, (1.0, 3.0))), "off");
     }
 
     #[test]
