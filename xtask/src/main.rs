@@ -2,6 +2,7 @@
 
 mod bench;
 mod build;
+mod locale;
 mod notices;
 mod python;
 mod shell;

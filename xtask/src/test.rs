@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::build::{self, Built};
 use crate::shell::{Outcome, cargo, command, need, root, run};
-use crate::{python, shell};
+use crate::{locale, python, shell};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
@@ -38,7 +38,9 @@ pub fn all() -> Outcome {
     if std::env::var_os(DRAWS).is_none() {
         environment.push((DRAWS, "20040803".into()));
     }
-    run(cargo(&["test", "--locked", "--release", "--workspace", "--all-features"]).envs(environment.clone()))?;
+    run(cargo(&["test", "--locked", "--release", "--workspace", "--all-features"])
+        .envs(environment.clone())
+        .envs(locale::environment()?))?;
     run(command(python::interpreter()?)
         .args(["-m", "pytest", "-q", "tests/python"])
         .env("PYTHONDONTWRITEBYTECODE", "1")

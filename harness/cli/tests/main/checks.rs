@@ -33,6 +33,20 @@ fn our_own_fmus_pass() {
 }
 
 #[test]
+fn a_comma_locale_is_tried_where_there_is_one() {
+    let there = std::env::var_os("LOCPATH")
+        .is_some_and(|folder| Path::new(&folder).join("de_DE.UTF-8").join("LC_NUMERIC").exists());
+    if !there {
+        eprintln!("skipped: LOCPATH holds no de_DE.UTF-8: run `cargo xtask test`");
+        return;
+    }
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    let text = run(&["check", shown(&fmu), "--only", "locale", "--verbose"], 0);
+    assert!(text.contains("flies under de_DE.UTF-8 to the same bits"), "{text}");
+    assert!(text.contains("0 skipped"), "{text}");
+}
+
+#[test]
 fn every_shipped_fmu_passes() {
     let Some(dist) = std::env::var_os("HELIOTORQUE_DIST") else {
         eprintln!("skipped: HELIOTORQUE_DIST is not set: run `cargo xtask test`");

@@ -1,0 +1,42 @@
+//! A locale with a decimal comma, for the check that a host's locale changes no number.
+
+use std::path::{Path, PathBuf};
+
+use crate::shell::{command, need, run, target};
+
+/// Its name, as `setlocale` takes it.
+const NAME: &str = "de_DE.UTF-8";
+/// Where the C library looks for locales before anywhere else.
+const VARIABLE: &str = "LOCPATH";
+/// What it is built from.
+const SOURCE: &str = "/usr/share/i18n/locales/de_DE";
+
+/// What the tests' environment needs for it: nothing where it is there already, or cannot be built.
+pub fn environment() -> Result<Option<(&'static str, PathBuf)>, String> {
+    let given = std::env::var_os(VARIABLE).is_some_and(|folder| is_in(Path::new(&folder)));
+    if given || !cfg!(target_os = "linux") {
+        return Ok(None);
+    }
+    let folder = target().join("locale");
+    if !is_in(&folder) {
+        if !need("localedef", "the flight under a comma locale")? {
+            return Ok(None);
+        }
+        if !Path::new(SOURCE).exists() {
+            return if std::env::var_os("CI").is_some() {
+                Err(format!("`{SOURCE}` is missing, needed for the flight under a comma locale"))
+            } else {
+                eprintln!("skipped: the flight under a comma locale (no `{SOURCE}` on this machine)");
+                Ok(None)
+            };
+        }
+        std::fs::create_dir_all(&folder)
+            .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;
+        run(command("localedef").args(["-i", "de_DE", "-f", "UTF-8"]).arg(folder.join(NAME)))?;
+    }
+    Ok(Some((VARIABLE, folder)))
+}
+
+fn is_in(folder: &Path) -> bool {
+    folder.join(NAME).join("LC_NUMERIC").exists()
+}
