@@ -47,7 +47,7 @@ pub fn html(description: &Description, picture: bool) -> String {
          <style>{STYLE}</style>\n</head>\n<body>\n"
     );
     if picture {
-        page.push_str("<img src=\"../model.png\" alt=\"The spacecraft's surfaces\">\n");
+        page.push_str("<img src=\"../model.png\" alt=\"The spacecraft\">\n");
     }
     let _ = writeln!(page, "<h1>{title}</h1>");
     if let Some(text) = &description.description {

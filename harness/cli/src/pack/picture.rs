@@ -1,6 +1,8 @@
-//! `model.png`: the spacecraft's plates and panels, seen from sunward, below and aside.
+//! `model.png`: the spacecraft's plates and panels, seen from sunward, below and aside; or a spinner's thrusters.
 //!
 //! A surface given by its outline is drawn as that polygon, any other as a square of its area; panels stand at angle 0.
+
+mod spinner;
 
 use std::fmt::Write;
 
@@ -29,10 +31,10 @@ struct Surface {
     cells: bool,
 }
 
-/// Draws the spacecraft; `None` if the text describes no surface.
+/// Draws the spacecraft; `None` if the text describes no surface and no thruster.
 pub fn png(spacecraft_toml: &str) -> Option<Vec<u8>> {
     let spacecraft: Table = spacecraft_toml.parse().ok()?;
-    let svg = svg(&surfaces(&spacecraft))?;
+    let svg = svg(&surfaces(&spacecraft)).or_else(|| spinner::svg(&spacecraft))?;
     let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).ok()?;
     let mut pixels = tiny_skia::Pixmap::new(WIDTH as u32, HEIGHT as u32)?;
     resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
@@ -266,6 +268,7 @@ mod tests {
         for (name, text) in [
             ("squares", include_str!("../../../../fmu-src/resources/messenger.toml")),
             ("outlines", outlines),
+            ("spinner", include_str!("../../../../fmu-src/resources/ace.toml")),
         ] {
             let png = png(text).unwrap();
             assert_eq!(&png[1..4], b"PNG");

@@ -41,6 +41,19 @@ fn the_same_input_gives_the_same_archive() {
 }
 
 #[test]
+fn every_shipped_fmu_shows_a_picture() {
+    let Some(dist) = std::env::var_os("HELIOTORQUE_DIST") else {
+        eprintln!("skipped: HELIOTORQUE_DIST is not set: run `cargo xtask test`");
+        return;
+    };
+    for name in ["MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
+        let all = entries(&Path::new(&dist).join(format!("{name}.fmu")));
+        let picture = all.iter().find(|(entry, _)| entry == "model.png");
+        assert!(picture.is_some_and(|(_, bytes)| bytes.starts_with(b"\x89PNG")), "{name} has no picture");
+    }
+}
+
+#[test]
 fn the_documentation_names_every_variable() {
     let Some((_room, path)) = packed("AllTypes") else { return };
     let all = entries(&path);
