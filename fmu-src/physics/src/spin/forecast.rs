@@ -89,22 +89,45 @@ pub struct Range {
     pub rate_rad_s: f64,
 }
 
+/// Samples to a turn of the last pulse's nutation, than which no nutation turns faster over a range.
+const FINE: f64 = 16.0;
+/// Samples to a turn where another sweep fills in what lies between.
+const COARSE: f64 = 8.0;
+/// Fewest intervals of a range.
+const FEWEST: u32 = 8;
+/// Most intervals for any train; more only while the samples of a sweep follow fewer than [`MOST_PULSES`] in all.
+const MOST: u32 = 400;
+const MOST_PULSES: f64 = 4e6;
+/// A maximum between samples is looked for where it could exceed the greatest so far by this share.
+const WORTH_LOOKING: f64 = 1e-5;
+
 impl Range {
-    /// Worst final and peak nutation over the range, and the least and greatest move, sampled finely enough for the
-    /// nutation of the last pulse to turn by less than an eighth of a turn from sample to sample.
+    /// Worst final and peak nutation over the range, within 1e-3 of what any finer scan finds, and the least and
+    /// greatest move. Trains of more than three thousand pulses are sampled more coarsely.
     pub fn worst(&self, flight: &Flight, train: &Train) -> Worst {
         let turns = train.turns(train.count().saturating_sub(1)) + 1.0;
-        let samples = |half_width: f64| {
+        let most = (MOST_PULSES / f64::from(train.count().max(1))) as u32;
+        let samples = |half_width: f64, per_turn: f64| {
             if half_width == 0.0 {
-                1
-            } else {
-                ((2.0 * half_width * turns * 8.0).ceil() as u32).clamp(8, 400) + 1
+                return 1;
             }
+            ((2.0 * half_width * turns * per_turn).ceil() as u32).clamp(FEWEST, most.max(MOST)) + 1
         };
-        let ratios = samples(self.ratio);
-        let rates = samples(self.rate_rad_s / flight.spin.rate_rad_s).min(9);
-        let at = |i: u32, count: u32| {
-            if count == 1 { 0.0 } else { 2.0 * f64::from(i) / f64::from(count - 1) - 1.0 }
+        let ratios = samples(self.ratio, FINE);
+        let rate = self.rate_rad_s / flight.spin.rate_rad_s;
+        let rates = match flight.timing {
+            // By the clock the rate turns nutation as the ratio does. Sweeps of the ratio fill in between its samples
+            // if they are wide enough.
+            Timing::Clock if 2.0 * self.ratio * turns * COARSE >= 1.0 => samples(rate, COARSE),
+            Timing::Clock => samples(rate, FINE),
+            // From turn to turn it does not: sizes change, and steadily.
+            Timing::SunCrossing | Timing::TruePhase => samples(rate, 0.0),
+        };
+        let at = |ratio_share: f64, rate_share: f64| {
+            let mut other = *flight;
+            other.spin.ratio += self.ratio * ratio_share;
+            other.spin.rate_rad_s += self.rate_rad_s * rate_share;
+            other.forecast(train)
         };
         let mut worst = Worst {
             final_nutation_rad: 0.0,
@@ -112,20 +135,18 @@ impl Range {
             least_moved_rad: f64::INFINITY,
             most_moved_rad: f64::NEG_INFINITY,
         };
-        for i in 0..ratios {
-            for j in 0..rates {
-                let mut other = *flight;
-                other.spin.ratio += self.ratio * at(i, ratios);
-                other.spin.rate_rad_s += self.rate_rad_s * at(j, rates);
-                let seen = other.forecast(train);
-                worst.final_nutation_rad = worst.final_nutation_rad.max(seen.final_nutation_rad);
-                worst.peak_nutation_rad = worst.peak_nutation_rad.max(seen.peak_nutation_rad);
-                worst.least_moved_rad = worst.least_moved_rad.min(seen.moved_rad);
-                worst.most_moved_rad = worst.most_moved_rad.max(seen.moved_rad);
-            }
+        if ratios == 1 {
+            worst.sweep(rates, |share| at(0.0, share));
+        } else {
+            (0..rates).for_each(|j| worst.sweep(ratios, |share| at(share, share_of(j, rates))));
         }
         worst
     }
+}
+
+/// Where sample `i` of `count` lies in a range from -1 to 1.
+fn share_of(i: u32, count: u32) -> f64 {
+    if count == 1 { 0.0 } else { 2.0 * f64::from(i) / f64::from(count - 1) - 1.0 }
 }
 
 /// See [`Range::worst`].
@@ -139,4 +160,42 @@ pub struct Worst {
     pub least_moved_rad: f64,
     /// In rad.
     pub most_moved_rad: f64,
+}
+
+impl Worst {
+    fn see(&mut self, seen: &Forecast) {
+        self.final_nutation_rad = self.final_nutation_rad.max(seen.final_nutation_rad);
+        self.peak_nutation_rad = self.peak_nutation_rad.max(seen.peak_nutation_rad);
+        self.least_moved_rad = self.least_moved_rad.min(seen.moved_rad);
+        self.most_moved_rad = self.most_moved_rad.max(seen.moved_rad);
+    }
+
+    /// Takes in `count` samples over shares from -1 to 1, and the tops of parabolas through three of them.
+    fn sweep(&mut self, count: u32, at: impl Fn(f64) -> Forecast) {
+        let mut window = [[0.0; 2]; 3];
+        for i in 0..count {
+            let seen = at(share_of(i, count));
+            self.see(&seen);
+            window = [window[1], window[2], [seen.final_nutation_rad, seen.peak_nutation_rad]];
+            if i < 2 {
+                continue;
+            }
+            for kind in 0..2 {
+                let greatest = [self.final_nutation_rad, self.peak_nutation_rad][kind];
+                if let Some((offset, top)) = vertex(window.map(|sample| sample[kind]))
+                    && top > greatest * (1.0 + WORTH_LOOKING)
+                {
+                    let spacing = 2.0 / f64::from(count - 1);
+                    self.see(&at(share_of(i - 1, count) + offset * spacing));
+                }
+            }
+        }
+    }
+}
+
+/// Where the parabola through (-1, a), (0, b), (1, c) is greatest, if that is within -1 to 1, and how great it is.
+fn vertex([a, b, c]: [f64; 3]) -> Option<(f64, f64)> {
+    let curvature = 2.0 * b - a - c;
+    let offset = 0.5 * (c - a) / curvature;
+    (curvature > 0.0 && offset.abs() <= 1.0).then(|| (offset, b + 0.25 * (c - a) * offset))
 }

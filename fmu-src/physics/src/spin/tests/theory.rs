@@ -132,24 +132,71 @@ fn forecasts_of_uniform_trains_are_eq_8() {
     }
 }
 
-#[test]
-fn the_worst_of_a_range_is_no_less_than_a_fine_scan_finds() {
-    let spin = paper(1.4825);
-    let train = Train::new(Shape::Uniform, 114, 0.032, 1.0, &spin, 0.032).unwrap();
-    let flight = Flight {
-        spin,
-        assumed_rate_rad_s: spin.rate_rad_s,
-        timing: Timing::TruePhase,
-        torque_n_m: TORQUE_N_M,
-    };
-    let worst = Range { ratio: 0.0115, rate_rad_s: 0.0 }.worst(&flight, &train);
-    let mut finest: f64 = 0.0;
-    for i in 0..=20_000 {
-        let mut other = flight;
-        other.spin.ratio = 1.471 + 0.023 * f64::from(i) / 20_000.0;
-        finest = finest.max(other.forecast(&train).final_nutation_rad);
+/// Greatest final and peak nutation of a scan two thousand times as fine as the ranges are wide.
+fn scanned(flight: &Flight, range: &Range, train: &Train) -> [f64; 2] {
+    let mut finest = [0.0_f64; 2];
+    for i in 0..=2_000 {
+        for j in 0..=2_000 {
+            // Along the ratio, along the rate, and with both free on a coarser grid.
+            if i % 40 != 0 && j % 40 != 0 {
+                continue;
+            }
+            let mut other = *flight;
+            other.spin.ratio += range.ratio * (f64::from(i) / 1_000.0 - 1.0);
+            other.spin.rate_rad_s += range.rate_rad_s * (f64::from(j) / 1_000.0 - 1.0);
+            let seen = other.forecast(train);
+            finest = [finest[0].max(seen.final_nutation_rad), finest[1].max(seen.peak_nutation_rad)];
+            if range.rate_rad_s == 0.0 {
+                break;
+            }
+        }
     }
-    assert!(worst.final_nutation_rad > 0.97 * finest && worst.final_nutation_rad <= finest * (1.0 + 1e-9));
+    finest
+}
+
+#[test]
+fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
+    let spin = paper(1.4825);
+    let flight =
+        |timing| Flight { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M };
+    let known = Range { ratio: 0.0115, rate_rad_s: 0.0 };
+    let vague = Range { ratio: 0.06, rate_rad_s: 0.0 };
+    let mut cases = Vec::new();
+    for count in [6, 17, 29, 58, 114, 300] {
+        for turns in [0.5, 1.0, 1.5] {
+            for range in [known, vague] {
+                let shapes =
+                    [Shape::Uniform, Shape::Tapered { order: 1 }, Shape::Tapered { order: 3 }, Shape::Split];
+                for shape in shapes {
+                    cases.extend(
+                        Train::new(shape, count, 0.032, turns, &spin, 0.032)
+                            .map(|train| (train, range, Timing::TruePhase)),
+                    );
+                }
+            }
+        }
+    }
+    // By the clock the rate counts as much as the ratio, alone or with it.
+    for (ratio, rate) in [(0.0, 0.02), (0.0115, 0.002)] {
+        let range = Range { ratio, rate_rad_s: rate * spin.rate_rad_s };
+        let train = Train::new(Shape::Uniform, 40, 0.032, 1.0, &spin, 0.032).unwrap();
+        cases.extend([Timing::Clock, Timing::SunCrossing].map(|timing| (train, range, timing)));
+    }
+    for (train, range, timing) in cases {
+        let flight = flight(timing);
+        let worst = range.worst(&flight, &train);
+        let found = [worst.final_nutation_rad, worst.peak_nutation_rad];
+        for (found, finest) in found.into_iter().zip(scanned(&flight, &range, &train)) {
+            let ratio = found / finest;
+            assert!(
+                (1.0 - 1e-3..1.0 + 1e-3).contains(&ratio),
+                "{ratio}: {:?} {} {} {range:?} {timing:?}",
+                train.shape(),
+                train.count(),
+                train.turns_per_pulse()
+            );
+        }
+    }
 }
 
 #[test]
