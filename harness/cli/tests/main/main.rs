@@ -3,6 +3,7 @@
 
 mod checks;
 mod packs;
+mod plans;
 mod runs;
 mod usage;
 

@@ -37,13 +37,13 @@ pub enum TimingOption {
 /// `heliotorque plan spin`: choose the train of pulses that turns a spinner with the least nutation.
 #[derive(Clone, Debug, Args)]
 pub struct Options {
-    /// Angle by which the spin axis shall turn, in deg
+    /// Angle by which the spin axis shall turn, up to 180 deg
     #[arg(long = "angle", value_name = "DEG", default_value_t = 2.0)]
     pub angle_deg: f64,
     /// Trains that move by whole pulses may miss the angle by this much, in per cent
     #[arg(long = "angle-tolerance", value_name = "PERCENT", default_value_t = 2.0)]
     pub angle_tolerance_percent: f64,
-    /// Inertia ratio I3/IT; otherwise the spacecraft's at its propellant load
+    /// Inertia ratio I3/IT, between 1 and 2; otherwise the spacecraft's at its propellant load
     #[arg(long, value_name = "RATIO")]
     pub ratio: Option<f64>,
     /// The ratio may be off by this much either way
@@ -79,7 +79,8 @@ pub struct Options {
     /// The spacecraft, a TOML file; otherwise ACE
     #[arg(long, value_name = "TOML")]
     pub spacecraft: Option<PathBuf>,
-    /// Fly the best plan through this SpinPlant, over the range of ratios
+    /// Fly the best plan through this SpinPlant, over the range of ratios; otherwise dist/SpinPlant.fmu where there is
+    /// one
     #[arg(long, value_name = "FMU")]
     pub fmu: Option<PathBuf>,
     /// Plan antenna pointing for so many days instead of one manoeuvre
@@ -94,12 +95,26 @@ pub struct Options {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// A flag out of its range.
-    #[error("{flag} is {found}; it must be a positive number")]
+    #[error("{flag} is {found}; allowed is {allowed}")]
     Flag {
         /// The flag.
         flag: &'static str,
         /// What was found.
         found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A body that does not come to rest about its spin axis, or none.
+    #[error(
+        "the inertia ratio I3/IT is {least:.4} to {greatest:.4} (--ratio, otherwise the spacecraft's, +- \
+         --ratio-uncertainty); allowed is above 1 and below 2: up to 1 nutation does not turn in the body or the damper lets \
+         it grow, so that no train ends quietly, and no body has 2 or more"
+    )]
+    Ratio {
+        /// Least of the range.
+        least: f64,
+        /// Greatest of the range.
+        greatest: f64,
     },
     /// No such thruster.
     #[error("--thruster is \"{found}\"; this spacecraft has {known}")]

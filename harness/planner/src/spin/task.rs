@@ -49,20 +49,15 @@ pub struct TaskLimits {
 impl Task {
     /// From the options and the spacecraft.
     pub fn new(options: &Options, spinner: &Spinner) -> Result<Self, PlanError> {
-        let positive = |flag: &'static str, value: f64| {
-            if value.is_finite() && value > 0.0 {
-                Ok(value)
-            } else {
-                Err(PlanError::Flag { flag, found: value })
-            }
+        let check = |flag: &'static str, found: f64, fits: bool, allowed: &'static str| {
+            if found.is_finite() && fits { Ok(found) } else { Err(PlanError::Flag { flag, found, allowed }) }
         };
-        let not_negative = |flag: &'static str, value: f64| {
-            if value.is_finite() && value >= 0.0 {
-                Ok(value)
-            } else {
-                Err(PlanError::Flag { flag, found: value })
-            }
-        };
+        let positive = |flag, found: f64| check(flag, found, found > 0.0, "a positive number");
+        let not_negative = |flag, found: f64| check(flag, found, found >= 0.0, "0 or a positive number");
+        let angle_deg = options.angle_deg;
+        check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= 180.0, "above 0 to 180 deg")?;
+        let sun_deg = options.sun_angle_deg;
+        check("--sun-angle", sun_deg, sun_deg > 0.0 && sun_deg < 90.0, "above 0 to below 90 deg")?;
         let rate_rad_s = positive("--rate-rpm", options.rate_rpm)? * PI / 30.0;
         let propellant_kg = options.propellant_kg.unwrap_or(spinner.mass_properties.initial_propellant_kg);
         let inertia = spinner
@@ -73,6 +68,18 @@ impl Task {
             Some(ratio) => positive("--ratio", ratio)?,
             None => inertia.inertial_nutation_ratio().unwrap_or(inertia.ratio()),
         };
+        let ratio_uncertainty = not_negative("--ratio-uncertainty", options.ratio_uncertainty)?;
+        let (least, greatest) = (ratio - ratio_uncertainty, ratio + ratio_uncertainty);
+        if !(least > 1.0 && greatest < 2.0) {
+            return Err(PlanError::Ratio { least, greatest });
+        }
+        let rate_uncertainty_rpm = not_negative("--rate-uncertainty-rpm", options.rate_uncertainty_rpm)?;
+        check(
+            "--rate-uncertainty-rpm",
+            rate_uncertainty_rpm,
+            rate_uncertainty_rpm < options.rate_rpm,
+            "less than --rate-rpm",
+        )?;
         let (mask, opposite) = spinner.named(&options.thruster).ok_or_else(|| PlanError::Thruster {
             found: options.thruster.clone(),
             known: spinner
@@ -96,10 +103,9 @@ impl Task {
         let has_opposite =
             opposite.is_some_and(opposes) || (0..spinner.thrusters.len()).any(|k| opposes(1 << k));
         let spin = Spin { rate_rad_s, ratio, inertia_kg_m2: inertia.spin_kg_m2() };
-        let sun_angle_rad = positive("--sun-angle", options.sun_angle_deg)?.to_radians();
         let limit = |flag, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(flag, value));
         Ok(Self {
-            angle_rad: positive("--angle", options.angle_deg)?.to_radians(),
+            angle_rad: angle_deg.to_radians(),
             angle_tolerance: positive("--angle-tolerance", options.angle_tolerance_percent)? / 100.0,
             flight: Flight {
                 spin,
@@ -111,10 +117,7 @@ impl Task {
                 },
                 torque_n_m,
             },
-            range: Range {
-                ratio: not_negative("--ratio-uncertainty", options.ratio_uncertainty)?,
-                rate_rad_s: not_negative("--rate-uncertainty-rpm", options.rate_uncertainty_rpm)? * PI / 30.0,
-            },
+            range: Range { ratio: ratio_uncertainty, rate_rad_s: rate_uncertainty_rpm * PI / 30.0 },
             flow_kg_s: thrust.flow_kg_s,
             has_opposite,
             resolution_s: spinner.resolution_s,
@@ -122,7 +125,7 @@ impl Task {
             allowed_nutation_rad: allowed_nutation_rad(
                 spinner.limits.period_variation_s,
                 rate_rad_s,
-                sun_angle_rad,
+                sun_deg.to_radians(),
             ),
             limits: TaskLimits {
                 peak_rad: limit("--max-nutation", options.max_nutation_deg)?.to_radians(),

@@ -1,10 +1,10 @@
 //! Plans beat the paper's where the notes say they do, keep their limits, and say when nothing does.
 
 use clap::Parser;
-use physics::spin::{geometry::L1Phases, spinner::Spinner, train::Shape};
+use physics::spin::{damper::Damper, geometry::L1Phases, inertia::Inertia, spinner::Spinner, train::Shape};
 
 use super::{
-    ACE, Options, PlanError, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade,
+    ACE, Options, PlanError, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade,
 };
 
 #[derive(Parser)]
@@ -25,6 +25,10 @@ fn task(arguments: &str) -> Task {
     Task::new(&options(arguments), &ace()).unwrap()
 }
 
+fn chosen(task: &Task) -> Row {
+    best(&trade(task).unwrap()).unwrap().clone()
+}
+
 #[test]
 fn the_papers_plan_is_its_114_pulses_in_22_6_min() {
     let row = paper_plan(&task("--angle 2")).unwrap();
@@ -36,7 +40,7 @@ fn the_papers_plan_is_its_114_pulses_in_22_6_min() {
 
 #[test]
 fn with_the_papers_peak_the_planner_finds_the_tapered_train_in_half_the_time() {
-    let row = best(&task("--angle 2 --max-nutation 0.02")).unwrap();
+    let row = chosen(&task("--angle 2 --max-nutation 0.02"));
     assert_eq!(row.train.shape(), Shape::Tapered { order: 1 });
     assert_eq!(row.train.count(), 58);
     assert!((row.duration_s / 60.0 - 11.4).abs() < 0.01);
@@ -48,7 +52,7 @@ fn with_the_papers_peak_the_planner_finds_the_tapered_train_in_half_the_time() {
 fn what_is_best_keeps_every_limit_and_nothing_that_keeps_them_ends_quieter() {
     let task =
         task("--angle 3 --max-nutation 0.08 --max-duration 10 --max-final 0.01 --rate-uncertainty-rpm 0.1");
-    let row = best(&task).unwrap();
+    let row = chosen(&task);
     assert!(row.fits && row.peak_rad <= task.limits.peak_rad && row.duration_s <= 600.0);
     for other in trade(&task).unwrap() {
         assert!(!other.fits || other.final_rad >= row.final_rad);
@@ -79,7 +83,7 @@ fn the_frontier_holds_no_train_that_another_beats() {
 
 #[test]
 fn plans_that_cannot_be_had_say_why() {
-    assert!(matches!(best(&task("--max-nutation 0.001")), Err(PlanError::NoPlan { .. })));
+    assert!(matches!(best(&trade(&task("--max-nutation 0.001")).unwrap()), Err(PlanError::NoPlan { .. })));
     let text = plan(&options("--max-duration 0.01")).unwrap_err().to_string();
     assert!(text.contains("shortest") && text.contains("min"));
     let text = plan(&options("--thruster V")).unwrap_err().to_string();
@@ -89,6 +93,59 @@ fn plans_that_cannot_be_had_say_why() {
     assert!(plan(&options("--spacecraft nowhere.toml")).unwrap_err().to_string().contains("nowhere.toml"));
     let text = Task::new(&Options { thruster: "thrust along +Z".into(), ..options("") }, &ace()).unwrap_err();
     assert!(matches!(text, PlanError::NoTorque { .. }));
+}
+
+#[test]
+fn bodies_and_angles_that_have_no_quiet_plan_are_refused_with_what_is_allowed() {
+    let refused = |arguments: &str, parts: &[&str]| {
+        let text = plan(&options(arguments)).unwrap_err().to_string();
+        for part in parts {
+            assert!(text.contains(part), "`{part}` is missing from: {text}");
+        }
+    };
+    refused("--angle 400", &["--angle is 400", "above 0 to 180 deg"]);
+    refused("--angle 180.1", &["--angle is 180.1"]);
+    refused("--angle nan", &["--angle is NaN"]);
+    for (ratio, range) in [
+        ("0.9", "0.8885 to 0.9115"),
+        ("1.0", "0.9885 to 1.0115"),
+        ("1.01", "0.9985 to 1.0215"),
+        ("1.995", "1.9835 to 2.0065"),
+        ("2", "1.9885 to 2.0115"),
+    ] {
+        refused(&format!("--ratio {ratio}"), &[range, "above 1 and below 2", "--ratio-uncertainty", "grow"]);
+        refused(&format!("--ratio {ratio} --campaign 10"), &[range]);
+    }
+    refused("--ratio-uncertainty 0.5", &["0.98", "above 1"]);
+    refused("--sun-angle 90", &["--sun-angle is 90", "below 90 deg"]);
+    refused("--rate-uncertainty-rpm 5", &["--rate-uncertainty-rpm is 5", "--rate-rpm"]);
+    assert!(Task::new(&options("--angle 180 --ratio 1.02"), &ace()).is_ok());
+    // A body of its own may be as bad as a flag.
+    let mut slim = ace();
+    slim.mass_properties.inertia_ratio.iter_mut().for_each(|ratio| *ratio = 0.9);
+    assert!(matches!(Task::new(&options(""), &slim), Err(PlanError::Ratio { .. })));
+}
+
+/// Nutation of a body with a ratio below 1 grows under the damper that the table's times count on.
+#[test]
+fn below_a_ratio_of_1_the_damper_does_the_opposite() {
+    let angle_after = |ratio: f64| {
+        let inertia = Inertia::new([353.82 / ratio, 353.82 / ratio, 353.82]).unwrap();
+        Damper::new(34_200.0, &inertia).angle_after_rad(1e-3, 3_600.0)
+    };
+    assert!(angle_after(0.9) > 1e-3 && angle_after(1.48) < 1e-3);
+}
+
+#[test]
+fn a_plan_says_whether_it_was_flown_again() {
+    // Tests run in the crate's folder, where nothing is packed.
+    let text = plan(&options("--angle 2")).unwrap();
+    assert!(text.contains("Not re-flown: no dist/SpinPlant.fmu"), "{text}");
+    let own = "../../fmu-src/resources/ace.toml";
+    let text = plan(&Options { spacecraft: Some(own.into()), ..options("--angle 2") }).unwrap();
+    assert!(text.contains("Not re-flown") && text.contains("another spacecraft"), "{text}");
+    let text = plan(&options("--fmu nowhere.fmu")).unwrap_err().to_string();
+    assert!(text.contains("nowhere.fmu"), "{text}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The planner's answer as text.
 
-use std::fmt::Write;
+use std::{fmt::Write, path::Path};
 
 use comfy_table::{ContentArrangement, Table, presets};
 use loader::Fmu;
@@ -14,6 +14,8 @@ use super::{
 const DAY_S: f64 = 86_400.0;
 /// Ratios flown through the FMU.
 const RATIOS: u32 = 24;
+/// What the best plan is flown through unless another is named.
+const SHIPPED_FMU: &str = "dist/SpinPlant.fmu";
 
 /// Plans what the options ask for; the answer, ready to print.
 ///
@@ -40,8 +42,8 @@ fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
 }
 
 fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
-    let chosen = best(task)?;
     let rows = trade(task)?;
+    let chosen = best(&rows)?;
     let mut text = String::new();
     let spin = &task.flight.spin;
     let mut line = |line: String| {
@@ -95,22 +97,48 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
         chosen.train.count(),
         chosen.duration_s / 60.0
     ));
-    if let Some(path) = &options.fmu {
-        let fmu = Fmu::open(path).map_err(|error| PlanError::Refly(error.to_string()))?;
-        let flown = refly(&fmu, task, &chosen, &options.thruster, RATIOS)?;
-        line(format!(
-            "Flown through {}: {} ratios, worst final {:.6} deg (foreseen {:.6}), worst peak {:.5} deg, moved {:.4} to {:.4} \
-             deg",
-            path.display(),
-            flown.flights,
-            flown.final_rad.to_degrees(),
-            chosen.final_rad.to_degrees(),
-            flown.peak_rad.to_degrees(),
-            flown.moved_rad.0.to_degrees(),
-            flown.moved_rad.1.to_degrees(),
+    line(flown_again(options, task, chosen)?);
+    Ok(text)
+}
+
+/// What the FMU says of the plan, or why none was asked.
+fn flown_again(options: &Options, task: &Task, chosen: &Row) -> Result<String, PlanError> {
+    let named = options.fmu.as_deref();
+    let path = match named {
+        Some(path) => path,
+        None if options.spacecraft.is_some() => {
+            return Ok(format!(
+                "Not re-flown: {SHIPPED_FMU} may be of another spacecraft; give this one's FMU by --fmu"
+            ));
+        }
+        None => Path::new(SHIPPED_FMU),
+    };
+    if named.is_none() && !path.exists() {
+        return Ok(format!(
+            "Not re-flown: no {SHIPPED_FMU} (cargo xtask dist packs it, --fmu names another)"
         ));
     }
-    Ok(text)
+    let fmu = match Fmu::open(path) {
+        Ok(fmu) => fmu,
+        Err(error) if named.is_some() => return Err(PlanError::Refly(error.to_string())),
+        Err(error) => return Ok(format!("Not re-flown: {error}")),
+    };
+    let flown = refly(&fmu, task, chosen, &options.thruster, RATIOS)?;
+    let kept = flown.peak_rad <= task.limits.peak_rad && flown.final_rad <= task.limits.final_rad;
+    Ok(format!(
+        "Re-flown through {}: {} ratios, worst final {:.6} deg (foreseen {:.6}), worst peak {:.5} deg (foreseen {:.5}), \
+         moved {:.4} to {:.4} deg (foreseen {:.4}): limits {}",
+        path.display(),
+        flown.flights,
+        flown.final_rad.to_degrees(),
+        chosen.final_rad.to_degrees(),
+        flown.peak_rad.to_degrees(),
+        chosen.peak_rad.to_degrees(),
+        flown.moved_rad.0.to_degrees(),
+        flown.moved_rad.1.to_degrees(),
+        chosen.moved_rad.to_degrees(),
+        if kept { "kept" } else { "broken" },
+    ))
 }
 
 fn cells(row: &Row) -> Vec<String> {
@@ -139,7 +167,7 @@ fn cells(row: &Row) -> Vec<String> {
 
 fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError> {
     if !(days.is_finite() && days > 0.0) {
-        return Err(PlanError::Flag { flag: "--campaign", found: days });
+        return Err(PlanError::Flag { flag: "--campaign", found: days, allowed: "a positive number" });
     }
     let (phases, duration_s) = (L1Phases::default(), days * DAY_S);
     let longest = longest_interval_s(spinner, task, &phases, duration_s)?;

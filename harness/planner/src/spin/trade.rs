@@ -89,12 +89,11 @@ pub fn frontier(rows: &[Row]) -> Vec<&Row> {
     rows.iter().filter(|row| !rows.iter().any(|other| beats(other, row))).collect()
 }
 
-/// The train of least worst final nutation that keeps the limits.
-pub fn best(task: &Task) -> Result<Row, PlanError> {
-    let rows = trade(task)?;
+/// The train of least worst final nutation that keeps the limits, of a [`trade`].
+pub fn best(rows: &[Row]) -> Result<&Row, PlanError> {
     let least = |value: fn(&Row) -> f64| rows.iter().map(value).fold(f64::INFINITY, f64::min);
     let (peak, end, time) = (least(|r| r.peak_rad), least(|r| r.final_rad), least(|r| r.duration_s));
-    rows.into_iter().find(|row| row.fits).ok_or_else(|| PlanError::NoPlan {
+    rows.iter().find(|row| row.fits).ok_or_else(|| PlanError::NoPlan {
         peak_deg: peak.to_degrees(),
         final_deg: end.to_degrees(),
         duration_min: time / 60.0,
