@@ -197,5 +197,5 @@ impl Worst {
 fn vertex([a, b, c]: [f64; 3]) -> Option<(f64, f64)> {
     let curvature = 2.0 * b - a - c;
     let offset = 0.5 * (c - a) / curvature;
-    (curvature > 0.0 && offset.abs() <= 1.0).then(|| (offset, b + 0.25 * (c - a) * offset))
+    (curvature > 0.0 && offset.abs() <= 1.0).then_some((offset, b + 0.25 * (c - a) * offset))
 }
