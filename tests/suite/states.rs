@@ -3,12 +3,11 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::Command;
 
 use fmi_export::abi::{InProcess, StatePointer};
 
 use crate::flights::{Flight, Style};
-use crate::support::{self, Base, Dice, everything, fresh, names, ok};
+use crate::support::{self, Base, Dice, everything, fresh, in_a_process_of_its_own, names, ok};
 
 const POINTS: usize = 12;
 const STEPS: u64 = 50;
@@ -82,12 +81,7 @@ fn saved_flights_go_on(style: Style, child_test: &str) {
         // The flight itself goes on from the saved point.
         flight.instance = restored(instance, &bytes);
     }
-    let status = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", child_test, "--nocapture"])
-        .env(CHILD_FOLDER, folder.path())
-        .status()
-        .unwrap();
-    assert!(status.success());
+    in_a_process_of_its_own(child_test, CHILD_FOLDER, folder.path().as_os_str());
     for (number, straight) in elsewhere.iter().enumerate() {
         let seen = std::fs::read_to_string(folder.path().join(format!("{number}.seen"))).unwrap();
         assert!(seen == *straight, "{style:?} point {number}: another process");

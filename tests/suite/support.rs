@@ -1,7 +1,9 @@
 //! The models in this process, their variables by name, and what else many tests need.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::path::PathBuf;
+use std::process::Command;
 use std::sync::OnceLock;
 
 use fmi_export::abi::InProcess;
@@ -170,6 +172,22 @@ impl Dice {
     }
 }
 
+/// Runs one test of this program again, in a process of its own with an environment variable set, and gives what it
+/// said. Fails unless that test was there, ran and passed.
+#[track_caller]
+pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> String {
+    let output = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", test, "--nocapture"])
+        .env(variable, value)
+        .output()
+        .unwrap();
+    let said =
+        [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
+    // A name that matches nothing succeeds too.
+    assert!(output.status.success() && said.contains("test result: ok. 1 passed"), "{test}: {said}");
+    said
+}
+
 /// The path in an environment variable that `cargo xtask test` sets; without it the test says so and ends.
 pub fn built(variable: &str) -> Option<PathBuf> {
     let path = std::env::var_os(variable).map(PathBuf::from);
@@ -177,4 +195,10 @@ pub fn built(variable: &str) -> Option<PathBuf> {
         eprintln!("skipped: {variable} is not set (cargo xtask test sets it)");
     }
     path
+}
+
+#[test]
+#[should_panic(expected = "running 0 tests")]
+fn a_test_that_is_not_there_does_not_pass() {
+    in_a_process_of_its_own("support::no_such_test", "HELIOTORQUE_TEST_NOTHING", OsStr::new("1"));
 }
