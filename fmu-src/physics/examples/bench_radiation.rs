@@ -1,8 +1,7 @@
 //! How long planet light, recoil and self-shadowing take, and how exact they are, beside the paper's planet grid and
 //! a general polygon library.
 //!
-//! Prints lines `bench <name> <value> <unit>`; each time is the least of many short runs, so that other work on the
-//! machine does not count.
+//! Prints lines `bench <name> <value> <unit>`; each time is the median of many short runs.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -28,7 +27,7 @@ use physics::spacecraft::{
     MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, PolygonError, Spacecraft, Thermal,
 };
 
-const RUNS: usize = 300;
+const RUNS: usize = 301;
 
 /// Of one run; a multiple of what the geometries repeat after.
 const EVALUATIONS: usize = 200;
@@ -73,17 +72,23 @@ fn orbit() -> Result<(Vec<Vector3<f64>>, f64), Failure> {
     Ok((positions_m, flux_w_m2))
 }
 
-/// Least time of one evaluation over many short runs; `evaluate` gets the number of the evaluation.
+/// Median time of one evaluation over many short runs; `evaluate` gets the number of the evaluation.
 fn report(name: &str, mut evaluate: impl FnMut(usize) -> f64) -> f64 {
-    let mut least_s = f64::INFINITY;
-    for run in 0..RUNS {
+    let mut runs_s = [0.0; RUNS];
+    for (run, time_s) in runs_s.iter_mut().enumerate() {
         let start = Instant::now();
         let sum: f64 = (0..EVALUATIONS).map(|i| evaluate(black_box(run * EVALUATIONS + i))).sum();
         black_box(sum);
-        least_s = least_s.min(start.elapsed().as_secs_f64() / EVALUATIONS as f64);
+        *time_s = start.elapsed().as_secs_f64() / EVALUATIONS as f64;
     }
-    println!("bench {name} {:.3} us", least_s * 1e6);
-    least_s
+    let median_s = median(&mut runs_s);
+    println!("bench {name} {:.3} us", median_s * 1e6);
+    median_s
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 fn value(name: &str, value: f64, unit: &str) {
@@ -193,11 +198,14 @@ fn planet_light(
     for resolution in [80, 450, 900] {
         let grid = PlanetGrid::new(resolution, CellLayout::Corrected)?;
         let mut worst: f64 = 0.0;
-        let start = Instant::now();
+        let mut times_s = Vec::new();
         for &i in &few {
-            worst = worst.max(miss(by_grid(&grid, &positions_m[i])?, exact[i]));
+            let start = Instant::now();
+            let found = by_grid(&grid, &positions_m[i])?;
+            times_s.push(start.elapsed().as_secs_f64());
+            worst = worst.max(miss(found, exact[i]));
         }
-        let time_s = start.elapsed().as_secs_f64() / few.len() as f64;
+        let time_s = median(&mut times_s);
         value(&format!("planet_light_12_cells_grid_{resolution}_worst_error"), worst, "1");
         println!("bench planet_light_12_cells_grid_{resolution} {:.3} ms", time_s * 1e3);
         println!("bench planet_light_grid_{resolution}_over_rings_6 {:.0} 1", time_s / ring_s);
