@@ -1,0 +1,211 @@
+//! DisturbanceTorque through FMI's functions, its variables by name, and geometries to put it in.
+
+use std::collections::BTreeMap;
+
+use fmi_export::abi::InProcess;
+use fmi_export::{Entry, Library, Status};
+use model_description::{Causality, Description};
+use models::DisturbanceTorque;
+
+pub static LIBRARY: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
+
+/// A spacecraft whose panel is shadowed by a shade at many directions of the Sun, with skew axes everywhere.
+const SHADOWED: &str = r#"
+name = "Shadowed"
+per_plate_outputs = true
+[mass_properties]
+mass_kg = 100
+center_of_mass_m = [0.1, 0.05, -0.2]
+inertia_kg_m2 = [[10, 0.5, -0.2], [0.5, 12, 0.3], [-0.2, 0.3, 15]]
+[optics.white]
+specular = 0.2
+diffuse = 0.5
+emissivity = 0.8
+infrared_absorptivity = 0.7
+[[plates]]
+polygon_m = [[-0.5, -1.2, -0.4], [0.6, -1.2, -0.4], [0.5, -1.2, 0.6], [-0.4, -1.2, 0.5]]
+normal = [0.0, -1.0, 0.0]
+optics = "white"
+rear_optics = "white"
+[[plates]]
+polygon_m = [[-1.0, 0.3, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.3, 1.0]]
+normal = [-0.1483404, -0.9889364, 0.0]
+optics = "white"
+[[panels]]
+polygon_m = [[0.2, -0.2, -1.0], [1.6, -0.2, -1.0], [1.6, -0.2, 1.0], [0.2, -0.2, 1.0]]
+axis = [1.0, 0.0, 0.0]
+zero_normal = [0.0, -1.0, 0.0]
+optics = "white"
+rear_optics = "white"
+control = "angle"
+thermal.conduction = { conductance_w_m2_k = 10.0, radiative_exchange = 0.1 }
+"#;
+
+fn resources(name: &str, text: &str) -> std::path::PathBuf {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("spacecraft.toml"), text).unwrap();
+    folder
+}
+
+/// The model through FMI's functions, its variables by name.
+pub struct Disturbance {
+    pub fmu: InProcess,
+    pub description: Description,
+    pub names: BTreeMap<String, u32>,
+    pub time_s: f64,
+}
+
+impl Disturbance {
+    fn new(fmu: InProcess, description: Description) -> Self {
+        let names = description.variables.iter().map(|v| (v.name.clone(), v.value_reference)).collect();
+        Self { fmu, description, names, time_s: 0.0 }
+    }
+
+    /// MESSENGER as shipped.
+    pub fn messenger() -> Self {
+        let description = LIBRARY.find("DisturbanceTorque").unwrap().describe(None, None).unwrap();
+        Self::new(InProcess::of(&LIBRARY, "DisturbanceTorque").unwrap(), description)
+    }
+
+    /// The spacecraft with shadows.
+    pub fn shadowed() -> Self {
+        Self::of("shadowed", SHADOWED)
+    }
+
+    /// The spacecraft of a TOML text, in a folder of its own.
+    pub fn of(name: &str, text: &str) -> Self {
+        let folder = resources(name, text);
+        let entry = LIBRARY.find("DisturbanceTorque").unwrap();
+        let description = entry.describe(Some("spacecraft.toml"), Some(text)).unwrap();
+        let location = format!("file://{}", folder.display());
+        let fmu = InProcess::instantiate(&LIBRARY, &description.guid, Some(&location)).unwrap();
+        Self::new(fmu, description)
+    }
+
+    pub fn at(&self, name: &str) -> u32 {
+        *self.names.get(name).unwrap_or_else(|| panic!("no variable {name}"))
+    }
+
+    pub fn put(&mut self, name: &str, value: f64) {
+        let at = self.at(name);
+        assert_eq!(self.fmu.set_real(&[at], &[value]), Status::Ok, "{name} = {value}");
+    }
+
+    pub fn put_vector(&mut self, name: &str, value: [f64; 3]) {
+        for (i, value) in value.into_iter().enumerate() {
+            self.put(&format!("{name}[{}]", i + 1), value);
+        }
+    }
+
+    pub fn start(&mut self) {
+        assert_eq!(self.fmu.start(0.0, None), Status::Ok, "{:?}", self.fmu.take_messages());
+    }
+
+    pub fn step(&mut self) -> Status {
+        let status = self.fmu.do_step(self.time_s, 1.0);
+        self.time_s += 1.0;
+        status
+    }
+
+    pub fn real(&mut self, name: &str) -> f64 {
+        let at = self.at(name);
+        self.read(&[at])[0]
+    }
+
+    pub fn read(&mut self, references: &[u32]) -> Vec<f64> {
+        let mut values = vec![0.0; references.len()];
+        assert_eq!(self.fmu.get_real(references, &mut values), Status::Ok);
+        values
+    }
+
+    pub fn vector(&mut self, name: &str) -> [f64; 3] {
+        [1, 2, 3].map(|i| self.real(&format!("{name}[{i}]")))
+    }
+
+    /// Name of a Real.
+    pub fn name(&self, reference: u32) -> &str {
+        let is = |v: &&model_description::ScalarVariable| {
+            v.value_reference == reference && matches!(v.kind, model_description::VariableKind::Real { .. })
+        };
+        &self.description.variables.iter().find(is).unwrap().name
+    }
+
+    /// Of each of `outputs`, where it and the other components of its vector stand in them.
+    pub fn vectors_of(&self, outputs: &[u32]) -> Vec<Vec<usize>> {
+        let vector = |reference: u32| {
+            let name = self.name(reference);
+            if name.ends_with(']') { name.rsplit_once('[').unwrap().0 } else { name }
+        };
+        let same = |of: u32| (0..outputs.len()).filter(|&k| vector(outputs[k]) == vector(of)).collect();
+        outputs.iter().map(|of| same(*of)).collect()
+    }
+
+    pub fn references(&self, causality: Causality) -> Vec<u32> {
+        let real = |v: &&model_description::ScalarVariable| {
+            v.causality == causality && matches!(v.kind, model_description::VariableKind::Real { .. })
+        };
+        self.description.variables.iter().filter(real).map(|v| v.value_reference).collect()
+    }
+
+    /// Every output after a step with these inputs.
+    pub fn outputs_at(&mut self, inputs: &[u32], values: &[f64], outputs: &[u32]) -> Vec<f64> {
+        assert_eq!(self.fmu.set_real(inputs, values), Status::Ok);
+        assert_eq!(self.step(), Status::Ok, "{:?}", self.fmu.take_messages());
+        self.read(outputs)
+    }
+
+    pub fn slopes(&mut self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
+        let mut result = vec![f64::NAN; unknowns.len()];
+        let status = self.fmu.get_directional_derivative(unknowns, knowns, seed, &mut result);
+        assert_eq!(status, Status::Ok, "{:?}", self.fmu.take_messages());
+        result
+    }
+}
+
+/// Numbers in [0, 1) that are the same every time.
+pub struct Dice(pub u64);
+
+impl Dice {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn direction(&mut self) -> [f64; 3] {
+        let (azimuth, z) = (core::f64::consts::TAU * self.next(), 2.0 * self.next() - 1.0);
+        let rho = (1.0 - z * z).sqrt();
+        [rho * azimuth.cos(), rho * azimuth.sin(), z]
+    }
+
+    /// Sun, planet, centre of mass, angles, in the order of the inputs' names.
+    pub fn inputs(&mut self, fmu: &Disturbance, in_shadow: bool) -> (Vec<u32>, Vec<f64>) {
+        let sun = self.direction();
+        let altitude = 1.05 + 3.0 * self.next();
+        // Toward the penumbra: the planet before the Sun, off by its angular radius.
+        let edge = (1.0 / altitude).asin() + 2e-3 * (self.next() - 0.5);
+        let other = self.direction();
+        let along: f64 = sun.iter().zip(other).map(|(a, b)| a * b).sum();
+        let across = [0, 1, 2].map(|i| other[i] - along * sun[i]);
+        let length = across.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let toward_planet = if in_shadow {
+            [0, 1, 2].map(|i| edge.cos() * sun[i] + edge.sin() * across[i] / length)
+        } else {
+            self.direction()
+        };
+        let mut values = BTreeMap::new();
+        for i in 0..3 {
+            values.insert(fmu.at(&format!("sun.position[{}]", i + 1)), sun[i] * 5.8e10);
+            let planet_m = toward_planet[i] * altitude * 2.4394e6;
+            values.insert(fmu.at(&format!("planet.position[{}]", i + 1)), planet_m);
+            values.insert(fmu.at(&format!("centerOfMass[{}]", i + 1)), self.next() - 0.5);
+        }
+        for k in 1.. {
+            match fmu.names.get(&format!("panel[{k}].angle")) {
+                Some(angle) => values.insert(*angle, 6.0 * self.next() - 3.0),
+                None => break,
+            };
+        }
+        values.into_iter().unzip()
+    }
+}

@@ -1,0 +1,7 @@
+//! DisturbanceTorque through the functions a master calls.
+
+mod driver;
+mod laws;
+mod slopes;
+
+pub use driver::Disturbance;
