@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::cylinder::CylinderFace;
-use super::flat_plate::{Beam, force_per_area_pa};
+use super::flat_plate::Beam;
 use super::force_torque::ForceTorque;
 use crate::constants::{ASTRONOMICAL_UNIT_M, SPEED_OF_LIGHT_M_S};
 use crate::numerics::scalar::{Scalar, constant_vector};
@@ -26,7 +26,17 @@ pub fn solar_pressure_pa<T: Scalar>(flux_w_m2: f64, distance_m: T) -> T {
 pub struct SolarModel {
     body: FaceSet,
     sunshade: Shade,
-    panels: Vec<Panel>,
+    panels: Vec<TurningPanel>,
+}
+
+/// A panel with what does not turn computed once.
+#[derive(Clone, Debug, PartialEq)]
+struct TurningPanel {
+    zero_normal_body: Vector3<f64>,
+    quarter_normal_body: Vector3<f64>,
+    center_body_m: Vector3<f64>,
+    cells: Areas,
+    rear: Option<Areas>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +77,8 @@ impl SolarModel {
     }
 
     fn with_shade(spacecraft: &Spacecraft, sunshade: Shade) -> Self {
-        Self { body: FaceSet::new(&spacecraft.plates), sunshade, panels: spacecraft.panels.clone() }
+        let panels = spacecraft.panels.iter().map(TurningPanel::new).collect();
+        Self { body: FaceSet::new(&spacecraft.plates), sunshade, panels }
     }
 
     /// Number of panels, hence of angles [`SolarModel::total`] takes.
@@ -99,7 +110,7 @@ impl SolarModel {
         center_of_mass_body_m: &Vector3<T>,
     ) -> ForceTorque<T> {
         self.panels.get(index).map_or_else(ForceTorque::zero, |panel| {
-            panel_force_torque(panel, beam, angle_rad, center_of_mass_body_m)
+            panel.force_torque(beam, angle_rad, center_of_mass_body_m)
         })
     }
 
@@ -115,7 +126,7 @@ impl SolarModel {
             .panels
             .iter()
             .zip(panel_angles_rad)
-            .map(|(panel, angle)| panel_force_torque(panel, beam, *angle, center_of_mass_body_m))
+            .map(|(panel, angle)| panel.force_torque(beam, *angle, center_of_mass_body_m))
             .sum();
         self.sunshade(beam, center_of_mass_body_m) + self.body(beam, center_of_mass_body_m) + panels
     }
@@ -136,40 +147,77 @@ impl Shade {
     }
 }
 
-fn panel_force_torque<T: Scalar>(
-    panel: &Panel,
-    beam: &Beam<T>,
-    angle_rad: T,
-    center_of_mass_body_m: &Vector3<T>,
-) -> ForceTorque<T> {
-    let cell_normal = panel.normal_body(angle_rad);
-    let on_cells = cell_normal.dot(&beam.source_body).value() > 0.0;
-    let (normal, optics) = match (on_cells, panel.rear_optics) {
-        (true, _) => (cell_normal, panel.optics),
-        (false, Some(rear)) => (-cell_normal, rear),
-        (false, None) => return ForceTorque::zero(),
-    };
-    let force_n = force_per_area_pa(&optics, &normal, &beam.received(&normal)) * T::constant(panel.area_m2);
-    ForceTorque::at_arm(&(constant_vector::<T>(&panel.center_body_m) - center_of_mass_body_m), force_n)
+impl TurningPanel {
+    fn new(panel: &Panel) -> Self {
+        Self {
+            zero_normal_body: panel.zero_normal_body,
+            quarter_normal_body: panel.quarter_normal(),
+            center_body_m: panel.center_body_m,
+            cells: Areas::new(panel.area_m2, &panel.optics),
+            rear: panel.rear_optics.map(|optics| Areas::new(panel.area_m2, &optics)),
+        }
+    }
+
+    fn force_torque<T: Scalar>(
+        &self,
+        beam: &Beam<T>,
+        angle_rad: T,
+        center_of_mass_body_m: &Vector3<T>,
+    ) -> ForceTorque<T> {
+        let (sin, cos) = angle_rad.sin_cos();
+        let mut normal = Vector3::<T>::zeros();
+        add_scaled(&mut normal, &self.zero_normal_body, cos);
+        add_scaled(&mut normal, &self.quarter_normal_body, sin);
+        let cos_incidence = normal.dot(&beam.source_body);
+        let areas = if cos_incidence.value() > 0.0 { Some(&self.cells) } else { self.rear.as_ref() };
+        let Some(areas) = areas else { return ForceTorque::zero() };
+        // Seen from behind, cosine and normal both change their sign: their product with each other does not.
+        let facing = if cos_incidence.value() > 0.0 { 1.0 } else { -1.0 };
+        let (along_light, along_normal) = areas.of(cos_incidence * facing);
+        let force_n = -(beam.source_body * along_light + normal * (along_normal * facing)) * beam.pressure_pa;
+        ForceTorque::at_arm(&(constant_vector::<T>(&self.center_body_m) - center_of_mass_body_m), force_n)
+    }
+}
+
+/// The flat-plate law with area and optics multiplied out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Areas {
+    /// A (alpha + gD): along the light, per cos, in m2.
+    light_m2: f64,
+    /// (2/3) A gD: along the normal, per cos, in m2.
+    diffuse_m2: f64,
+    /// 2 A gS: along the normal, per cos^2, in m2.
+    specular_m2: f64,
+}
+
+impl Areas {
+    fn new(area_m2: f64, optics: &Optics) -> Self {
+        Self {
+            light_m2: area_m2 * (optics.absorptivity + optics.diffuse),
+            diffuse_m2: area_m2 * optics.diffuse * 2.0 / 3.0,
+            specular_m2: area_m2 * optics.specular * 2.0,
+        }
+    }
+
+    /// Along the light and along the normal, in m2, at the cosine of the angle of incidence.
+    #[inline]
+    fn of<T: Scalar>(&self, cos: T) -> (T, T) {
+        (cos * self.light_m2, cos * (cos * self.specular_m2 + self.diffuse_m2))
+    }
 }
 
 /// Faces fixed in the body frame, rear faces listed as faces of their own.
 #[derive(Clone, Debug, PartialEq)]
 struct FaceSet(Vec<Face>);
 
-/// The flat-plate law with everything constant multiplied out.
+/// A face with everything constant multiplied out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Face {
     normal: Vector3<f64>,
     center_m: Vector3<f64>,
     /// center x normal, in m.
     arm_m: Vector3<f64>,
-    /// A (alpha + gD): along the light, per cos.
-    light_area_m2: f64,
-    /// (2/3) A gD: along the normal, per cos.
-    diffuse_area_m2: f64,
-    /// 2 A gS: along the normal, per cos^2.
-    specular_area_m2: f64,
+    areas: Areas,
 }
 
 impl Face {
@@ -178,9 +226,7 @@ impl Face {
             normal,
             center_m: plate.center_m,
             arm_m: plate.center_m.cross(&normal),
-            light_area_m2: plate.area_m2 * (optics.absorptivity + optics.diffuse),
-            diffuse_area_m2: plate.area_m2 * optics.diffuse * 2.0 / 3.0,
-            specular_area_m2: plate.area_m2 * optics.specular * 2.0,
+            areas: Areas::new(plate.area_m2, optics),
         }
     }
 }
@@ -208,8 +254,7 @@ impl FaceSet {
             if cos.value() <= 0.0 {
                 continue;
             }
-            let along_light = cos * face.light_area_m2;
-            let along_normal = cos * (cos * face.specular_area_m2 + face.diffuse_area_m2);
+            let (along_light, along_normal) = face.areas.of(cos);
             light_area += along_light;
             add_scaled(&mut light_moment, &face.center_m, along_light);
             add_scaled(&mut normal_area, &face.normal, along_normal);

@@ -90,8 +90,8 @@ impl Panel {
         facing + tilt * tilt_sign
     }
 
-    /// Unit normal of the cell side at 90 deg.
-    fn quarter_normal(&self) -> Vector3<f64> {
+    /// Unit normal of the cell side at 90 deg, body frame.
+    pub fn quarter_normal(&self) -> Vector3<f64> {
         self.axis_body.cross(&self.zero_normal_body)
     }
 }
