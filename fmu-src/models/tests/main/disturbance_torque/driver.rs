@@ -1,6 +1,7 @@
 //! DisturbanceTorque through FMI's functions, its variables by name, and geometries to put it in.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fmi_export::abi::InProcess;
 use fmi_export::{Entry, Library, Status};
@@ -42,7 +43,10 @@ thermal.conduction = { conductance_w_m2_k = 10.0, radiative_exchange = 0.1 }
 "#;
 
 fn resources(name: &str, text: &str) -> std::path::PathBuf {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    // One folder a call: tests run side by side.
+    static CALLS: AtomicUsize = AtomicUsize::new(0);
+    let call = CALLS.fetch_add(1, Ordering::Relaxed);
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{call}"));
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("spacecraft.toml"), text).unwrap();
     folder
