@@ -1,7 +1,7 @@
 //! What several models read from their variables and setups alike.
 
-use fmi_export::{Choice, Enumeration, Real, SetupError, Values};
-use physics::environment::surface::{self, PlanetSurface};
+use fmi_export::{Choice, Enumeration, Real, SetupError, Values, Variables};
+use physics::environment::surface::{self, MERCURY, PlanetSurface};
 use physics::radiation::disturbance::{DisturbanceModel, Options};
 use physics::spacecraft::Spacecraft;
 
@@ -23,22 +23,31 @@ impl From<DayTemperature> for surface::DayTemperature {
     }
 }
 
-/// Handles of the parameters that describe a planet's surface.
-#[derive(Clone, Copy)]
-pub struct SurfaceHandles {
-    pub radius: Real,
+/// What a planet's surface does with sunlight; the defaults are Mercury's as they fit paper 004, which prints none.
+#[derive(Variables)]
+pub struct SurfaceVariables {
+    /// Fraction of sunlight the planet absorbs; 0.88 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
     pub absorptivity: Real,
+    /// Fraction of sunlight the planet reflects diffusely; 0.12 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
     pub diffuse_reflectivity: Real,
+    /// Infrared emissivity of the planet; 0.9 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
     pub emissivity: Real,
+    /// Temperature of the planet's night side; 100 K fits paper 004, which does not print it.
+    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
     pub night_temperature: Real,
+    /// How the temperature of the planet's day side is distributed.
+    #[parameter(start = DayTemperature::Uniform)]
     pub day_temperature: Choice<DayTemperature>,
 }
 
-impl SurfaceHandles {
-    /// The surface the parameters describe; not checked yet.
-    pub fn read(&self, values: &Values) -> PlanetSurface {
+impl SurfaceVariables {
+    /// The surface of a planet of this radius; not checked yet.
+    pub fn read(&self, values: &Values, radius: Real) -> PlanetSurface {
         PlanetSurface {
-            radius_m: values.real(self.radius),
+            radius_m: values.real(radius),
             absorptivity: values.real(self.absorptivity),
             diffuse_reflectivity: values.real(self.diffuse_reflectivity),
             emissivity: values.real(self.emissivity),

@@ -10,11 +10,11 @@ use std::time::Instant;
 use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
 use i_overlay::float::single::SingleFloatOverlay;
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use physics::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
+use physics::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2};
 use physics::environment::orbit::Elements;
 use physics::environment::paper004::{Frames, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::sun::SOLAR_FLUX_PAPER_004_W_M2;
-use physics::environment::surface::{DayTemperature, PlanetSurface};
+use physics::environment::surface::MERCURY;
 use physics::numerics::scalar::{Dual64, Scalar, constant_vector};
 use physics::radiation::disturbance::{
     DisturbanceModel, Geometry, Options, PlanetGeometry, Recoil, Workspace,
@@ -44,17 +44,6 @@ fn main() -> Result<(), Failure> {
     }
     library();
     Ok(())
-}
-
-fn mercury() -> PlanetSurface {
-    PlanetSurface {
-        radius_m: RADIUS_MERCURY_M,
-        absorptivity: 0.88,
-        diffuse_reflectivity: 0.12,
-        emissivity: 0.9,
-        night_temperature_k: 100.0,
-        day_temperature: DayTemperature::Uniform,
-    }
 }
 
 /// MESSENGER's positions from Mercury in its body frame, evenly around the orbit of the paper's case 4, and the
@@ -147,7 +136,7 @@ fn planet_light(
     (positions_m, flux_w_m2): &(Vec<Vector3<f64>>, f64),
 ) -> Result<(), Failure> {
     let (cells, normals) = cells(craft);
-    let surface = mercury();
+    let surface = MERCURY;
     let sun = -Vector3::y();
     let by_rings = |rule: &RingRule, position_m: &Vector3<f64>| -> Result<[Vector3<f64>; 2], Failure> {
         let view = PlanetView::new(&-position_m, &sun, surface.radius_m)?;
@@ -218,7 +207,7 @@ fn evaluations(
     craft: &Spacecraft,
     (positions_m, flux_w_m2): &(Vec<Vector3<f64>>, f64),
 ) -> Result<(), Failure> {
-    let model = DisturbanceModel::new(craft, &Options { planet: Some(mercury()), ..Options::default() })?;
+    let model = DisturbanceModel::new(craft, &Options { planet: Some(MERCURY), ..Options::default() })?;
     fn evaluate<T: Scalar>(
         model: &DisturbanceModel,
         position_m: Option<&Vector3<f64>>,

@@ -12,7 +12,6 @@ use serde::{Deserialize, Serialize};
 use super::Plan;
 use super::variables::DisturbanceVariables;
 use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
-use crate::shared::SurfaceHandles;
 
 /// What parameters and spacecraft amount to.
 #[derive(Clone, Debug)]
@@ -101,15 +100,7 @@ impl Prepared {
         let spacecraft = &context.setup.spacecraft;
         let planet = &variables.planet;
         let present = values.boolean(planet.present);
-        let surface = SurfaceHandles {
-            radius: planet.radius,
-            absorptivity: planet.absorptivity,
-            diffuse_reflectivity: planet.diffuse_reflectivity,
-            emissivity: planet.emissivity,
-            night_temperature: planet.night_temperature,
-            day_temperature: planet.day_temperature,
-        }
-        .read(values);
+        let surface = planet.surface.read(values, planet.radius);
         let sunshade_model = values.choice(variables.sunshade.model).map(|model| match model {
             SunshadeModel::Plates => spacecraft::SunshadeModel::Plates,
             SunshadeModel::Cylinder => spacecraft::SunshadeModel::Cylinder,

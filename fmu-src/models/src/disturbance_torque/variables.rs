@@ -8,7 +8,7 @@ use physics::environment::surface::MERCURY;
 use super::setup::DisturbanceSetup;
 use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
 use crate::momentum_plant::defaults;
-use crate::shared::DayTemperature;
+use crate::shared::SurfaceVariables;
 
 /// Every variable, in the order of the XML.
 #[derive(Variables)]
@@ -69,21 +69,8 @@ pub struct PlanetVariables {
     /// Gravitational parameter, for the gravity gradient; the default is Mercury's.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, start = constants::GM_MERCURY_M3_S2)]
     pub gravitational_parameter: Real,
-    /// Absorbed fraction of sunlight; 0.88 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
-    pub absorptivity: Real,
-    /// Diffusely reflected fraction of sunlight; 0.12 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
-    pub diffuse_reflectivity: Real,
-    /// Infrared emissivity; 0.9 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
-    pub emissivity: Real,
-    /// Temperature of the night side; 100 K fits paper 004, which does not print it.
-    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
-    pub night_temperature: Real,
-    /// How the day side's temperature is distributed.
-    #[parameter(start = DayTemperature::Uniform)]
-    pub day_temperature: Choice<DayTemperature>,
+    #[group(name = "")]
+    pub surface: SurfaceVariables,
 }
 
 /// One solar panel.

@@ -21,7 +21,6 @@ use super::choices::{
 use super::state::PlantState;
 use super::variables::PlantVariables;
 use super::{Plan, physics_vector};
-use crate::shared::SurfaceHandles;
 
 /// The configuration that parameters, inputs and state describe.
 pub fn configuration(
@@ -140,15 +139,7 @@ pub fn light(
         return Ok(None);
     }
     let planet = &variables.planet;
-    let surface = SurfaceHandles {
-        radius: planet.radius,
-        absorptivity: planet.absorptivity,
-        diffuse_reflectivity: planet.diffuse_reflectivity,
-        emissivity: planet.emissivity,
-        night_temperature: planet.night_temperature,
-        day_temperature: planet.day_temperature,
-    }
-    .read(values);
+    let surface = planet.surface.read(values, planet.radius);
     let nodes = usize::try_from(values.integer(variables.planet_light.nodes)).unwrap_or(0);
     let spacecraft = &context.setup.spacecraft;
     let asked = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);

@@ -206,3 +206,10 @@ impl<M: Model> Pilot<'_, M> {
         })
     }
 }
+
+/// Two flights have every continuous output alike, to the bit.
+pub fn assert_same<M: Model>(a: &Pilot<'_, M>, b: &Pilot<'_, M>) {
+    for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
+        assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
+    }
+}

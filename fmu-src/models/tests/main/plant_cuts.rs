@@ -3,7 +3,7 @@
 
 use models::MomentumPlant;
 
-use super::pilot::{Hangar, Pilot};
+use super::pilot::{Hangar, assert_same};
 
 const DAY_S: f64 = 86_400.0;
 
@@ -23,12 +23,6 @@ const SHADOWED: &[(&str, f64)] =
 
 fn sets() -> Vec<(&'static str, f64)> {
     [ALL, SHADOWED].concat()
-}
-
-fn assert_same(a: &Pilot<'_, MomentumPlant>, b: &Pilot<'_, MomentumPlant>) {
-    for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
-        assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
-    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::constants::STEFAN_BOLTZMANN_W_M2_K4;
 
-use super::pilot::{Hangar, Pilot};
+use super::pilot::{Hangar, Pilot, assert_same};
 
 const DAY_S: f64 = 86_400.0;
 /// Torn states tried, with and without feedback each.
@@ -81,12 +81,6 @@ const BUSY: &[(&str, f64)] = &[
 
 fn warm<M: fmi_export::Model>() -> Hangar<M> {
     Hangar::with("warm.toml", CRAFT)
-}
-
-fn assert_same(a: &Pilot<'_, MomentumPlant>, b: &Pilot<'_, MomentumPlant>) {
-    for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
-        assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
-    }
 }
 
 #[test]

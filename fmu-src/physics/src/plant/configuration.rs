@@ -9,6 +9,7 @@ use crate::environment::eclipse::Shadow;
 use crate::environment::frames::Frame;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
 use crate::environment::paper004::KeplerPlanet;
+use crate::environment::sun::pressure_n_m2;
 use crate::guidance::Guided;
 use crate::momentum::Settings;
 use crate::spacecraft::{Panel, SunshadeModel};
@@ -98,6 +99,16 @@ pub enum SunLight {
         /// Flux at 1 AU, in W/m2.
         flux_w_m2: f64,
     },
+}
+
+impl SunLight {
+    /// Pressure at a distance from the Sun's centre, in Pa; NaN where there is no such distance.
+    pub fn pressure_pa(&self, distance_m: f64) -> f64 {
+        match *self {
+            Self::Fixed { pressure_pa } => pressure_pa,
+            Self::Distance { flux_w_m2 } => pressure_n_m2(flux_w_m2, distance_m).unwrap_or(f64::NAN),
+        }
+    }
 }
 
 /// How one panel stands.

@@ -6,12 +6,11 @@ use crate::attitude::{MovingFrame, gravity_gradient_n_m};
 use crate::environment::State;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
-use crate::environment::sun::pressure_n_m2;
 use crate::momentum::{Flight, Sample};
 use crate::radiation::{Beam, ForceTorque, SolarModel};
 use crate::spacecraft::Panel;
 
-use super::configuration::{AttitudeSource, Configuration, SunLight};
+use super::configuration::{AttitudeSource, Configuration};
 use super::geometry::Geometry;
 use super::light::{LightModel, Loads};
 use super::stretch::{Course, PlantError};
@@ -122,10 +121,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         let sun_distance_m = geometry.to_sun.position_m.norm();
         let sun_body = to_body * direction(&geometry.to_sun.position_m);
         let (lit_fraction, shadow_branch) = self.lit_fraction(&geometry);
-        let pressure_pa = match configuration.light {
-            SunLight::Fixed { pressure_pa } => pressure_pa,
-            SunLight::Distance { flux_w_m2 } => pressure_n_m2(flux_w_m2, sun_distance_m).unwrap_or(f64::NAN),
-        };
+        let pressure_pa = configuration.light.pressure_pa(sun_distance_m);
         let gravity_gradient_body_n_m = match &geometry.to_planet {
             Some(to_planet) => gravity_gradient_n_m(
                 configuration.gravity_gradient_m3_s2,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::constants::{ASTRONOMICAL_UNIT_M, SPEED_OF_LIGHT_M_S};
+use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::environment::surface::PlanetSurface;
 use crate::radiation::ForceTorque;
 use crate::radiation::disturbance::{
@@ -11,7 +11,7 @@ use crate::radiation::disturbance::{
 };
 use crate::spacecraft::Spacecraft;
 
-use super::configuration::{Configuration, OrbitCenter, PanelSetting, SunLight};
+use super::configuration::{Configuration, OrbitCenter, PanelSetting};
 use super::flight::{ExternalLoad, Plant};
 use super::light_cell::NODES;
 use super::stored_heat::HeatRule;
@@ -187,14 +187,6 @@ impl Sight {
     }
 }
 
-/// Flux of sunlight at a distance from the Sun, in W/m2.
-fn flux_w_m2(light: &SunLight, distance_m: f64) -> f64 {
-    match *light {
-        SunLight::Fixed { pressure_pa } => pressure_pa * SPEED_OF_LIGHT_M_S,
-        SunLight::Distance { flux_w_m2 } => flux_w_m2 * (ASTRONOMICAL_UNIT_M / distance_m).powi(2),
-    }
-}
-
 impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// Turns everything at `time_s` into the body frame for `moment`.
     pub(super) fn look(&mut self, time_s: f64, light_panels: &[usize], moment: &mut Moment) {
@@ -206,7 +198,8 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let sun_distance_m = sun_body_m.norm();
         let sight = &mut moment.sight;
         sight.sun_direction_body = sun_body_m / sun_distance_m;
-        sight.sun_flux_w_m2 = flux_w_m2(&configuration.light, sun_distance_m);
+        let flux_w_m2 = |distance_m: f64| configuration.light.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
+        sight.sun_flux_w_m2 = flux_w_m2(sun_distance_m);
         // Inside the planet there is no fraction; what is wrong there is the place.
         let lit_fraction = self.lit_fraction(&geometry).0;
         sight.lit_fraction = if lit_fraction.is_nan() { 0.0 } else { lit_fraction };
@@ -214,7 +207,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         sight.planet = geometry.to_planet.map(|to_planet| {
             let position_body_m = to_body * to_planet.position_m;
             let sun_from_planet_body_m = sun_body_m - position_body_m;
-            let sun_flux_w_m2 = flux_w_m2(&configuration.light, sun_from_planet_body_m.norm());
+            let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
             PlanetGeometry { position_body_m, sun_from_planet_body_m, sun_flux_w_m2 }
         });
         for (angle_rad, &index) in sight.panel_angles_rad.iter_mut().zip(light_panels) {

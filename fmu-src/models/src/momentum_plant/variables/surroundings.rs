@@ -1,12 +1,11 @@
 //! Planet, Sun and Earth.
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
-use physics::environment::surface::MERCURY;
 
 use super::super::choices::{EclipseModel, EphemerisSource};
 use super::super::defaults;
 use super::super::setup::PlantSetup;
-use crate::shared::DayTemperature;
+use crate::shared::SurfaceVariables;
 
 /// The planet the spacecraft orbits.
 #[derive(Variables)]
@@ -30,21 +29,8 @@ pub struct PlanetVariables {
     /// Declination of Mercury's north pole in EME2000 (IAU 2015).
     #[parameter(unit = "rad", display = "deg", start = defaults::MERCURY_POLE_DECLINATION_RAD)]
     pub pole_declination: Real,
-    /// Fraction of sunlight the planet absorbs; 0.88 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
-    pub absorptivity: Real,
-    /// Fraction of sunlight the planet reflects diffusely; 0.12 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
-    pub diffuse_reflectivity: Real,
-    /// Infrared emissivity of the planet; 0.9 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
-    pub emissivity: Real,
-    /// Temperature of the planet's night side; 100 K fits paper 004, which does not print it.
-    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
-    pub night_temperature: Real,
-    /// How the planet's day side is heated.
-    #[parameter(start = DayTemperature::Uniform)]
-    pub day_temperature: Choice<DayTemperature>,
+    #[group(name = "")]
+    pub surface: SurfaceVariables,
 }
 
 /// Positions of Sun, Mercury and Earth.

@@ -8,26 +8,14 @@ use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::Elements;
 use crate::environment::paper004::{Frames, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use crate::environment::sun::SOLAR_FLUX_PAPER_004_W_M2;
-use crate::environment::surface::{DayTemperature, PlanetSurface};
+use crate::environment::surface::MERCURY;
 use crate::spacecraft::{MESSENGER_THERMAL_TOML, Spacecraft};
-
-/// Unpublished; these fit the paper's numbers.
-fn mercury() -> PlanetSurface {
-    PlanetSurface {
-        radius_m: RADIUS_MERCURY_M,
-        absorptivity: 0.88,
-        diffuse_reflectivity: 0.12,
-        emissivity: 0.9,
-        night_temperature_k: 100.0,
-        day_temperature: DayTemperature::Uniform,
-    }
-}
 
 /// Accelerations around one orbit with the planet standing still, as in the paper's analytical model: least and
 /// greatest of solar (in m/s2), and of albedo, infrared and recoil (in % of the greatest solar).
 fn around_orbit(mercury_true_anomaly_deg: f64) -> [[f64; 2]; 4] {
     let craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
-    let options = Options { planet: Some(mercury()), quadrature_nodes: 12, ..Options::default() };
+    let options = Options { planet: Some(MERCURY), quadrature_nodes: 12, ..Options::default() };
     let model = DisturbanceModel::new(&craft, &options).unwrap();
     let shadow = Shadow::new(ShadowModel::AllOrNothingCylinder, RADIUS_MERCURY_M).unwrap();
     let planet = Elements { true_anomaly_rad: mercury_true_anomaly_deg.to_radians(), ..MERCURY_AS_PRINTED };

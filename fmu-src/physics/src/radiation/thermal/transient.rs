@@ -227,6 +227,19 @@ mod tests {
         }
     }
 
+    #[test]
+    fn impossible_temperatures_and_heat_end_soon() {
+        for wrong in [f64::NAN, f64::INFINITY] {
+            assert!(panel().advance([wrong, 300.0], [[1.0; 2]; 2], 600.0)[0].is_nan());
+            assert!(panel().advance([300.0; 2], [[1.0; 2], [wrong, 0.0]], 600.0)[0].is_nan());
+        }
+        for hot_k in [1e9, 1e60, 1e300] {
+            // What is still a number cools, or is given up, but never for ever.
+            let found = panel().advance([hot_k, 300.0], [[1.0; 2]; 2], 600.0);
+            assert!(found[0].is_nan() || found[0] <= hot_k, "{found:?}");
+        }
+    }
+
     proptest! {
         #[test]
         fn cutting_a_step_changes_nothing(
