@@ -58,9 +58,7 @@ impl Row {
 /// All trains for the task, best first: those that keep the limits before those that do not, then by worst final
 /// nutation.
 pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
-    let reference = evaluate(task, Shape::Uniform, 1, 1.0).ok_or_else(|| {
-        PlanError::Setup("the smallest pulse of the thruster is longer than half a turn".into())
-    })?;
+    let reference = paper_plan(task)?;
     let mut rows = Vec::new();
     for turns in [0.5_f64, 1.0, 1.5, 2.0] {
         if !task.has_opposite && turns.fract() != 0.0 {
