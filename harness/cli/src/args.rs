@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 /// The FMU whose library reads and flies new spacecraft unless another is named.
-const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
+pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
 
 const PACK_EXAMPLE: &str = "\
 Example:
@@ -71,14 +71,14 @@ pub struct Info {
 pub struct Check {
     /// The FMU, an .fmu file or the folder it was unpacked into; or a spacecraft, a .toml file
     pub subject: PathBuf,
-    /// For a spacecraft: the FMU whose library shall read it, as for `pack`
-    #[arg(long, value_name = "FMU", default_value = DEFAULT_TEMPLATE)]
-    pub template: PathBuf,
-    /// Check only what can be read, without running the FMU
+    /// For a spacecraft only: the FMU whose library shall read it, as for `pack`; otherwise dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
+    /// For an FMU only: check what can be read, without running it
     #[arg(long)]
     pub still: bool,
-    /// Run only the probes whose name contains this text
-    #[arg(long, value_name = "TEXT")]
+    /// For an FMU only: run the probes whose name contains this text
+    #[arg(long, value_name = "TEXT", conflicts_with = "still")]
     pub only: Option<String>,
     /// Longest time a probe may take, in s or with a unit
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "60s")]
@@ -115,7 +115,8 @@ pub struct Run {
     /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4)
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// Inputs over time, a CSV file: time,<input>,... with one row per time in s
+    /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows continuous inputs are
+    /// interpolated linearly and discrete ones held; two rows at one time make a jump
     #[arg(long, value_name = "CSV")]
     pub input: Option<PathBuf>,
     /// Hand the slopes of the input table to the FMU too, so that inputs do not jump from step to step

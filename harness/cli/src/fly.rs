@@ -79,13 +79,17 @@ pub fn run(arguments: &Run) -> Outcome {
             output::print(&summary(&fmu, &flight.recording))?;
         }
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
-        eprintln!("{steps} steps to {} s in {:.3} s", output::short(last_s), elapsed.as_secs_f64());
+        let (last, elapsed) = (output::short(last_s), elapsed.as_secs_f64());
+        output::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
     }
     match flight.ended {
         Ended::AtStop => {}
-        Ended::ByItself => eprintln!("the FMU ended by itself at {} s", output::short(last_s)),
+        Ended::ByItself => {
+            output::note(&format!("the FMU ended by itself at {} s", output::short(last_s)));
+        }
         Ended::Cancelled => {
-            eprintln!("interrupted at {} s; what was recorded until then is written", output::short(last_s));
+            let last = output::short(last_s);
+            output::note(&format!("interrupted at {last} s; what was recorded until then is written"));
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
@@ -169,7 +173,7 @@ fn write_results(
 
 fn print_log(messages: &[LogMessage]) {
     for message in messages {
-        eprintln!("{} {message}", message.status);
+        output::note(&format!("{} {message}", message.status));
     }
 }
 

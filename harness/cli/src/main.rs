@@ -1,5 +1,8 @@
 //! The heliotorque command line.
 
+// They panic when the reader went away; `output` does not.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 mod app;
 mod args;
 mod check;
@@ -16,7 +19,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     app::run().unwrap_or_else(|error| {
-        eprintln!("heliotorque: {}", output::chain(error.as_ref()));
+        output::note(&format!("heliotorque: {}", output::chain(error.as_ref())));
         ExitCode::FAILURE
     })
 }

@@ -13,6 +13,11 @@ pub fn print(text: &str) -> io::Result<()> {
     }
 }
 
+/// Says something beside the output, on stderr; nobody there to read it is no error.
+pub fn note(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
 /// A plain table with a header; as wide as the terminal at most, unbounded elsewhere.
 pub fn table(header: &[&str]) -> Table {
     let mut table = Table::new();

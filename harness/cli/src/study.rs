@@ -27,7 +27,7 @@ pub fn run(arguments: &Study) -> Outcome {
     )?;
     output::print(&report.text)?;
     for file in &report.files {
-        eprintln!("{}", file.display());
+        output::note(&file.display().to_string());
     }
     Ok(ExitCode::SUCCESS)
 }

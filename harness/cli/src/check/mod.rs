@@ -98,7 +98,25 @@ impl Section {
 /// Checks an FMU or a spacecraft and prints the report.
 pub fn run(arguments: &Check) -> Outcome {
     if arguments.subject.extension().is_some_and(|extension| extension == "toml") {
-        return spacecraft::run(arguments);
+        return match (arguments.still, &arguments.only) {
+            (false, None) => spacecraft::run(arguments),
+            (true, _) => Err("--still is for an FMU: a spacecraft is only read".into()),
+            (false, Some(_)) => Err("--only is for an FMU: a spacecraft has no probes".into()),
+        };
+    }
+    if arguments.template.is_some() {
+        return Err("--template is for a spacecraft (.toml): an FMU is checked by its own library".into());
+    }
+    let is_wanted = |probe: &&probes::Probe| {
+        arguments.only.as_ref().is_none_or(|only| probe.name.contains(only.as_str()))
+    };
+    if let Some(only) = &arguments.only
+        && !probes::ALL.iter().any(|probe| is_wanted(&probe))
+    {
+        let names: Vec<&str> = probes::ALL.iter().map(|probe| probe.name).collect();
+        return Err(
+            format!("no probe's name contains {only:?}, allowed: {}: see --only", names.join(", ")).into()
+        );
     }
     let mut sections = Vec::new();
     let fmu = match Fmu::open(&arguments.subject) {
@@ -118,11 +136,9 @@ pub fn run(arguments: &Check) -> Outcome {
         let usable = loads.first().is_some_and(|finding| finding.verdict == Verdict::Good);
         sections.push(Section { title: "library".to_owned(), findings: loads });
         if usable {
-            for probe in probes::ALL.iter().filter(|probe| probe.name != "library") {
-                if arguments.only.as_ref().is_none_or(|only| probe.name.contains(only.as_str())) {
-                    let findings = child::run(&fmu, probe.name, arguments.patience);
-                    sections.push(Section { title: format!("{}: {}", probe.name, probe.title), findings });
-                }
+            for probe in probes::ALL.iter().filter(|probe| probe.name != "library").filter(is_wanted) {
+                let findings = child::run(&fmu, probe.name, arguments.patience);
+                sections.push(Section { title: format!("{}: {}", probe.name, probe.title), findings });
             }
         }
     }

@@ -2,13 +2,13 @@
 //!
 //! The library itself reads the file, so that what passes here passes in every FMU made from it.
 
-use std::process::ExitCode;
+use std::{path::Path, process::ExitCode};
 
 use toml::{Table, Value};
 
 use crate::{
     app::Outcome,
-    args::Check,
+    args::{Check, DEFAULT_TEMPLATE},
     output,
     pack::{read_text, source},
 };
@@ -17,7 +17,8 @@ use crate::{
 pub fn run(arguments: &Check) -> Outcome {
     let file = arguments.subject.display().to_string();
     let text = read_text(&arguments.subject)?;
-    let template = source::open_template(&arguments.template)?;
+    let template_path = arguments.template.as_deref().unwrap_or(Path::new(DEFAULT_TEMPLATE));
+    let template = source::open_template(template_path)?;
     let binary = template.binary()?;
     let own = source::model_of(&template, &binary).ok();
     let mut refusals = Vec::new();
@@ -40,12 +41,12 @@ pub fn run(arguments: &Check) -> Outcome {
     // The kinds of file are far apart: what the other models miss in it would bury what is wrong.
     let meant = refusals.iter().find(|(model, _)| Some(model) == own.as_ref()).or(refusals.first());
     let Some((model, problems)) = meant else {
-        return Err(format!("{}: none of its models reads a file", arguments.template.display()).into());
+        return Err(format!("{}: none of its models reads a file", template_path.display()).into());
     };
     output::print(problems)?;
     let count = problems.lines().count();
     let plural = if count == 1 { "problem" } else { "problems" };
-    eprintln!("{file}: {count} {plural}; {model} cannot be packed with it");
+    output::note(&format!("{file}: {count} {plural}; {model} cannot be packed with it"));
     Ok(ExitCode::FAILURE)
 }
 

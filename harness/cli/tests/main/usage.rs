@@ -58,6 +58,32 @@ fn failure_is_one_and_names_the_file() {
 }
 
 #[test]
+fn a_check_that_would_check_nothing_is_refused() {
+    let text = run(&["check", "no/such.fmu", "--only", "xyz"], 1);
+    for probe in ["\"xyz\"", "library", "locale", "instances", "--only"] {
+        assert!(text.contains(probe), "{text} lacks {probe}");
+    }
+    assert!(run(&["check", "no/such.fmu", "--template", "nonsense"], 1).contains("--template"));
+    assert!(run(&["check", "no/such.toml", "--only", "locale"], 1).contains("--only"));
+    assert!(run(&["check", "no/such.toml", "--still"], 1).contains("--still"));
+    run(&["check", "no/such.fmu", "--still", "--only", "locale"], 2);
+}
+
+#[test]
+fn a_reader_that_goes_away_changes_no_status() {
+    let status = |arguments: &[&str]| {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let mut command = crate::heliotorque(arguments);
+        command.stdout(writer.try_clone().unwrap()).stderr(writer).status().unwrap().code()
+    };
+    assert_eq!(status(&["study", "list"]), Some(0));
+    assert_eq!(status(&["run", "no/such.fmu"]), Some(1));
+    let Some((_room, fmu)) = crate::packed("Empty") else { return };
+    assert_eq!(status(&["run", shown(&fmu), "--log"]), Some(0));
+}
+
+#[test]
 fn every_command_and_flag_has_help() {
     let all = run(&["--help"], 0);
     for command in ["info", "check", "run", "pack", "schema", "study"] {
