@@ -1,9 +1,8 @@
 //! `heliotorque run`: flies an FMU, records, writes, draws.
 
 use std::{
-    fs::File,
-    io::{BufWriter, IsTerminal},
-    path::Path,
+    io::IsTerminal,
+    path::{Path, PathBuf},
     process::ExitCode,
     sync::{
         Arc,
@@ -15,7 +14,7 @@ use std::{
 use indicatif::{ProgressBar, ProgressStyle};
 use loader::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Recording, Times};
 
-use crate::{app::Outcome, args::Run, output, plot};
+use crate::{app::Outcome, args::Run, destination::Destination, output, plot};
 
 /// The usual exit status of a program that Ctrl-C ended.
 const INTERRUPTED: u8 = 130;
@@ -35,6 +34,8 @@ pub fn run(arguments: &Run) -> Outcome {
     let record = selection(&fmu, &arguments.record)?;
 
     let cancel = interruptible()?;
+    // After all that can be refused, before what takes long.
+    let files = Files::open(arguments)?;
     let progress = progress_bar(&times, arguments.quiet);
     let mut advance = |time_s: f64| {
         progress.set_position((time_s - times.start_s) as u64);
@@ -64,7 +65,7 @@ pub fn run(arguments: &Run) -> Outcome {
         Err(stopped) => {
             // What was flown until then is worth keeping.
             if !stopped.partial.times_s.is_empty() {
-                write_results(arguments, &fmu, &stopped.partial)?;
+                files.write(&fmu, &stopped.partial)?;
             }
             return Err(stopped.error.into());
         }
@@ -72,7 +73,7 @@ pub fn run(arguments: &Run) -> Outcome {
     if arguments.log {
         print_log(&flight.messages);
     }
-    write_results(arguments, &fmu, &flight.recording)?;
+    files.write(&fmu, &flight.recording)?;
     let last_s = flight.recording.times_s.last().copied().unwrap_or(times.start_s);
     if !arguments.quiet {
         if arguments.output.is_none() && arguments.plot.is_none() {
@@ -155,20 +156,30 @@ fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::
     Ok(InputTable::parse(fmu, &header, &rows).map_err(|error| in_file(&error))?)
 }
 
-fn write_results(
-    arguments: &Run,
-    fmu: &Fmu,
-    recording: &Recording,
-) -> Result<(), Box<dyn std::error::Error>> {
-    if let Some(path) = &arguments.output {
-        let cannot = |error: std::io::Error| format!("{}: {error}: see --output", path.display());
-        let mut file = BufWriter::new(File::create(path).map_err(cannot)?);
-        recording.write_csv(&mut file).map_err(cannot)?;
+/// What a flight leaves.
+struct Files {
+    output: Option<Destination>,
+    plot: Option<Destination>,
+}
+
+impl Files {
+    fn open(arguments: &Run) -> Result<Self, String> {
+        let open = |path: &Option<PathBuf>, option| {
+            path.as_deref().map(|path| Destination::open(path, option)).transpose()
+        };
+        Ok(Self { output: open(&arguments.output, "--output")?, plot: open(&arguments.plot, "--plot")? })
     }
-    if let Some(path) = &arguments.plot {
-        plot::chart(fmu, recording).write(path)?;
+
+    fn write(self, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn std::error::Error>> {
+        if let Some(file) = self.output {
+            file.fill(|mut file| recording.write_csv(&mut file))?;
+        }
+        if let Some(file) = self.plot {
+            let svg = plot::chart(fmu, recording).to_svg()?;
+            file.fill(|file| file.write_all(svg.as_bytes()))?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 fn print_log(messages: &[LogMessage]) {

@@ -7,6 +7,7 @@ mod app;
 mod args;
 mod check;
 mod coefficients;
+mod destination;
 mod fly;
 mod info;
 mod output;

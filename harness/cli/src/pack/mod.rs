@@ -17,7 +17,7 @@ use std::{
 
 use model_description::Description;
 
-use crate::{app::Outcome, args::Pack, output};
+use crate::{app::Outcome, args::Pack, destination::Destination, output};
 use source::Source;
 use writer::Entries;
 
@@ -57,11 +57,7 @@ pub fn run(arguments: &Pack) -> Outcome {
     if source.is_at(&path) {
         return Err(format!("{} is the template itself: see --name and --output", path.display()).into());
     }
-    let cannot = |error: std::io::Error| format!("{}: {error}: see --output", path.display());
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        fs::create_dir_all(folder).map_err(cannot)?;
-    }
-    fs::write(&path, &bytes).map_err(cannot)?;
+    Destination::open(&path, "--output")?.fill(|file| file.write_all(&bytes))?;
     output::print(&format!(
         "{}: {identifier}, {} variables, GUID {}, {} kB",
         path.display(),

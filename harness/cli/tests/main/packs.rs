@@ -21,9 +21,13 @@ fn entries(path: &Path) -> Vec<(String, Vec<u8>)> {
 #[test]
 fn the_same_input_gives_the_same_archive() {
     let Some((room, first)) = packed("AllTypes") else { return };
-    let second = room.path().join("deep/er/second.fmu");
+    let second = room.path().join("deeper/second.fmu");
     let library = probe_library().unwrap();
-    run(&["pack", "--library", shown(&library), "--model", "AllTypes", "--output", shown(&second)], 0);
+    let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", shown(&second)];
+    let text = run(&pack, 1);
+    assert!(text.contains("there is no folder") && text.contains("see --output"), "{text}");
+    fs::create_dir(room.path().join("deeper")).unwrap();
+    run(&pack, 0);
     assert!(fs::read(&first).unwrap() == fs::read(&second).unwrap());
 
     let names: Vec<String> = entries(&first).into_iter().map(|(name, _)| name).collect();

@@ -162,6 +162,25 @@ fn a_picture_of_another_kind_is_refused_before_the_flight() {
     assert!(!picture.exists());
 }
 
+#[test]
+fn files_that_cannot_be_written_are_told_before_the_flight() {
+    let Some((room, fmu)) = packed("AllTypes") else { return };
+    let (table, picture) = (room.path().join("out.csv"), room.path().join("out.svg"));
+    let missing = room.path().join("none/out.svg");
+    let fly = |more: &[&str]| run(&[&["run", shown(&fmu), "--stop", "1e9", "--step", "1"], more].concat(), 1);
+    // Hours of stepping, had the flight begun.
+    for option in ["--output", "--plot"] {
+        let text = fly(&[option, shown(&missing)]);
+        assert!(text.contains("none") && text.contains(&format!("see {option}")), "{text}");
+    }
+    // One that cannot be written leaves the other as it was, and so does a flight that is refused.
+    fs::write(&table, "precious").unwrap();
+    fly(&["--output", shown(&table), "--plot", shown(&missing)]);
+    fly(&["--output", shown(&table), "--plot", shown(&picture), "--set", "input.real=1e7"]);
+    assert_eq!(fs::read_to_string(&table).unwrap(), "precious");
+    assert!(!picture.exists());
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn ctrl_c_leaves_a_valid_partial_csv() {
