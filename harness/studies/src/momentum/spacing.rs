@@ -36,12 +36,20 @@ impl Spacing {
         let near = |ours: Option<f64>, theirs: Option<f64>| {
             ours.zip(theirs).is_some_and(|(ours, theirs)| (ours / theirs - 1.0).abs() <= 0.25)
         };
-        match (low <= stated_high && stated_low <= high, near(self.closest_d, stated.closest_d)) {
+        let closest_is_near = near(self.closest_d, stated.closest_d);
+        if self.has_one_gap() && stated.has_one_gap() {
+            return if closest_is_near { "gap within 25 %" } else { "off" };
+        }
+        match (low <= stated_high && stated_low <= high, closest_is_near) {
             (true, true) => "typical gaps overlap, closest within 25 %",
             (true, false) => "typical gaps overlap, closest off",
             (false, true) => "typical gaps off, closest within 25 %",
             (false, false) => "off",
         }
+    }
+
+    fn has_one_gap(&self) -> bool {
+        self.dumps == 2
     }
 
     /// Of rising dump times, in days.
@@ -96,6 +104,18 @@ mod tests {
         assert_eq!(spacing.against(&stated(2.0, (11.0, 30.0))), "typical gaps off, closest within 25 %");
         assert_eq!(spacing.against(&stated(9.0, (1.0, 3.0))), "off");
         assert_eq!(Spacing::of(&[1.0]).against(&stated(2.0, (1.0, 3.0))), "off");
+    }
+
+    #[test]
+    fn a_single_gap_is_compared_with_a_single_gap() {
+        let stated = Spacing::stated(2, 55.0, 55.0, (55.0, 55.0));
+        assert_eq!(Spacing::of(&[3.0, 59.0]).against(&stated), "gap within 25 %");
+        assert_eq!(Spacing::of(&[3.0, 33.0]).against(&stated), "off");
+        // Three dumps have a closest and a typical gap of their own.
+        assert_eq!(
+            Spacing::of(&[3.0, 59.0, 119.0]).against(&stated),
+            "typical gaps off, closest within 25 %"
+        );
     }
 
     #[test]
