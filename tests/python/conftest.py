@@ -4,6 +4,7 @@ import os
 import pathlib
 
 import pytest
+from fmpy import extract
 
 
 def _path(variable):
@@ -31,3 +32,8 @@ def library():
 @pytest.fixture(scope="session")
 def momentum_plant(dist):
     return str(dist / "MomentumPlant.fmu")
+
+
+@pytest.fixture(scope="session")
+def unpacked_plant(momentum_plant, tmp_path_factory):
+    return extract(momentum_plant, unzipdir=str(tmp_path_factory.mktemp("MomentumPlant")))

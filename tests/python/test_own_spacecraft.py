@@ -7,10 +7,9 @@ import zipfile
 import numpy as np
 import pytest
 from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
-from flight import fly, stack, vector
+from flight import Stepped, fly, stack, vector
 from spacecraft import HEAD, RESOURCES, SAILER, call, pack, solar_torque, urchin
 
 PRESSURE_PA = 9e-6
@@ -67,49 +66,23 @@ def test_sixty_five_plates_without_panels_and_wheels(urchin_65):
     assert_torque_is_the_sum_over_the_file(urchin_65, urchin(65), panels=0)
 
 
-class Craft:
-    """An FMU stepped by hand, so that others can be stepped between."""
-
-    def __init__(self, fmu, folder):
-        description = read_model_description(fmu)
-        references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.read = [references[name] for name in vector("momentum.inertial") + vector("torque.total")]
-        self.messages = []
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=extract(fmu, unzipdir=str(folder)),
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="craft",
-        )
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-        self.time = 0.0
-
-    def step(self):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=600.0)
-        self.time += 600.0
-        return self.slave.getReal(self.read)
-
-    def close(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
-
-
 def test_two_spacecraft_in_one_process_do_not_disturb_each_other(sailer, urchin_65, tmp_path):
+    def step(craft):
+        craft.step(600.0)
+        return list(craft.get(*vector("momentum.inertial"), *vector("torque.total")))
+
     def alone(fmu, folder):
-        craft = Craft(fmu, folder)
-        flown = [craft.step() for _ in range(300)]
+        craft = Stepped(extract(fmu, unzipdir=str(folder)))
+        flown = [step(craft) for _ in range(300)]
         craft.close()
         return flown
 
     expected = [alone(sailer, tmp_path / "a"), alone(urchin_65, tmp_path / "b")]
-    crafts = [Craft(sailer, tmp_path / "c"), Craft(urchin_65, tmp_path / "d")]
+    crafts = [Stepped(extract(fmu, unzipdir=str(tmp_path / name))) for fmu, name in ((sailer, "c"), (urchin_65, "d"))]
     together = [[], []]
     for _ in range(300):
         for craft, flown in zip(crafts, together):
-            flown.append(craft.step())
+            flown.append(step(craft))
     for craft in crafts:
         craft.close()
     assert together == expected
