@@ -22,7 +22,8 @@ pub(super) const PRINTED: Elements = paper004::MERCURY_AS_PRINTED;
 /// The semi-major axis of a 12 h orbit about Mercury (Kepler's third law).
 pub(super) fn semi_major_axis_m() -> f64 {
     let mean_motion_rad_s = core::f64::consts::TAU / 43_200.0;
-    (MERCURY_GM_M3_S2 / (mean_motion_rad_s * mean_motion_rad_s)).cbrt()
+    // Start values enter the GUID: no digit may hang on the machine's own library of functions.
+    libm::cbrt(MERCURY_GM_M3_S2 / (mean_motion_rad_s * mean_motion_rad_s))
 }
 
 /// Inertia by rows.

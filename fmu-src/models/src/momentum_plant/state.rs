@@ -7,7 +7,7 @@ use physics::momentum::{Accumulator, Event, Totals};
 use physics::plant::{Command, Configuration, Course, LightModel};
 use serde::{Deserialize, Serialize};
 
-use super::choices::CommandKind;
+use super::choices::{AttitudeSource, CommandKind};
 use super::{Plan, log_dump, physics_vector};
 
 /// State of one plant.
@@ -112,7 +112,9 @@ impl PlantState {
             configuration: None,
             light: None,
         };
-        state.take_command(context, values, start_s)?;
+        if is_commanded(context, values) {
+            state.take_command(context, values, start_s)?;
+        }
         Ok(state)
     }
 
@@ -124,7 +126,7 @@ impl PlantState {
         time_s: f64,
     ) -> Result<Changes, Failure> {
         let inputs = CommandInputs::read(context, values);
-        let commanded = inputs != self.command_inputs;
+        let commanded = is_commanded(context, values) && inputs != self.command_inputs;
         if commanded {
             self.command_inputs = inputs;
             self.take_command(context, values, time_s)?;
@@ -146,7 +148,7 @@ impl PlantState {
     fn take_command(&mut self, context: &Plan<'_>, values: &Values, time_s: f64) -> Result<(), Failure> {
         let CommandInputs { q, rate, error, .. } = self.command_inputs;
         let quaternion = |name: &str, q| {
-            Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
+            Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
         };
         let held = self.command.attitude_at(time_s);
         let attitude = match values.choice(context.variables.command.kind) {
@@ -157,6 +159,11 @@ impl PlantState {
         self.command = Command { attitude, rate_body_rad_s: physics_vector(rate), since_s: time_s };
         Ok(())
     }
+}
+
+/// Whether the attitude follows the inputs `command.*`.
+fn is_commanded(context: &Plan<'_>, values: &Values) -> bool {
+    matches!(values.choice(context.variables.attitude.source), Some(AttitudeSource::Commanded))
 }
 
 impl CommandInputs {

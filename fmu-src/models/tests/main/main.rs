@@ -4,6 +4,7 @@
 mod disturbance_degenerate;
 mod disturbance_torque;
 mod pilot;
+mod plant_commands;
 mod plant_cuts;
 mod plant_light;
 mod plant_refusals;

@@ -14,7 +14,7 @@ pub struct SunAngles {
 impl SunAngles {
     /// Of a body-frame direction of any length; along the Z axis the azimuth is 0.
     pub fn of(direction_body: &Vector3<f64>) -> Self {
-        let across = direction_body.x.hypot(direction_body.y);
+        let across = libm::hypot(direction_body.x, direction_body.y);
         let azimuth_rad = if across == 0.0 { 0.0 } else { direction_body.x.atan2(-direction_body.y) };
         Self { azimuth_rad, elevation_rad: (-direction_body.z).atan2(across) }
     }

@@ -1,5 +1,7 @@
 //! The attitude: a rotation between the inertial and the body frame, and its motion under a constant rate.
 
+use core::ops::RangeInclusive;
+
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +13,14 @@ pub struct Attitude {
 
 /// Four numbers that are no rotation.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("quaternion [{}, {}, {}, {}] has norm {norm}, needed is 1 (within 1e-3)", .found[0], .found[1], .found[2], .found[3])]
+#[error("quaternion [{}, {}, {}, {}] has norm {norm}, needed is {allowed}", .found[0], .found[1], .found[2], .found[3])]
 pub struct QuaternionError {
     /// What was given, scalar last.
     pub found: [f64; 4],
     /// Its norm.
     pub norm: f64,
+    /// What the norm may be.
+    pub allowed: &'static str,
 }
 
 impl Default for Attitude {
@@ -28,13 +32,26 @@ impl Default for Attitude {
 impl Attitude {
     /// From a scalar-last quaternion (EME2000 to body); its norm may be off by 1e-3 and is restored to 1.
     pub fn from_quaternion(q: [f64; 4]) -> Result<Self, QuaternionError> {
+        Self::restored(q, 0.999..=1.001, "1 (within 1e-3)")
+    }
+
+    /// From four numbers that point along a scalar-last quaternion (EME2000 to body), as masters make them that
+    /// interpolate component by component; a norm of 0.1 to 10 is restored to 1.
+    pub fn along_quaternion(q: [f64; 4]) -> Result<Self, QuaternionError> {
+        Self::restored(q, 0.1..=10.0, "0.1 to 10 (it is then restored to 1)")
+    }
+
+    fn restored(
+        q: [f64; 4],
+        norms: RangeInclusive<f64>,
+        allowed: &'static str,
+    ) -> Result<Self, QuaternionError> {
         let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if !(norm - 1.0).abs().le(&1e-3) {
-            return Err(QuaternionError { found: q, norm });
+        if !norms.contains(&norm) {
+            return Err(QuaternionError { found: q, norm, allowed });
         }
-        Ok(Self {
-            inertial_from_body: UnitQuaternion::from_quaternion(Quaternion::new(q[3], q[0], q[1], q[2])),
-        })
+        let quaternion = Quaternion::new(q[3], q[0], q[1], q[2]);
+        Ok(Self { inertial_from_body: UnitQuaternion::from_quaternion(quaternion) })
     }
 
     /// From the body axes as columns in inertial components.

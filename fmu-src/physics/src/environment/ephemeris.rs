@@ -158,7 +158,7 @@ fn from_rectangular(p: vsop87::RectangularCoordinates) -> Vector3<f64> {
 /// EME2000 position of VSOP87's elements: semi-major axis in AU, mean longitude, k + ih = e exp(i periapsis longitude),
 /// q + ip = sin(inclination / 2) exp(i node).
 fn from_elements([a, mean_longitude_rad, k, h, q, p]: [f64; 6]) -> Vector3<f64> {
-    let e = k.hypot(h);
+    let e = libm::hypot(k, h);
     let periapsis_longitude_rad = h.atan2(k);
     let (sin_anomaly, cos_anomaly) =
         eccentric_anomaly_rad(mean_longitude_rad - periapsis_longitude_rad, e).sin_cos();

@@ -2,7 +2,7 @@
 
 use core::fmt::Display;
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::document::{Document, Place};
 use super::error::{Problem, SpacecraftError};
@@ -139,8 +139,12 @@ impl<'d> Checker<'d> {
                 for (i, angle_deg) in angles_deg.into_iter().enumerate() {
                     self.angle(&place.item(i), angle_deg, -360.0, 360.0);
                 }
-                let [x, y, z] = angles_deg.map(f64::to_radians);
-                Rotation3::from_euler_angles(x, y, z).into_inner()
+                // The matrix enters an FMU's GUID: no digit may hang on the machine's own library of functions.
+                let [(sx, cx), (sy, cy), (sz, cz)] = angles_deg.map(|angle| libm::sincos(angle.to_radians()));
+                let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cx, -sx, 0.0, sx, cx);
+                let about_y = Matrix3::new(cy, 0.0, sy, 0.0, 1.0, 0.0, -sy, 0.0, cy);
+                let about_z = Matrix3::new(cz, -sz, 0.0, sz, cz, 0.0, 0.0, 0.0, 1.0);
+                about_z * about_y * about_x
             }
             (None, Some(rows)) => self.rotation_matrix(&at.key(matrix_key), rows),
             (Some(_), Some(_)) => {

@@ -55,8 +55,8 @@ impl Damper {
 
     /// G of the module's equation, in 1/(N m s2), for the momentum `h` in body components.
     pub fn gain(&self, h: &Vector3<f64>) -> f64 {
-        let across = h.x.hypot(h.y);
-        let norm = across.hypot(h.z);
+        let across = libm::hypot(h.x, h.y);
+        let norm = libm::hypot(across, h.z);
         if self.rate_1_s == 0.0 || norm == 0.0 {
             return 0.0;
         }
@@ -113,7 +113,7 @@ fn growing_integral(angle_rad: f64, x: f64) -> f64 {
     if x < 1.0 && cosine > 1e-3 {
         // x + ln[(1 + sec a) / (1 + sec phi)], written without cancellation.
         let tangent = sine / cosine;
-        let (secant, secant_end) = (cosine.recip(), (tangent * x.exp()).hypot(1.0));
+        let (secant, secant_end) = (cosine.recip(), libm::hypot(tangent * x.exp(), 1.0));
         let difference = -tangent * tangent * (2.0 * x).exp_m1() / (secant + secant_end);
         return x + (difference / (1.0 + secant_end)).ln_1p();
     }
@@ -121,5 +121,5 @@ fn growing_integral(angle_rad: f64, x: f64) -> f64 {
         return x;
     }
     let cotangent = cosine / sine;
-    cotangent.asinh() - (cotangent * (-x).exp()).asinh()
+    libm::asinh(cotangent) - libm::asinh(cotangent * (-x).exp())
 }

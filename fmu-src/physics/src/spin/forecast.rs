@@ -68,7 +68,7 @@ impl Flight {
             let half_turns = train.half_turns(k);
             re += if half_turns % 2 == 1 { -kick } else { kick };
             last_s = time_s;
-            sum.final_nutation_rad = re.hypot(im);
+            sum.final_nutation_rad = libm::hypot(re, im);
             sum.peak_nutation_rad = sum.peak_nutation_rad.max(sum.final_nutation_rad);
             let (late_sine, late_cosine) = (spin.rate_rad_s * time_s + 2.0 * PI * train.offset_turns(0)
                 - PI * f64::from(half_turns))

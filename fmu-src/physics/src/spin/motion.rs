@@ -66,7 +66,7 @@ impl RigidState {
     /// Angle from the momentum to the spin axis by atan2, 0..pi, in rad.
     #[inline]
     pub fn nutation_rad(&self) -> f64 {
-        self.momentum_body.x.hypot(self.momentum_body.y).atan2(self.momentum_body.z)
+        libm::hypot(self.momentum_body.x, self.momentum_body.y).atan2(self.momentum_body.z)
     }
 
     /// Rotational kinetic energy in J.

@@ -129,6 +129,6 @@ impl LinearNutation {
 
     /// Nutation angle, in rad: the theory's sum is the tangent.
     pub fn angle_rad(&self) -> f64 {
-        self.across[0].hypot(self.across[1]).atan()
+        libm::hypot(self.across[0], self.across[1]).atan()
     }
 }

@@ -87,7 +87,7 @@ impl NutationEstimator {
             return unknown;
         }
         let (a, b) = ((a22 * b1 - a12 * b2) / determinant, (a11 * b2 - a12 * b1) / determinant);
-        let amplitude = a.hypot(b);
+        let amplitude = libm::hypot(a, b);
         let trace = (a11 + a22) / determinant;
         // Along the estimated direction; without an amplitude, the mean over directions.
         let variance = if amplitude > 0.0 {

@@ -30,7 +30,7 @@ pub struct CommandVariables {
     /// What the command gives. A command takes effect when any of its inputs changes, and is propagated from then on.
     #[input(start = CommandKind::Attitude)]
     pub kind: Choice<CommandKind>,
-    /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame.
+    /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
     /// Commanded angular rate in body components; the attitude is propagated with it.

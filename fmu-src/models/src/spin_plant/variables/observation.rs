@@ -34,7 +34,7 @@ pub struct GeometryVariables {
 #[derive(Variables)]
 pub struct SunVariables {
     /// Direction of the Sun in EME2000, of any length but 0; unused on the L1 orbit.
-    #[input(unit = "1", start = [(10.0 * DEG_RAD).sin(), 0.0, (10.0 * DEG_RAD).cos()])]
+    #[input(unit = "1", start = [libm::sin(10.0 * DEG_RAD), 0.0, libm::cos(10.0 * DEG_RAD)])]
     pub direction: RealVector<3>,
     /// From the spin axis +Z to the Sun.
     #[output(unit = "rad", display = "deg", nominal = 0.1)]

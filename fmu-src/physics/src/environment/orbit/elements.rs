@@ -145,7 +145,7 @@ impl Elements {
             return Err(OrbitError::Parabolic { eccentricity });
         }
         let normal = momentum / momentum_norm;
-        let sin_inclination = normal.x.hypot(normal.y);
+        let sin_inclination = libm::hypot(normal.x, normal.y);
         let to_node = if sin_inclination < DEGENERATE {
             Vector3::x()
         } else {

@@ -40,7 +40,7 @@ pub fn hyperbolic_anomaly(mean_anomaly_rad: f64, eccentricity: f64) -> f64 {
     }
     // e sinh H - H >= (e - 1) H + e H^3 / 6 >= each term alone, and sinh H >= M / e.
     let mut h = (m / (e - 1.0)).min((6.0 * m / e).cbrt()).min((2.0 * m / e + 2.0).ln() + 1.0);
-    h = h.max((m / e).asinh());
+    h = h.max(libm::asinh(m / e));
     for _ in 0..60 {
         let (f2, f3) = (e * h.sinh(), e * h.cosh());
         let (f0, f1) = (f2 - h - m, f3 - 1.0);
