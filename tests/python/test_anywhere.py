@@ -5,7 +5,9 @@ import pathlib
 import re
 import subprocess
 import sys
+import zipfile
 
+import pytest
 from fmpy import read_model_description
 
 from spacecraft import RESOURCES, call
@@ -49,3 +51,14 @@ def test_the_readmes_lines_for_fmpy_run(dist):
     momentum, dumps = map(float, ran.stdout.split())
     # The momentum stays within the threshold the lines set, and Table 2 has dumps in every column.
     assert 3.5 < momentum <= 4.0 + 1e-9 and dumps >= 2
+
+
+@pytest.mark.parametrize("name", ["MomentumPlant", "SpinPlant", "DisturbanceTorque"])
+def test_a_manual_explains_what_it_cites(dist, name):
+    with zipfile.ZipFile(dist / f"{name}.fmu") as archive:
+        page = archive.read("documentation/index.html").decode()
+    cited = set(re.findall(r"paper \d{3}", page))
+    explained = re.findall(r"<tr><td>(paper \d{3})</td><td>(.*?)</td></tr>", page)
+    # Authors, title.
+    assert {paper for paper, text in explained if ":" in text} == cited and cited
+    assert page.index('<h2 id="sources">') < page.index('<h2 id="stepping">') < page.index('<h2 id="calls">')

@@ -33,7 +33,7 @@ pub use describe::{DescribeError, describe};
 pub use fmi_export_derive::{Enumeration, Variables};
 pub use library::{Entry, Library};
 pub use memory::MAX_INPUT_DERIVATIVE_ORDER;
-pub use model::{About, Context, Failure, Model, SetupError, Step};
+pub use model::{About, Context, Failure, Model, SetupError, Source, Step};
 pub use model_description;
 pub use problem::StateMismatch;
 pub use status::Status;

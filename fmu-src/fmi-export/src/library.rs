@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::describe::{DescribeError, Prepared, prepare};
 use crate::location::{self, Resources};
-use crate::model::Model;
+use crate::model::{Model, Source};
 use crate::panics::contain;
 
 /// One model of a library, its type erased.
@@ -15,6 +15,7 @@ pub struct Entry {
     name: &'static str,
     setup_file: Option<&'static str>,
     default_setup: &'static str,
+    sources: &'static [Source],
     prepare: fn(&str, &str) -> Result<Prepared, DescribeError>,
 }
 
@@ -25,6 +26,7 @@ impl Entry {
             name: M::NAME,
             setup_file: M::SETUP_FILE,
             default_setup: M::DEFAULT_SETUP,
+            sources: M::SOURCES,
             prepare: prepare::<M>,
         }
     }
@@ -42,6 +44,11 @@ impl Entry {
     /// The compiled-in setup text.
     pub const fn default_setup(&self) -> &'static str {
         self.default_setup
+    }
+
+    /// By what the model computes.
+    pub const fn sources(&self) -> &'static [Source] {
+        self.sources
     }
 
     /// Describes the model for a setup text, the compiled-in one if `None`; `file` names it in errors.

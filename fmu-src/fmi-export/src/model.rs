@@ -21,6 +21,8 @@ pub trait Model: Sized + 'static {
     const SETUP_FILE: Option<&'static str>;
     /// The compiled-in setup text, used when an importer gives no resource location.
     const DEFAULT_SETUP: &'static str;
+    /// By what the model computes, for its manual.
+    const SOURCES: &'static [Source] = &[];
     /// Highest order `fmi2GetRealOutputDerivatives` answers.
     const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 0;
     /// Whether input derivatives have an effect.
@@ -178,6 +180,15 @@ pub struct About {
     pub version: String,
     /// Licence of the model in one line; empty = not said.
     pub license: String,
+}
+
+/// By what a quantity of a model is computed, or what a name of a source stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// The quantity or the name.
+    pub what: &'static str,
+    /// Paper and equation, method, title.
+    pub by: &'static str,
 }
 
 /// Why a model cannot go on; the text reaches the master's log.

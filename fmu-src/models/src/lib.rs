@@ -3,6 +3,7 @@
 mod disturbance_torque;
 mod momentum_plant;
 mod shared;
+mod sources;
 mod spin_plant;
 
 pub use disturbance_torque::{DisturbanceSetup, DisturbanceTorque};

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! With `model` NULL the models are listed: for each one its name, the name of its setup file under
-//! `resources/` (left out if it has none) and its compiled-in setup text. With a model's name: the same three,
-//! then the `modelDescription.xml` for `setup_text`, or for the compiled-in text if that is NULL. `setup_file`
+//! `resources/` (left out if it has none), its compiled-in setup text, and by what it computes, one `quantity TAB source`
+//! at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for the compiled-in text if that is NULL. `setup_file`
 //! names the text in errors; NULL means the model's own file name. Returns 0, or 1 after an error was received.
 //! The texts are UTF-8 of the given length, without a NUL at the end, and live until `receive` returns.
 
@@ -33,6 +33,8 @@ pub mod kind {
     pub const MODEL: i32 = 3;
     /// Name of the setup file under `resources/`.
     pub const SETUP_FILE: i32 = 4;
+    /// A quantity, a tab and by what it is computed.
+    pub const SOURCE: i32 = 5;
 }
 
 /// `fmi_export_describe` over the models of a library.
@@ -58,6 +60,9 @@ pub unsafe fn describe(
             send(kind::SETUP_FILE, file);
         }
         send(kind::SETUP_TEXT, entry.default_setup());
+        for source in entry.sources() {
+            send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
+        }
     };
     let done = contain(|| {
         if model.is_null() {

@@ -8,7 +8,7 @@ mod variables;
 
 use std::sync::Arc;
 
-use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values};
+use fmi_export::{About, Context, Failure, Model, Real, SetupError, Source, Step, Values};
 use physics::numerics::scalar::Dual64;
 use physics::radiation::disturbance::Workspace;
 use serde::{Deserialize, Serialize};
@@ -37,6 +37,7 @@ impl Model for DisturbanceTorque {
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
+    const SOURCES: &'static [Source] = crate::sources::DISTURBANCE_TORQUE;
     const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = true;
 
     type Setup = DisturbanceSetup;

@@ -9,7 +9,7 @@ mod setup;
 mod state;
 mod variables;
 
-use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values};
+use fmi_export::{About, Context, Failure, Model, Real, SetupError, Source, Step, Values};
 use physics::constants::RADIUS_SUN_M;
 use physics::momentum::{Accumulator, Event, Flight, Totals};
 use physics::plant::{Course, ExternalLoad, Plant, PlantError, Snapshot};
@@ -29,6 +29,7 @@ impl Model for MomentumPlant {
     const STATE_VERSION: u32 = 3;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
+    const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
     const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
 
     type Setup = PlantSetup;

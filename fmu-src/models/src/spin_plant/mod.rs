@@ -6,7 +6,7 @@ mod outputs;
 mod read;
 mod variables;
 
-use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values};
+use fmi_export::{About, Context, Failure, Model, Real, SetupError, Source, Step, Values};
 use physics::spin::{plant::Plant, spinner::Spinner};
 
 use variables::SpinVariables;
@@ -19,6 +19,7 @@ impl Model for SpinPlant {
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/ace.toml");
+    const SOURCES: &'static [Source] = crate::sources::SPIN_PLANT;
     const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
 
     type Setup = Spinner;

@@ -36,8 +36,8 @@ const SECTIONS: [(Causality, &str, &str); 6] = [
     (Causality::Independent, "independent", "Independent variable"),
 ];
 
-/// The page.
-pub fn html(description: &Description, picture: bool) -> String {
+/// The page; `sources` are quantities and by what they are computed.
+pub fn html(description: &Description, sources: &[(String, String)], picture: bool) -> String {
     let mut page = String::new();
     let title = escape(&description.model_name);
     let _ = write!(
@@ -53,18 +53,20 @@ pub fn html(description: &Description, picture: bool) -> String {
     if let Some(text) = &description.description {
         let _ = writeln!(page, "<p>{}</p>", escape(text));
     }
-    navigation(&mut page, description);
+    navigation(&mut page, description, sources);
     facts(&mut page, description);
     options(&mut page, description);
     for (causality, id, heading) in SECTIONS {
         variables(&mut page, description, causality, id, heading);
     }
+    computation(&mut page, sources);
+    stepping(&mut page, description);
     calls(&mut page);
     page.push_str("</body>\n</html>\n");
     page
 }
 
-fn navigation(page: &mut String, description: &Description) {
+fn navigation(page: &mut String, description: &Description, sources: &[(String, String)]) {
     page.push_str("<nav><a href=\"#facts\">Facts</a>");
     if has_options(description) {
         page.push_str("<a href=\"#options\">Options</a>");
@@ -74,7 +76,10 @@ fn navigation(page: &mut String, description: &Description) {
             let _ = write!(page, "<a href=\"#{id}\">{heading}</a>");
         }
     }
-    page.push_str("<a href=\"#calls\">Calls</a></nav>\n");
+    if !sources.is_empty() {
+        page.push_str("<a href=\"#sources\">Sources</a>");
+    }
+    page.push_str("<a href=\"#stepping\">Stepping</a><a href=\"#calls\">Calls</a></nav>\n");
 }
 
 fn facts(page: &mut String, description: &Description) {
@@ -199,6 +204,52 @@ fn kind(variable: &ScalarVariable) -> String {
         (None, None) => String::new(),
     };
     format!("{variability} {base}{limits}")
+}
+
+fn computation(page: &mut String, sources: &[(String, String)]) {
+    if sources.is_empty() {
+        return;
+    }
+    page.push_str(
+        "<h2 id=\"sources\">Sources</h2>\n<div class=\"wide\"><table>\n<tr><th>What</th><th>By</th></tr>\n",
+    );
+    for (what, by) in sources {
+        let _ = writeln!(page, "<tr><td>{}</td><td>{}</td></tr>", escape(what), escape(by));
+    }
+    page.push_str("</table></div>\n");
+}
+
+/// What an importer may count on between two communication points.
+fn stepping(page: &mut String, description: &Description) {
+    page.push_str(
+        "<h2 id=\"stepping\">Stepping</h2>\n<p>Communication points may lie anywhere: while inputs and tunable parameters stay \
+         as they are, results do not depend on where they lie. Setting an input to another value takes effect at the \
+         beginning of the next step; setting it to the same value does nothing.</p>\n",
+    );
+    let Some(flags) = &description.co_simulation else { return };
+    if flags.can_interpolate_inputs {
+        page.push_str(
+            "<p>Input derivatives make an input a Taylor polynomial about the beginning of the next step; they hold for that \
+             step alone and are then forgotten. Which inputs follow theirs stands under Sources.</p>\n",
+        );
+    }
+    match flags.max_output_derivative_order {
+        0 => {}
+        1 => page.push_str(
+            "<p>Output derivatives are those of the motion at the end of the last step, of order 1.</p>\n",
+        ),
+        order => {
+            let _ = writeln!(
+                page,
+                "<p>Output derivatives are those at the end of the last step, up to order {order}.</p>"
+            );
+        }
+    }
+    if flags.can_get_and_set_fmu_state {
+        page.push_str(
+            "<p>A saved state goes on to the bit, in another instance and, serialised, in another process.</p>\n",
+        );
+    }
 }
 
 fn calls(page: &mut String) {

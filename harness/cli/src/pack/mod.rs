@@ -46,7 +46,7 @@ pub fn run(arguments: &Pack) -> Outcome {
         entries.add(&format!("resources/{name}"), setup.clone().into_bytes())?;
     }
     let picture = picture::png(&setup);
-    let page = documentation::html(&description, picture.is_some());
+    let page = documentation::html(&description, &described.sources, picture.is_some());
     entries.add("documentation/index.html", page.into_bytes())?;
     if let Some(png) = picture {
         entries.add("model.png", png)?;

@@ -16,6 +16,8 @@ pub struct Described {
     pub setup_file: Option<String>,
     /// The compiled-in setup text.
     pub default_setup: String,
+    /// Quantities and by what they are computed; names of papers and what they stand for.
+    pub sources: Vec<(String, String)>,
     /// The `modelDescription.xml`; empty where the models are only listed.
     pub xml: String,
 }
@@ -89,6 +91,10 @@ impl Binary {
                 (2, Some(model)) => model.default_setup = text,
                 (3, _) => models.push(Described { model: text, ..Described::default() }),
                 (4, Some(model)) => model.setup_file = Some(text),
+                (5, Some(model)) => {
+                    let pair = text.split_once('\t').map(|(what, by)| (what.to_owned(), by.to_owned()));
+                    model.sources.extend(pair);
+                }
                 _ => {}
             }
         }
