@@ -11,13 +11,15 @@ use crate::{Options, StudyError};
 const DAY_S: f64 = 86_400.0;
 const STEP_S: f64 = 600.0;
 
-/// Model of the sunshade.
+/// What the Sun pushes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shade {
     /// The section of a cylinder that Tables 2 and 3 were computed with.
     Cylinder,
     /// The eight plates of the later design.
     Plates,
+    /// Those, and both panels 65 deg off the Sun, as the paper's next series had them.
+    PlatesAndPanels,
 }
 
 impl Shade {
@@ -26,6 +28,7 @@ impl Shade {
         match self {
             Self::Cylinder => "cylinder",
             Self::Plates => "plates",
+            Self::PlatesAndPanels => "plates and panels",
         }
     }
 }
@@ -84,8 +87,8 @@ impl Case {
             ("solar.fixedPressure".to_owned(), Value::Boolean(true)),
             ("gravityGradient.enabled".to_owned(), Value::Boolean(false)),
             ("eclipse.model".to_owned(), Value::Integer(4)),
-            ("panel[1].enabled".to_owned(), Value::Boolean(false)),
-            ("panel[2].enabled".to_owned(), Value::Boolean(false)),
+            ("panel[1].enabled".to_owned(), Value::Boolean(self.shade == Shade::PlatesAndPanels)),
+            ("panel[2].enabled".to_owned(), Value::Boolean(self.shade == Shade::PlatesAndPanels)),
             ("sunshade.model".to_owned(), Value::Integer(if self.shade == Shade::Cylinder { 2 } else { 1 })),
             (
                 "momentum.convention".to_owned(),
@@ -118,9 +121,10 @@ pub struct Flown {
 /// Every case, the paper's first.
 pub fn all() -> Vec<Case> {
     let mut cases = Vec::new();
-    for threshold_n_m_s in [4.0, 7.0] {
+    let alone: &[Shade] = &[Shade::Cylinder, Shade::Plates];
+    for (threshold_n_m_s, shades) in [(4.0, alone), (7.0, alone), (5.5, &[Shade::PlatesAndPanels])] {
         for convention in [Convention::BodyIntegral, Convention::Inertial] {
-            for shade in [Shade::Cylinder, Shade::Plates] {
+            for &shade in shades {
                 for offset_m in [0.0, -0.0254, -0.0508] {
                     cases.push(Case { threshold_n_m_s, shade, convention, offset_m });
                 }

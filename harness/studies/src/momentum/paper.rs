@@ -1,16 +1,19 @@
 //! What the paper prints.
 
-use super::cases::{Case, Convention};
+use super::cases::{Case, Convention, Shade};
 use super::spacing::Spacing;
+
+/// Counts may differ from the paper's by this much: its pointing rules, epoch and windows are unpublished.
+const COUNT_TOLERANCE: i64 = 2;
 
 /// One cell of Tables 2 and 3, strategy "thruster dumps only".
 pub struct PaperRow {
     threshold_n_m_s: f64,
     offset_m: f64,
     /// Table 2.
-    pub dumps: i64,
+    dumps: i64,
     /// Table 3.
-    pub spacing: Spacing,
+    spacing: Spacing,
 }
 
 const ROWS: &[PaperRow] = &[
@@ -33,10 +36,60 @@ const fn row(
     PaperRow { threshold_n_m_s, offset_m, dumps, spacing }
 }
 
-impl PaperRow {
-    /// The paper's cell for a case, where it has one.
-    pub fn of(case: &Case) -> Option<&'static Self> {
-        let same = |row: &&Self| row.threshold_n_m_s == case.threshold_n_m_s && row.offset_m == case.offset_m;
-        ROWS.iter().filter(|_| case.convention == Convention::BodyIntegral).find(same)
+/// What the paper says of a case.
+pub enum Published {
+    /// A cell of its tables.
+    Row(&'static PaperRow),
+    /// "Comparable to the cases using the cylindrical shade": as many dumps as those with a higher and a lower threshold.
+    Comparable {
+        /// With large wheels.
+        fewest: i64,
+        /// With small ones.
+        most: i64,
+    },
+}
+
+impl Published {
+    /// Of a case; the paper prints nothing for plates alone, nor for the physical momentum.
+    pub fn of(case: &Case) -> Option<Self> {
+        if case.convention != Convention::BodyIntegral {
+            return None;
+        }
+        let mut at_offset = ROWS.iter().filter(|row| row.offset_m == case.offset_m);
+        match case.shade {
+            Shade::Cylinder => {
+                at_offset.find(|row| row.threshold_n_m_s == case.threshold_n_m_s).map(Self::Row)
+            }
+            Shade::Plates => None,
+            Shade::PlatesAndPanels => {
+                let counts: Vec<i64> = at_offset.map(|row| row.dumps).collect();
+                Some(Self::Comparable { fewest: *counts.iter().min()?, most: *counts.iter().max()? })
+            }
+        }
+    }
+
+    /// For tables.
+    pub fn dumps(&self) -> String {
+        match self {
+            Self::Row(row) => row.dumps.to_string(),
+            Self::Comparable { fewest, most } => format!("{fewest} to {most}"),
+        }
+    }
+
+    /// How a number of dumps compares.
+    pub fn against(&self, dumps: i64) -> &'static str {
+        match self {
+            Self::Row(row) if (dumps - row.dumps).abs() <= COUNT_TOLERANCE => "within 2",
+            Self::Comparable { fewest, most } if (*fewest..=*most).contains(&dumps) => "comparable",
+            Self::Row(_) | Self::Comparable { .. } => "off",
+        }
+    }
+
+    /// The gaps between dumps, where the paper prints them.
+    pub fn spacing(&self) -> Option<&'static Spacing> {
+        match self {
+            Self::Row(row) => Some(&row.spacing),
+            Self::Comparable { .. } => None,
+        }
     }
 }
