@@ -9,13 +9,14 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use fmi_export::Status;
-use fmi_export::abi::{InProcess, StatePointer};
+use fmi_export::abi::{InProcess, Message, StatePointer};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use proptest_state_machine::{ReferenceStateMachine, StateMachineTest};
 
 use crate::support::{self, Base};
-use master::{Answer, Call, Master, Picked};
+use master::{Answer, Call, Master, Misprint, Picked};
 use variables::{Value, references};
 
 /// Calls in a run; `HELIOTORQUE_CALLS` asks for another number.
@@ -236,6 +237,43 @@ impl Before {
     }
 }
 
+/// Whether an instance answered as the reference did, and told why it did not do as asked.
+fn judge(
+    master: &Master,
+    call: &Call,
+    (status, values): &(Status, Vec<Value>),
+    messages: &[Message],
+) -> Result<(), String> {
+    let expected = match master.answer {
+        Answer::Ok | Answer::Values(_) | Answer::Number(_) => Status::Ok,
+        Answer::Discard => Status::Discard,
+        Answer::Error => Status::Error,
+    };
+    let complain = |what: String| Err(format!("{call:?}, now in {}: {what}", master.now.state));
+    if *status != expected {
+        return complain(format!("{status:?} not {expected:?}"));
+    }
+    let wrong = match &master.answer {
+        Answer::Values(wanted) => {
+            wanted.iter().zip(values).any(|(wanted, found)| wanted.is_some_and(|wanted| wanted != *found))
+        }
+        Answer::Number(wanted) => *values != [Value::Real(*wanted)],
+        _ => false,
+    };
+    if wrong {
+        return complain(format!("{values:?} not {:?}", master.answer));
+    }
+    // 2.1.5: the logger is called before anything but OK is returned.
+    let told = messages.iter().any(|message| message.status == *status);
+    if (*status == Status::Error || (*status == Status::Discard && master.logging)) && !told {
+        return complain(format!("{status:?} without a message"));
+    }
+    if messages.iter().any(|message| message.text.contains("panic")) {
+        return complain(format!("{messages:?}"));
+    }
+    Ok(())
+}
+
 /// The sequence under test.
 struct Sequence {
     subject: Subject,
@@ -251,38 +289,27 @@ impl StateMachineTest for Sequence {
     }
 
     fn apply(mut sequence: Self, master: &Master, call: Call) -> Self {
-        let (status, values) = sequence.subject.call(&call, sequence.before);
-        let expected = match master.answer {
-            Answer::Ok | Answer::Values(_) | Answer::Number(_) => Status::Ok,
-            Answer::Discard => Status::Discard,
-            Answer::Error => Status::Error,
-        };
-        assert_eq!(status, expected, "{call:?}, now in {}", master.now.state);
-        match &master.answer {
-            Answer::Values(wanted) => {
-                for (wanted, found) in wanted.iter().zip(&values) {
-                    assert!(
-                        wanted.is_none_or(|wanted| wanted == *found),
-                        "{call:?}: {found:?} not {wanted:?}"
-                    );
-                }
-            }
-            Answer::Number(wanted) => assert_eq!(values, [Value::Real(*wanted)], "{call:?}"),
-            _ => {}
-        }
-        // 2.1.5: the logger is called before anything but OK is returned.
+        let answer = sequence.subject.call(&call, sequence.before);
         let messages = sequence.subject.instance.take_messages();
-        let told = messages.iter().any(|message| message.status == status);
-        if status == Status::Error || (status == Status::Discard && master.logging) {
-            assert!(told, "{call:?}: {status:?} without a message");
-        }
-        assert!(messages.iter().all(|message| !message.text.contains("panic")), "{call:?}: {messages:?}");
+        judge(master, &call, &answer, &messages).unwrap_or_else(|complaint| panic!("{complaint}"));
         sequence.before = Before::of(master);
         sequence
     }
 
     fn check_invariants(_: &Self, _: &Master) {}
 }
+
+/// Functions of the table that the sequences call on their own.
+fn walked() -> impl Iterator<Item = &'static str> {
+    let needs_no_instance = ["GetTypesPlatform", "GetVersion"];
+    // Made before every `fmi2SerializeFMUstate`.
+    let never_alone = ["SerializedFMUstateSize"];
+    table::functions()
+        .filter(move |function| !needs_no_instance.contains(function) && !never_alone.contains(function))
+}
+
+/// States that an FMU without asynchronous steps can be in.
+const WALKED: &str = "IMCFTE";
 
 #[test]
 fn any_sequence_of_calls_is_answered_by_the_table() {
@@ -303,16 +330,70 @@ fn any_sequence_of_calls_is_answered_by_the_table() {
             })
             .unwrap_or_else(|failure| panic!("{failure}"));
     }
-    // Every cell was tried, in every state that an FMU without asynchronous steps can be in.
+    // Every cell was tried.
     let made = made();
-    let needs_no_instance = ["GetTypesPlatform", "GetVersion"];
-    // Made before every `fmi2SerializeFMUstate`.
-    let never_alone = ["SerializedFMUstateSize"];
-    let apart = |function: &&str| !needs_no_instance.contains(function) && !never_alone.contains(function);
-    for function in table::functions().filter(apart) {
-        for state in "IMCFTE".chars() {
+    for function in walked() {
+        for state in WALKED.chars() {
             let count = made.get(&(function, state)).copied().unwrap_or_default();
             assert!(count >= wanted / 200_000, "{function} was called {count} times in {state}");
         }
+    }
+}
+
+/// Calls until an instance answers otherwise than a reference that goes by a broken table, if ever.
+fn calls_until_noticed(misprint: Misprint, runner: &mut TestRunner) -> Option<u64> {
+    let mut calls = 0;
+    while calls < 10 * CALLS {
+        let (mut master, mut subject) = (Master::misled(misprint), Subject::new());
+        let mut noticed = false;
+        for _ in 0..LONGEST_SEQUENCE {
+            let call = strategies::next(master.now.state).new_tree(runner).unwrap().current();
+            let before = Before::of(&master);
+            master.call(&call);
+            let answer = subject.call(&call, before);
+            calls += 1;
+            noticed = judge(&master, &call, &answer, &subject.instance.take_messages()).is_err();
+            if noticed {
+                break;
+            }
+        }
+        // These are not the calls that are counted for the right table.
+        subject.made.clear();
+        if noticed {
+            return Some(calls);
+        }
+    }
+    None
+}
+
+/// The walk above finds a cell that is broken, whichever it is.
+#[test]
+fn every_broken_cell_is_noticed() {
+    let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::default() });
+    // A step that is never pending cannot be cancelled, and there is no derivative before anything was computed: errors
+    // in any case.
+    let alike = |function, state| {
+        let derivative = ["GetDirectionalDerivative", "GetRealOutputDerivatives"].contains(&function);
+        function == "CancelStep" || (derivative && state == 'I')
+    };
+    let flipped = |function: &'static str, state| {
+        let set = ["SetReal", "SetInteger", "SetBoolean", "SetString"].contains(&function);
+        let cell = if table::cell(function, state) != '.' {
+            '.'
+        } else if set {
+            '6'
+        } else {
+            'x'
+        };
+        Misprint { function, state, cell }
+    };
+    let notes = [('I', '3'), ('I', '6'), ('M', '1'), ('M', '6'), ('C', '1'), ('C', '3')];
+    let mut misprints = notes.map(|(state, cell)| Misprint { function: "SetReal", state, cell }).to_vec();
+    for function in walked() {
+        let states = WALKED.chars().filter(|state| !alike(function, *state));
+        misprints.extend(states.map(|state| flipped(function, state)));
+    }
+    for misprint in misprints {
+        assert!(calls_until_noticed(misprint, &mut runner).is_some(), "{misprint:?} was not noticed");
     }
 }
