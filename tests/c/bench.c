@@ -31,14 +31,16 @@ static void empty_model(const Library *probe) {
     fmi2Real value, values[RUNS];
     const int steps = 2000000;
     double t = 0;
+    int status = fmi2OK;
     for (int run = 0; run < RUNS; run++) {
         double begin = now_s();
         for (int i = 0; i < steps; i++, t += 1.0) {
-            probe->DoStep(c, t, 1.0, fmi2True);
-            probe->GetReal(c, &reference, 1, &value);
+            status |= (int)probe->DoStep(c, t, 1.0, fmi2True);
+            status |= (int)probe->GetReal(c, &reference, 1, &value);
         }
         values[run] = (now_s() - begin) / steps * 1e9;
     }
+    CHECK(status == fmi2OK);
     report("empty_step_and_get", values, "ns");
     probe->FreeInstance(c);
     free(xml);
@@ -57,18 +59,23 @@ static void ten_reals(const Library *library, const char *xml) {
     for (int i = 0; i < 10; i++) in[i] = reference_of(xml, inputs[i]), out[i] = reference_of(xml, outputs[i]);
     CHECK(library->ExitInitializationMode(c) == fmi2OK);
     const int calls = 1000000;
+    int status = fmi2OK;
     for (int run = 0; run < RUNS; run++) {
         double begin = now_s();
-        for (int i = 0; i < calls; i++) library->GetReal(c, out, 10, numbers);
+        for (int i = 0; i < calls; i++) status |= (int)library->GetReal(c, out, 10, numbers);
         values[run] = (now_s() - begin) / calls * 1e9;
     }
     report("get_10_reals", values, "ns");
-    memset(numbers, 0, sizeof numbers);
+    /* Every call changes every value. */
+    fmi2Real set[2][10];
+    for (int i = 0; i < 10; i++) set[0][i] = 1e-6 * (i + 1), set[1][i] = -set[0][i];
     for (int run = 0; run < RUNS; run++) {
         double begin = now_s();
-        for (int i = 0; i < calls; i++) library->SetReal(c, in, 10, numbers);
+        for (int i = 0; i < calls; i++) status |= (int)library->SetReal(c, in, 10, set[i & 1]);
         values[run] = (now_s() - begin) / calls * 1e9;
     }
+    CHECK(library->GetReal(c, in, 10, numbers) == fmi2OK && memcmp(numbers, set[(calls - 1) & 1], sizeof numbers) == 0);
+    CHECK(status == fmi2OK);
     report("set_10_reals", values, "ns");
     library->FreeInstance(c);
 }
