@@ -75,3 +75,18 @@ fn every_code_has_a_file() {
     let codes: BTreeSet<&str> = Code::ALL.iter().map(|code| code.as_str()).collect();
     assert_eq!(covered, codes);
 }
+
+/// The README's verdicts of ours; FMPy's are held by `tests/python/test_corpus_table.py`.
+#[test]
+fn the_table_shows_what_is_found() {
+    let readme = fs::read_to_string(folder().join("README.md")).unwrap();
+    for (name, edits) in FAULTS {
+        let found: BTreeSet<String> = findings(edited(name, edits).as_bytes())
+            .iter()
+            .map(|finding| format!("{} ({})", finding.code.as_str(), finding.severity()))
+            .collect();
+        let row = format!("| [{name}]({name}.xml) | {} | ", Vec::from_iter(found).join(", "));
+        assert_eq!(readme.matches(&row).count(), 1, "no row {row}");
+    }
+    assert_eq!(readme.matches(".xml) | ").count(), FAULTS.len());
+}
