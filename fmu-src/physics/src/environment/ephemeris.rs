@@ -220,7 +220,7 @@ mod tests {
             0.917_482_137_087,
         );
         assert!((dcm - published).abs().max() < 1.1e-12);
-        assert!((dcm * dcm.transpose() - Matrix3::identity()).norm() < 1e-15);
+        assert!((dcm * dcm.transpose() - Matrix3::identity()).norm() < 1e-14);
     }
 
     #[test]

@@ -93,8 +93,8 @@ mod tests {
     fn proper_rotations() {
         for frame in ALL {
             let dcm = frame.dcm_eme2000_from_frame();
-            assert!((dcm * dcm.transpose() - Matrix3::identity()).norm() < 1e-15, "{frame:?}");
-            assert!((dcm.determinant() - 1.0).abs() < 1e-15, "{frame:?}");
+            assert!((dcm * dcm.transpose() - Matrix3::identity()).norm() < 1e-14, "{frame:?}");
+            assert!((dcm.determinant() - 1.0).abs() < 1e-14, "{frame:?}");
         }
     }
 
@@ -112,7 +112,7 @@ mod tests {
         // Obliquity 0.034 deg (2.04 arc minutes, Margot et al. 2012), though pole and orbit come from different sources.
         let pole = Frame::MercuryEquator.dcm_eme2000_from_frame() * Vector3::z();
         let expected = direction(MERCURY_POLE_RIGHT_ASCENSION_RAD, MERCURY_POLE_DECLINATION_RAD);
-        assert!((pole - expected).norm() < 1e-15);
+        assert!((pole - expected).norm() < 1e-14);
         let orbit_normal = Frame::Paper004Mci.dcm_eme2000_from_frame() * Vector3::z();
         let obliquity_deg = pole.angle(&orbit_normal).to_degrees();
         assert!((0.02..0.05).contains(&obliquity_deg), "{obliquity_deg}");
@@ -122,11 +122,11 @@ mod tests {
     fn node_axes_lie_in_both_planes() {
         let mci = Frame::Paper004Mci.dcm_eme2000_from_frame();
         let ecliptic_normal = Frame::EclipticJ2000.dcm_eme2000_from_frame() * Vector3::z();
-        assert!((mci * Vector3::x()).dot(&ecliptic_normal).abs() < 1e-16);
+        assert!((mci * Vector3::x()).dot(&ecliptic_normal).abs() < 1e-15);
         // Ascending: moving on from the node (along y) leads north of the ecliptic.
         assert!((mci * Vector3::y()).dot(&ecliptic_normal) > 0.0);
-        assert!(ecliptic_normal.angle(&(mci * Vector3::z())).to_degrees() - 7.0 < 1e-12);
+        assert!((ecliptic_normal.angle(&(mci * Vector3::z())).to_degrees() - 7.0).abs() < 1e-12);
         let equator = Frame::MercuryEquator.dcm_eme2000_from_frame();
-        assert!((equator * Vector3::x()).z.abs() < 1e-16 && (equator * Vector3::y()).z > 0.0);
+        assert!((equator * Vector3::x()).z.abs() < 1e-15 && (equator * Vector3::y()).z > 0.0);
     }
 }

@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 /// Eccentric anomaly E of `M = E - e sin E` for `0 <= e < 1`, in rad, on the same revolution as M.
 ///
 /// Markley's method (Celestial Mechanics 63, 1995): a cubic start and one correction of fifth order, no iteration.
-/// The residual of Kepler's equation stays below 1e-15 + 4e-16 |M| (tested for e up to 0.99).
+/// The residual of Kepler's equation stays below 4e-15 + 1e-15 |M| with any good sine and cosine (tested for e up to 0.99).
 pub fn eccentric_anomaly_rad(mean_anomaly_rad: f64, eccentricity: f64) -> f64 {
     let e = eccentricity;
     let turns = (mean_anomaly_rad / TAU).round();
@@ -86,7 +86,7 @@ mod tests {
     fn zero_and_whole_turns() {
         for turns in -3..=3 {
             let m = f64::from(turns) * TAU;
-            assert!((eccentric_anomaly_rad(m, 0.7) - m).abs() < 1e-15);
+            assert!((eccentric_anomaly_rad(m, 0.7) - m).abs() < 4e-15);
             let half = m + PI;
             assert!((eccentric_anomaly_rad(half, 0.7) - half).abs() < 4e-15);
         }
@@ -97,7 +97,7 @@ mod tests {
         #[test]
         fn residual_is_rounding(m in -50.0..50.0f64, e in 0.0..0.99f64) {
             let anomaly = eccentric_anomaly_rad(m, e);
-            prop_assert!((anomaly - e * anomaly.sin() - m).abs() < 1e-15 + 4e-16 * m.abs());
+            prop_assert!((anomaly - e * anomaly.sin() - m).abs() < 4e-15 + 1e-15 * m.abs());
         }
 
         #[test]
