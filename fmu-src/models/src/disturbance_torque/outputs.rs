@@ -70,8 +70,8 @@ fn vectors<T: Scalar>(
     ]
 }
 
-/// The inputs an output depends on. All light depends on where Sun and planet are and how the panels stand; a torque
-/// also on the centre of mass, but not on its component along the torque; the gravity gradient on the planet only.
+/// The inputs an output depends on. All light depends on where Sun and planet are and how the panels stand, but for
+/// sunlight also on the pole of the planet's cells; a torque also on the centre of mass, but not on its component along the torque; the gravity gradient on the planet only.
 pub fn dependencies(variables: &DisturbanceVariables, output: u32) -> Vec<u32> {
     let span = |vector: RealVector<3>| vector.reference()..vector.reference() + 3;
     let mut places: Vec<u32> = span(variables.sun.position).chain(span(variables.planet.position)).collect();
@@ -83,6 +83,9 @@ pub fn dependencies(variables: &DisturbanceVariables, output: u32) -> Vec<u32> {
         return span(variables.planet.position).collect();
     }
     places.extend(variables.panel.iter().map(|panel| panel.angle.reference()));
+    if ![torque.solar, variables.force.solar].iter().any(|solar| span(*solar).contains(&output)) {
+        places.extend(span(variables.planet.pole));
+    }
     let torques = [torque.solar, torque.albedo, torque.infrared, torque.thermal, torque.total];
     if let Some(vector) = torques.iter().find(|vector| span(**vector).contains(&output)) {
         let along = output - vector.reference();

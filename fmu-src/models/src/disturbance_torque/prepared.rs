@@ -5,12 +5,15 @@ use nalgebra::{Matrix3, Vector3};
 use physics::attitude::gravity_gradient_n_m;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::numerics::scalar::{Dual64, Scalar};
-use physics::radiation::disturbance::{Disturbance, DisturbanceModel, Geometry, Options, Recoil, Workspace};
+use physics::radiation::disturbance::{
+    Disturbance, DisturbanceModel, Geometry, Options, PlanetLightMethod, Recoil, Workspace,
+};
+use physics::radiation::grid::CellLayout;
 use physics::spacecraft;
 use serde::{Deserialize, Serialize};
 
 use super::Plan;
-use super::variables::DisturbanceVariables;
+use super::variables::{DisturbanceVariables, PlanetMethod, RadiationVariables};
 use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
 
 /// What parameters and spacecraft amount to.
@@ -29,6 +32,7 @@ pub struct Prepared {
 pub struct Inputs<T> {
     sun_m: [T; 3],
     planet_m: [T; 3],
+    pole: [T; 3],
     center_of_mass_m: [T; 3],
     pub panel_angles_rad: Vec<T>,
 }
@@ -47,6 +51,7 @@ impl Inputs<f64> {
         let mut inputs = Self {
             sun_m: [0.0; 3],
             planet_m: [0.0; 3],
+            pole: [0.0; 3],
             center_of_mass_m: [0.0; 3],
             panel_angles_rad: vec![0.0; variables.panel.len()],
         };
@@ -59,6 +64,7 @@ impl Inputs<f64> {
         for i in 0..3 {
             self.sun_m[i] = value(variables.sun.position.element(i));
             self.planet_m[i] = value(variables.planet.position.element(i));
+            self.pole[i] = value(variables.planet.pole.element(i));
             self.center_of_mass_m[i] = value(variables.center_of_mass.element(i));
         }
         for (angle_rad, panel) in self.panel_angles_rad.iter_mut().zip(&variables.panel) {
@@ -73,6 +79,7 @@ impl Inputs<f64> {
         Inputs {
             sun_m: core::array::from_fn(|i| dual(self.sun_m[i], variables.sun.position.element(i))),
             planet_m: core::array::from_fn(|i| dual(self.planet_m[i], variables.planet.position.element(i))),
+            pole: core::array::from_fn(|i| dual(self.pole[i], variables.planet.pole.element(i))),
             center_of_mass_m: core::array::from_fn(|i| {
                 dual(self.center_of_mass_m[i], variables.center_of_mass.element(i))
             }),
@@ -84,9 +91,21 @@ impl Inputs<f64> {
 impl<T> Inputs<T> {
     /// Whether a value reference is one of the inputs.
     pub fn has(variables: &DisturbanceVariables, reference: u32) -> bool {
-        let vectors = [variables.sun.position, variables.planet.position, variables.center_of_mass];
+        let planet = &variables.planet;
+        let vectors = [variables.sun.position, planet.position, planet.pole, variables.center_of_mass];
         vectors.iter().any(|v| (v.reference()..v.reference() + 3).contains(&reference))
             || variables.panel.iter().any(|panel| panel.angle.reference() == reference)
+    }
+}
+
+fn method(values: &Values, radiation: &RadiationVariables) -> PlanetLightMethod {
+    let count = |handle| usize::try_from(values.integer(handle)).unwrap_or(0);
+    match values.choice(radiation.method) {
+        Some(PlanetMethod::Cells) => PlanetLightMethod::Cells(CellLayout::Corrected, count(radiation.belts)),
+        Some(PlanetMethod::CellsAsPrinted) => {
+            PlanetLightMethod::Cells(CellLayout::AsPrinted, count(radiation.belts))
+        }
+        Some(PlanetMethod::Rings) | None => PlanetLightMethod::Rings(count(radiation.nodes)),
     }
 }
 
@@ -107,7 +126,7 @@ impl Prepared {
         });
         let options = Options {
             planet: present.then_some(surface),
-            quadrature_nodes: usize::try_from(values.integer(variables.radiation.nodes)).unwrap_or(0),
+            planet_light: method(values, &variables.radiation),
             self_shadowing: values.boolean(variables.radiation.self_shadowing),
             sunshade_model: sunshade_model.filter(|_| spacecraft.sunshade.is_some()),
         };
@@ -153,8 +172,8 @@ impl Prepared {
             }
             _ => (T::constant(1.0), Vector3::zeros()),
         };
-        let refused = |error| Failure::new(format!("sun.position, planet.position: {error}"));
-        let geometry = Geometry::at(
+        let refused = |error| Failure::new(format!("sun.position, planet.position, planet.pole: {error}"));
+        let mut geometry = Geometry::at(
             self.flux_at_1_au_w_m2,
             &sun_m,
             planet_m.as_ref(),
@@ -163,6 +182,9 @@ impl Prepared {
             Vector3::from(inputs.center_of_mass_m),
         )
         .map_err(refused)?;
+        if let Some(planet) = &mut geometry.planet {
+            planet.pole_body = Vector3::from(inputs.pole);
+        }
         let disturbance = self.model.evaluate(&geometry, Recoil::Balance, workspace).map_err(refused)?;
         Ok(Outcome { disturbance, gravity_gradient_n_m, lit_fraction })
     }

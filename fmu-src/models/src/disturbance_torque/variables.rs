@@ -1,6 +1,6 @@
 //! The model's variables at its public face.
 
-use fmi_export::{Boolean, Choice, Integer, Real, RealMatrix, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Variables};
 use physics::constants;
 use physics::environment::sun;
 use physics::environment::surface::MERCURY;
@@ -69,6 +69,9 @@ pub struct PlanetVariables {
     /// Gravitational parameter, for the gravity gradient; the default is Mercury's.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, start = constants::GM_MERCURY_M3_S2)]
     pub gravitational_parameter: Real,
+    /// North of the planet's cells in the body frame, of any length; -Z as paper 004 flies. Without effect on rings.
+    #[input(unit = "1", start = [0.0, 0.0, -1.0])]
+    pub pole: RealVector<3>,
     #[group(name = "")]
     pub surface: SurfaceVariables,
 }
@@ -100,11 +103,29 @@ pub struct EclipseVariables {
     pub model: Choice<EclipseModel>,
 }
 
+/// How planet light is summed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum PlanetMethod {
+    /// Quadrature on rings about the nadir: fast, exact in the limit of many nodes.
+    Rings = 1,
+    /// The cells of paper 004 with the areas they have: slow, and results bend as each cell rises or sets.
+    Cells = 2,
+    /// The same to the letter of its eqs 6 and 7: centres taken for borders, for comparison with its tables.
+    CellsAsPrinted = 3,
+}
+
 /// How light is computed.
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct RadiationVariables {
-    /// Quadrature nodes for planet light: 6 for 1e-4 of the force, 16 for 1e-5.
+    /// How light of the planet is summed over what the spacecraft sees of it.
+    #[parameter(start = PlanetMethod::Rings)]
+    pub method: Choice<PlanetMethod>,
+    /// Belts of latitude of the planet's cells, twice as many of longitude (n_res of paper 004); its odd numbers have cells
+    /// right on the terminator. Time goes with the square.
+    #[parameter(min = 1, max = 2000, start = 45)]
+    pub belts: Integer,
+    /// Quadrature nodes for planet light on rings: 6 for 1e-4 of the force, 16 for 1e-5.
     #[parameter(min = 1, max = 64, start = 6)]
     pub nodes: Integer,
     /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.

@@ -171,8 +171,12 @@ pub struct SurfaceCell {
 
 impl SurfaceCell {
     /// Reflected exitance in W/m2 with the Sun's flux at the planet and the cosine of its zenith angle (eq 39).
-    pub fn reflected_w_m2(&self, solar_flux_w_m2: f64, cos_zenith: f64) -> f64 {
-        self.diffuse_reflectivity * solar_flux_w_m2 * cos_zenith.max(0.0)
+    pub fn reflected_w_m2<T: Scalar>(&self, solar_flux_w_m2: T, cos_zenith: T) -> T {
+        if cos_zenith.value() > 0.0 {
+            solar_flux_w_m2 * cos_zenith * self.diffuse_reflectivity
+        } else {
+            T::constant(0.0)
+        }
     }
 
     /// Infrared exitance in W/m2 (eq 34).
@@ -181,7 +185,8 @@ impl SurfaceCell {
     }
 }
 
-/// Properties of every cell of a planet grid, belt by belt from the south, westernmost first.
+/// Properties of every cell of a planet grid, belt by belt from the south, westernmost first; the Sun's meridian is in
+/// the middle, so that a map goes by local time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellMap {
     cells: Vec<SurfaceCell>,

@@ -6,8 +6,8 @@ use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::environment::surface::PlanetSurface;
 use crate::radiation::ForceTorque;
 use crate::radiation::disturbance::{
-    self, Disturbance, DisturbanceModel, GeometryError, ModelError, Options, PlanetGeometry, Recoil,
-    Workspace,
+    self, Disturbance, DisturbanceModel, GeometryError, ModelError, Options, PlanetGeometry,
+    PlanetLightMethod, Recoil, Workspace,
 };
 use crate::spacecraft::Spacecraft;
 
@@ -126,7 +126,7 @@ impl LightModel {
         let over_planet = effects.planet_light && configuration.center == OrbitCenter::Mercury;
         let options = Options {
             planet: over_planet.then_some(*planet),
-            quadrature_nodes,
+            planet_light: PlanetLightMethod::Rings(quadrature_nodes),
             self_shadowing: effects.shadowing,
             sunshade_model: spacecraft.sunshade.as_ref().map(|_| configuration.sunshade),
         };
@@ -208,7 +208,12 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
             let position_body_m = to_body * to_planet.position_m;
             let sun_from_planet_body_m = sun_body_m - position_body_m;
             let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
-            PlanetGeometry { position_body_m, sun_from_planet_body_m, sun_flux_w_m2 }
+            PlanetGeometry {
+                position_body_m,
+                sun_from_planet_body_m,
+                sun_flux_w_m2,
+                pole_body: -Vector3::z(),
+            }
         });
         for (angle_rad, &index) in sight.panel_angles_rad.iter_mut().zip(light_panels) {
             let setting = configuration.panels.get(index).zip(self.craft.panels.get(index));

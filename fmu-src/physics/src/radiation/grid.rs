@@ -1,8 +1,8 @@
 //! Planet light by the paper's planet cells (paper 004 eqs 5-8, 27-31, 33-36, 39-41): slow, for comparison with
 //! [`super::ring`] and for planets whose surface differs from place to place.
 //!
-//! The planet frame has its z axis toward the pole of the cells; where the surface is of one kind everywhere any
-//! orientation gives the same in the limit of many cells.
+//! The planet frame has its z axis toward the pole of the cells and its x axis under the Sun; where the surface is of one
+//! kind everywhere any orientation gives the same in the limit of many cells.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -10,9 +10,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::flat_plate::ReceivedLight;
 use super::planet_light::PlanetLight;
-use super::ring::{PlanetView, ViewError};
+use super::ring::PlanetView;
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::environment::surface::{CellMap, PlanetSurface};
+use crate::numerics::scalar::{Scalar, constant_vector};
 
 /// Where the cells' centres are and how large they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,11 +25,16 @@ pub enum CellLayout {
     AsPrinted,
 }
 
+/// Centres this close to the terminator are on it but for rounding, and count as lit: so do the paper's, whose odd number
+/// of belts has a meridian of them there.
+const ON_TERMINATOR: f64 = 1e-12;
+
 /// The planet's cells in the planet frame, for a planet of radius 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanetGrid {
     cells: Vec<Cell>,
     resolution: usize,
+    map: Option<CellMap>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,9 +60,12 @@ pub enum GridError {
         /// Cells of the grid.
         allowed: usize,
     },
-    /// A geometry without meaning.
-    #[error(transparent)]
-    View(#[from] ViewError),
+    /// A pole that gives no meridian.
+    #[error("pole of the planet's cells {found:?}, allowed: a direction off the Sun's")]
+    Pole {
+        /// The vector found.
+        found: [f64; 3],
+    },
 }
 
 impl PlanetGrid {
@@ -85,7 +94,7 @@ impl PlanetGrid {
                 cells.push(Cell { normal, area });
             }
         }
-        Ok(Self { cells, resolution })
+        Ok(Self { cells, resolution, map: None })
     }
 
     /// Belts of latitude.
@@ -103,79 +112,74 @@ impl PlanetGrid {
         self.cells.iter().map(|cell| cell.area).sum::<f64>() / (4.0 * PI)
     }
 
-    /// Light on a face of unit `normal` from a planet of one kind of surface. `planet_m` points from the
-    /// spacecraft to the planet's centre, `sun_from_planet` from there toward the Sun, `planet_axes` has the
-    /// planet frame's axes as columns, all in the frame of `normal`; `solar_flux_w_m2` is the Sun's at the planet.
+    /// The same grid with albedo, emissivity and temperature of its own for every cell.
     ///
     /// # Errors
-    /// When the spacecraft is inside the planet or the Sun has no direction.
-    pub fn receive(
-        &self,
-        surface: &PlanetSurface,
-        solar_flux_w_m2: f64,
-        planet_m: &Vector3<f64>,
-        sun_from_planet_m: &Vector3<f64>,
-        planet_axes: &Matrix3<f64>,
-        normal: &Vector3<f64>,
-    ) -> Result<PlanetLight<f64>, GridError> {
-        let view = PlanetView::new(planet_m, sun_from_planet_m, surface.radius_m)?;
-        let exitance = surface.exitance(solar_flux_w_m2);
-        Ok(self.sum(&view, planet_axes, normal, |_, cos_sun| {
-            (exitance.reflected_w_m2(cos_sun), exitance.infrared_w_m2(cos_sun))
-        }))
+    /// When the map is for another grid.
+    pub fn with_map(mut self, map: CellMap) -> Result<Self, GridError> {
+        let (found, allowed) = (map.cells().len(), self.cells.len());
+        if found != allowed {
+            return Err(GridError::MapSize { found, allowed });
+        }
+        self.map = Some(map);
+        Ok(self)
     }
 
-    /// The same for a planet with a map of its own albedo, emissivity and temperature for every cell.
-    ///
-    /// # Errors
-    /// Also when the map is for another grid.
-    #[expect(clippy::too_many_arguments, reason = "one geometry, spelt out")]
-    pub fn receive_mapped(
+    /// Light on a face of unit `normal`; `planet_axes` has the cells' axes as columns ([`sun_fixed_axes`]) in the frame of
+    /// `normal`, `solar_flux_w_m2` is the Sun's at the planet. A map of the grid's own goes before `surface`.
+    pub fn receive<T: Scalar>(
         &self,
-        map: &CellMap,
-        radius_m: f64,
-        solar_flux_w_m2: f64,
-        planet_m: &Vector3<f64>,
-        sun_from_planet_m: &Vector3<f64>,
-        planet_axes: &Matrix3<f64>,
-        normal: &Vector3<f64>,
-    ) -> Result<PlanetLight<f64>, GridError> {
-        if map.cells().len() != self.cells.len() {
-            return Err(GridError::MapSize { found: map.cells().len(), allowed: self.cells.len() });
+        surface: &PlanetSurface,
+        solar_flux_w_m2: T,
+        view: &PlanetView<T>,
+        planet_axes: &Matrix3<T>,
+        normal: &Vector3<T>,
+    ) -> PlanetLight<T> {
+        match &self.map {
+            Some(map) => self.sum(view, planet_axes, normal, |index, cos_sun| {
+                map.cells().get(index).map_or((T::constant(0.0), T::constant(0.0)), |cell| {
+                    let infrared_w_m2 = T::constant(cell.infrared_w_m2());
+                    (cell.reflected_w_m2(solar_flux_w_m2, cos_sun), infrared_w_m2)
+                })
+            }),
+            None => {
+                let exitance = surface.exitance(solar_flux_w_m2);
+                self.sum(view, planet_axes, normal, |_, cos_sun| {
+                    (exitance.reflected_w_m2(cos_sun), exitance.infrared_w_m2(cos_sun))
+                })
+            }
         }
-        let view = PlanetView::new(planet_m, sun_from_planet_m, radius_m)?;
-        Ok(self.sum(&view, planet_axes, normal, |index, cos_sun| {
-            map.cells().get(index).map_or((0.0, 0.0), |cell| {
-                (cell.reflected_w_m2(solar_flux_w_m2, cos_sun), cell.infrared_w_m2())
-            })
-        }))
     }
 
     /// Sums over the cells that see the face and are seen by it; `exitances` gives reflected and infrared exitance
     /// of a cell by its number and the cosine of the Sun's zenith angle.
-    fn sum(
+    fn sum<T: Scalar>(
         &self,
-        view: &PlanetView<f64>,
-        planet_axes: &Matrix3<f64>,
-        normal: &Vector3<f64>,
-        exitances: impl Fn(usize, f64) -> (f64, f64),
-    ) -> PlanetLight<f64> {
-        let to_planet = planet_axes.transpose();
-        let normal = to_planet * normal;
-        let sun = to_planet * view.sun;
-        let center = to_planet * view.nadir * (view.distance_m / view.radius_m);
+        view: &PlanetView<T>,
+        planet_axes: &Matrix3<T>,
+        normal: &Vector3<T>,
+        exitances: impl Fn(usize, T) -> (T, T),
+    ) -> PlanetLight<T> {
+        let normal = planet_axes.tr_mul(normal);
+        let sun = planet_axes.tr_mul(&view.sun);
+        let center = planet_axes.tr_mul(&view.nadir) * (view.distance_m / view.radius_m);
         let mut light = PlanetLight::dark();
         for (index, cell) in self.cells.iter().enumerate() {
-            let line_of_sight = center + cell.normal;
-            let distance_squared = line_of_sight.norm_squared();
+            let cell_normal = constant_vector::<T>(&cell.normal);
+            let line_of_sight = center + cell_normal;
+            let distance_squared = line_of_sight.dot(&line_of_sight);
             // Both cosines times the distance (eqs 29-31).
-            let at_planet = -cell.normal.dot(&line_of_sight);
+            let at_planet = -cell_normal.dot(&line_of_sight);
             let at_face = normal.dot(&line_of_sight);
-            if at_planet <= 0.0 || at_face <= 0.0 {
+            if at_planet.value() <= 0.0 || at_face.value() <= 0.0 {
                 continue;
             }
-            let view_factor = at_planet * at_face * cell.area / (PI * distance_squared * distance_squared);
-            let (reflected, infrared) = exitances(index, sun.dot(&cell.normal));
+            let view_factor = at_planet * at_face / (distance_squared * distance_squared) * (cell.area / PI);
+            let mut cos_sun = sun.dot(&cell_normal);
+            if cos_sun.value().abs() < ON_TERMINATOR {
+                cos_sun = T::constant(f64::MIN_POSITIVE);
+            }
+            let (reflected, infrared) = exitances(index, cos_sun);
             let source = line_of_sight / distance_squared.sqrt();
             add(&mut light.albedo, reflected * view_factor, &source);
             add(&mut light.infrared, infrared * view_factor, &source);
@@ -186,7 +190,24 @@ impl PlanetGrid {
     }
 }
 
-fn add(light: &mut ReceivedLight<f64>, irradiance_w_m2: f64, source: &Vector3<f64>) {
+/// Axes of the cells as columns: z along `pole`, the Sun, `sun` away from the planet's centre, over the meridian of x
+/// (the paper's frame PL, whose pole is the north of the planet's orbit).
+///
+/// # Errors
+/// When the pole has no direction, or that of the Sun.
+pub fn sun_fixed_axes<T: Scalar>(sun: &Vector3<T>, pole: &Vector3<T>) -> Result<Matrix3<T>, GridError> {
+    let length = pole.dot(pole).sqrt();
+    let z = pole / length;
+    let across = sun - z * z.dot(sun);
+    let reach = across.dot(&across).sqrt();
+    if !(length.value() > 0.0 && length.value().is_finite() && reach.value() > 1e-9) {
+        return Err(GridError::Pole { found: pole.map(T::value).into() });
+    }
+    let x = across / reach;
+    Ok(Matrix3::from_columns(&[x, z.cross(&x), z]))
+}
+
+fn add<T: Scalar>(light: &mut ReceivedLight<T>, irradiance_w_m2: T, source: &Vector3<T>) {
     let pressure_pa = irradiance_w_m2 / SPEED_OF_LIGHT_M_S;
     light.pressure_pa += pressure_pa;
     light.vector_pa += source * pressure_pa;

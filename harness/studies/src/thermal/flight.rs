@@ -30,6 +30,8 @@ pub struct Case {
     pub duration_s: f64,
     /// Communication step, in s.
     pub step_s: f64,
+    /// Belts of the planet's cells, as the paper sums; without them rings.
+    pub belts: Option<i32>,
 }
 
 /// Accelerations at one time, in m/s2.
@@ -187,6 +189,10 @@ impl Felt {
         let mut instance = fmu.instantiate("felt", &InstanceOptions::default())?;
         let eclipse = if case.planet == Planet::Still { 3 } else { 2 };
         instance.set("eclipse.model", &Value::Integer(eclipse))?;
+        if let Some(belts) = case.belts {
+            instance.set("radiation.method", &Value::Integer(2))?;
+            instance.set("radiation.belts", &Value::Integer(belts))?;
+        }
         instance.setup_experiment(None, 0.0, None)?;
         instance.enter_initialization_mode()?;
         instance.exit_initialization_mode()?;

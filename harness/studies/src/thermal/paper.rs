@@ -17,6 +17,14 @@ pub struct Row {
     pub thermal: (f64, f64),
 }
 
+impl Row {
+    /// By effect, in the order of the table; of solar it prints the greatest only.
+    pub fn extremes(&self) -> [(f64, Option<f64>); 4] {
+        let both = |(greatest, least)| (greatest, Some(least));
+        [(self.solar, None), both(self.albedo), both(self.infrared), both(self.thermal)]
+    }
+}
+
 const fn row(
     case: u32,
     true_anomaly_deg: f64,

@@ -57,8 +57,13 @@ fn row(quantity: &str, paper: &str, ours: String, agrees: bool) -> Vec<String> {
 /// Figure 13: accelerations over a Mercury year; least, mean and greatest of every orbit.
 pub fn figure13(options: &Options) -> Result<Report, StudyError> {
     let fleet = Fleet::open(options)?;
-    let case =
-        Case { true_anomaly_deg: 0.0, planet: Planet::Moving, duration_s: MERCURY_YEAR_S, step_s: STEP_S };
+    let case = Case {
+        true_anomaly_deg: 0.0,
+        planet: Planet::Moving,
+        duration_s: MERCURY_YEAR_S,
+        step_s: STEP_S,
+        belts: None,
+    };
     let samples = fleet.fly(&case)?;
     let orbit_of = |sample: &Sample| (sample.time_s / ORBIT_S) as u64;
     let orbits: Vec<Orbit> = samples.chunk_by(|a, b| orbit_of(a) == orbit_of(b)).map(Orbit::of).collect();

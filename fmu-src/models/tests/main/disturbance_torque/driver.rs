@@ -96,6 +96,13 @@ impl Disturbance {
         assert_eq!(self.fmu.set_real(&[at], &[value]), Status::Ok, "{name} = {value}");
     }
 
+    /// With light of the planet by cells in so many belts.
+    pub fn by_cells(mut self, belts: i32) -> Self {
+        let at = [self.at("radiation.method"), self.at("radiation.belts")];
+        assert_eq!(self.fmu.set_integer(&at, &[2, belts]), Status::Ok);
+        self
+    }
+
     pub fn put_vector(&mut self, name: &str, value: [f64; 3]) {
         for (i, value) in value.into_iter().enumerate() {
             self.put(&format!("{name}[{}]", i + 1), value);
@@ -202,6 +209,7 @@ impl Dice {
             values.insert(fmu.at(&format!("sun.position[{}]", i + 1)), sun[i] * 5.8e10);
             let planet_m = toward_planet[i] * altitude * 2.4394e6;
             values.insert(fmu.at(&format!("planet.position[{}]", i + 1)), planet_m);
+            values.insert(fmu.at(&format!("planet.pole[{}]", i + 1)), self.next() - 0.5);
             values.insert(fmu.at(&format!("centerOfMass[{}]", i + 1)), self.next() - 0.5);
         }
         for k in 1.. {

@@ -11,7 +11,6 @@ use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::flat_plate::{Beam, force_per_area_pa};
 use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::planet_light::PlanetLight;
-use crate::radiation::ring::PlanetView;
 use crate::radiation::thermal::balance::{conducting_temperatures_k, exitance_w_m2, insulated_temperature_k};
 use crate::radiation::thermal::recoil_n;
 
@@ -106,9 +105,7 @@ impl DisturbanceModel {
             workspace.lights.fill(PlanetLight::dark());
             return Ok(());
         };
-        let view =
-            PlanetView::new(&planet.position_body_m, &planet.sun_from_planet_body_m, surface.radius_m)?;
-        let exitance = surface.exitance(planet.sun_flux_w_m2);
+        let lamp = self.planet_light.lamp(surface, planet)?;
         for (index, normal) in workspace.normals.iter().enumerate() {
             // Panels that stand alike, or like a plate, see the same.
             let turns = !matches!(self.faces.normals[index], Normal::Fixed(_));
@@ -116,7 +113,7 @@ impl DisturbanceModel {
                 turns.then(|| workspace.normals[..index].iter().position(|known| same(known, normal)));
             workspace.lights[index] = match alike.flatten() {
                 Some(known) => workspace.lights[known],
-                None => self.rings.receive(&view, &exitance, normal),
+                None => self.planet_light.receive(&lamp, normal),
             };
         }
         Ok(())

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::numerics::scalar::Scalar;
+use crate::radiation::grid::GridError;
 use crate::radiation::ring::ViewError;
 
 /// One moment's geometry, in the body frame.
@@ -32,6 +33,8 @@ pub struct PlanetGeometry<T: Scalar> {
     pub sun_from_planet_body_m: Vector3<T>,
     /// The Sun's flux at the planet, in W/m2.
     pub sun_flux_w_m2: T,
+    /// North of the planet's cells, body frame, of any length; without effect on rings.
+    pub pole_body: Vector3<T>,
 }
 
 /// Which temperatures heat is radiated at.
@@ -77,12 +80,16 @@ pub enum GeometryError {
     /// The planet.
     #[error(transparent)]
     Planet(#[from] ViewError),
+    /// The planet's cells.
+    #[error(transparent)]
+    Cells(#[from] GridError),
 }
 
 impl<'a, T: Scalar> Geometry<'a, T> {
     /// Geometry from positions: fluxes follow the inverse square of the distance (paper 004 eq 22).
     ///
-    /// `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres.
+    /// `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres. The planet's pole is
+    /// body -Z, as paper 004 flies.
     ///
     /// # Errors
     /// The Sun at no distance from spacecraft or planet, or not finite.
@@ -113,6 +120,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
                     position_body_m: *position_body_m,
                     sun_from_planet_body_m,
                     sun_flux_w_m2,
+                    pole_body: -Vector3::z(),
                 })
             }
         };

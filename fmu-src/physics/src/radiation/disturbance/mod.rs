@@ -7,6 +7,7 @@ mod evaluate;
 mod faces;
 mod geometry;
 mod model;
+mod planet_rule;
 mod workspace;
 
 #[cfg(test)]
@@ -16,4 +17,5 @@ mod tests;
 
 pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
 pub use model::{DisturbanceModel, ModelError, Options};
+pub use planet_rule::PlanetLightMethod;
 pub use workspace::{Disturbance, FaceState, Workspace};

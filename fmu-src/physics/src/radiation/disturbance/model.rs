@@ -1,8 +1,10 @@
 //! A spacecraft and a planet prepared for evaluation.
 
 use super::faces::{Faces, Normal};
+use super::planet_rule::{PlanetLightMethod, PlanetRule};
 use crate::environment::surface::{PlanetSurface, SurfaceError};
-use crate::radiation::ring::{NodesError, RingRule};
+use crate::radiation::grid::GridError;
+use crate::radiation::ring::NodesError;
 use crate::radiation::shadow::{Hinge, Outline, ShadowScene};
 use crate::radiation::solar::{NoSuchSunshade, SolarModel};
 use crate::radiation::thermal::transient::HeatStore;
@@ -13,8 +15,8 @@ use crate::spacecraft::{Emission, Panel, Spacecraft, SunshadeModel};
 pub struct Options {
     /// The planet's surface; without it albedo and infrared are nothing.
     pub planet: Option<PlanetSurface>,
-    /// Quadrature nodes a segment for planet light: 6 for 1e-4, 16 for 1e-5.
-    pub quadrature_nodes: usize,
+    /// How light of the planet is summed.
+    pub planet_light: PlanetLightMethod,
     /// Whether surfaces with an outline shadow one another from the Sun.
     pub self_shadowing: bool,
     /// The sunshade's form, if not the one its file chooses.
@@ -23,7 +25,12 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { planet: None, quadrature_nodes: 6, self_shadowing: true, sunshade_model: None }
+        Self {
+            planet: None,
+            planet_light: PlanetLightMethod::default(),
+            self_shadowing: true,
+            sunshade_model: None,
+        }
     }
 }
 
@@ -36,6 +43,9 @@ pub enum ModelError {
     /// The number of quadrature nodes.
     #[error(transparent)]
     Nodes(#[from] NodesError),
+    /// The planet's cells.
+    #[error(transparent)]
+    Cells(#[from] GridError),
     /// The sunshade's form.
     #[error(transparent)]
     Sunshade(#[from] NoSuchSunshade),
@@ -48,7 +58,7 @@ pub struct DisturbanceModel {
     pub(super) panels: Vec<Panel>,
     /// Sunlight on a cylindrical shade in closed form.
     pub(super) cylinder: Option<SolarModel>,
-    pub(super) rings: RingRule,
+    pub(super) planet_light: PlanetRule,
     pub(super) planet: Option<PlanetSurface>,
     /// Present only where some surface can shadow another.
     pub(super) scene: Option<ShadowScene>,
@@ -58,7 +68,7 @@ impl DisturbanceModel {
     /// Prepares a spacecraft.
     ///
     /// # Errors
-    /// An impossible planet surface, number of nodes or form of the sunshade.
+    /// An impossible planet surface, number of nodes or cells, or form of the sunshade.
     pub fn new(spacecraft: &Spacecraft, options: &Options) -> Result<Self, ModelError> {
         if let Some(planet) = &options.planet {
             planet.validate()?;
@@ -83,7 +93,7 @@ impl DisturbanceModel {
             faces,
             panels: spacecraft.panels.clone(),
             cylinder,
-            rings: RingRule::new(options.quadrature_nodes)?,
+            planet_light: PlanetRule::new(&options.planet_light)?,
             planet: options.planet,
             scene,
         })

@@ -9,13 +9,23 @@ use crate::environment::orbit::Elements;
 use crate::environment::paper004::{Frames, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use crate::environment::sun::SOLAR_FLUX_PAPER_004_W_M2;
 use crate::environment::surface::MERCURY;
+use crate::radiation::grid::CellLayout;
 use crate::spacecraft::{MESSENGER_THERMAL_TOML, Spacecraft};
 
 /// Accelerations around one orbit with the planet standing still, as in the paper's analytical model: least and
 /// greatest of solar (in m/s2), and of albedo, infrared and recoil (in % of the greatest solar).
 fn around_orbit(mercury_true_anomaly_deg: f64) -> [[f64; 2]; 4] {
+    around_orbit_by(mercury_true_anomaly_deg, PlanetLightMethod::Rings(12), 1440)
+}
+
+/// The same by any method, at so many places around the orbit.
+fn around_orbit_by(
+    mercury_true_anomaly_deg: f64,
+    planet_light: PlanetLightMethod,
+    steps: u32,
+) -> [[f64; 2]; 4] {
     let craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
-    let options = Options { planet: Some(MERCURY), quadrature_nodes: 12, ..Options::default() };
+    let options = Options { planet: Some(MERCURY), planet_light, ..Options::default() };
     let model = DisturbanceModel::new(&craft, &options).unwrap();
     let shadow = Shadow::new(ShadowModel::AllOrNothingCylinder, RADIUS_MERCURY_M).unwrap();
     let planet = Elements { true_anomaly_rad: mercury_true_anomaly_deg.to_radians(), ..MERCURY_AS_PRINTED };
@@ -25,8 +35,8 @@ fn around_orbit(mercury_true_anomaly_deg: f64) -> [[f64; 2]; 4] {
     let sun_body = -Vector3::y();
     let mut workspace = Workspace::default();
     let mut range = [[f64::INFINITY, 0.0]; 4];
-    for step in 0..1440 {
-        let true_anomaly_rad = f64::from(step) * core::f64::consts::TAU / 1440.0;
+    for step in 0..steps {
+        let true_anomaly_rad = f64::from(step) * core::f64::consts::TAU / f64::from(steps);
         let elements = Elements { true_anomaly_rad, ..MESSENGER_AS_PRINTED };
         let position_mci_m = elements.state(GM_MERCURY_M3_S2).unwrap().position_m;
         let position_body_m = frames.dcm_sc_from_mci() * position_mci_m;
@@ -39,6 +49,7 @@ fn around_orbit(mercury_true_anomaly_deg: f64) -> [[f64; 2]; 4] {
                 position_body_m: -position_body_m,
                 sun_from_planet_body_m: sun_body,
                 sun_flux_w_m2,
+                pole_body: -Vector3::z(),
             }),
             panel_angles_rad: &[0.0, 0.0],
             center_of_mass_body_m: Vector3::zeros(),
@@ -83,4 +94,16 @@ fn recoil_of_case_1_is_the_published_one() {
     let [_, _, _, [least, greatest]] = around_orbit(10.0);
     assert!((least / 23.44 - 1.0).abs() < 0.03, "{least}");
     assert!((greatest / 25.60 - 1.0).abs() < 0.03, "{greatest}");
+}
+
+/// The paper's own method, with as many belts as it has: their odd number puts cells on the terminator.
+#[test]
+fn cells_give_the_published_infrared_closer_than_the_limit_of_many_cells() {
+    for [anomaly_deg, _, albedo, infrared] in TABLE_7 {
+        let cells = PlanetLightMethod::Cells(CellLayout::Corrected, 45);
+        let found = around_orbit_by(anomaly_deg, cells, 360);
+        let off = |found: f64, published: f64| (found / published - 1.0).abs();
+        assert!(off(found[1][1], albedo) < 0.015, "albedo at {anomaly_deg}: {}", found[1][1]);
+        assert!(off(found[2][1], infrared) < 0.015, "infrared at {anomaly_deg}: {}", found[2][1]);
+    }
 }

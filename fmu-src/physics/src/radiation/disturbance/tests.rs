@@ -30,7 +30,7 @@ fn mercury() -> PlanetSurface {
 }
 
 fn options(nodes: usize) -> Options {
-    Options { planet: Some(mercury()), quadrature_nodes: nodes, ..Options::default() }
+    Options { planet: Some(mercury()), planet_light: PlanetLightMethod::Rings(nodes), ..Options::default() }
 }
 
 fn thermal_messenger() -> Spacecraft {
@@ -83,6 +83,7 @@ fn in_isotropic_light(craft: &Spacecraft) -> [ForceTorque<f64>; 2] {
                 position_body_m: nadir * RADIUS_M * (1.0 + 1e-13),
                 sun_from_planet_body_m: nadir,
                 sun_flux_w_m2: 0.0,
+                pole_body: Vector3::z(),
             }),
             panel_angles_rad: &[],
             center_of_mass_body_m: Vector3::zeros(),
@@ -285,7 +286,7 @@ fn impossible_geometries_and_options_are_refused() {
     let surface = PlanetSurface { emissivity: 2.0, ..mercury() };
     let options = Options { planet: Some(surface), ..options(6) };
     assert!(DisturbanceModel::new(&craft, &options).unwrap_err().to_string().contains("emissivity"));
-    let options = Options { quadrature_nodes: 0, ..Options::default() };
+    let options = Options { planet_light: PlanetLightMethod::Rings(0), ..Options::default() };
     assert!(DisturbanceModel::new(&craft, &options).unwrap_err().to_string().contains("1 to 64"));
 }
 

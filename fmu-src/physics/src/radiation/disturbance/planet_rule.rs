@@ -1,0 +1,84 @@
+//! How light of the planet is summed: on rings, or by the paper's cells.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::geometry::{GeometryError, PlanetGeometry};
+use super::model::ModelError;
+use crate::environment::surface::{CellMap, PlanetSurface, SurfaceExitance};
+use crate::numerics::scalar::Scalar;
+use crate::radiation::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
+use crate::radiation::planet_light::PlanetLight;
+use crate::radiation::ring::{PlanetView, RingRule};
+
+/// What is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlanetLightMethod {
+    /// Rings about the nadir with so many quadrature nodes a segment: 6 for 1e-4, 16 for 1e-5.
+    Rings(usize),
+    /// The paper's cells in so many belts of latitude: slow, and results bend as each cell rises or sets.
+    Cells(CellLayout, usize),
+    /// Cells with properties of their own, in so many belts.
+    Map(CellMap, usize),
+}
+
+impl Default for PlanetLightMethod {
+    fn default() -> Self {
+        Self::Rings(6)
+    }
+}
+
+/// The method, prepared.
+#[derive(Clone, Debug)]
+pub(super) enum PlanetRule {
+    Rings(RingRule),
+    Cells(PlanetGrid),
+}
+
+/// A view with what its method needs beside.
+pub(super) enum Lamp<T: Scalar> {
+    Rings(PlanetView<T>, SurfaceExitance<T>),
+    Cells { view: PlanetView<T>, surface: PlanetSurface, flux_w_m2: T, axes: Matrix3<T> },
+}
+
+impl PlanetRule {
+    pub(super) fn new(method: &PlanetLightMethod) -> Result<Self, ModelError> {
+        Ok(match method {
+            PlanetLightMethod::Rings(nodes) => Self::Rings(RingRule::new(*nodes)?),
+            PlanetLightMethod::Cells(layout, belts) => Self::Cells(PlanetGrid::new(*belts, *layout)?),
+            PlanetLightMethod::Map(map, belts) => {
+                Self::Cells(PlanetGrid::new(*belts, CellLayout::Corrected)?.with_map(map.clone())?)
+            }
+        })
+    }
+
+    /// What does not depend on the face.
+    pub(super) fn lamp<T: Scalar>(
+        &self,
+        surface: &PlanetSurface,
+        planet: &PlanetGeometry<T>,
+    ) -> Result<Lamp<T>, GeometryError> {
+        let view =
+            PlanetView::new(&planet.position_body_m, &planet.sun_from_planet_body_m, surface.radius_m)?;
+        Ok(match self {
+            Self::Rings(_) => Lamp::Rings(view, surface.exitance(planet.sun_flux_w_m2)),
+            Self::Cells(_) => Lamp::Cells {
+                surface: *surface,
+                flux_w_m2: planet.sun_flux_w_m2,
+                axes: sun_fixed_axes(&view.sun, &planet.pole_body)?,
+                view,
+            },
+        })
+    }
+
+    /// Light on a face of unit `normal`.
+    pub(super) fn receive<T: Scalar>(&self, lamp: &Lamp<T>, normal: &Vector3<T>) -> PlanetLight<T> {
+        match (self, lamp) {
+            (Self::Rings(rings), Lamp::Rings(view, exitance)) => rings.receive(view, exitance, normal),
+            (Self::Cells(grid), Lamp::Cells { view, surface, flux_w_m2, axes }) => {
+                grid.receive(surface, *flux_w_m2, view, axes, normal)
+            }
+            // A lamp is made by the rule that uses it.
+            _ => PlanetLight::dark(),
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Tables 7 and 8: extremes around the orbit beside the paper's.
+
+use super::Flown;
+use super::flight::{EFFECTS, Sample};
+use crate::chart::{Chart, Panel, Series};
+use crate::{Options, Report, StudyError};
+
+/// How far the greatest albedo, infrared and recoil may be off the printed values to count as reproduced, by table.
+pub(super) struct Tolerances {
+    pub(super) albedo: fn(u32) -> Option<f64>,
+    pub(super) infrared: fn(u32) -> Option<f64>,
+    pub(super) thermal: fn(u32) -> Option<f64>,
+}
+
+/// Greatest and least of an effect; solar and recoil are looked at in the light only.
+fn extremes(samples: &[Sample], effect: usize) -> (f64, f64) {
+    let in_light_only = effect == 0 || effect == 3;
+    samples
+        .iter()
+        .filter(|sample| sample.lit || !in_light_only)
+        .map(|sample| sample.effects[effect])
+        .fold((0.0, f64::INFINITY), |(greatest, least): (f64, f64), a| (greatest.max(a), least.min(a)))
+}
+
+/// Solar in 1e-7 m/s2, the others in % of the greatest solar; greatest and least.
+fn as_printed(samples: &[Sample]) -> [(f64, f64); 4] {
+    let solar_m_s2 = extremes(samples, 0).0;
+    [0, 1, 2, 3].map(|effect| {
+        let (greatest, least) = extremes(samples, effect);
+        let unit = if effect == 0 { 1e-7 } else { solar_m_s2 / 100.0 };
+        (greatest / unit, least / unit)
+    })
+}
+
+/// Prints and draws the table `name`.
+pub(super) fn print(
+    report: &mut Report,
+    options: &Options,
+    name: &str,
+    flown: &[Flown],
+    tolerances: &Tolerances,
+) -> Result<(), StudyError> {
+    let header = [
+        "case",
+        "effect",
+        "paper",
+        "ours",
+        "difference of the greatest",
+        "verdict",
+        "by cells",
+        "difference",
+    ];
+    let mut rows = Vec::new();
+    for Flown { row, samples, by_cells } in flown {
+        let ours = as_printed(samples);
+        let cells = by_cells.as_deref().map(as_printed);
+        let case = row.case;
+        let allowed = [
+            Some(0.0015),
+            (tolerances.albedo)(case),
+            (tolerances.infrared)(case),
+            (tolerances.thermal)(case),
+        ];
+        for effect in 0..EFFECTS.len() {
+            let paper = row.extremes()[effect];
+            let digits = if effect == 0 { 3 } else { 2 };
+            let pair = |(greatest, least): (f64, f64)| format!("{greatest:.digits$} / {least:.digits$}");
+            let off = |found: [(f64, f64); 4]| found[effect].0 / paper.0 - 1.0;
+            let unit = if effect == 0 { "1e-7 m/s2" } else { "%" };
+            rows.push(vec![
+                case.to_string(),
+                format!("{} [{unit}]", EFFECTS[effect]),
+                paper.1.map_or(format!("{:.2}", paper.0), |least| format!("{:.2} / {least:.2}", paper.0)),
+                pair(ours[effect]),
+                percent(off(ours)),
+                verdict(off(ours), allowed[effect]),
+                cells.map_or("-".to_owned(), |cells| pair(cells[effect])),
+                cells.map_or("-".to_owned(), |cells| percent(off(cells))),
+            ]);
+        }
+    }
+    report.table(&header, &rows);
+    report.csv(options, &format!("{name}.csv"), &header, rows)?;
+    report.picture(options, &format!("{name}.svg"), &chart(flown))
+}
+
+/// The greatest of each effect by case: the paper's between ours.
+fn chart(flown: &[Flown]) -> Chart {
+    let dots = |label: &str, aside: f64, greatest: &dyn Fn(&Flown) -> f64| {
+        let point = |it: &Flown| (f64::from(it.row.case) + aside, greatest(it));
+        Series::dots(label, flown.iter().map(point).collect())
+    };
+    let panel = |effect: usize| Panel {
+        y_label: format!("{} [{}]", EFFECTS[effect], if effect == 0 { "1e-7 m/s2" } else { "% of solar" }),
+        series: vec![
+            dots("paper", 0.0, &|it| it.row.extremes()[effect].0),
+            dots("ours", -0.06, &|it| as_printed(&it.samples)[effect].0),
+            dots("by cells", 0.06, &|it| {
+                it.by_cells.as_deref().map_or(f64::NAN, |samples| as_printed(samples)[effect].0)
+            }),
+        ],
+        ..Panel::default()
+    };
+    Chart {
+        title: "Greatest acceleration around one orbit".to_owned(),
+        x_label: "case".to_owned(),
+        panels: (0..EFFECTS.len()).map(panel).collect(),
+    }
+}
+
+fn percent(off: f64) -> String {
+    format!("{:+.1} %", off * 100.0)
+}
+
+fn verdict(off: f64, tolerance: Option<f64>) -> String {
+    match tolerance {
+        Some(tolerance) if off.abs() <= tolerance => format!("within {} %", tolerance * 100.0),
+        Some(tolerance) => format!("off by more than {} %", tolerance * 100.0),
+        None => "-".to_owned(),
+    }
+}
