@@ -1,0 +1,77 @@
+"""`heliotorque study thermal/*`: paper 004's tables and figures, its numbers typed from the paper a second time."""
+
+import csv
+import subprocess
+
+import pytest
+
+# Case: solar (1e-7 m/s2), greatest albedo, infrared and recoil in % of it.
+TABLE_7 = {1: (8.45, 0.32, 6.68, 25.60), 2: (5.51, 2.37, 14.10, 23.24), 3: (3.71, 0.95, 19.24, 19.99), 4: (6.22, 6.45, 26.79, 24.05)}
+TABLE_8 = {1: (8.45, 0.20, 3.66, 23.78), 2: (5.51, 4.40, 25.22, 20.43), 3: (3.72, 0.77, 17.56, 18.97), 4: (6.33, 6.11, 25.70, 21.33)}
+EFFECTS = ("solar", "albedo", "infrared", "thermal")
+
+
+@pytest.fixture(scope="module")
+def study(heliotorque, dist, tmp_path_factory):
+    """Runs a study: what it prints, and its table's rows by case and effect or its CSV's rows."""
+    def run(name):
+        folder = tmp_path_factory.mktemp(name)
+        done = subprocess.run(
+            [heliotorque, "study", f"thermal/{name}", "--quiet", "--dist", dist, "--output", folder],
+            capture_output=True, text=True, encoding="utf-8",
+        )
+        assert done.returncode == 0, done.stderr
+        assert (folder / f"{name}.svg").read_text(encoding="utf-8").startswith("<svg")
+        with open(folder / f"{name}.csv", encoding="utf-8", newline="") as file:
+            return done.stdout, list(csv.DictReader(file))
+    return run
+
+
+def greatest(text):
+    return float(text.split("/")[0])
+
+
+def cells(rows):
+    return {(int(row["case"]), row["effect"].split()[0]): row for row in rows}
+
+
+@pytest.mark.parametrize("name, printed", [("table7", TABLE_7), ("table8", TABLE_8)])
+def test_tables_carry_the_papers_numbers_and_verdicts_that_follow(study, name, printed):
+    _, rows = study(name)
+    rows = cells(rows)
+    assert len(rows) == 16
+    for case, numbers in printed.items():
+        for effect, number in zip(EFFECTS, numbers):
+            row = rows[case, effect]
+            assert greatest(row["paper"]) == number
+            off = greatest(row["ours"]) / number - 1.0
+            stated = float(row["difference of the greatest"].split()[0]) / 100.0
+            # Both are rounded: the number to its last digit, the difference to 0.1 %.
+            assert abs(off - stated) < 0.006 / number + 0.0006
+            assert row["verdict"] == "-" or row["verdict"].startswith("within")
+
+
+def test_cells_come_closer_to_the_papers_infrared_than_their_limit(study):
+    rows = cells(study("table7")[1])
+    for case, (_, albedo, infrared, _) in TABLE_7.items():
+        assert abs(greatest(rows[case, "infrared"]["by cells"]) / infrared - 1.0) < 0.015
+        # A last digit of albedo is 3 % of the smallest.
+        assert abs(greatest(rows[case, "albedo"]["by cells"]) - albedo) < 0.015 * albedo + 0.005
+    assert greatest(rows[1, "infrared"]["ours"]) < 0.97 * TABLE_7[1][2]
+
+
+def test_the_mean_sum_of_thermal_effects_is_the_papers(study):
+    text, rows = study("figure12")
+    assert text.count("agrees") == 4 and "differs" not in text
+    for case in range(1, 5):
+        lit = [[float(row[f"{effect}_m_s2"]) for effect in EFFECTS] for row in rows if int(row["case"]) == case]
+        shares = [sum(forces[1:]) / forces[0] for forces in lit if forces[0] > 0.0]
+        assert len(shares) > 100 and 0.195 < sum(shares) / len(shares) < 0.305
+
+
+def test_a_year_has_as_many_orbits_as_its_elements_give(study):
+    text, rows = study("figure13")
+    # Paper 004's Table 3 has a semi-major axis of 10,175 km, its Table 4 one of 57.91e6 km.
+    orbits = 7_600_714.0 / 43_446.6
+    assert f"{orbits:.1f}" in text and text.count("agrees") == 5 and text.count("differs") == 1
+    assert len(rows) >= 174
