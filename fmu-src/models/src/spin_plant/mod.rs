@@ -55,6 +55,7 @@ impl Model for SpinPlant {
         let commands = read::commands(context, values);
         let plant = Plant::start(context.setup, &start, directions, commands, start_time_s)
             .map_err(|error| Failure::new(error.to_string()))?;
+        warn_of_burn(context, &plant);
         outputs::write_calculated(context, values, &plant);
         outputs::write(context, values, &plant);
         Ok(plant)
@@ -80,7 +81,14 @@ impl Model for SpinPlant {
             plant.command(commands, read::directions(context, values, at_end)?);
         }
         let (fired, log) = (plant.sequencer().map_or(0, |s| s.fired()), context.log);
+        let had_propellant = !plant.is_dry();
         plant.advance(context.setup, step.end_s).map_err(|error| Failure::new(error.to_string()))?;
+        if had_propellant && plant.is_dry() {
+            log.warning(&format!(
+                "the propellant ran out between {} and {} s: no thruster fires any more",
+                step.start_s, step.end_s
+            ));
+        }
         if log.events_enabled()
             && let Some(sequencer) = plant.sequencer().filter(|s| s.fired() != fired)
         {
@@ -107,6 +115,37 @@ impl Model for SpinPlant {
         output: Real,
     ) -> Option<f64> {
         outputs::derivative(context, state, output)
+    }
+}
+
+/// A Sun-timed burn that comes closer to the Sun's line than so many pulses and kicks is not well timed: the Sun's
+/// azimuth then swings with nutation.
+const SUN_CLEARANCE: f64 = 4.0;
+
+/// What a burn that can be flown will not do as one may expect.
+fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
+    let (log, seen) = (context.log, plant.predictions());
+    if plant.is_dry() {
+        log.warning("there is no propellant (propellant.initial): no thruster fires");
+    }
+    if let Some(apart_rad) =
+        plant.target_apart_rad().filter(|apart| seen.manoeuvre_rad > apart + seen.manoeuvre_per_pulse_rad)
+    {
+        log.warning(&format!(
+            "the burn's {} pulses would move the momentum by {:.4} deg, but burn.targetDirection is {:.4} deg away, and \
+             beyond it they take back what they did",
+            seen.count,
+            seen.manoeuvre_rad.to_degrees(),
+            apart_rad.to_degrees()
+        ));
+    }
+    let near_rad = SUN_CLEARANCE * (seen.manoeuvre_per_pulse_rad + seen.kick_rad);
+    if let Some(clearance_rad) = plant.sun_clearance_rad().filter(|&clearance| clearance < near_rad) {
+        log.warning(&format!(
+            "the burn is timed by Sun crossings, and its way passes the Sun's line at {:.4} deg, where a crossing says \
+             little: burn.timing 3 (true phase) or 1 (clock) does without",
+            clearance_rad.to_degrees()
+        ));
     }
 }
 

@@ -85,6 +85,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
         resolution_s: values.real(context.variables.pulse.resolution),
         target_inertial: values.vector(v.target_direction).into(),
         spin_rate_error: values.real(v.spin_rate_error),
+        ratio_error: values.real(v.ratio_error),
         ratio_uncertainty: values.real(v.ratio_uncertainty),
         max_nutation_rad: values.real(v.max_nutation),
         max_duration_s: values.real(v.max_duration),

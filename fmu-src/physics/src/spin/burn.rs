@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     forecast::{Flight, Range, Timing},
     nutation::Spin,
+    rotation::angle_between_rad,
     spinner::Spinner,
     train::{MOST_ORDER, MOST_PULSES, Shape, Train, TrainError},
 };
@@ -16,6 +17,10 @@ use super::{
 const NO_TORQUE: f64 = 1e-9;
 /// Cosine of the greatest angle by which "opposite" may be off.
 const OPPOSITE: f64 = -0.996;
+/// Relative difference up to which opposite torques are of one size: every pulse of a train counts alike.
+const ONE_SIZE: f64 = 1e-3;
+/// A target closer than this to the momentum's line has no direction across it but rounding, in rad.
+const ALONG_RAD: f64 = 1e-6;
 
 /// What a burn is asked to be. Numbers that are 0 where the field says so mean "not given".
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +51,8 @@ pub struct BurnRequest {
     pub target_inertial: Vector3<f64>,
     /// (assumed - true) / true spin rate.
     pub spin_rate_error: f64,
+    /// (assumed - true) / true inertia ratio: the train is made for the assumed one.
+    pub ratio_error: f64,
     /// Half width of the range of inertia ratios for which limits shall hold.
     pub ratio_uncertainty: f64,
     /// Limit on nutation at any time, in rad; 0 for none.
@@ -105,9 +112,39 @@ pub struct Burn {
     pub assumed_rate_rad_s: f64,
 }
 
+/// What a burn starts from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outset {
+    /// The true body.
+    pub spin: Spin,
+    /// Angular momentum, inertial, in N m s.
+    pub momentum_inertial: Vector3<f64>,
+    /// On board, in kg.
+    pub propellant_kg: f64,
+}
+
+/// Whether two torques (body components, in N m) push opposite ways across the spin axis and equally hard: within 5 deg
+/// and a thousandth.
+pub fn opposes(torque_body_n_m: &Vector3<f64>, other_body_n_m: &Vector3<f64>) -> bool {
+    cosine_across(torque_body_n_m, other_body_n_m) <= OPPOSITE && of_one_size(torque_body_n_m, other_body_n_m)
+}
+
+/// Cosine of the angle between the parts across the spin axis; NaN where one has none.
+fn cosine_across(one: &Vector3<f64>, other: &Vector3<f64>) -> f64 {
+    one.xy().dot(&other.xy()) / (one.xy().norm() * other.xy().norm())
+}
+
+fn of_one_size(one: &Vector3<f64>, other: &Vector3<f64>) -> bool {
+    (other.xy().norm() / one.xy().norm() - 1.0).abs() <= ONE_SIZE
+}
+
 impl Burn {
-    /// Checks a request against hardware, physics and limits. `spin` is the true body.
-    pub fn new(spinner: &Spinner, request: &BurnRequest, spin: &Spin) -> Result<Self, BurnError> {
+    /// Checks a request against hardware, physics and limits.
+    ///
+    /// # Errors
+    /// A parameter out of its range, a train that cannot be flown, limits or propellant that it does not fit.
+    pub fn new(spinner: &Spinner, request: &BurnRequest, outset: &Outset) -> Result<Self, BurnError> {
+        let spin = &outset.spin;
         let (mask, opposite_mask) = masks(spinner, request)?;
         let torque_body_n_m = spinner.thrust(mask).torque_body_n_m;
         let opposite_torque_body_n_m = opposite_mask.map(|m| spinner.thrust(m).torque_body_n_m);
@@ -122,6 +159,9 @@ impl Burn {
         }
         if !(request.spin_rate_error > -0.5 && request.spin_rate_error < 0.5) {
             return Err(parameter("burn.spinRateError", request.spin_rate_error, "allowed is -0.5 to 0.5"));
+        }
+        if !(request.ratio_error > -0.5 && request.ratio_error < 0.5) {
+            return Err(parameter("burn.ratioError", request.ratio_error, "allowed is -0.5 to 0.5"));
         }
         if !request.start_s.is_finite() {
             return Err(parameter("burn.start", request.start_s, "it must be a time"));
@@ -141,11 +181,14 @@ impl Burn {
                 return Err(parameter("burn.targetDirection", found, "it must be a direction"));
             }
             target_inertial = request.target_inertial / norm;
+            check_target(request, &target_inertial, &outset.momentum_inertial)?;
         }
         let assumed_rate_rad_s = spin.rate_rad_s * (1.0 + request.spin_rate_error);
         let flight =
             Flight { spin: *spin, assumed_rate_rad_s, timing: request.timing, torque_n_m: across_n_m };
-        let train = train(request, &flight, points)?;
+        let assumed =
+            Spin { rate_rad_s: assumed_rate_rad_s, ratio: spin.ratio * (1.0 + request.ratio_error), ..*spin };
+        let train = train(request, &Flight { spin: assumed, ..flight }, points)?;
         if points && train.widest_s() > half_turn_s {
             let allowed = format!(
                 "the plan's widest pulse is {} s, an attitude pulse at most half a turn",
@@ -155,13 +198,25 @@ impl Burn {
         }
         if points && train.alternates() {
             let opposite = opposite_torque_body_n_m.unwrap_or_else(Vector3::zeros);
-            let cosine = torque_body_n_m.xy().dot(&opposite.xy()) / (across_n_m * opposite.xy().norm());
+            let cosine = cosine_across(&torque_body_n_m, &opposite);
             if cosine.is_nan() || cosine > OPPOSITE {
                 return Err(TrainError::Cancels { turns: train.turns_per_pulse() }.into());
             }
+            if !of_one_size(&torque_body_n_m, &opposite) {
+                let name = if request.group.is_empty() { "burn.oppositeThruster" } else { "burn.group" };
+                let found = format!(
+                    "a pair of {across_n_m:.6} and {:.6} N m across the spin axis",
+                    opposite.xy().norm()
+                );
+                return Err(parameter(
+                    name,
+                    found,
+                    "thrusters that alternate must have one torque, within 0.1 %",
+                ));
+            }
         }
         check_limits(request, &flight, &train)?;
-        Ok(Self {
+        let burn = Self {
             mask,
             opposite_mask: opposite_mask.unwrap_or(mask),
             torque_body_n_m,
@@ -171,7 +226,25 @@ impl Burn {
             start_s: request.start_s,
             target_inertial,
             assumed_rate_rad_s,
-        })
+        };
+        let needed_kg = burn.propellant_kg(spinner);
+        // Rounding of the sum is no propellant.
+        if needed_kg > outset.propellant_kg * (1.0 + 1e-12) {
+            return Err(BurnError::Limit {
+                what: "its propellant",
+                found: format!("{needed_kg:.6} kg"),
+                limit: format!("propellant.initial = {} kg", outset.propellant_kg),
+            });
+        }
+        Ok(burn)
+    }
+
+    /// Propellant of all its pulses, in kg.
+    pub fn propellant_kg(&self, spinner: &Spinner) -> f64 {
+        let flows = [self.mask, self.opposite_mask].map(|mask| spinner.thrust(mask).flow_kg_s);
+        (0..self.train.count())
+            .map(|k| flows[self.train.half_turns(k) as usize % 2] * self.train.width_s(k))
+            .sum()
     }
 
     /// Whether it moves the momentum's direction; a spin manoeuvre does not.
@@ -196,6 +269,31 @@ impl Burn {
 
 fn parameter(name: &'static str, found: impl ToString, allowed: &str) -> BurnError {
     BurnError::Parameter { name, found: found.to_string(), allowed: allowed.to_owned() }
+}
+
+/// The momentum is moved toward a point: there must be a way to it, and no plan goes beyond.
+fn check_target(
+    request: &BurnRequest,
+    target_inertial: &Vector3<f64>,
+    momentum_inertial: &Vector3<f64>,
+) -> Result<(), BurnError> {
+    let apart_rad = angle_between_rad(momentum_inertial, target_inertial);
+    let apart_deg = apart_rad.to_degrees();
+    // Written so that a NaN is refused.
+    if !(apart_rad > ALONG_RAD && apart_rad < PI - ALONG_RAD) {
+        let found =
+            format!("{:?}, {apart_deg:.6} deg from the angular momentum", request.target_inertial.as_slice());
+        return Err(parameter("burn.targetDirection", found, "it needs a part across the angular momentum"));
+    }
+    if request.angle_rad > apart_rad * (1.0 + 1e-9) {
+        let found = format!("{} rad ({:.4} deg)", request.angle_rad, request.angle_rad.to_degrees());
+        let allowed = format!(
+            "burn.targetDirection is {apart_deg:.4} deg from the angular momentum, and a burn goes no farther than its \
+             target: allowed is up to {apart_rad} rad, or a target farther away"
+        );
+        return Err(parameter("burn.angle", found, &allowed));
+    }
+    Ok(())
 }
 
 fn masks(spinner: &Spinner, request: &BurnRequest) -> Result<(u32, Option<u32>), BurnError> {

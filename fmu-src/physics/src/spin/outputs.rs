@@ -180,7 +180,7 @@ impl Plant {
             sample: self.sample(),
             estimate: self.estimator().estimate(spinner.star_tracker.noise_deg.to_radians()),
             pulses_fired: sequencer.map_or(0, |s| s.fired()),
-            burn_active: sequencer.is_some_and(|s| s.is_active()),
+            burn_active: !self.is_dry() && sequencer.is_some_and(|s| s.is_active()),
             burn_done: sequencer.is_some_and(|s| s.phase() == Phase::Done),
             next_edge_s,
             inertia_kg_m2: inertia.principal_kg_m2(),

@@ -151,6 +151,13 @@ impl Sequencer {
         }
     }
 
+    /// Ends the burn where it stands; a pulse under way does not count as fired.
+    pub fn stop(&mut self) {
+        if self.phase != Phase::Done {
+            self.phase = Phase::Idle;
+        }
+    }
+
     /// Times the next pulse on the motion from `now_s` on, where it may have changed.
     pub fn schedule(&mut self, motion: &Motion, now_s: f64, sun_inertial: &Vector3<f64>) {
         if matches!(self.phase, Phase::Firing { .. } | Phase::Done) {

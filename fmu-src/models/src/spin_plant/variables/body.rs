@@ -29,8 +29,14 @@ pub struct MassVariables {
 #[derive(Variables)]
 #[variables(setup = Spinner)]
 pub struct PropellantVariables {
-    /// On board at the start.
-    #[parameter(unit = "kg", min = 0.0, start = setup.mass_properties.initial_propellant_kg)]
+    /// On board at the start, up to the last point of the setup's mass properties. When it is used up, nothing fires any
+    /// more: a pulse ends there.
+    #[parameter(
+        unit = "kg",
+        min = 0.0,
+        max = setup.mass_properties.most_propellant_kg(),
+        start = setup.mass_properties.initial_propellant_kg
+    )]
     pub initial: Real,
     /// Used since the start.
     #[output(unit = "kg", nominal = 0.01)]

@@ -35,7 +35,7 @@ pub struct BurnVariables {
     /// Number of pulses, used where burn.angle is 0.
     #[parameter(start = 114)]
     pub count: Integer,
-    /// How far the momentum shall move; 0 = by burn.count.
+    /// How far the momentum shall move, up to where burn.targetDirection stands; 0 = by burn.count.
     #[parameter(unit = "rad", display = "deg", min = 0.0, start = 0.0)]
     pub angle: Real,
     /// Order of the taper: 1 is 1 2 2 ... 2 1, 2 is 1 3 4 ... 4 3 1.
@@ -44,9 +44,12 @@ pub struct BurnVariables {
     /// Direction in EME2000 toward which the momentum moves; only its part across the momentum counts.
     #[parameter(unit = "1", start = [1.0, 0.0, 0.0])]
     pub target_direction: RealVector<3>,
-    /// (assumed - true) / true spin rate: what clock and Sun-crossing delays are computed with.
+    /// (assumed - true) / true spin rate: what the train is made for and clock and Sun-crossing delays are computed with.
     #[parameter(unit = "1", display = "%", min = -0.5, max = 0.5, start = 0.0)]
     pub spin_rate_error: Real,
+    /// (assumed - true) / true inertia ratio: what tapers are sized and the halves of a split train are placed for.
+    #[parameter(unit = "1", display = "%", min = -0.5, max = 0.5, start = 0.0)]
+    pub ratio_error: Real,
     /// Half width of the range of inertia ratios over which burn.maxNutation shall hold.
     #[parameter(unit = "1", min = 0.0, start = 0.0)]
     pub ratio_uncertainty: Real,
@@ -56,7 +59,7 @@ pub struct BurnVariables {
     /// Refuse a plan that takes longer; 0 = no limit.
     #[parameter(unit = "s", display = "min", min = 0.0, start = 0.0)]
     pub max_duration: Real,
-    /// Pulses that ended.
+    /// Pulses that ended; one that an empty tank cut short does not count.
     #[output]
     pub pulses_fired: Integer,
     /// Whether the burn runs: from the first edge of its first pulse to the last edge of its last.

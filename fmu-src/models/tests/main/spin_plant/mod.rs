@@ -3,3 +3,4 @@
 mod driver;
 mod flights;
 mod refusals;
+mod warnings;

@@ -196,6 +196,7 @@ fn flight(spinner: &spinner::Spinner, triaxial: bool) -> Start {
             resolution_s: 0.032,
             target_inertial: nalgebra::Vector3::x(),
             spin_rate_error: 0.0,
+            ratio_error: 0.0,
             ratio_uncertainty: 0.0,
             max_nutation_rad: 0.0,
             max_duration_s: 0.0,

@@ -1,11 +1,13 @@
 //! Reading a flight.
 
+use core::f64::consts::PI;
+
 use nalgebra::Vector3;
 
 use super::{Directions, Plant, Sampling, StarSample, sensing::DIRECTION_STRETCH_S};
 use crate::spin::{
-    motion::Motion, nutation::Spin, sequencer::Sequencer, spinner::Spinner, tracker::NutationEstimator,
-    watch::Watch,
+    forecast::Timing, motion::Motion, nutation::Spin, rotation::angle_between_rad, sequencer::Sequencer,
+    spinner::Spinner, tracker::NutationEstimator, watch::Watch,
 };
 
 impl Plant {
@@ -85,6 +87,32 @@ impl Plant {
     /// Propellant at the start, in kg.
     pub fn initial_propellant_kg(&self) -> f64 {
         self.initial_propellant_kg
+    }
+
+    /// Angle from the momentum at the start to the burn's target, in rad: no burn moves it farther. `None` without a burn
+    /// that points.
+    pub fn target_apart_rad(&self) -> Option<f64> {
+        let burn = self.sequencer()?.burn();
+        burn.points().then(|| angle_between_rad(&self.initial_momentum_inertial, &burn.target_inertial))
+    }
+
+    /// How close the momentum comes to the Sun's line (toward or away from it) on its way along the burn, in rad; `None`
+    /// without a burn that is timed by the Sun.
+    pub fn sun_clearance_rad(&self) -> Option<f64> {
+        let burn = self.sequencer().map(Sequencer::burn)?;
+        if !burn.points() || burn.timing != Timing::SunCrossing {
+            return None;
+        }
+        let from = self.initial_momentum_inertial.normalize();
+        let toward = (burn.target_inertial - from * from.dot(&burn.target_inertial)).normalize();
+        let (sun, way_rad) = (self.directions.sun_inertial, self.predictions().manoeuvre_rad);
+        let clearance = |line: Vector3<f64>| {
+            let nearest = line.dot(&toward).atan2(line.dot(&from)).rem_euclid(2.0 * PI);
+            let along = |angle: f64| from * angle.cos() + toward * angle.sin();
+            let ends = angle_between_rad(&line, &from).min(angle_between_rad(&line, &along(way_rad)));
+            if nearest <= way_rad { ends.min(angle_between_rad(&line, &along(nearest))) } else { ends }
+        };
+        Some(clearance(sun).min(clearance(-sun)))
     }
 
     /// Directions at a time: on the L1 orbit they move.

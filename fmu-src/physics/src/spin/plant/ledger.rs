@@ -8,6 +8,9 @@ use crate::spin::{inertia::Inertia, motion::Runaway, spinner::Spinner, tracker::
 /// A turning force is summed over stretches of this much turn.
 const IMPULSE_PANEL_RAD: f64 = 2.0;
 
+/// What the edges of many pulses have lost to rounding by a time, as a share of it.
+const EDGE_ROUNDING: f64 = 1e-11;
+
 /// Gauss-Legendre nodes and weights on -1..1 for the impulse of a turning thruster.
 const NODES: [(f64, f64); 8] = [
     (-0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
@@ -36,6 +39,32 @@ impl Plant {
         self.estimator_since_s = now_s;
     }
 
+    /// Whether the tank is empty: nothing fires any more.
+    pub fn is_dry(&self) -> bool {
+        self.used_kg >= self.initial_propellant_kg
+    }
+
+    /// When the thrusters that are on empty the tank, in s; infinite while none is.
+    pub(super) fn dry_s(&self, spinner: &Spinner) -> f64 {
+        if self.mask == 0 {
+            return f64::INFINITY;
+        }
+        let left_s = (self.initial_propellant_kg - self.used_kg) / spinner.thrust(self.mask).flow_kg_s;
+        // Edges are known to rounding: a pulse that takes the last drop ends by its own.
+        self.mask_since_s + left_s + EDGE_ROUNDING * self.mask_since_s.abs().max(1.0)
+    }
+
+    /// Empties the tank at `now_s`; the burn ends with the pulse it cut.
+    pub(super) fn run_dry(&mut self, spinner: &Spinner, now_s: f64) -> Result<(), Runaway> {
+        self.reach(spinner, now_s)?;
+        self.settle_pulse(spinner, now_s);
+        self.used_kg = self.initial_propellant_kg;
+        if let Some(sequencer) = &mut self.sequencer {
+            sequencer.stop();
+        }
+        Ok(())
+    }
+
     pub(super) fn inertia_now(&self, spinner: &Spinner) -> Inertia {
         if self.mass_source == MassSource::Fixed {
             return *self.motion.inertia();
@@ -50,7 +79,8 @@ impl Plant {
         if self.mask == 0 {
             return self.used_kg;
         }
-        self.used_kg + spinner.thrust(self.mask).flow_kg_s * (time_s - self.mask_since_s)
+        let more_kg = spinner.thrust(self.mask).flow_kg_s * (time_s - self.mask_since_s);
+        (self.used_kg + more_kg).min(self.initial_propellant_kg)
     }
 
     pub(super) fn mass_kg(&self, spinner: &Spinner) -> f64 {

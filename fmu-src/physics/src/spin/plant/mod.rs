@@ -121,7 +121,8 @@ impl Plant {
         loop {
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
             let command_s = self.commands.edge_after_s(from_s, now_s);
-            let edge_s = plan_s.min(command_s).min(self.refresh_s);
+            let dry_s = self.dry_s(spinner).max(now_s);
+            let edge_s = plan_s.min(command_s).min(self.refresh_s).min(dry_s);
             let (until_s, cell_end_s) = (edge_s.min(end_s), self.motion.cell_end_s());
             // What is seen may move the plan's edge.
             if self.observe(spinner, until_s.min(cell_end_s))? {
@@ -146,6 +147,9 @@ impl Plant {
                 // A little longer than the pulse, so that rounding needs no second cell.
                 hint_s = sequencer.pass_edge(now_s).map_or(f64::INFINITY, |width_s| 1.001 * width_s);
             }
+            if dry_s <= edge_s {
+                self.run_dry(spinner, now_s)?;
+            }
             self.switch(spinner, from_s, now_s, hint_s)?;
             if self.sequencer.as_ref().is_some_and(|s| s.phase() == Phase::Idle) {
                 self.schedule(now_s);
@@ -165,7 +169,8 @@ impl Plant {
     /// Puts the thrusters and outside torque in force that hold just after `now_s`.
     fn switch(&mut self, spinner: &Spinner, from_s: f64, now_s: f64, hint_s: f64) -> Result<(), Runaway> {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
-        let mask = plan | self.commands.mask_after(from_s, now_s);
+        let asked = plan | self.commands.mask_after(from_s, now_s);
+        let mask = if self.is_dry() { 0 } else { asked };
         let mut torque = self.commands.torque;
         if mask != 0 {
             torque = torque.plus(&spinner.thrust(mask).torque_body_n_m);
@@ -188,6 +193,9 @@ impl Plant {
     }
 
     fn schedule(&mut self, now_s: f64) {
+        if self.is_dry() {
+            return;
+        }
         if let Some(sequencer) = &mut self.sequencer {
             sequencer.schedule(&self.motion, now_s, &self.directions.sun_inertial);
         }

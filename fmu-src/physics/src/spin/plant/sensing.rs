@@ -59,7 +59,8 @@ impl Plant {
         let noise = normal(self.seed, Channel::SunSensor, self.sun.count());
         self.sun_sample_rad = angle + spinner.sun_sensor.noise_deg.to_radians() * noise;
         self.sun.pass(time_s, state.rate_rad_s(self.motion.inertia()).z);
-        if let Some(sequencer) = &mut self.sequencer {
+        let dry = self.is_dry();
+        if let Some(sequencer) = self.sequencer.as_mut().filter(|_| !dry) {
             sequencer.sun_pulse(&self.motion, time_s, &self.directions.sun_inertial);
         }
         Ok(())

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Commands, Directions, Plant, SensorAzimuths, StarSample, sensing::DIRECTION_STRETCH_S};
 use crate::spin::{
-    burn::{Burn, BurnError, BurnRequest},
+    burn::{Burn, BurnError, BurnRequest, Outset},
     damper::Damper,
     forecast::Timing,
     geometry::L1Flight,
@@ -88,7 +88,7 @@ pub enum StartError {
         /// What was found.
         found: String,
         /// What is allowed.
-        allowed: &'static str,
+        allowed: String,
     },
 }
 
@@ -105,7 +105,7 @@ impl Plant {
             MassSource::Fixed => Inertia::new(start.inertia_kg_m2)?,
             MassSource::Propellant => spinner.mass_properties.inertia(start.propellant_kg)?,
         };
-        let attitude = check(start)?;
+        let attitude = check(spinner, start)?;
         let spin_n_m_s = inertia.spin_kg_m2() * start.spin_rate_rad_s;
         let across = spin_n_m_s * start.nutation_rad.tan();
         let (sine, cosine) = start.nutation_phase_rad.sin_cos();
@@ -123,7 +123,8 @@ impl Plant {
         let sequencer = match &start.burn {
             None => None,
             Some(request) => {
-                let burn = Burn::new(spinner, request, &theory)?;
+                let outset = Outset { spin: theory, momentum_inertial, propellant_kg: start.propellant_kg };
+                let burn = Burn::new(spinner, request, &outset)?;
                 Some(Sequencer::new(burn, spinner.sun_sensor.azimuth_deg.to_radians()))
             }
         };
@@ -190,7 +191,8 @@ impl Plant {
             return Err(StartError::Parameter {
                 name: "burn.timing",
                 found: format!("Sun crossing with the Sun {:.4} deg off the spin axis", angle.to_degrees()),
-                allowed: "a Sun crossing needs the Sun farther off the axis than nutation takes it",
+                allowed: "a Sun crossing needs the Sun farther off the axis than nutation takes it"
+                    .to_owned(),
             });
         }
         Ok(())
@@ -198,8 +200,10 @@ impl Plant {
 }
 
 /// What can be wrong with the numbers of a start, and the attitude they give.
-fn check(start: &Start) -> Result<Quaternion, StartError> {
-    let refuse = |name, found: String, allowed| Err(StartError::Parameter { name, found, allowed });
+fn check(spinner: &Spinner, start: &Start) -> Result<Quaternion, StartError> {
+    let refuse = |name, found: String, allowed: &str| {
+        Err(StartError::Parameter { name, found, allowed: allowed.to_owned() })
+    };
     let rate = start.spin_rate_rad_s;
     if !(SLOWEST_RAD_S..=FASTEST_RAD_S).contains(&rate) {
         return refuse("spin.initialRate", format!("{rate} rad/s"), "allowed is 1e-4 to 1e4 rad/s");
@@ -219,8 +223,10 @@ fn check(start: &Start) -> Result<Quaternion, StartError> {
             "it must be positive",
         );
     }
-    if !(start.propellant_kg.is_finite() && start.propellant_kg >= 0.0) {
-        return refuse("propellant.initial", format!("{} kg", start.propellant_kg), "allowed is 0 or more");
+    let most_kg = spinner.mass_properties.most_propellant_kg();
+    if !(0.0..=most_kg).contains(&start.propellant_kg) {
+        let allowed = format!("allowed is 0 to {most_kg} kg, where the setup's mass properties end");
+        return refuse("propellant.initial", format!("{} kg", start.propellant_kg), &allowed);
     }
     if let Some(L1Flight { orbit, phases }) = start.l1 {
         let numbers =

@@ -62,6 +62,11 @@ impl MassProperties {
         Inertia::new([transverse * root, transverse / root, spin])
     }
 
+    /// Propellant at the last point of the table, in kg.
+    pub fn most_propellant_kg(&self) -> f64 {
+        self.propellant_kg.last().copied().unwrap_or(0.0)
+    }
+
     fn interpolate(&self, values: &[f64], propellant_kg: f64) -> f64 {
         let points = &self.propellant_kg;
         let mut result = values.first().copied().unwrap_or(0.0);

@@ -4,6 +4,7 @@ mod flights;
 mod motion;
 mod observation;
 mod refusals;
+mod tank;
 mod theory;
 
 use nalgebra::Vector3;
@@ -47,6 +48,7 @@ fn request() -> BurnRequest {
         resolution_s: 0.032,
         target_inertial: Vector3::new(0.8, 0.6, 0.0),
         spin_rate_error: 0.0,
+        ratio_error: 0.0,
         ratio_uncertainty: 0.0,
         max_nutation_rad: 0.0,
         max_duration_s: 0.0,

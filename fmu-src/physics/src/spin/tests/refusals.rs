@@ -72,6 +72,53 @@ fn burns_that_cannot_be_flown_say_why() {
 }
 
 #[test]
+fn a_burn_goes_no_farther_than_its_target() {
+    // The momentum is along +Z: 90 deg from the target (0.8, 0.6, 0).
+    let aimed = |angle_deg: f64, target: [f64; 3]| {
+        let burn =
+            BurnRequest { angle_rad: angle_deg.to_radians(), target_inertial: target.into(), ..request() };
+        let mut start = paper_start(1.483);
+        start.burn = Some(burn);
+        Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).map_err(|error| error.to_string())
+    };
+    let beyond = ["burn.angle", "100.0000 deg", "burn.targetDirection is 90.0000 deg", "momentum"];
+    assert_names(&aimed(100.0, [0.8, 0.6, 0.0]).unwrap_err(), &beyond);
+    assert!(aimed(90.0, [0.8, 0.6, 0.0]).is_ok());
+    assert!(aimed(100.0, [0.8, 0.0, -0.6]).is_ok());
+    assert!(aimed(37.0, [0.6, 0.0, 0.8]).unwrap_err().contains("36.8699 deg"));
+    for along in [[0.0, 0.0, 1.0], [0.0, 0.0, -3.0], [5e-7, 0.0, 1.0]] {
+        assert_names(
+            &aimed(2.0, along).unwrap_err(),
+            &["burn.targetDirection", "across the angular momentum"],
+        );
+    }
+    assert!(aimed(1e-6, [3e-6, 0.0, 1.0]).is_ok());
+    // It is the momentum that counts, not the spin axis.
+    let mut start = paper_start(1.483);
+    (start.nutation_rad, start.nutation_phase_rad) = (0.1, 0.0);
+    start.burn =
+        Some(BurnRequest { target_inertial: Vector3::new(0.1_f64.sin(), 0.0, 0.1_f64.cos()), ..request() });
+    let text = Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string();
+    assert_names(&text, &["burn.targetDirection", "across the angular momentum"]);
+}
+
+#[test]
+fn thrusters_that_alternate_have_one_torque() {
+    // IIIR turns with 0.40 m, IIIA with 0.69 m, both across the spin axis and opposite.
+    let text = refusal(BurnRequest { turns_per_pulse: 0.5, opposite_thruster: 7, ..request() });
+    assert_names(&text, &["burn.oppositeThruster", "1.779200", "3.069120", "0.1 %"]);
+    let uneven = ACE.replacen("position_m = [-0.69, 0.0, -0.40]", "position_m = [-0.75, 0.0, -0.40]", 1);
+    let mut start = paper_start(1.483);
+    start.burn = Some(BurnRequest { turns_per_pulse: 1.5, group: "axial couple I-IV".into(), ..request() });
+    let spinner = Spinner::parse("my.toml", &uneven).unwrap();
+    let text = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap_err().to_string();
+    assert_names(&text, &["burn.group", "N m", "0.1 %"]);
+    // Once a turn the opposite has no part in it.
+    start.burn = Some(BurnRequest { opposite_thruster: 7, ..request() });
+    assert!(Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).is_ok());
+}
+
+#[test]
 fn starts_that_make_no_sense_say_why() {
     let refuse = |change: &dyn Fn(&mut crate::spin::plant::Start)| {
         let mut start = paper_start(1.483);
@@ -83,6 +130,12 @@ fn starts_that_make_no_sense_say_why() {
     assert_names(&refuse(&|s| s.spin_rate_rad_s = 0.0), &["spin.initialRate"]);
     assert_names(&refuse(&|s| s.attitude = [0.0, 0.0, 0.0, 2.0]), &["initial.q", "norm"]);
     assert_names(&refuse(&|s| s.nutation_rad = 2.0), &["initial.nutation"]);
+    assert_names(&refuse(&|s| s.propellant_kg = -1.0), &["propellant.initial", "-1 kg", "0 to 195 kg"]);
+    assert_names(&refuse(&|s| s.propellant_kg = 195.1), &["propellant.initial", "195.1 kg", "0 to 195 kg"]);
+    assert_names(
+        &refuse(&|s| s.burn = Some(BurnRequest { ratio_error: 0.6, ..request() })),
+        &["burn.ratioError", "0.6"],
+    );
     assert_names(&refuse(&|s| s.damper_time_constant_s = -1.0), &["damper.timeConstant"]);
     let mut start = paper_start(1.483);
     start.burn = Some(BurnRequest { timing: Timing::SunCrossing, ..request() });

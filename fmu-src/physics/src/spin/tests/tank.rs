@@ -1,0 +1,115 @@
+//! Thrusters fire as long as there is propellant, to the instant, whatever the grid.
+
+use approx::assert_relative_eq;
+
+use super::{ace, directions, paper_start, request};
+use crate::spin::{
+    burn::BurnRequest,
+    plant::{Commands, Plant, PulseCommand, Start},
+    spinner::Spinner,
+};
+
+const FLOW_KG_S: f64 = 4.448 / (220.0 * 9.806_65);
+
+fn start(propellant_kg: f64) -> Start {
+    Start { propellant_kg, ..paper_start(1.483) }
+}
+
+fn launch(spinner: &Spinner, start: &Start, commands: Commands) -> Plant {
+    Plant::start(spinner, start, directions(), commands, 0.0).unwrap()
+}
+
+fn firing(thrusters: &[u32]) -> Commands {
+    Commands { fire: thrusters.iter().map(|k| 1 << (k - 1)).sum(), ..Commands::none() }
+}
+
+#[test]
+fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
+    let spinner = ace();
+    let dry_s = 0.01 / FLOW_KG_S;
+    let mut ends = Vec::new();
+    for step_s in [0.001, 0.032, 0.7, 20.0] {
+        let mut plant = launch(&spinner, &start(0.01), firing(&[8]));
+        for i in 1..=(20.0_f64 / step_s).floor() as u32 {
+            plant.advance(&spinner, f64::from(i) * step_s).unwrap();
+            let outputs = plant.outputs(&spinner);
+            assert_eq!(outputs.thrusters_on == 0, plant.time_s() >= dry_s);
+            assert_relative_eq!(
+                outputs.propellant_used_kg,
+                (FLOW_KG_S * plant.time_s()).min(0.01),
+                max_relative = 1e-12
+            );
+        }
+        plant.advance(&spinner, 20.0).unwrap();
+        assert!(plant.is_dry());
+        ends.push(plant.outputs(&spinner));
+    }
+    let end = &ends[0];
+    assert!(ends.iter().all(|other| other == end));
+    assert_eq!((end.propellant_used_kg, end.propellant_left_kg), (0.01, 0.0));
+    // A pulse of that length does the same to a spinner that has enough.
+    let mut commands = Commands::none();
+    commands.pulses[7] = PulseCommand { delay_s: 0.0, on_s: dry_s };
+    commands.any_pulse = true;
+    let mut rich = launch(&spinner, &start(97.5), commands);
+    rich.advance(&spinner, 20.0).unwrap();
+    let expected = rich.outputs(&spinner);
+    assert!((end.state.momentum_inertial - expected.state.momentum_inertial).norm() < 1e-9);
+    assert_relative_eq!(end.predicted_nutation_rad, expected.predicted_nutation_rad, max_relative = 1e-9);
+    assert_relative_eq!(expected.propellant_used_kg, 0.01, max_relative = 1e-12);
+}
+
+#[test]
+fn nothing_fires_from_an_empty_tank() {
+    let spinner = ace();
+    let mut plant = launch(&spinner, &start(0.0), firing(&[7, 8, 9]));
+    let before = plant.outputs(&spinner);
+    plant.advance(&spinner, 100.0).unwrap();
+    let after = plant.outputs(&spinner);
+    assert_eq!(after.state.momentum_inertial, before.state.momentum_inertial);
+    assert_eq!((after.propellant_used_kg, after.delta_v_inertial_m_s.norm()), (0.0, 0.0));
+}
+
+#[test]
+fn a_burn_is_refused_what_is_not_on_board_and_flown_with_the_last_drop() {
+    let spinner = ace();
+    let needed_kg = 114.0 * 0.032 * FLOW_KG_S;
+    let mut start = start(0.999 * needed_kg);
+    start.burn = Some(request());
+    let refusal = |start: &Start| {
+        Plant::start(&spinner, start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
+    };
+    for part in ["propellant would be 0.0075", "propellant.initial = 0.0075"] {
+        assert!(refusal(&start).contains(part), "{}", refusal(&start));
+    }
+    start.propellant_kg = needed_kg;
+    let mut plant = launch(&spinner, &start, Commands::none());
+    plant.advance(&spinner, 1400.0).unwrap();
+    let outputs = plant.outputs(&spinner);
+    assert!(outputs.burn_done && outputs.pulses_fired == 114);
+    assert_relative_eq!(outputs.propellant_used_kg, needed_kg, max_relative = 1e-12);
+    assert_relative_eq!(
+        outputs.momentum_displacement_rad,
+        plant.predictions().manoeuvre_rad,
+        max_relative = 1e-3
+    );
+}
+
+#[test]
+fn a_burn_whose_propellant_others_take_ends_in_the_midst_of_its_pulse() {
+    let spinner = ace();
+    // Four pulses of 1 s fit; two thrusters without torque take one and a half of them away beforehand.
+    let mut start = start(4.0 * FLOW_KG_S);
+    start.burn = Some(BurnRequest { pulse_width_s: 1.0, count: 4, start_s: 5.0, ..request() });
+    let mut plant = launch(&spinner, &start, firing(&[7, 9]));
+    plant.advance(&spinner, 0.75).unwrap();
+    plant.command(Commands::none(), directions());
+    plant.advance(&spinner, 200.0).unwrap();
+    let outputs = plant.outputs(&spinner);
+    assert_eq!(outputs.pulses_fired, 2);
+    assert!(!outputs.burn_done && !outputs.burn_active && outputs.next_edge_s < 0.0);
+    assert_eq!(outputs.propellant_left_kg, 0.0);
+    // Two pulses and a half, the half beginning at the edge of its pulse and so early by a quarter of a second.
+    let per_second = 1.7792 / (353.82 * core::f64::consts::PI / 6.0);
+    assert_relative_eq!(outputs.momentum_displacement_rad, 2.5 * per_second, max_relative = 0.02);
+}
