@@ -6,7 +6,7 @@ use physics::spin::{
     train::Shape,
 };
 
-use super::{PlanError, Row, Task, evaluate, paper_plan};
+use super::{PlanError, Row, Task, best, evaluate, paper_plan};
 
 const DAY_S: f64 = 86_400.0;
 /// Samples of Sun and Earth between two manoeuvres.
@@ -39,13 +39,66 @@ pub struct Cadence {
     pub holds: bool,
 }
 
-/// Flies the geometry for `duration_s` and turns every `interval_s`.
+/// Where the antenna points between two turns, and how far Earth and Sun stray from it and from the spin axis.
+struct Pointing {
+    antenna_inertial: Vector3<f64>,
+    sun_at_start_inertial: Vector3<f64>,
+    earth_angle_rad: f64,
+    sun_angle_rad: f64,
+}
+
+/// Stretches of `interval_s` that make `duration_s`; the last may be shorter.
+pub fn windows(duration_s: f64, interval_s: f64) -> u32 {
+    (duration_s / interval_s).ceil().clamp(1.0, 1e6) as u32
+}
+
+/// The antenna over the stretch from `start_s` to `end_s`.
+fn point(spinner: &Spinner, phases: &L1Phases, start_s: f64, end_s: f64) -> Pointing {
+    let at = |share: f64| spinner.l1_orbit.sun_earth(phases, start_s + share * (end_s - start_s));
+    let (first, last) = (at(0.0), at(1.0));
+    // The antenna points midway between where the Earth is at both ends: neither is farther than half the way.
+    let antenna = (first.earth_inertial + last.earth_inertial).normalize();
+    let mut pointing = Pointing {
+        antenna_inertial: antenna,
+        sun_at_start_inertial: first.sun_inertial,
+        earth_angle_rad: 0.0,
+        sun_angle_rad: 0.0,
+    };
+    for k in 0..=SAMPLES {
+        let now = at(f64::from(k) / f64::from(SAMPLES));
+        let earth_rad = angle_between_rad(&antenna, &now.earth_inertial);
+        let sun_rad = angle_between_rad(&-antenna, &now.sun_inertial);
+        pointing.earth_angle_rad = pointing.earth_angle_rad.max(earth_rad);
+        pointing.sun_angle_rad = pointing.sun_angle_rad.max(sun_rad);
+    }
+    pointing
+}
+
+/// All stretches of a campaign.
+fn pointings<'a>(
+    spinner: &'a Spinner,
+    phases: &'a L1Phases,
+    duration_s: f64,
+    interval_s: f64,
+) -> impl Iterator<Item = Pointing> + 'a {
+    (0..windows(duration_s, interval_s)).map(move |window| {
+        let start_s = f64::from(window) * interval_s;
+        point(spinner, phases, start_s, (start_s + interval_s).min(duration_s))
+    })
+}
+
+/// Flies the geometry for `duration_s` and turns every `interval_s`, each time with the kindest train that keeps the task's
+/// limits; `passed` is told of every stretch.
+///
+/// # Errors
+/// A turn that no train makes within the limits.
 pub fn campaign(
     spinner: &Spinner,
     task: &Task,
     phases: &L1Phases,
     duration_s: f64,
     interval_s: f64,
+    passed: &mut dyn FnMut(),
 ) -> Result<Cadence, PlanError> {
     let mut seen = Cadence {
         interval_s,
@@ -60,29 +113,23 @@ pub fn campaign(
         science_lost_uniform_s: 0.0,
         holds: false,
     };
-    let windows = (duration_s / interval_s).ceil().clamp(1.0, 1e6) as u32;
     let mut before: Option<Vector3<f64>> = None;
-    for window in 0..windows {
-        let start_s = f64::from(window) * interval_s;
-        let at = |share: f64| spinner.l1_orbit.sun_earth(phases, start_s + share * interval_s);
-        // The antenna points midway between where the Earth is at both ends: neither is farther than half the way.
-        let antenna = (at(0.0).earth_inertial + at(1.0).earth_inertial).normalize();
-        for k in 0..=SAMPLES {
-            let now = at(f64::from(k) / f64::from(SAMPLES));
-            seen.earth_angle_rad = seen.earth_angle_rad.max(angle_between_rad(&antenna, &now.earth_inertial));
-            seen.sun_angle_rad = seen.sun_angle_rad.max(angle_between_rad(&-antenna, &now.sun_inertial));
-        }
+    for pointing in pointings(spinner, phases, duration_s, interval_s) {
+        passed();
+        let antenna = pointing.antenna_inertial;
+        seen.earth_angle_rad = seen.earth_angle_rad.max(pointing.earth_angle_rad);
+        seen.sun_angle_rad = seen.sun_angle_rad.max(pointing.sun_angle_rad);
         if let Some(before) = before.replace(antenna) {
             let size_rad = angle_between_rad(&before, &antenna);
             let mut sized = task.with_angle(size_rad);
-            let sun_angle_rad = angle_between_rad(&-antenna, &at(0.0).sun_inertial);
+            let sun_angle_rad = angle_between_rad(&-antenna, &pointing.sun_at_start_inertial);
             sized.allowed_nutation_rad = allowed_nutation_rad(
                 spinner.limits.period_variation_s,
                 sized.flight.spin.rate_rad_s,
                 sun_angle_rad,
             );
             let uniform = paper_plan(&sized)?;
-            let plan = kindest(&sized, &uniform);
+            let plan = kindest(&sized, &uniform)?;
             seen.count += 1;
             seen.mean_rad += size_rad;
             seen.largest_rad = seen.largest_rad.max(size_rad);
@@ -100,39 +147,38 @@ pub fn campaign(
     Ok(seen)
 }
 
-/// The train of 32 ms units, once a turn, that costs science the least; of equals the one that ends the quietest.
-fn kindest(task: &Task, uniform: &Row) -> Row {
+/// The train of 32 ms units, once a turn, that keeps the limits and costs science the least; of equals the one that ends
+/// the quietest.
+fn kindest(task: &Task, uniform: &Row) -> Result<Row, PlanError> {
     let tapered = (1..=3).filter_map(|order| evaluate(task, Shape::Tapered { order }, 1, 1.0));
-    let cost = |row: &Row| (row.science_lost_s, row.final_rad);
-    tapered.fold(uniform.clone(), |best, row| {
-        let (a, b) = (cost(&row), cost(&best));
-        if a.0 < b.0 || (a.0 == b.0 && a.1 < b.1) { row } else { best }
-    })
+    let mut rows: Vec<Row> = core::iter::once(uniform.clone()).chain(tapered).collect();
+    rows.sort_by(|a, b| {
+        a.science_lost_s.total_cmp(&b.science_lost_s).then(a.final_rad.total_cmp(&b.final_rad))
+    });
+    best(&rows).cloned()
 }
 
-/// Longest interval, to a hundredth of a day, at which the Earth stays in the deadband; `None` if a tenth of a day does
-/// not do.
-pub fn longest_interval_s(
-    spinner: &Spinner,
-    task: &Task,
-    phases: &L1Phases,
-    duration_s: f64,
-) -> Result<Option<f64>, PlanError> {
+/// Longest interval, to a hundredth of a day and no longer than `duration_s`, at which the Earth stays in the deadband;
+/// `None` if a tenth of a day does not do.
+pub fn longest_interval_s(spinner: &Spinner, phases: &L1Phases, duration_s: f64) -> Option<f64> {
     let deadband_rad = spinner.limits.earth_angle_deg.to_radians();
-    let holds = |interval_s: f64| -> Result<bool, PlanError> {
-        Ok(campaign(spinner, task, phases, duration_s, interval_s)?.earth_angle_rad <= deadband_rad)
+    let holds = |interval_s: f64| {
+        pointings(spinner, phases, duration_s, interval_s).all(|seen| seen.earth_angle_rad <= deadband_rad)
     };
-    let (mut low_s, mut high_s) = (0.1 * DAY_S, 30.0 * DAY_S);
-    if !holds(low_s)? {
-        return Ok(None);
+    let (mut low_s, mut high_s) = ((0.1 * DAY_S).min(duration_s), (30.0 * DAY_S).min(duration_s));
+    if !holds(low_s) {
+        return None;
+    }
+    if holds(high_s) {
+        return Some(high_s);
     }
     while high_s - low_s > 0.01 * DAY_S {
         let middle_s = 0.5 * (low_s + high_s);
-        if holds(middle_s)? {
+        if holds(middle_s) {
             low_s = middle_s;
         } else {
             high_s = middle_s;
         }
     }
-    Ok(Some(low_s))
+    Some(low_s)
 }

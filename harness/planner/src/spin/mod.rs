@@ -8,15 +8,17 @@ mod text;
 mod trade;
 
 #[cfg(test)]
+mod flown_tests;
+#[cfg(test)]
 mod tests;
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-pub use campaign::{Cadence, campaign, longest_interval_s};
+pub use campaign::{Cadence, campaign, longest_interval_s, windows};
 pub use reflight::{Reflight, refly};
-pub use task::{Task, TaskLimits};
+pub use task::{Firing, MOST_ANGLE_DEG, Task, TaskLimits};
 pub use text::plan;
 pub use trade::{Row, best, evaluate, frontier, paper_plan, timing_label, trade};
 
@@ -37,7 +39,7 @@ pub enum TimingOption {
 /// `heliotorque plan spin`: choose the train of pulses that turns a spinner with the least nutation.
 #[derive(Clone, Debug, Args)]
 pub struct Options {
-    /// Angle by which the spin axis shall turn, up to 180 deg
+    /// Angle by which the spin axis shall turn, above 0 to 175 deg
     #[arg(long = "angle", value_name = "DEG", default_value_t = 2.0)]
     pub angle_deg: f64,
     /// Trains that move by whole pulses may miss the angle by this much, in per cent
@@ -83,8 +85,12 @@ pub struct Options {
     /// one
     #[arg(long, value_name = "FMU")]
     pub fmu: Option<PathBuf>,
-    /// Plan antenna pointing for so many days instead of one manoeuvre
-    #[arg(long, value_name = "DAYS")]
+    /// Plan antenna pointing for so many days, up to 3653, instead of one manoeuvre; limits hold for each of its turns
+    #[arg(
+        long,
+        value_name = "DAYS",
+        conflicts_with_all = ["angle_deg", "angle_tolerance_percent", "sun_angle_deg", "fmu", "rows"]
+    )]
     pub campaign: Option<f64>,
     /// Most rows of the trade table
     #[arg(long, value_name = "COUNT", default_value_t = 20)]
@@ -102,7 +108,7 @@ pub enum PlanError {
         /// What was found.
         found: f64,
         /// What is allowed.
-        allowed: &'static str,
+        allowed: String,
     },
     /// A body that does not come to rest about its spin axis, or none.
     #[error(
@@ -136,7 +142,8 @@ pub enum PlanError {
     /// No train keeps the limits.
     #[error(
         "no plan keeps the limits: over all plans the least peak nutation is {peak_deg:.5} deg, the least final nutation \
-         {final_deg:.6} deg, the shortest time {duration_min:.2} min; widen --max-nutation, --max-final or --max-duration"
+         {final_deg:.6} deg, the shortest time {duration_min:.2} min, the least propellant {propellant_kg:.6} kg; widen \
+         --max-nutation, --max-final or --max-duration, or see --propellant"
     )]
     NoPlan {
         /// Least peak of all plans.
@@ -145,7 +152,37 @@ pub enum PlanError {
         final_deg: f64,
         /// Shortest of all plans.
         duration_min: f64,
+        /// Least of all plans.
+        propellant_kg: f64,
     },
+    /// The thruster's shortest pulse moves too far.
+    #[error(
+        "--angle is {angle_deg} deg; no train comes within {tolerance_percent} % of it (--angle-tolerance): the shortest \
+         pulse of {thruster}, {pulse_ms} ms, moves {pulse_deg:.6} deg"
+    )]
+    NoTrain {
+        /// What was asked for.
+        angle_deg: f64,
+        /// How near it had to come.
+        tolerance_percent: f64,
+        /// Name.
+        thruster: String,
+        /// Shortest pulse.
+        pulse_ms: f64,
+        /// What it moves.
+        pulse_deg: f64,
+    },
+    /// The thruster cannot do it at this spin rate.
+    #[error("--thruster {thruster} has no train: {why}")]
+    Coarse {
+        /// Name.
+        thruster: String,
+        /// Why.
+        why: String,
+    },
+    /// Flown through the FMU, no plan kept what it promised.
+    #[error("no plan keeps its limits when it is flown through the FMU: {0}")]
+    Broken(String),
     /// The FMU did not fly it.
     #[error("the plan could not be flown through the FMU: {0}")]
     Refly(String),

@@ -3,12 +3,31 @@
 use core::f64::consts::PI;
 
 use physics::spin::{
+    burn::opposes,
     forecast::{Flight, Range, Timing},
     nutation::{Spin, allowed_nutation_rad},
     spinner::Spinner,
 };
 
 use super::{Options, PlanError, TimingOption};
+
+/// Greatest turn that is planned. A burn is steered by the part of its target's direction across the momentum, which goes to
+/// 0 as the turn nears half a circle.
+pub const MOST_ANGLE_DEG: f64 = 175.0;
+
+/// What fires, as a burn of the FMU takes it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Firing {
+    /// A group by its name.
+    Group(String),
+    /// A thruster by its number from 1, and that of an opposite one.
+    Thruster {
+        /// Number.
+        number: i32,
+        /// The one that pushes the other way, equally hard.
+        opposite: Option<i32>,
+    },
+}
 
 /// A manoeuvre to plan.
 #[derive(Clone, Debug)]
@@ -21,6 +40,14 @@ pub struct Task {
     pub flight: Flight,
     /// What may be wrong with it.
     pub range: Range,
+    /// Name of the thruster or group.
+    pub thruster: String,
+    /// What fires.
+    pub firing: Firing,
+    /// On board, in kg.
+    pub propellant_kg: f64,
+    /// Angle from the spin axis to the Sun, in rad.
+    pub sun_angle_rad: f64,
     /// Propellant flow of the thruster, in kg/s.
     pub flow_kg_s: f64,
     /// Whether an opposite thruster can alternate with it.
@@ -49,17 +76,22 @@ pub struct TaskLimits {
 impl Task {
     /// From the options and the spacecraft.
     pub fn new(options: &Options, spinner: &Spinner) -> Result<Self, PlanError> {
-        let check = |flag: &'static str, found: f64, fits: bool, allowed: &'static str| {
-            if found.is_finite() && fits { Ok(found) } else { Err(PlanError::Flag { flag, found, allowed }) }
+        let check = |flag: &'static str, found: f64, fits: bool, allowed: &str| {
+            let refused = || PlanError::Flag { flag, found, allowed: allowed.to_owned() };
+            if found.is_finite() && fits { Ok(found) } else { Err(refused()) }
         };
         let positive = |flag, found: f64| check(flag, found, found > 0.0, "a positive number");
         let not_negative = |flag, found: f64| check(flag, found, found >= 0.0, "0 or a positive number");
         let angle_deg = options.angle_deg;
-        check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= 180.0, "above 0 to 180 deg")?;
+        let allowed = format!("above 0 to {MOST_ANGLE_DEG} deg");
+        check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= MOST_ANGLE_DEG, &allowed)?;
         let sun_deg = options.sun_angle_deg;
         check("--sun-angle", sun_deg, sun_deg > 0.0 && sun_deg < 90.0, "above 0 to below 90 deg")?;
         let rate_rad_s = positive("--rate-rpm", options.rate_rpm)? * PI / 30.0;
         let propellant_kg = options.propellant_kg.unwrap_or(spinner.mass_properties.initial_propellant_kg);
+        let most_kg = spinner.mass_properties.most_propellant_kg();
+        let allowed = format!("0 to {most_kg} kg, where the spacecraft's mass properties end");
+        check("--propellant", propellant_kg, (0.0..=most_kg).contains(&propellant_kg), &allowed)?;
         let inertia = spinner
             .mass_properties
             .inertia(propellant_kg)
@@ -95,13 +127,20 @@ impl Task {
         if torque_n_m < 1e-9 {
             return Err(PlanError::NoTorque { found: options.thruster.clone() });
         }
-        let across = thrust.torque_body_n_m.xy();
-        let opposes = |other: u32| {
-            let torque = spinner.thrust(other).torque_body_n_m.xy();
-            torque.dot(&across) < -0.99 * across.norm() * torque.norm() && torque.norm() > 0.0
+        let push = |mask: u32| spinner.thrust(mask).torque_body_n_m;
+        let against = |mask: u32| opposes(&thrust.torque_body_n_m, &push(mask));
+        let number = |k: usize| i32::try_from(k + 1).unwrap_or(i32::MAX);
+        let firing = match spinner.thrusters.iter().position(|t| t.name == options.thruster) {
+            Some(k) => Firing::Thruster {
+                number: number(k),
+                opposite: (0..spinner.thrusters.len()).find(|&k| against(1 << k)).map(number),
+            },
+            None => Firing::Group(options.thruster.clone()),
         };
-        let has_opposite =
-            opposite.is_some_and(opposes) || (0..spinner.thrusters.len()).any(|k| opposes(1 << k));
+        let has_opposite = match &firing {
+            Firing::Thruster { opposite, .. } => opposite.is_some(),
+            Firing::Group(_) => opposite.is_some_and(against),
+        };
         let spin = Spin { rate_rad_s, ratio, inertia_kg_m2: inertia.spin_kg_m2() };
         let limit = |flag, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(flag, value));
         Ok(Self {
@@ -118,6 +157,10 @@ impl Task {
                 torque_n_m,
             },
             range: Range { ratio: ratio_uncertainty, rate_rad_s: rate_uncertainty_rpm * PI / 30.0 },
+            thruster: options.thruster.clone(),
+            firing,
+            propellant_kg,
+            sun_angle_rad: sun_deg.to_radians(),
             flow_kg_s: thrust.flow_kg_s,
             has_opposite,
             resolution_s: spinner.resolution_s,
@@ -133,6 +176,11 @@ impl Task {
                 duration_s: limit("--max-duration", options.max_duration_min)? * 60.0,
             },
         })
+    }
+
+    /// Whether a move is the task's angle within its tolerance.
+    pub fn meets_angle(&self, moved_rad: f64) -> bool {
+        (moved_rad / self.angle_rad - 1.0).abs() <= self.angle_tolerance
     }
 
     /// The same task for another angle, met as well as whole pulses can.

@@ -1,19 +1,24 @@
 //! The planner's answer as text.
 
-use std::{fmt::Write, path::Path};
+use std::{fmt::Write, io::IsTerminal, path::Path};
 
 use comfy_table::{ContentArrangement, Table, presets};
+use indicatif::{ProgressBar, ProgressStyle};
 use loader::Fmu;
 use physics::spin::{geometry::L1Phases, spinner::Spinner};
 
 use super::{
-    ACE, Options, PlanError, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, refly,
-    timing_label, trade,
+    ACE, Options, PlanError, Reflight, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan,
+    refly, timing_label, trade, windows,
 };
 
 const DAY_S: f64 = 86_400.0;
 /// Ratios flown through the FMU.
 const RATIOS: u32 = 24;
+/// Plans that are flown before the search is given up.
+const MOST_FLOWN: usize = 5;
+/// Longest campaign: ten years.
+const MOST_DAYS: f64 = 3653.0;
 /// What the best plan is flown through unless another is named.
 const SHIPPED_FMU: &str = "dist/SpinPlant.fmu";
 
@@ -43,7 +48,8 @@ fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
 
 fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
     let rows = trade(task)?;
-    let chosen = best(&rows)?;
+    best(&rows)?;
+    let (chosen, flights) = flown_again(options, task, &rows)?;
     let mut text = String::new();
     let spin = &task.flight.spin;
     let mut line = |line: String| {
@@ -92,53 +98,81 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
         shown.len()
     ));
     line(format!(
-        "Least final nutation within the limits: {}, {} pulses, {:.2} min",
+        "Least final nutation within the limits: {}, {} pulses, {:.2} min; moves {:.4} of {:.4} deg ({:+.1} %), peak nutation \
+         {:.5} deg ({:.1} times the paper's plan's)",
         chosen.label(),
         chosen.train.count(),
-        chosen.duration_s / 60.0
+        chosen.duration_s / 60.0,
+        chosen.moved_rad.to_degrees(),
+        task.angle_rad.to_degrees(),
+        100.0 * (chosen.moved_rad / task.angle_rad - 1.0),
+        chosen.peak_rad.to_degrees(),
+        chosen.peak_rad / paper.peak_rad,
     ));
-    line(flown_again(options, task, chosen)?);
+    flights.into_iter().for_each(line);
     Ok(text)
 }
 
-/// What the FMU says of the plan, or why none was asked.
-fn flown_again(options: &Options, task: &Task, chosen: &Row) -> Result<String, PlanError> {
+/// The plan to take and what the FMU says of it: the best that keeps in flight what it promised, or the best if none is
+/// flown, with the reason.
+fn flown_again<'a>(
+    options: &Options,
+    task: &Task,
+    rows: &'a [Row],
+) -> Result<(&'a Row, Vec<String>), PlanError> {
+    let unflown = |why: String| Ok((best(rows)?, vec![format!("Not re-flown: {why}")]));
     let named = options.fmu.as_deref();
     let path = match named {
         Some(path) => path,
         None if options.spacecraft.is_some() => {
-            return Ok(format!(
-                "Not re-flown: {SHIPPED_FMU} may be of another spacecraft; give this one's FMU by --fmu"
+            return unflown(format!(
+                "{SHIPPED_FMU} may be of another spacecraft; give this one's FMU by --fmu"
             ));
         }
         None => Path::new(SHIPPED_FMU),
     };
     if named.is_none() && !path.exists() {
-        return Ok(format!(
-            "Not re-flown: no {SHIPPED_FMU} (cargo xtask dist packs it, --fmu names another)"
-        ));
+        return unflown(format!("no {SHIPPED_FMU} (cargo xtask dist packs it, --fmu names another)"));
     }
     let fmu = match Fmu::open(path) {
         Ok(fmu) => fmu,
         Err(error) if named.is_some() => return Err(PlanError::Refly(error.to_string())),
-        Err(error) => return Ok(format!("Not re-flown: {error}")),
+        Err(error) => return unflown(error.to_string()),
     };
-    let flown = refly(&fmu, task, chosen, &options.thruster, RATIOS)?;
-    let kept = flown.peak_rad <= task.limits.peak_rad && flown.final_rad <= task.limits.final_rad;
-    Ok(format!(
-        "Re-flown through {}: {} ratios, worst final {:.6} deg (foreseen {:.6}), worst peak {:.5} deg (foreseen {:.5}), \
-         moved {:.4} to {:.4} deg (foreseen {:.4}): limits {}",
-        path.display(),
-        flown.flights,
+    let mut said = Vec::new();
+    for row in rows.iter().filter(|row| row.fits).take(MOST_FLOWN) {
+        let flown = refly(&fmu, task, row, RATIOS)?;
+        let broken = flown.broken(task);
+        if broken.is_empty() {
+            said.push(format!("Re-flown through {}: {}", path.display(), kept(task, row, &flown)));
+            return Ok((row, said));
+        }
+        said.push(format!("Passed over, as flown: {}: {}", row.label(), broken.join(", ")));
+    }
+    Err(PlanError::Broken(said.join("\n  ")))
+}
+
+/// What came out of a flight that kept everything, beside what was foreseen.
+fn kept(task: &Task, row: &Row, flown: &Reflight) -> String {
+    let rates = if flown.rates > 1 { format!(" at {} spin rates", flown.rates) } else { String::new() };
+    let limits = &task.limits;
+    let limited =
+        [limits.peak_rad, limits.final_rad, limits.duration_s].iter().any(|limit| limit.is_finite());
+    format!(
+        "{} ratios{rates}, worst final {:.6} deg (foreseen {:.6}), worst peak {:.5} deg (foreseen {:.5}), moved {:.4} to \
+         {:.4} deg (foreseen {:.4} to {:.4}), at most {:.2} min: {}",
+        flown.ratios,
         flown.final_rad.to_degrees(),
-        chosen.final_rad.to_degrees(),
+        row.final_rad.to_degrees(),
         flown.peak_rad.to_degrees(),
-        chosen.peak_rad.to_degrees(),
+        row.peak_rad.to_degrees(),
         flown.moved_rad.0.to_degrees(),
         flown.moved_rad.1.to_degrees(),
-        chosen.moved_rad.to_degrees(),
-        if kept { "kept" } else { "broken" },
-    ))
+        row.moved_range_rad.0.to_degrees(),
+        row.moved_range_rad.1.to_degrees(),
+        flown.longest_s / 60.0,
+        if limited { "limits kept" } else { "turned as asked, no limits given" },
+    )
 }
 
 fn cells(row: &Row) -> Vec<String> {
@@ -166,14 +200,18 @@ fn cells(row: &Row) -> Vec<String> {
 }
 
 fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError> {
-    if !(days.is_finite() && days > 0.0) {
-        return Err(PlanError::Flag { flag: "--campaign", found: days, allowed: "a positive number" });
+    if !(days > 0.0 && days <= MOST_DAYS) {
+        let allowed = format!("above 0 to {MOST_DAYS} days");
+        return Err(PlanError::Flag { flag: "--campaign", found: days, allowed });
     }
     let (phases, duration_s) = (L1Phases::default(), days * DAY_S);
-    let longest = longest_interval_s(spinner, task, &phases, duration_s)?;
-    let mut intervals: Vec<f64> = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].iter().map(|d| d * DAY_S).collect();
+    let longest = longest_interval_s(spinner, &phases, duration_s);
+    let whole = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].iter().map(|d| d * DAY_S);
+    let mut intervals: Vec<f64> = whole.filter(|interval_s| *interval_s < duration_s).collect();
     intervals.extend(longest);
     intervals.sort_by(f64::total_cmp);
+    let turns = intervals.iter().map(|interval_s| u64::from(windows(duration_s, *interval_s)));
+    let bar = progress_bar(turns.sum());
     let mut table = table(&[
         "every",
         "turns",
@@ -188,7 +226,7 @@ fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError
         "limits",
     ]);
     for interval_s in intervals {
-        let row = campaign(spinner, task, &phases, duration_s, interval_s)?;
+        let row = campaign(spinner, task, &phases, duration_s, interval_s, &mut || bar.inc(1))?;
         let deg = |angle: f64| format!("{:.3} deg", angle.to_degrees());
         let hours = |time_s: f64| format!("{:.1} h", time_s / 3600.0);
         table.add_row([
@@ -205,6 +243,7 @@ fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError
             if row.holds { "kept".to_owned() } else { "broken".to_owned() },
         ]);
     }
+    bar.finish_and_clear();
     let mut text = String::new();
     let _ = writeln!(
         text,
@@ -213,12 +252,27 @@ fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError
     );
     let _ = writeln!(text, "{table}");
     let _ = match longest {
+        Some(interval_s) if interval_s >= duration_s => {
+            writeln!(text, "No turn is needed: the Earth stays in the deadband for {days} days")
+        }
         Some(interval_s) => {
             writeln!(text, "Longest interval that keeps the deadband: {:.2} d", interval_s / DAY_S)
         }
         None => writeln!(text, "No interval keeps the deadband: the Earth leaves it within a tenth of a day"),
     };
     Ok(text)
+}
+
+fn progress_bar(length: u64) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(length);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} turns  {elapsed} gone, {eta} to go")
+    {
+        bar.set_style(style);
+    }
+    bar
 }
 
 fn table(header: &[&str]) -> Table {

@@ -1,5 +1,7 @@
 //! Every sensible train for a task, forecast over the whole range of what may be wrong, and the best of them.
 
+use core::f64::consts::PI;
+
 use physics::spin::{
     burn::sized,
     forecast::Timing,
@@ -57,6 +59,9 @@ impl Row {
 
 /// All trains for the task, best first: those that keep the limits before those that do not, then by worst final
 /// nutation.
+///
+/// # Errors
+/// A thruster too coarse or too weak for the angle.
 pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
     let reference = paper_plan(task)?;
     let mut rows = Vec::new();
@@ -70,6 +75,16 @@ pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
                 rows.extend(evaluate(task, shape, unit, turns));
             }
         }
+    }
+    if rows.is_empty() {
+        let spin = &task.flight.spin;
+        return Err(PlanError::NoTrain {
+            angle_deg: task.angle_rad.to_degrees(),
+            tolerance_percent: 100.0 * task.angle_tolerance,
+            thruster: task.thruster.clone(),
+            pulse_ms: 1e3 * task.resolution_s,
+            pulse_deg: spin.manoeuvre_rad(task.flight.torque_n_m, task.resolution_s).to_degrees(),
+        });
     }
     for row in &mut rows {
         row.damping_saved_s = task.damper_time_constant_s * (reference.final_rad / row.final_rad).ln();
@@ -91,18 +106,34 @@ pub fn frontier(rows: &[Row]) -> Vec<&Row> {
 pub fn best(rows: &[Row]) -> Result<&Row, PlanError> {
     let least = |value: fn(&Row) -> f64| rows.iter().map(value).fold(f64::INFINITY, f64::min);
     let (peak, end, time) = (least(|r| r.peak_rad), least(|r| r.final_rad), least(|r| r.duration_s));
+    let propellant_kg = least(|r| r.propellant_kg);
     rows.iter().find(|row| row.fits).ok_or_else(|| PlanError::NoPlan {
         peak_deg: peak.to_degrees(),
         final_deg: end.to_degrees(),
         duration_min: time / 60.0,
+        propellant_kg,
     })
 }
 
-/// The paper's plan: equal pulses of one step, once a turn.
+/// The paper's plan: equal pulses of one step, once a turn, as near to the angle as whole pulses come.
+///
+/// # Errors
+/// A step of the thruster that is longer than half a turn, or too weak.
 pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
-    evaluate(task, Shape::Uniform, 1, 1.0).ok_or_else(|| {
-        PlanError::Setup("the smallest pulse of the thruster is longer than half a turn".into())
-    })
+    let (pulse_s, half_turn_s) = (task.resolution_s, 0.5 * task.flight.spin.period_s());
+    evaluate(&task.with_angle(task.angle_rad), Shape::Uniform, 1, 1.0)
+        .map(|row| Row { fits: row.fits && task.meets_angle(row.moved_rad), ..row })
+        .ok_or_else(|| PlanError::Coarse {
+            thruster: task.thruster.clone(),
+            why: if pulse_s > half_turn_s {
+                format!(
+                    "its shortest pulse is {pulse_s} s, longer than half a turn ({half_turn_s:.6} s at --rate-rpm): beyond \
+                     that a pulse works against itself"
+                )
+            } else {
+                format!("no train of pulses of {pulse_s} s turns by {} deg", task.angle_rad.to_degrees())
+            },
+        })
 }
 
 /// One train for the task; `None` where there is none of this kind.
@@ -116,11 +147,19 @@ pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row>
         return None;
     }
     let nominal = task.flight.forecast(&train);
-    if (nominal.moved_rad / task.angle_rad - 1.0).abs() > task.angle_tolerance {
+    if !task.meets_angle(nominal.moved_rad) {
         return None;
     }
     let worst = task.range.worst(&task.flight, &train);
     let duration_s = train.duration_s(spin.period_s());
+    let longest_s = match task.flight.timing {
+        Timing::Clock => duration_s,
+        // A slow spinner takes longer.
+        Timing::SunCrossing | Timing::TruePhase => {
+            train.duration_s(2.0 * PI / (spin.rate_rad_s - task.range.rate_rad_s))
+        }
+    };
+    let propellant_kg = train.on_time_s() * task.flow_kg_s;
     let limits = &task.limits;
     let damping_s = damping_s(task, worst.final_nutation_rad);
     let disturbed = worst.peak_nutation_rad > task.allowed_nutation_rad;
@@ -132,13 +171,14 @@ pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row>
         moved_rad: nominal.moved_rad,
         moved_range_rad: (worst.least_moved_rad, worst.most_moved_rad),
         duration_s,
-        propellant_kg: train.on_time_s() * task.flow_kg_s,
+        propellant_kg,
         damping_s,
         damping_saved_s: 0.0,
         science_lost_s: damping_s + if disturbed { duration_s } else { 0.0 },
         fits: worst.peak_nutation_rad <= limits.peak_rad
             && worst.final_nutation_rad <= limits.final_rad
-            && duration_s <= limits.duration_s,
+            && longest_s <= limits.duration_s
+            && propellant_kg <= task.propellant_kg,
     })
 }
 
