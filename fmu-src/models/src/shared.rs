@@ -1,9 +1,10 @@
 //! What several models read from their variables and setups alike.
 
-use fmi_export::{Choice, Enumeration, Real, SetupError, Values, Variables};
+use fmi_export::{Choice, Enumeration, Failure, Real, RealMatrix, SetupError, Values, Variables};
+use nalgebra::Matrix3;
 use physics::environment::surface::{self, MERCURY, PlanetSurface};
 use physics::radiation::disturbance::{DisturbanceModel, Options};
-use physics::spacecraft::Spacecraft;
+use physics::spacecraft::{self, Spacecraft};
 
 /// How the day side's temperature is distributed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -57,6 +58,18 @@ impl SurfaceVariables {
                 .map_or(surface::DayTemperature::Uniform, Into::into),
         }
     }
+}
+
+/// The inertia in body axes that `spacecraft.inertia` holds by rows, in kg m2.
+///
+/// # Errors
+/// What was found and what is allowed, of a matrix no body has.
+pub fn inertia_body_kg_m2(values: &Values, handle: RealMatrix<3, 3>) -> Result<Matrix3<f64>, Failure> {
+    let rows = values.matrix(handle);
+    let inertia = Matrix3::from(rows).transpose();
+    spacecraft::check_inertia(&inertia)
+        .map_err(|allowed| Failure::new(format!("spacecraft.inertia is {rows:?}, allowed: {allowed}")))?;
+    Ok(inertia)
 }
 
 /// The faces reported one by one, none unless the file asks for that: for each the panel it belongs to, if to one.

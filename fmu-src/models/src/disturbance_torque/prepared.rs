@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::Plan;
 use super::variables::{DisturbanceVariables, PlanetMethod, RadiationVariables};
 use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
+use crate::shared::inertia_body_kg_m2;
 
 /// What parameters and spacecraft amount to.
 #[derive(Clone, Debug)]
@@ -139,9 +140,7 @@ impl Prepared {
         let failure = |error: &dyn core::fmt::Display| Failure::new(error.to_string());
         let shadow = Shadow::new(shadow_model, surface.radius_m)
             .map_err(|error| Failure::new(format!("planet.radius: {error}")))?;
-        let inertia_body_kg_m2 = Matrix3::from(values.matrix(variables.spacecraft.inertia)).transpose();
-        spacecraft::check_inertia(&inertia_body_kg_m2)
-            .map_err(|problem| Failure::new(format!("spacecraft.inertia: {problem}")))?;
+        let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
         Ok(Self {
             model: DisturbanceModel::new(spacecraft, &options).map_err(|error| failure(&error))?,
             shadow: present.then_some(shadow),

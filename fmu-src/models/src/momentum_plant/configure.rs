@@ -1,7 +1,6 @@
 //! From parameters and inputs to the physics' configuration; refuses what cannot be flown, by name.
 
 use fmi_export::{Failure, Values};
-use nalgebra::Matrix3;
 use physics::constants;
 use physics::environment::State;
 use physics::environment::eclipse::{Shadow, ShadowModel};
@@ -21,6 +20,7 @@ use super::choices::{
 use super::state::PlantState;
 use super::variables::PlantVariables;
 use super::{Plan, physics_vector};
+use crate::shared::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
 pub fn configuration(
@@ -70,9 +70,7 @@ pub fn refreshed(
              VSOP87 is made"
         )));
     }
-    let inertia_body_kg_m2 = Matrix3::from(values.matrix(variables.spacecraft.inertia)).transpose();
-    spacecraft::check_inertia(&inertia_body_kg_m2)
-        .map_err(|problem| Failure::new(format!("spacecraft.inertia: {problem}")))?;
+    let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
     let mut panels = previous.map_or_else(|| Vec::with_capacity(variables.panel.len()), |old| old.panels);
     panels.clear();
     panels.extend(variables.panel.iter().map(|panel| {

@@ -40,6 +40,11 @@ fn downlinks_that_end_before_they_begin() {
 }
 
 #[test]
+fn inertias_no_body_has() {
+    says(&[("spacecraft.inertia[1,1]", 5e4)], &["spacecraft.inertia is [[50000.0", "triangle inequality"]);
+}
+
+#[test]
 fn epochs_beyond_the_theory_of_the_planets() {
     says(&[("initial.epoch", 1e12)], &["initial.epoch", "1000000000000.0", "allowed", "VSOP87"]);
 }
