@@ -6,6 +6,8 @@ import pathlib
 import pytest
 from fmpy import extract
 
+from studies import study
+
 
 def _path(variable):
     value = os.environ.get(variable)
@@ -37,3 +39,16 @@ def momentum_plant(dist):
 @pytest.fixture(scope="session")
 def unpacked_plant(momentum_plant, tmp_path_factory):
     return extract(momentum_plant, unzipdir=str(tmp_path_factory.mktemp("MomentumPlant")))
+
+
+@pytest.fixture(scope="session")
+def studied(heliotorque, dist, tmp_path_factory):
+    """What a study prints and leaves, flown once on four threads whoever asks."""
+    done = {}
+
+    def run(name):
+        if name not in done:
+            done[name] = study(heliotorque, dist, tmp_path_factory.mktemp("study"), name, 4)
+        return done[name]
+
+    return run

@@ -1,16 +1,14 @@
 """`heliotorque study momentum/*` flies what FMPy flies, and says of its own numbers what they say."""
 
-import csv
 import itertools
-import os
 import re
-import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
 
 from flight import DAY_S, PAPER, dump_times, fly
+from studies import table
 
 # Paper 000's Table 2, rows "thruster dumps only", which were computed with the cylinder.
 PAPER_COUNTS = {
@@ -20,28 +18,9 @@ PAPER_COUNTS = {
 PAPERS, CYLINDER = "paper's", "cylinder"
 
 
-def study(heliotorque, dist, folder, name, threads):
-    """What the study prints and the content of the files it leaves, by name."""
-    run = subprocess.run(
-        [heliotorque, "study", f"momentum/{name}", "--quiet", "--dist", dist, "--output", folder],
-        capture_output=True, text=True, encoding="utf-8", env=os.environ | {"RAYON_NUM_THREADS": str(threads)},
-    )
-    assert run.returncode == 0, run.stderr
-    return run.stdout, {file.name: file.read_text(encoding="utf-8") for file in folder.iterdir()}
-
-
 @pytest.fixture(scope="module")
-def flown(heliotorque, dist, tmp_path_factory):
-    """Each study once, on four threads."""
-    return {
-        name: study(heliotorque, dist, tmp_path_factory.mktemp(name), name, 4) for name in ("table2", "table3", "figure4")
-    }
-
-
-def table(files, name):
-    rows = list(csv.DictReader(files[name].splitlines()))
-    assert rows and all(None not in row and None not in row.values() for row in rows), "a ragged table"
-    return rows
+def flown(studied):
+    return {name: studied(f"momentum/{name}") for name in ("table2", "table3", "figure4")}
 
 
 def dumps_by_row(files, rows):
@@ -118,8 +97,3 @@ def test_figure_4_draws_the_momentum_that_fmpy_flies(flown, momentum_plant):
     for offset in ("0 cm", "-2.54 cm", "-5.08 cm"):
         assert f"Z = {offset}, " in picture
     assert files["figure4.svg"] == flown["table2"][1]["figure4.svg"]
-
-
-@pytest.mark.parametrize("name", ["table2", "table3", "figure4"])
-def test_results_do_not_depend_on_the_number_of_threads(flown, heliotorque, dist, tmp_path, name):
-    assert study(heliotorque, dist, tmp_path, name, 1) == flown[name]

@@ -1,0 +1,33 @@
+"""Every study in `study list` runs, leaves whole tables and pictures, and says the same on one thread and on four."""
+
+import re
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+from studies import study, table
+
+NAMES = [
+    "momentum/table2", "momentum/table3", "momentum/figure4",
+    "spin/figure2", "spin/figure3", "spin/figure4", "spin/figure6", "spin/figure7", "spin/numbers",
+    "thermal/table7", "thermal/table8", "thermal/figure12", "thermal/figure13",
+]
+
+
+def test_these_are_all(heliotorque):
+    listed = subprocess.run([heliotorque, "study", "list"], capture_output=True, text=True, encoding="utf-8", check=True)
+    assert sorted(re.findall(r"\b[a-z]+/[a-z]+\d*\b", listed.stdout)) == sorted(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_results_are_whole_and_do_not_depend_on_the_number_of_threads(studied, heliotorque, dist, tmp_path, name):
+    text, files = studied(name)
+    assert study(heliotorque, dist, tmp_path, name, 1) == (text, files)
+    own = name.split("/")[1]
+    assert f"{own}.csv" in files and (f"{own}.svg" in files or not own.startswith("figure"))
+    for file in files:
+        if file.endswith(".csv"):
+            table(files, file)
+        else:
+            assert ElementTree.fromstring(files[file]).tag.endswith("svg")
