@@ -1,9 +1,8 @@
 """`heliotorque study thermal/*`: paper 004's tables and figures, its numbers typed from the paper a second time."""
 
-import csv
-import subprocess
-
 import pytest
+
+from studies import table
 
 # Case: solar (1e-7 m/s2), greatest albedo, infrared and recoil in % of it.
 TABLE_7 = {1: (8.45, 0.32, 6.68, 25.60), 2: (5.51, 2.37, 14.10, 23.24), 3: (3.71, 0.95, 19.24, 19.99), 4: (6.22, 6.45, 26.79, 24.05)}
@@ -12,18 +11,11 @@ EFFECTS = ("solar", "albedo", "infrared", "thermal")
 
 
 @pytest.fixture(scope="module")
-def study(heliotorque, dist, tmp_path_factory):
-    """Runs a study: what it prints, and its table's rows by case and effect or its CSV's rows."""
+def study(studied):
+    """What a study prints, and the rows of its CSV."""
     def run(name):
-        folder = tmp_path_factory.mktemp(name)
-        done = subprocess.run(
-            [heliotorque, "study", f"thermal/{name}", "--quiet", "--dist", dist, "--output", folder],
-            capture_output=True, text=True, encoding="utf-8",
-        )
-        assert done.returncode == 0, done.stderr
-        assert (folder / f"{name}.svg").read_text(encoding="utf-8").startswith("<svg")
-        with open(folder / f"{name}.csv", encoding="utf-8", newline="") as file:
-            return done.stdout, list(csv.DictReader(file))
+        text, files = studied(f"thermal/{name}")
+        return text, table(files, f"{name}.csv")
     return run
 
 
