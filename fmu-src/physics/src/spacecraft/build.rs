@@ -24,8 +24,8 @@ const OPTICS_SUM_TOLERANCE: f64 = 1e-9;
 /// Reads and checks a spacecraft file.
 pub(super) fn spacecraft(file: &str, text: &str) -> Result<Spacecraft, SpacecraftError> {
     let document = Document::parse(file, text)?;
-    let description: Description = document.read()?;
-    let mut builder = Builder { check: Checker::new(&document), materials: BTreeMap::new() };
+    let (description, findings) = document.read::<Description>()?;
+    let mut builder = Builder { check: Checker::new(&document, findings), materials: BTreeMap::new() };
     let spacecraft = builder.spacecraft(&description);
     builder.check.finish(spacecraft)
 }
@@ -48,8 +48,13 @@ impl Builder<'_> {
             let thermal = self.face_thermal(&place, optics, &sunlight);
             self.materials.insert(name.clone(), Material { optics: sunlight, thermal });
         }
-        if let (None, None, None) = (&description.plates, &description.sunshade, &description.panels) {
-            self.check.report(&root, "no surface", "at least one of `plates`, `sunshade`, `panels`");
+        let surfaces = [
+            ("plates", description.plates.is_some()),
+            ("sunshade", description.sunshade.is_some()),
+            ("panels", description.panels.is_some()),
+        ];
+        if !surfaces.iter().any(|(key, is_given)| *is_given || self.check.is_stand_in(&root.key(key))) {
+            self.check.push(&root, "no surface", "at least one of `plates`, `sunshade`, `panels`");
         }
         let keep_in = root.key("sun_keep_in");
         let threshold = root.key("momentum").key("dump_threshold_n_m_s");
@@ -116,7 +121,7 @@ impl Builder<'_> {
         let Some(absorptivity) = description.absorptivity else {
             if reflected > 1.0 + OPTICS_SUM_TOLERANCE {
                 let found = format!("specular + diffuse = {reflected}");
-                self.check.report(&at.key("specular"), found, "a sum of at most 1");
+                self.check.report_across(at, &at.key("specular"), found, "a sum of at most 1");
             }
             let absorptivity = (1.0 - reflected).max(0.0);
             return Optics { absorptivity, specular, diffuse };
@@ -125,7 +130,7 @@ impl Builder<'_> {
         let sum = absorptivity + reflected;
         if (sum - 1.0).abs() > OPTICS_SUM_TOLERANCE {
             let found = format!("absorptivity + specular + diffuse = {sum}");
-            self.check.report(&at.key("absorptivity"), found, "a sum of 1 within 1e-9");
+            self.check.report_across(at, &at.key("absorptivity"), found, "a sum of 1 within 1e-9");
         }
         Optics { absorptivity, specular, diffuse }
     }
@@ -133,6 +138,9 @@ impl Builder<'_> {
     fn material(&mut self, at: &Place, name: &str) -> Material {
         if let Some(material) = self.materials.get(name) {
             return *material;
+        }
+        if self.check.is_stand_in(&Place::root().key("optics")) {
+            return Material::BLACK;
         }
         let known: Vec<&str> = self.materials.keys().map(String::as_str).collect();
         let hint = nearest(name, &known).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
@@ -176,7 +184,7 @@ impl Builder<'_> {
                     ("`cylinder` without a cylinder", "[sunshade.cylinder] or \"plates\"")
                 }
             };
-            self.check.report(&at.key("model"), found, allowed);
+            self.check.report_across(at, &at.key("model"), found, allowed);
         }
         sunshade
     }

@@ -56,7 +56,8 @@ impl Builder<'_> {
             ),
         };
         if !emission.grows() {
-            self.check.report(
+            self.check.report_across(
+                at,
                 &slope,
                 emission.slope_per_k,
                 "a slope so small that up to 2000 K a hotter face emits more power",
@@ -73,9 +74,9 @@ impl Builder<'_> {
         rear: Option<Material>,
     ) -> Thermal {
         let nothing = ThermalDescription::default();
-        let at = at.key("thermal");
+        let (surface, at) = (at, at.key("thermal"));
         let description = description.unwrap_or(&nothing);
-        if rear.is_none() {
+        if rear.is_none() && !self.check.is_stand_in(&surface.key("rear_optics")) {
             let needs_rear = [
                 ("conduction", description.conduction.is_some()),
                 ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
@@ -90,7 +91,7 @@ impl Builder<'_> {
         }
         let mut heat = |key: &str, value: Option<f64>| {
             let value = value.unwrap_or(0.0);
-            self.check.within(&at.key(key), value, 0.0, 1e12, "a finite number from 0")
+            self.check.not_negative(&at.key(key), value)
         };
         Thermal {
             front: front.thermal,
@@ -117,7 +118,7 @@ impl Builder<'_> {
             let q = description.conductance_w_m2_k.unwrap_or(0.0);
             let exchange = description.radiative_exchange.unwrap_or(0.0);
             return Conduction {
-                conductance_w_m2_k: self.check.within(&conductance, q, 0.0, 1e12, "a finite number from 0"),
+                conductance_w_m2_k: self.check.not_negative(&conductance, q),
                 radiative_exchange: self.check.fraction(&at.key("radiative_exchange"), exchange),
             };
         };
@@ -156,7 +157,8 @@ impl Builder<'_> {
                 let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
                 if let (Some(normal), true) = (normal, along.abs() < (1.0 - OUTLINE_TOLERANCE.powi(2) / 2.0))
                 {
-                    self.check.report(
+                    self.check.report_across(
+                        at,
                         &place,
                         format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
                         format_args!(
@@ -187,7 +189,8 @@ impl Builder<'_> {
                 if let Some(given_m2) = given_m2
                     && (given_m2 / area_m2 - 1.0).abs() > OUTLINE_TOLERANCE
                 {
-                    self.check.report(&place, given_m2, format_args!("the polygon's {area_m2} within 1e-3"));
+                    let allowed = format_args!("the polygon's {area_m2} within 1e-3");
+                    self.check.report_across(at, &place, given_m2, allowed);
                 }
                 area_m2
             }
@@ -212,7 +215,7 @@ impl Builder<'_> {
                 {
                     let found = format!("{:?}", given_m.as_slice());
                     let allowed = format!("the polygon's {:?} within 1e-3 of its size", center_m.as_slice());
-                    self.check.report(&place, found, allowed);
+                    self.check.report_across(at, &place, found, allowed);
                 }
                 center_m
             }
@@ -234,11 +237,11 @@ impl Builder<'_> {
 
     fn missing<V>(&mut self, at: &Place, key: &str, stand_in: V) -> V {
         // An outline that was refused would have given it.
-        if self.check.has_reported(&at.key("polygon_m")) {
+        let outline = at.key("polygon_m");
+        if self.check.has_reported(&outline) || self.check.is_stand_in(&outline) {
             return stand_in;
         }
-        let found = format!("no key `{key}`");
-        self.check.report(at, found, format_args!("a value for `{key}`, or an outline `polygon_m`"));
+        self.check.report_lack(at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
         stand_in
     }
 }

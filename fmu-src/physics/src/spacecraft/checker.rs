@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::document::{Document, Place};
 use super::error::{Problem, SpacecraftError};
+use super::reader::Findings;
 
 /// Greatest magnitude of any number in a file: keeps products of several numbers far from overflow.
 const GREATEST: f64 = 1e12;
@@ -19,21 +20,51 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 pub(crate) struct Checker<'d> {
     document: &'d Document<'d>,
     problems: Vec<Problem>,
+    stand_ins: Vec<Place>,
 }
 
 impl<'d> Checker<'d> {
-    /// No problems so far.
-    pub fn new(document: &'d Document<'d>) -> Self {
-        Self { document, problems: Vec::new() }
+    /// Goes on with what the reading of the document found.
+    pub fn new(document: &'d Document<'d>, findings: Findings) -> Self {
+        let mut checker = Self { document, problems: Vec::new(), stand_ins: findings.stand_ins };
+        for (at, found, allowed) in findings.problems {
+            checker.push(&at, found, allowed);
+        }
+        checker
     }
 
-    /// The value if nothing was reported, all problems otherwise.
-    pub fn finish<T>(self, value: T) -> Result<T, SpacecraftError> {
+    /// The value if nothing was reported, all problems in the order of their lines otherwise.
+    pub fn finish<T>(mut self, value: T) -> Result<T, SpacecraftError> {
+        self.problems.sort_by_key(|problem| problem.line);
         if self.problems.is_empty() { Ok(value) } else { Err(self.document.error(self.problems)) }
     }
 
-    /// Reports one problem.
+    /// Reports one problem, unless what is judged was not written.
     pub fn report(&mut self, at: &Place, found: impl Display, allowed: impl Display) {
+        self.report_across(at, at, found, allowed);
+    }
+
+    /// Reports at one place what several values of a table come to together, unless one of them was not written.
+    pub fn report_across(&mut self, table: &Place, at: &Place, found: impl Display, allowed: impl Display) {
+        if !self.stand_ins.iter().any(|stand_in| stand_in.is_in(table)) && !self.is_stand_in(at) {
+            self.push(at, found, allowed);
+        }
+    }
+
+    /// Reports that a table lacks a key, unless it was misspelt or written wrongly.
+    pub fn report_lack(&mut self, table: &Place, key: &str, allowed: impl Display) {
+        if !self.is_stand_in(&table.key(key)) {
+            self.push(table, format_args!("no key `{key}`"), allowed);
+        }
+    }
+
+    /// Whether nobody wrote what is at this place.
+    pub fn is_stand_in(&self, at: &Place) -> bool {
+        self.stand_ins.iter().any(|stand_in| at.is_in(stand_in))
+    }
+
+    /// Reports one problem whatever else was found.
+    pub fn push(&mut self, at: &Place, found: impl Display, allowed: impl Display) {
         self.problems.push(Problem {
             line: Some(self.document.line(at)),
             key: at.to_string(),
@@ -55,7 +86,12 @@ impl<'d> Checker<'d> {
 
     /// A finite number above zero.
     pub fn positive(&mut self, at: &Place, value: f64) -> f64 {
-        self.within(at, value, f64::MIN_POSITIVE, GREATEST, "a number above 0")
+        self.within(at, value, f64::MIN_POSITIVE, GREATEST, "a number above 0 and at most 1e12")
+    }
+
+    /// A finite number from zero.
+    pub fn not_negative(&mut self, at: &Place, value: f64) -> f64 {
+        self.within(at, value, 0.0, GREATEST, "a number from 0 to 1e12")
     }
 
     /// A number from 0 to 1.
@@ -66,7 +102,7 @@ impl<'d> Checker<'d> {
     /// A number between two bounds, both included; NaN is outside.
     pub fn within(&mut self, at: &Place, value: f64, low: f64, high: f64, allowed: &str) -> f64 {
         if !(low..=high).contains(&value) {
-            self.report(at, value, allowed);
+            self.report(at, short(value), allowed);
         }
         value
     }
@@ -94,7 +130,7 @@ impl<'d> Checker<'d> {
         }
         self.report(
             at,
-            format_args!("{value:?} of length {norm}"),
+            format_args!("{value:?} of length {}", short(norm)),
             "a unit vector (length 1 within 1e-3; it is then renormalised)",
         );
         Vector3::x()
@@ -114,7 +150,8 @@ impl<'d> Checker<'d> {
         if along.abs() <= UNIT_TOLERANCE {
             return square / square.norm();
         }
-        self.report(
+        self.report_across(
+            &at.split().0,
             at,
             format_args!("{value:?}, whose component along `{to_key}` is {along}"),
             format_args!("a direction perpendicular to `{to_key}` within 1e-3"),
@@ -174,4 +211,9 @@ impl<'d> Checker<'d> {
         let y = (y - x * x.dot(&y)).normalize();
         Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()])
     }
+}
+
+/// A number without a row of zeros.
+fn short(value: f64) -> String {
+    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }

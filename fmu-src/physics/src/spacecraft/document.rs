@@ -1,13 +1,14 @@
 //! A TOML text that remembers where every key stands, so that an error found after parsing still names its line.
 
+use core::cell::RefCell;
 use core::fmt;
-use core::ops::Range;
 
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Problem, SpacecraftError};
+use super::reader::{Findings, Reader};
 
 /// A key with the tables and lists around it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -35,6 +36,19 @@ impl Place {
         self.with(Segment::Item(index))
     }
 
+    /// The table around this place, and its key there.
+    pub fn split(&self) -> (Self, String) {
+        match self.0.split_last() {
+            Some((last, rest)) => (Self(rest.to_vec()), Self(vec![last.clone()]).to_string()),
+            None => (Self::root(), String::new()),
+        }
+    }
+
+    /// Whether this place is the other one or inside of it.
+    pub fn is_in(&self, other: &Self) -> bool {
+        self.0.starts_with(&other.0)
+    }
+
     fn with(&self, segment: Segment) -> Self {
         let mut segments = self.0.clone();
         segments.push(segment);
@@ -59,14 +73,17 @@ impl fmt::Display for Place {
 pub(crate) struct Document<'t> {
     file: &'t str,
     text: &'t str,
-    root: Spanned<DeTable<'t>>,
+    root: Spanned<DeValue<'t>>,
 }
 
 impl<'t> Document<'t> {
     /// Parses the text; an error is one of TOML's grammar.
     pub fn parse(file: &'t str, text: &'t str) -> Result<Self, SpacecraftError> {
         match DeTable::parse(text) {
-            Ok(root) => Ok(Self { file, text, root }),
+            Ok(root) => {
+                let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
+                Ok(Self { file, text, root })
+            }
             Err(error) => Err(SpacecraftError {
                 file: file.to_owned(),
                 problems: vec![Problem {
@@ -79,18 +96,17 @@ impl<'t> Document<'t> {
         }
     }
 
-    /// Reads the document into a type; an error is an unknown, missing or ill-typed key.
-    pub fn read<T: DeserializeOwned>(&self) -> Result<T, SpacecraftError> {
-        toml::from_str(self.text).map_err(|error| {
-            let place = error.span().map(|span| self.place_at(&span)).unwrap_or_default();
-            let (found, allowed) = explain(error.message());
-            self.error(vec![Problem {
-                line: error.span().map(|span| line_of(self.text, span.start)),
-                key: place.to_string(),
-                found,
-                allowed,
-            }])
-        })
+    /// Reads the document into a type. Keys that are unknown, missing or of a wrong type are found all at once; the
+    /// type then holds values that nobody wrote.
+    pub fn read<T: DeserializeOwned>(&self) -> Result<(T, Findings), SpacecraftError> {
+        let findings = RefCell::default();
+        match T::deserialize(Reader::new(self.root.get_ref(), &findings)) {
+            Ok(value) => Ok((value, findings.into_inner())),
+            Err(error) => {
+                let (found, allowed) = (error.to_string(), String::new());
+                Err(self.error(vec![Problem { line: None, key: String::new(), found, allowed }]))
+            }
+        }
     }
 
     /// An error in this file.
@@ -101,7 +117,7 @@ impl<'t> Document<'t> {
     /// The line, from 1, of a place, or of the innermost table around it that exists.
     pub fn line(&self, place: &Place) -> usize {
         let mut start = self.root.span().start;
-        let mut table = Some(self.root.get_ref());
+        let mut table = self.root.get_ref().as_table();
         let mut value: Option<&DeValue<'_>> = None;
         for segment in &place.0 {
             let next = match segment {
@@ -120,44 +136,6 @@ impl<'t> Document<'t> {
         }
         line_of(self.text, start)
     }
-
-    /// The innermost key whose text holds the span.
-    fn place_at(&self, span: &Range<usize>) -> Place {
-        let mut place = Place::root();
-        descend_table(self.root.get_ref(), span, &mut place);
-        place
-    }
-}
-
-fn descend_table(table: &DeTable<'_>, span: &Range<usize>, place: &mut Place) -> bool {
-    for (key, value) in table.iter() {
-        let mut inner = place.key(key.get_ref());
-        if holds(&key.span(), span) || descend_value(value, span, &mut inner) {
-            *place = inner;
-            return true;
-        }
-    }
-    false
-}
-
-fn descend_value(value: &Spanned<DeValue<'_>>, span: &Range<usize>, place: &mut Place) -> bool {
-    let inside = match value.get_ref() {
-        DeValue::Table(table) => descend_table(table, span, place),
-        DeValue::Array(list) => list.iter().enumerate().any(|(i, item)| {
-            let mut inner = place.item(i);
-            let found = descend_value(item, span, &mut inner);
-            if found {
-                *place = inner;
-            }
-            found
-        }),
-        _ => false,
-    };
-    inside || holds(&value.span(), span)
-}
-
-fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {
-    outer.start <= inner.start && inner.end <= outer.end
 }
 
 fn line_of(text: &str, offset: usize) -> usize {
@@ -166,41 +144,6 @@ fn line_of(text: &str, offset: usize) -> usize {
 
 fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// Turns serde's message into what was found and what is allowed, with a hint for a misspelt key.
-fn explain(message: &str) -> (String, String) {
-    let message = one_line(message);
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    if message.starts_with("unknown field") || message.starts_with("unknown variant") {
-        let what = if message.starts_with("unknown field") { "the unknown key" } else { "the unknown word" };
-        let found = quoted.next().unwrap_or_default();
-        let known: Vec<&str> = quoted.collect();
-        let hint = nearest(found, &known).map(|key| format!(" (did you mean `{key}`?)")).unwrap_or_default();
-        return (format!("{what} `{found}`{hint}"), known.join(", "));
-    }
-    if message.starts_with("missing field") {
-        let key = quoted.next().unwrap_or_default();
-        return (format!("no key `{key}`"), format!("a value for `{key}`, which has no default"));
-    }
-    match message.split_once(", expected ") {
-        Some((found, expected)) => {
-            let found = match found.strip_prefix("invalid length ") {
-                Some(length) => format!("a list of length {length}"),
-                None => found
-                    .trim_start_matches("invalid type: ")
-                    .trim_start_matches("invalid value: ")
-                    .to_owned(),
-            };
-            let expected = match expected {
-                "f64" => "a number".to_owned(),
-                "i64" => "a whole number".to_owned(),
-                other => other.replace("an array of length", "a list of length"),
-            };
-            (found, expected)
-        }
-        None => (message, String::new()),
-    }
 }
 
 /// The candidate that takes the fewest edits, if it takes few.
@@ -238,7 +181,7 @@ fn edits(a: &str, b: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    //! Places found by name and places found by position are the same places.
+    //! Keys have lines, places contain each other, words have neighbours.
 
     use super::*;
 
@@ -256,10 +199,12 @@ mod tests {
     }
 
     #[test]
-    fn a_position_leads_back_to_its_key() {
-        let document = Document::parse("a.toml", TEXT).unwrap();
-        let offset = TEXT.find("-1").unwrap();
-        assert_eq!(document.place_at(&(offset..offset + 2)).to_string(), "plates[2].area");
+    fn places_contain_each_other_by_whole_keys() {
+        let plates = Place::root().key("plates");
+        let area = plates.item(1).key("area");
+        assert!(area.is_in(&plates) && area.is_in(&area) && area.is_in(&Place::root()));
+        assert!(!plates.is_in(&area) && !Place::root().key("plates2").is_in(&plates));
+        assert_eq!(area.split(), (plates.item(1), "area".to_owned()));
     }
 
     #[test]

@@ -21,7 +21,7 @@ const SLACK: f64 = 1e-9;
 /// above the sum of the two others. The error says which condition fails.
 pub fn check_inertia(inertia_kg_m2: &Matrix3<f64>) -> Result<(), &'static str> {
     if !inertia_kg_m2.iter().all(|moment| moment.abs() < 1e100) {
-        return Err("finite numbers");
+        return Err("finite numbers below 1e100 in magnitude");
     }
     let scale = inertia_kg_m2.amax();
     if (inertia_kg_m2 - inertia_kg_m2.transpose()).amax() > SLACK * scale {

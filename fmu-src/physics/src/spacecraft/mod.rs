@@ -16,6 +16,7 @@ mod error;
 mod mass;
 mod panel;
 mod polygon;
+mod reader;
 #[cfg(feature = "schema")]
 mod schema;
 mod surface;
@@ -86,8 +87,8 @@ impl Spacecraft {
     ///
     /// # Errors
     ///
-    /// Text that is not TOML, unknown, missing or ill-typed keys (the first one), or values no spacecraft can have
-    /// (all of them), each with line, key, what was found and what is allowed.
+    /// Text that is not TOML, or all unknown, missing and ill-typed keys and all values no spacecraft can have, each
+    /// with line, key, what was found and what is allowed.
     pub fn from_toml(file_name: &str, text: &str) -> Result<Self, SpacecraftError> {
         build::spacecraft(file_name, text)
     }

@@ -111,11 +111,14 @@ fn a_bad_value_is_named_with_its_line() {
             line: Some(11),
             key: "plates[1].area_m2".to_owned(),
             found: "-2".to_owned(),
-            allowed: "a number above 0".to_owned(),
+            allowed: "a number above 0 and at most 1e12".to_owned(),
         }
     );
     let shown = Spacecraft::from_toml("small.toml", &SMALL.replacen("2.0", "-2.0", 1)).unwrap_err();
-    assert_eq!(shown.to_string(), "small.toml:11: plates[1].area_m2: found -2, allowed: a number above 0");
+    assert_eq!(
+        shown.to_string(),
+        "small.toml:11: plates[1].area_m2: found -2, allowed: a number above 0 and at most 1e12"
+    );
 }
 
 #[test]
@@ -183,6 +186,126 @@ fn every_rule_has_its_message() {
 fn all_bad_values_are_reported_at_once() {
     let text = SMALL.replace("area_m2 = ", "area_m2 = -").replace("mass_kg = 100", "mass_kg = inf");
     assert_eq!(problems(&text).len(), 3);
+}
+
+#[test]
+fn numbers_beyond_all_measure_are_short_and_the_limit_is_named() {
+    for (area, found) in
+        [("1e300", "1e300"), ("inf", "inf"), ("1e-310", "1e-310"), ("1000000000001", "1000000000001")]
+    {
+        let beyond = problem("area_m2 = 2.0", &format!("area_m2 = {area}"));
+        assert_eq!(
+            (beyond.found.as_str(), beyond.allowed.as_str()),
+            (found, "a number above 0 and at most 1e12")
+        );
+    }
+    assert!(Spacecraft::from_toml("small.toml", &SMALL.replacen("2.0", "1e12", 1)).is_ok());
+    let far = problem("center_m = [0.0, -1.0, 0.0]", "center_m = [0.0, -1e300, 0.0]");
+    assert_eq!(
+        (far.found.as_str(), far.allowed.as_str()),
+        ("-1e300", "a finite number up to 1e12 in magnitude")
+    );
+    let long = problem("normal = [0.0, -1.0, 0.0]", "normal = [0.0, -1e100, 0.0]");
+    assert_eq!(long.found, "[0.0, -1e100, 0.0] of length 1e100");
+}
+
+/// Key and what was found, of every problem.
+fn told(text: &str) -> Vec<(String, String)> {
+    problems(text).into_iter().map(|problem| (problem.key, problem.found)).collect()
+}
+
+#[test]
+fn keys_types_and_values_are_told_together_in_the_order_of_the_file() {
+    let mut text = SMALL.to_owned();
+    for (from, to) in [
+        ("mass_kg = 100\n", ""),
+        ("center_of_mass_m = [0.0, 0.1, 0.0]", "center_of_mass_m = [0.0, \"low\", 0.0]"),
+        ("specular = 0.2", "specular = true"),
+        ("area_m2 = 2.0", "area_m2 = -2.0\nwings = 2"),
+        ("center_m = [2.0, 0.0, 0.0]", "center_m = [2.0, 0.0]\ntilt_sign = 1.5\ncontrol = \"sun\""),
+        ("capacity_n_m_s = 4.0", "capacity_n_m_s = 0\naxle = 1"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    let wanted = [
+        ("mass_properties", "no key `mass_kg`"),
+        ("mass_properties.center_of_mass_m[2]", "string \"low\""),
+        ("optics.white.specular", "boolean `true`"),
+        ("plates[1].area_m2", "-2"),
+        ("plates[1].wings", "the unknown key `wings`"),
+        ("panels[1].center_m", "a list of length 2"),
+        ("panels[1].tilt_sign", "floating point `1.5`"),
+        ("panels[1].control", "the unknown word `sun`"),
+        ("wheels[1].capacity_n_m_s", "0"),
+        ("wheels[1].axle", "the unknown key `axle`"),
+    ];
+    assert_eq!(told(&text), wanted.map(|(key, found)| (key.to_owned(), found.to_owned())));
+    let lines: Vec<_> = problems(&text).into_iter().map(|problem| problem.line).collect();
+    assert!(lines.is_sorted() && lines[0] == Some(3), "{lines:?}");
+}
+
+#[test]
+fn one_mistake_is_one_problem_whatever_hangs_on_it() {
+    for (from, to, key) in [
+        // What was misspelt is neither missing nor judged by what stands in for it.
+        ("mass_kg = 100", "mas_kg = 100", "mass_properties.mas_kg"),
+        ("diffuse = 0.5", "difuse = 0.5\nabsorptivity = 0.3", "optics.white.difuse"),
+        ("diffuse = 0.5", "diffuse = \"0.5\"\nabsorptivity = 0.3", "optics.white.diffuse"),
+        ("[mass_properties]", "[mass_propertys]", "mass_propertys"),
+        ("[[wheels]]", "[[wheel]]", "wheel"),
+        (
+            "inertia_kg_m2 = [[10, 0, 0], [0, 12, 0],",
+            "inertia_kg_m2 = [[10, 0], [0, 12, 0],",
+            "mass_properties.inertia_kg_m2[1]",
+        ),
+        ("[[wheels]]", "[sunshade]\nmodel = \"plates\"\n[[sunshade.plate]]\n[[wheels]]", "sunshade.plate"),
+        (
+            "area_m2 = 3.0",
+            "area_m2 = 3.0\nrear_optic = \"white\"\nthermal.rear_internal_heat_w = 1",
+            "panels[1].rear_optic",
+        ),
+        (
+            "area_m2 = 2.0\ncenter_m = [0.0, -1.0, 0.0]\n",
+            "polygon_m = [[0, 0, 0], [0, 1], [1, 0, 0]]\n",
+            "plates[1].polygon_m[2]",
+        ),
+        ("area_m2 = 3.0", "area_m2 = 3.0\naxis = 1\nzero_normal = [1, 0, 0]", "panels[1].axis"),
+    ] {
+        assert_eq!(problem(from, to).key, key);
+    }
+    let plate = SMALL.find("[[plates]]").unwrap()..SMALL.find("[[panels]]").unwrap();
+    let panel = SMALL.find("[[panels]]").unwrap()..SMALL.find("[[wheels]]").unwrap();
+    let bare = SMALL
+        .replace(&SMALL[plate.clone()], "")
+        .replace(&SMALL[panel], &SMALL[plate].replace("plates", "plate"));
+    assert_eq!(
+        told(&bare),
+        [("plate".to_owned(), "the unknown key `plate` (did you mean `plates`?)".to_owned())]
+    );
+    // Of an empty file only what it must have is told.
+    let lacks = ["name", "mass_properties", "optics"].map(|key| (String::new(), format!("no key `{key}`")));
+    assert_eq!(told("").split_last().unwrap(), (&(String::new(), "no surface".to_owned()), &lacks[..]));
+}
+
+#[test]
+fn numbers_are_read_in_every_form_of_toml() {
+    let read = |area: &str| {
+        let text = SMALL.replacen("area_m2 = 2.0", &format!("area_m2 = {area}"), 1);
+        Spacecraft::from_toml("small.toml", &text).map(|craft| craft.plates[0].area_m2)
+    };
+    for (text, area_m2) in [
+        ("1_000.5", 1000.5),
+        ("0x10", 16.0),
+        ("+2e-1", 0.2),
+        ("3", 3.0),
+        ("0b11", 3.0),
+        ("9223372036", 9_223_372_036.0),
+    ] {
+        assert_eq!(read(text), Ok(area_m2), "{text}");
+    }
+    assert_eq!(read("1e999").unwrap_err().problems[0].found, "floating point `1e999`");
+    assert_eq!(read("1979-05-27").unwrap_err().problems[0].found, "the time 1979-05-27");
 }
 
 #[test]

@@ -1,0 +1,232 @@
+//! From a TOML value to a type, going on behind every mistake: an unknown key is passed over, and a value that is
+//! missing or of the wrong type is stood in for, so that one reading finds them all.
+
+use core::cell::RefCell;
+
+use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
+use serde::de::{Deserializer, Error as _, IntoDeserializer, Visitor};
+use serde::forward_to_deserialize_any;
+use toml::de::{DeTable, DeValue};
+
+use super::document::{Place, nearest};
+
+/// What a reading found.
+#[derive(Default)]
+pub(crate) struct Findings {
+    /// Place, what was found there and what is allowed.
+    pub problems: Vec<(Place, String, String)>,
+    /// Where a value stands in that nobody wrote.
+    pub stand_ins: Vec<Place>,
+}
+
+/// A value, or the lack of one, at a place.
+pub(super) struct Reader<'r> {
+    value: Option<&'r DeValue<'r>>,
+    /// Whether a lack is a problem of its own; inside of what is missing it is not.
+    is_expected: bool,
+    place: Place,
+    findings: &'r RefCell<Findings>,
+}
+
+impl<'r> Reader<'r> {
+    /// Of a whole file.
+    pub fn new(root: &'r DeValue<'r>, findings: &'r RefCell<Findings>) -> Self {
+        Self { value: Some(root), is_expected: true, place: Place::root(), findings }
+    }
+
+    /// The value if it is what is allowed; otherwise the problem is noted and something else will stand in.
+    fn given<T>(&self, take: impl FnOnce(&'r DeValue<'r>) -> Option<T>, allowed: &str) -> Option<T> {
+        let taken = self.value.and_then(take);
+        if taken.is_none() && self.is_expected {
+            let problem = match self.value {
+                Some(value) => (self.place.clone(), shown(value), allowed.to_owned()),
+                None => {
+                    let (table, key) = self.place.split();
+                    let allowed = format!("a value for `{key}`, which has no default");
+                    (table, format!("no key `{key}`"), allowed)
+                }
+            };
+            self.note(problem);
+            self.stand_in(self.place.clone());
+        }
+        taken
+    }
+
+    fn note(&self, problem: (Place, String, String)) {
+        self.findings.borrow_mut().problems.push(problem);
+    }
+
+    fn stand_in(&self, place: Place) {
+        self.findings.borrow_mut().stand_ins.push(place);
+    }
+
+    fn inside(&self, place: Place, value: Option<&'r DeValue<'r>>, is_expected: bool) -> Self {
+        Self { value, is_expected, place, findings: self.findings }
+    }
+
+    /// The values of the known keys; unknown ones are noted, with the key that was meant standing in.
+    fn fields(&self, keys: &'static [&'static str]) -> Vec<(&'r str, Self)> {
+        let table = self.given(DeValue::as_table, "a table");
+        let value = |key: &str| table.and_then(|table| get(table, key));
+        let mut misspelt = Vec::new();
+        for key in table.into_iter().flat_map(DeTable::keys).map(|key| key.get_ref()) {
+            if keys.contains(&key.as_ref()) {
+                continue;
+            }
+            let absent: Vec<&str> = keys.iter().copied().filter(|known| value(known).is_none()).collect();
+            let meant = nearest(key, &absent);
+            let found = format!("the unknown key `{key}`{}", hint(meant));
+            self.note((self.place.key(key), found, keys.join(", ")));
+            if let Some(meant) = meant {
+                self.stand_in(self.place.key(meant));
+                misspelt.push(meant);
+            }
+        }
+        let is_expected = |key| table.is_some() && !misspelt.contains(&key);
+        keys.iter()
+            .map(|key| (*key, self.inside(self.place.key(key), value(key), is_expected(*key))))
+            .collect()
+    }
+
+    fn integer<T: TryFrom<i64>>(&self, allowed: &str, stand_in: T) -> T {
+        let whole = |value: &DeValue<'_>| {
+            let integer = value.as_integer()?;
+            T::try_from(i64::from_str_radix(integer.as_str(), integer.radix()).ok()?).ok()
+        };
+        self.given(whole, allowed).unwrap_or(stand_in)
+    }
+}
+
+/// The value of a key.
+pub(super) fn get<'r>(table: &'r DeTable<'r>, key: &str) -> Option<&'r DeValue<'r>> {
+    table.iter().find(|(found, _)| found.get_ref() == key).map(|(_, value)| value.get_ref())
+}
+
+fn real(value: &DeValue<'_>) -> Option<f64> {
+    if let Some(integer) = value.as_integer() {
+        return i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64);
+    }
+    let text = value.as_float()?.as_str();
+    // Infinity is a number only where it is written as such.
+    text.parse().ok().filter(|number: &f64| !number.is_infinite() || text.contains("inf"))
+}
+
+fn shown(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("string {text:?}"),
+        DeValue::Integer(integer) => format!("integer `{}`", integer.as_str()),
+        DeValue::Float(float) => format!("floating point `{}`", float.as_str()),
+        DeValue::Boolean(truth) => format!("boolean `{truth}`"),
+        DeValue::Datetime(time) => format!("the time {time}"),
+        DeValue::Array(_) => "a list".to_owned(),
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+fn hint(meant: Option<&str>) -> String {
+    meant.map(|word| format!(" (did you mean `{word}`?)")).unwrap_or_default()
+}
+
+impl<'de> Deserializer<'de> for Reader<'_> {
+    type Error = Error;
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Error> {
+        Err(Error::custom(format!("{}: a type that no file has", self.place)))
+    }
+
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_f64(self.given(real, "a number").unwrap_or(0.0))
+    }
+
+    fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_i64(self.integer("a whole number", 0))
+    }
+
+    fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_u32(self.integer("a whole number from 0 to 4294967295", 0))
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_bool(self.given(DeValue::as_bool, "true or false").unwrap_or(false))
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_str(self.given(DeValue::as_str, "a string").unwrap_or_default())
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        if self.value.is_some() { visitor.visit_some(self) } else { visitor.visit_none() }
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        words: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        let text = self.given(DeValue::as_str, &words.join(", "));
+        let known = text.and_then(|text| words.iter().find(|word| **word == text));
+        if let (Some(text), None) = (text, known) {
+            let found = format!("the unknown word `{text}`{}", hint(nearest(text, words)));
+            self.note((self.place.clone(), found, words.join(", ")));
+            self.stand_in(self.place.clone());
+        }
+        visitor.visit_enum(known.or(words.first()).copied().unwrap_or_default().into_deserializer())
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        let list = self.given(DeValue::as_array, "a list");
+        let mut items = Vec::new();
+        for (i, value) in list.into_iter().flat_map(|list| list.iter()).enumerate() {
+            items.push(self.inside(self.place.item(i), Some(value.get_ref()), true));
+        }
+        visitor.visit_seq(SeqDeserializer::new(items.into_iter()))
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Error> {
+        let allowed = format!("a list of length {length}");
+        let list = self.given(DeValue::as_array, &allowed);
+        if let Some(list) = list.filter(|list| list.len() != length) {
+            self.note((self.place.clone(), format!("a list of length {}", list.len()), allowed));
+            self.stand_in(self.place.clone());
+        }
+        let mut items = Vec::new();
+        for i in 0..length {
+            let value = list.and_then(|list| list.get(i)).map(toml::Spanned::get_ref);
+            items.push(self.inside(self.place.item(i), value, value.is_some()));
+        }
+        visitor.visit_seq(SeqDeserializer::new(items.into_iter()))
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        let table = self.given(DeValue::as_table, "a table");
+        let mut entries = Vec::new();
+        for (key, value) in table.into_iter().flat_map(|table| table.iter()) {
+            let key = key.get_ref().as_ref();
+            entries.push((key, self.inside(self.place.key(key), Some(value.get_ref()), true)));
+        }
+        visitor.visit_map(MapDeserializer::new(entries.into_iter()))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        keys: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        visitor.visit_map(MapDeserializer::new(self.fields(keys).into_iter()))
+    }
+
+    forward_to_deserialize_any! {
+        i8 i16 i32 i128 u8 u16 u64 u128 f32 char str bytes byte_buf unit unit_struct newtype_struct tuple_struct
+        identifier ignored_any
+    }
+}
+
+impl IntoDeserializer<'_> for Reader<'_> {
+    type Deserializer = Self;
+
+    fn into_deserializer(self) -> Self {
+        self
+    }
+}
