@@ -73,10 +73,11 @@ impl<'d> Checker<'d> {
         });
     }
 
-    /// Whether something was reported at this very place.
+    /// Whether something was reported at this place or inside of it.
     pub fn has_reported(&self, at: &Place) -> bool {
         let key = at.to_string();
-        self.problems.iter().any(|problem| problem.key == key)
+        let is_inside = |rest: &str| rest.is_empty() || rest.starts_with(['.', '[']);
+        self.problems.iter().any(|problem| problem.key.strip_prefix(&key).is_some_and(is_inside))
     }
 
     /// A number, not NaN, infinite or beyond all measure.

@@ -29,6 +29,8 @@ mod tests;
 use nalgebra::Vector3;
 use serde::Serialize;
 
+pub(crate) use checker::Checker;
+pub(crate) use document::{Document, Place, nearest};
 pub use error::{Problem, SpacecraftError};
 pub use mass::{MassProperties, check_inertia};
 pub use panel::{Panel, PanelControl};

@@ -4,7 +4,8 @@
 
 use std::{path::Path, process::ExitCode};
 
-use toml::{Table, Value};
+use loader::Described;
+use toml::{Table, Value, de::DeTable};
 
 use crate::{
     app::Outcome,
@@ -22,7 +23,7 @@ pub fn run(arguments: &Check) -> Outcome {
     let binary = template.binary()?;
     let own = source::model_of(&template, &binary).ok();
     let mut refusals = Vec::new();
-    for model in binary.models()?.iter().filter(|model| model.setup_file.is_some()) {
+    for model in binary.models()?.into_iter().filter(|model| model.setup_file.is_some()) {
         match binary.describe(&model.model, Some(&file), Some(&text)) {
             // Each model takes its own kind of file; one that takes this one is enough.
             Ok(described) => {
@@ -35,19 +36,34 @@ pub fn run(arguments: &Check) -> Outcome {
                 ))?;
                 return Ok(ExitCode::SUCCESS);
             }
-            Err(reason) => refusals.push((model.model.clone(), reason)),
+            Err(reason) => refusals.push((model, reason)),
         }
     }
     // The kinds of file are far apart: what the other models miss in it would bury what is wrong.
-    let meant = refusals.iter().find(|(model, _)| Some(model) == own.as_ref()).or(refusals.first());
-    let Some((model, problems)) = meant else {
+    let is_own = |model: &Described| Some(&model.model) == own.as_ref();
+    let rank = |model: &Described| (common_keys(&text, &model.default_setup), is_own(model));
+    let Some(fittest) = refusals.iter().max_by_key(|(model, _)| rank(model)) else {
         return Err(format!("{}: none of its models reads a file", template_path.display()).into());
     };
+    let takes_the_same =
+        |model: &Described| binary.describe(&model.model, None, Some(&fittest.0.default_setup)).is_ok();
+    let judge = refusals.iter().find(|(model, _)| is_own(model) && takes_the_same(model));
+    let (model, problems) = judge.unwrap_or(fittest);
     output::print(problems)?;
-    let count = problems.lines().count();
+    let count = problems.lines().filter(|line| line.starts_with(&file)).count().max(1);
     let plural = if count == 1 { "problem" } else { "problems" };
-    output::note(&format!("{file}: {count} {plural}; {model} cannot be packed with it"));
+    let model = &model.model;
+    output::note(&format!(
+        "{file}: {count} {plural}, judged as a file of {model}, which cannot be packed with it"
+    ));
     Ok(ExitCode::FAILURE)
+}
+
+/// How many keys two files have in common, tables inside of tables left out.
+fn common_keys(one: &str, other: &str) -> usize {
+    // What can be read of a torn file tells its kind too.
+    let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
+    one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }
 
 /// How many of each part the file describes: its lists of tables, and what its sunshade is given as.
@@ -80,6 +96,14 @@ mod tests {
     //! Parts are counted wherever they stand, and only parts.
 
     use super::*;
+
+    #[test]
+    fn keys_in_common_are_counted_even_of_a_torn_file() {
+        let file = "name = 1\n[mass]\nkg = 2\n[[wheels]]\nkg = 3\n";
+        assert_eq!(common_keys(file, "kg = 1\n[mass]\n[[wheels]]\n[[wheels]]\n"), 2);
+        assert_eq!(common_keys("name = 'A\n[mass]\n[[wheels]]\n", file), 3);
+        assert_eq!(common_keys("", file), 0);
+    }
 
     #[test]
     fn lists_of_tables_are_counted() {

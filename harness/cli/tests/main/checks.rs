@@ -2,7 +2,9 @@
 
 use std::{fs, path::Path};
 
-use crate::{packed, run, shown};
+use crate::{library, packed, run, shown};
+
+const RESOURCES: &str = "../../fmu-src/resources";
 
 /// Unpacks the FMU and changes its XML.
 fn changed(fmu: &Path, from: &str, to: &str) -> tempfile::TempDir {
@@ -108,4 +110,55 @@ fn an_fmu_that_dies_is_a_finding() {
     fs::write(&library, &bytes[..bytes.len() / 3]).unwrap();
     let text = run(&["check", shown(folder.path())], 1);
     assert!(text.contains("WRONG   "), "{text}");
+}
+
+/// A shipped model with a shipped spacecraft, unpacked.
+fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
+    let room = tempfile::tempdir().unwrap();
+    let fmu = room.path().join("x.fmu");
+    let toml = format!("{RESOURCES}/{spacecraft}");
+    let library = library()?;
+    run(
+        &[
+            "pack",
+            "--library",
+            shown(&library),
+            "--model",
+            model,
+            "--spacecraft",
+            &toml,
+            "--output",
+            shown(&fmu),
+        ],
+        0,
+    );
+    Some(room)
+}
+
+#[test]
+fn a_spacecraft_is_judged_by_the_model_it_is_for() {
+    let Some(room) = shipped("MomentumPlant", "messenger.toml") else { return };
+    let template = room.path().join("x.fmu");
+    let toml = room.path().join("my.toml");
+    let check = |text: &str| {
+        fs::write(&toml, text).unwrap();
+        run(&["check", shown(&toml), "--template", shown(&template)], 1)
+    };
+    let ace = fs::read_to_string(format!("{RESOURCES}/ace.toml")).unwrap();
+    let line = 1 + ace[..ace.find("dry_mass_kg").unwrap()].matches('\n').count();
+    let text = check(
+        &ace.replace("dry_mass_kg = 562.0", "dry_mass_kg = -1").replace("sectors = 16384", "sektors = 1"),
+    );
+    assert!(
+        text.contains(&format!("my.toml:{line}: mass_properties.dry_mass_kg: found -1, allowed: ")),
+        "{text}"
+    );
+    assert!(text.contains("2 problems, judged as a file of SpinPlant"), "{text}");
+    // Torn at its end, it is still a spinner's.
+    assert!(check(&format!("{ace}\n[[[")).contains("1 problem, judged as a file of SpinPlant"));
+    // Of the models that take the same file, the template's.
+    let orbiter = fs::read_to_string(format!("{RESOURCES}/messenger-thermal.toml")).unwrap();
+    let text = check(&orbiter.replace("mass_kg = 700", "mass_kg = -700"));
+    assert!(text.contains("1 problem, judged as a file of MomentumPlant"), "{text}");
+    assert!(check("").contains("judged as a file of MomentumPlant"));
 }

@@ -1,12 +1,16 @@
-//! Reading and checking the spinner's file; every refusal names file, key, what was found and what is allowed.
+//! Reading and checking the spinner's file; every problem is told by file, line, key, what was found and what is
+//! allowed.
 
 use nalgebra::Vector3;
 use serde::Deserialize;
 
 use super::{
-    Group, L1Orbit, Limits, MOST_THRUSTERS, MassProperties, Spinner, SpinnerError, StarTracker, SunSensor,
-    Thruster,
+    Group, L1Orbit, Limits, MOST_THRUSTERS, MassProperties, Spinner, StarTracker, SunSensor, Thruster,
 };
+use crate::spacecraft::{Checker, Document, Place, SpacecraftError, nearest};
+
+/// Greatest distance, in m: planets and their Lagrange points are nearer to the Sun.
+const GREATEST_DISTANCE_M: f64 = 1e13;
 
 /// Standard gravity, in m/s2 (3rd CGPM 1901): specific impulse in seconds times this is exhaust speed.
 const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
@@ -19,8 +23,7 @@ struct File {
     damper: DamperEntry,
     thrusters: ThrustersEntry,
     thruster: Vec<ThrusterEntry>,
-    #[serde(default)]
-    group: Vec<GroupEntry>,
+    group: Option<Vec<GroupEntry>>,
     star_tracker: StarTracker,
     sun_sensor: SunSensor,
     limits: Limits,
@@ -57,61 +60,35 @@ struct GroupEntry {
     opposite: Option<String>,
 }
 
-pub(super) fn parse(file: &str, text: &str) -> Result<Spinner, SpinnerError> {
-    let raw: File = toml::from_str(text).map_err(|error| SpinnerError::Syntax {
-        file: file.to_owned(),
-        message: error.to_string().trim_end().to_owned(),
-    })?;
-    Check { file }.spinner(raw)
+pub(super) fn parse(file: &str, text: &str) -> Result<Spinner, SpacecraftError> {
+    let document = Document::parse(file, text)?;
+    let (raw, findings) = document.read::<File>()?;
+    let mut builder = Builder { check: Checker::new(&document, findings) };
+    let spinner = builder.spinner(raw);
+    builder.check.finish(spinner)
 }
 
-struct Check<'a> {
-    file: &'a str,
+/// Gathers problems on the way through the file.
+struct Builder<'d> {
+    check: Checker<'d>,
 }
 
-impl Check<'_> {
-    fn refuse(&self, key: &str, found: impl ToString, allowed: &str) -> SpinnerError {
-        SpinnerError::Value {
-            file: self.file.to_owned(),
-            key: key.to_owned(),
-            found: found.to_string(),
-            allowed: allowed.to_owned(),
-        }
-    }
-
-    fn positive(&self, key: &str, value: f64) -> Result<(), SpinnerError> {
-        if value.is_finite() && value > 0.0 {
-            return Ok(());
-        }
-        Err(self.refuse(key, value, "a positive number"))
-    }
-
-    fn not_negative(&self, key: &str, value: f64) -> Result<(), SpinnerError> {
-        if value.is_finite() && value >= 0.0 {
-            return Ok(());
-        }
-        Err(self.refuse(key, value, "0 or a positive number"))
-    }
-
-    fn finite(&self, key: &str, values: &[f64]) -> Result<(), SpinnerError> {
-        match values.iter().find(|value| !value.is_finite()) {
-            Some(value) => Err(self.refuse(key, value, "finite numbers")),
-            None => Ok(()),
-        }
-    }
-
-    fn spinner(&self, raw: File) -> Result<Spinner, SpinnerError> {
-        self.mass_properties(&raw.mass_properties)?;
-        self.not_negative("damper.time_constant_s", raw.damper.time_constant_s)?;
-        self.positive("thrusters.resolution_s", raw.thrusters.resolution_s)?;
-        self.positive("thrusters.specific_impulse_s", raw.thrusters.specific_impulse_s)?;
+impl Builder<'_> {
+    fn spinner(&mut self, raw: File) -> Spinner {
+        let root = Place::root();
+        self.mass_properties(&root.key("mass_properties"), &raw.mass_properties);
+        self.check.not_negative(&root.key("damper").key("time_constant_s"), raw.damper.time_constant_s);
+        let common = root.key("thrusters");
+        self.check.positive(&common.key("resolution_s"), raw.thrusters.resolution_s);
+        self.check.positive(&common.key("specific_impulse_s"), raw.thrusters.specific_impulse_s);
         let exhaust_m_s = raw.thrusters.specific_impulse_s * STANDARD_GRAVITY_M_S2;
-        let thrusters = self.thrusters(raw.thruster, exhaust_m_s)?;
-        let groups = self.groups(raw.group, &thrusters)?;
-        self.sensors(&raw.star_tracker, &raw.sun_sensor)?;
-        self.limits(&raw.limits)?;
-        self.orbit(&raw.l1_orbit)?;
-        Ok(Spinner {
+        let thrusters = self.thrusters(&root.key("thruster"), raw.thruster, exhaust_m_s);
+        let groups = self.groups(&root.key("group"), raw.group.unwrap_or_default(), &thrusters);
+        self.star_tracker(&root.key("star_tracker"), &raw.star_tracker);
+        self.sun_sensor(&root.key("sun_sensor"), &raw.sun_sensor);
+        self.limits(&root.key("limits"), &raw.limits);
+        self.orbit(&root.key("l1_orbit"), &raw.l1_orbit);
+        Spinner {
             name: raw.name,
             mass_properties: raw.mass_properties,
             damper_time_constant_s: raw.damper.time_constant_s,
@@ -122,170 +99,185 @@ impl Check<'_> {
             sun_sensor: raw.sun_sensor,
             limits: raw.limits,
             l1_orbit: raw.l1_orbit,
-        })
+        }
     }
 
-    fn mass_properties(&self, mass: &MassProperties) -> Result<(), SpinnerError> {
+    fn mass_properties(&mut self, at: &Place, mass: &MassProperties) {
+        let points = at.key("propellant_kg");
         let count = mass.propellant_kg.len();
-        let rising = mass.propellant_kg.windows(2).all(|pair| pair[0] < pair[1]);
-        if count < 2 || !rising || mass.propellant_kg.iter().any(|x| !(x.is_finite() && *x >= 0.0)) {
+        for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
+            self.check.not_negative(&points.item(i), propellant_kg);
+        }
+        if count < 2 || mass.propellant_kg.windows(2).any(|pair| pair[0] >= pair[1]) {
             let found = format!("{:?}", mass.propellant_kg);
-            return Err(self.refuse(
-                "mass_properties.propellant_kg",
-                found,
-                "two or more rising numbers from 0 on",
-            ));
+            self.check.report(&points, found, "two or more rising numbers");
         }
-        for (key, values) in [
-            ("mass_properties.spin_inertia_kg_m2", &mass.spin_inertia_kg_m2),
-            ("mass_properties.inertia_ratio", &mass.inertia_ratio),
-        ] {
-            if values.len() != count || values.iter().any(|x| !(x.is_finite() && *x > 0.0)) {
-                let allowed = format!("{count} positive numbers, one for each propellant_kg");
-                return Err(self.refuse(key, format!("{values:?}"), &allowed));
+        for (key, values) in
+            [("spin_inertia_kg_m2", &mass.spin_inertia_kg_m2), ("inertia_ratio", &mass.inertia_ratio)]
+        {
+            let list = at.key(key);
+            for (i, &value) in values.iter().enumerate() {
+                self.check.positive(&list.item(i), value);
+            }
+            if values.len() != count {
+                let allowed = format!("{count} of them, one for each of propellant_kg");
+                self.check.report_across(at, &list, format_args!("a list of {}", values.len()), allowed);
             }
         }
-        self.positive("mass_properties.dry_mass_kg", mass.dry_mass_kg)?;
-        self.positive("mass_properties.transverse_quotient", mass.transverse_quotient)?;
-        let most = mass.propellant_kg.last().copied().unwrap_or(0.0);
-        if !(mass.initial_propellant_kg >= 0.0 && mass.initial_propellant_kg <= most) {
-            let allowed = format!("0 to {most}, the last propellant_kg");
-            return Err(self.refuse(
-                "mass_properties.initial_propellant_kg",
+        self.check.positive(&at.key("dry_mass_kg"), mass.dry_mass_kg);
+        self.check.positive(&at.key("transverse_quotient"), mass.transverse_quotient);
+        let most_kg = mass.propellant_kg.last().copied().unwrap_or(0.0);
+        if !(0.0..=most_kg).contains(&mass.initial_propellant_kg) {
+            let allowed = format!("a number from 0 to {most_kg}, the last of propellant_kg");
+            self.check.report_across(
+                at,
+                &at.key("initial_propellant_kg"),
                 mass.initial_propellant_kg,
-                &allowed,
-            ));
+                allowed,
+            );
         }
-        for &propellant in &mass.propellant_kg {
-            if let Err(error) = mass.inertia(propellant) {
-                let key = format!("mass_properties at {propellant} kg");
-                return Err(self.refuse(&key, error, "moments of inertia that a body can have"));
+        let shares = ["propellant_kg", "spin_inertia_kg_m2", "inertia_ratio", "transverse_quotient"];
+        if shares.iter().any(|key| self.check.has_reported(&at.key(key))) {
+            return;
+        }
+        for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
+            if let Err(error) = mass.inertia(propellant_kg) {
+                let place = at.key("inertia_ratio").item(i);
+                self.check.report_across(at, &place, error, "moments of inertia that a body can have");
             }
         }
-        Ok(())
     }
 
-    fn thrusters(
-        &self,
-        entries: Vec<ThrusterEntry>,
-        exhaust_m_s: f64,
-    ) -> Result<Vec<Thruster>, SpinnerError> {
+    fn thrusters(&mut self, at: &Place, entries: Vec<ThrusterEntry>, exhaust_m_s: f64) -> Vec<Thruster> {
         if entries.is_empty() || entries.len() > MOST_THRUSTERS {
             let allowed = format!("1 to {MOST_THRUSTERS} of them");
-            return Err(self.refuse("thruster", format!("a list of {}", entries.len()), &allowed));
+            self.check.report(at, format_args!("a list of {}", entries.len()), allowed);
         }
         let mut thrusters: Vec<Thruster> = Vec::with_capacity(entries.len());
         for (i, entry) in entries.into_iter().enumerate() {
-            let key = |field: &str| format!("thruster[{}].{field}", i + 1);
-            if entry.name.is_empty() || thrusters.iter().any(|t| t.name == entry.name) {
-                return Err(self.refuse(&key("name"), format!("\"{}\"", entry.name), "a name of its own"));
-            }
-            self.positive(&key("force_n"), entry.force_n)?;
-            self.finite(&key("position_m"), &entry.position_m)?;
+            let at = at.item(i);
+            self.own_name(&at, &entry.name, thrusters.iter().any(|thruster| thruster.name == entry.name));
+            self.check.positive(&at.key("force_n"), entry.force_n);
+            let position_m = self.check.vector(&at.key("position_m"), entry.position_m);
+            self.check.unit_vector(&at.key("direction"), entry.direction);
+            // Not the unit vector: scaled once, the force has the bits that GUIDs were made of.
             let direction = Vector3::from(entry.direction);
-            let norm = direction.norm();
-            if norm.is_nan() || (norm - 1.0).abs() > 1e-3 {
-                let found = format!("{:?} of length {norm}", entry.direction);
-                return Err(self.refuse(&key("direction"), found, "a unit vector (within 1e-3)"));
-            }
-            let force_body_n = direction * (entry.force_n / norm);
+            let force_body_n = direction * (entry.force_n / direction.norm());
             thrusters.push(Thruster {
                 name: entry.name,
                 force_body_n,
-                torque_body_n_m: Vector3::from(entry.position_m).cross(&force_body_n),
+                torque_body_n_m: position_m.cross(&force_body_n),
                 flow_kg_s: entry.force_n / exhaust_m_s,
             });
         }
-        Ok(thrusters)
+        thrusters
     }
 
-    fn groups(&self, entries: Vec<GroupEntry>, thrusters: &[Thruster]) -> Result<Vec<Group>, SpinnerError> {
-        let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
+    fn groups(&mut self, at: &Place, entries: Vec<GroupEntry>, thrusters: &[Thruster]) -> Vec<Group> {
+        let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+        let thruster_names: Vec<&str> = thrusters.iter().map(|thruster| thruster.name.as_str()).collect();
         let mut groups = Vec::with_capacity(entries.len());
-        for (i, entry) in entries.into_iter().enumerate() {
-            let key = |field: &str| format!("group[{}].{field}", i + 1);
-            let taken = names.iter().take(i).any(|name| *name == entry.name)
-                || thrusters.iter().any(|thruster| thruster.name == entry.name);
-            if entry.name.is_empty() || taken {
-                return Err(self.refuse(&key("name"), format!("\"{}\"", entry.name), "a name of its own"));
+        for (i, entry) in entries.iter().enumerate() {
+            let (at, name) = (at.item(i), entry.name.as_str());
+            let is_taken = names.iter().take(i).any(|other| *other == name) || thruster_names.contains(&name);
+            self.own_name(&at, name, is_taken);
+            let place = at.key("thrusters");
+            if entry.thrusters.is_empty() {
+                self.check.report(&place, "an empty list", "at least one name of a thruster");
             }
             let mut mask = 0_u32;
-            for name in &entry.thrusters {
-                match thrusters.iter().position(|thruster| thruster.name == *name) {
-                    Some(k) => mask |= 1 << k,
-                    None => {
-                        return Err(self.refuse(
-                            &key("thrusters"),
-                            format!("\"{name}\""),
-                            "names of thrusters",
-                        ));
-                    }
-                }
+            for (k, name) in entry.thrusters.iter().enumerate() {
+                let known = self.known(&Place::root().key("thruster"), &place.item(k), name, &thruster_names);
+                mask |= known.filter(|k| *k < MOST_THRUSTERS).map_or(0, |k| 1 << k);
             }
-            if mask == 0 {
-                return Err(self.refuse(&key("thrusters"), "an empty list", "at least one name"));
-            }
-            let opposite = match &entry.opposite {
-                None => None,
-                Some(name) => match names.iter().position(|other| other == name) {
-                    Some(index) => Some(index),
-                    None => {
-                        return Err(self.refuse(&key("opposite"), format!("\"{name}\""), "name of a group"));
-                    }
-                },
-            };
-            groups.push(Group { name: entry.name, mask, opposite });
+            let other = entry.opposite.as_deref();
+            let opposite = other.and_then(|other| {
+                self.known(&Place::root().key("group"), &at.key("opposite"), other, &names)
+            });
+            groups.push(Group { name: entry.name.clone(), mask, opposite });
         }
-        Ok(groups)
+        groups
     }
 
-    fn sensors(&self, tracker: &StarTracker, sun: &SunSensor) -> Result<(), SpinnerError> {
-        self.finite("star_tracker.azimuth_deg", &[tracker.azimuth_deg])?;
-        if !(tracker.field_of_view_deg > 0.0 && tracker.field_of_view_deg <= 180.0) {
-            return Err(self.refuse(
-                "star_tracker.field_of_view_deg",
-                tracker.field_of_view_deg,
-                "above 0, to 180",
-            ));
+    fn own_name(&mut self, at: &Place, name: &str, is_taken: bool) {
+        if name.is_empty() || is_taken {
+            self.check.report(&at.key("name"), format_args!("{name:?}"), "a name of its own");
         }
-        if tracker.every == 0 || tracker.pickets == 0 || !tracker.pickets.is_multiple_of(4) {
-            let found = format!("{} pickets, every {}th", tracker.pickets, tracker.every);
-            return Err(self.refuse("star_tracker", found, "pickets a multiple of 4, every at least 1"));
-        }
-        self.not_negative("star_tracker.noise_deg", tracker.noise_deg)?;
-        self.finite("sun_sensor.azimuth_deg", &[sun.azimuth_deg])?;
-        self.not_negative("sun_sensor.noise_deg", sun.noise_deg)?;
-        if sun.sectors == 0 {
-            return Err(self.refuse("sun_sensor.sectors", 0, "at least 1"));
-        }
-        Ok(())
     }
 
-    fn limits(&self, limits: &Limits) -> Result<(), SpinnerError> {
+    /// Which of the names in `list` this is.
+    fn known(&mut self, list: &Place, at: &Place, name: &str, names: &[&str]) -> Option<usize> {
+        let index = names.iter().position(|known| *known == name);
+        if index.is_none() {
+            let meant = nearest(name, names).map(|meant| format!(" (did you mean {meant:?}?)"));
+            let found = format!("the unknown name {name:?}{}", meant.unwrap_or_default());
+            self.check.report_across(
+                list,
+                at,
+                found,
+                format_args!("a name under [[{list}]]: {}", names.join(", ")),
+            );
+        }
+        index
+    }
+
+    fn star_tracker(&mut self, at: &Place, tracker: &StarTracker) {
+        self.check.finite(&at.key("azimuth_deg"), tracker.azimuth_deg);
+        let field_deg = tracker.field_of_view_deg;
+        let allowed = "an angle above 0 and at most 180 deg";
+        self.check.within(&at.key("field_of_view_deg"), field_deg, f64::MIN_POSITIVE, 180.0, allowed);
+        if tracker.pickets == 0 || !tracker.pickets.is_multiple_of(4) {
+            self.check.report(&at.key("pickets"), tracker.pickets, "a multiple of 4, at least 4");
+        }
+        self.at_least_one(&at.key("every"), tracker.every);
+        self.check.not_negative(&at.key("noise_deg"), tracker.noise_deg);
+    }
+
+    fn sun_sensor(&mut self, at: &Place, sensor: &SunSensor) {
+        self.check.finite(&at.key("azimuth_deg"), sensor.azimuth_deg);
+        self.check.not_negative(&at.key("noise_deg"), sensor.noise_deg);
+        self.at_least_one(&at.key("sectors"), sensor.sectors);
+    }
+
+    fn at_least_one(&mut self, at: &Place, count: u32) {
+        if count == 0 {
+            self.check.report(at, count, "at least 1");
+        }
+    }
+
+    fn limits(&mut self, at: &Place, limits: &Limits) {
         for (key, value) in [
-            ("limits.sun_angle_deg", limits.sun_angle_deg),
-            ("limits.earth_angle_deg", limits.earth_angle_deg),
-            ("limits.spin_rate_rpm", limits.spin_rate_rpm),
-            ("limits.spin_rate_tolerance_rpm", limits.spin_rate_tolerance_rpm),
-            ("limits.period_variation_s", limits.period_variation_s),
+            ("sun_angle_deg", limits.sun_angle_deg),
+            ("earth_angle_deg", limits.earth_angle_deg),
+            ("spin_rate_rpm", limits.spin_rate_rpm),
+            ("spin_rate_tolerance_rpm", limits.spin_rate_tolerance_rpm),
+            ("period_variation_s", limits.period_variation_s),
         ] {
-            self.positive(key, value)?;
+            self.check.positive(&at.key(key), value);
         }
-        Ok(())
     }
 
-    fn orbit(&self, orbit: &L1Orbit) -> Result<(), SpinnerError> {
-        self.finite("l1_orbit.line_rate_deg_day", &[orbit.line_rate_deg_day])?;
-        self.positive("l1_orbit.sun_earth_distance_m", orbit.sun_earth_distance_m)?;
-        self.positive("l1_orbit.earth_l1_distance_m", orbit.earth_l1_distance_m)?;
-        self.finite("l1_orbit.amplitude_m", &orbit.amplitude_m)?;
-        if orbit.amplitude_m[0].abs() >= orbit.earth_l1_distance_m {
-            let found = format!("{:?}", orbit.amplitude_m);
-            return Err(self.refuse("l1_orbit.amplitude_m", found, "first below earth_l1_distance_m"));
+    fn orbit(&mut self, at: &Place, orbit: &L1Orbit) {
+        for (key, value) in [
+            ("line_rate_deg_day", orbit.line_rate_deg_day),
+            ("in_plane_frequency", orbit.in_plane_frequency),
+            ("out_of_plane_frequency", orbit.out_of_plane_frequency),
+            ("obliquity_deg", orbit.obliquity_deg),
+        ] {
+            self.check.finite(&at.key(key), value);
         }
-        self.finite(
-            "l1_orbit.*_frequency, obliquity_deg",
-            &[orbit.in_plane_frequency, orbit.out_of_plane_frequency, orbit.obliquity_deg],
-        )
+        for (key, distance_m) in [
+            ("sun_earth_distance_m", orbit.sun_earth_distance_m),
+            ("earth_l1_distance_m", orbit.earth_l1_distance_m),
+        ] {
+            let allowed = "a distance above 0 and at most 1e13 m";
+            self.check.within(&at.key(key), distance_m, f64::MIN_POSITIVE, GREATEST_DISTANCE_M, allowed);
+        }
+        let amplitude = at.key("amplitude_m");
+        self.check.vector(&amplitude, orbit.amplitude_m);
+        if orbit.amplitude_m[0].abs() >= orbit.earth_l1_distance_m {
+            let found = orbit.amplitude_m[0];
+            self.check.report_across(at, &amplitude.item(0), found, "less than earth_l1_distance_m");
+        }
     }
 }

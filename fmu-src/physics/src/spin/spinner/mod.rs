@@ -4,36 +4,12 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::inertia::{Inertia, InertiaError};
+use crate::spacecraft::SpacecraftError;
 
 mod check;
 
 /// A set of thrusters is a bit mask.
 pub const MOST_THRUSTERS: usize = 24;
-
-/// A setup that cannot be used.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SpinnerError {
-    /// Not TOML, an unknown key, a missing key or a wrong type; the parser's text has line and column.
-    #[error("{file}: {message}")]
-    Syntax {
-        /// File.
-        file: String,
-        /// What and where.
-        message: String,
-    },
-    /// A value that is not allowed.
-    #[error("{file}: `{key}` is {found}; allowed: {allowed}")]
-    Value {
-        /// File.
-        file: String,
-        /// Key.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-}
 
 /// Mass and inertia as functions of the propellant on board.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -205,8 +181,13 @@ pub struct Thrust {
 }
 
 impl Spinner {
-    /// Parses and validates the text of the file `file`.
-    pub fn parse(file: &str, text: &str) -> Result<Self, SpinnerError> {
+    /// Reads a spinner from TOML text; `file` only names it in errors.
+    ///
+    /// # Errors
+    ///
+    /// Text that is not TOML, or all unknown, missing and ill-typed keys and all values no spinner can have, each with
+    /// line, key, what was found and what is allowed.
+    pub fn parse(file: &str, text: &str) -> Result<Self, SpacecraftError> {
         check::parse(file, text)
     }
 

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{ACE, ace, directions, paper_start, request};
+use crate::spacecraft::Problem;
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
@@ -144,33 +145,146 @@ fn starts_that_make_no_sense_say_why() {
     assert_names(&text, &["burn.timing", "off the axis"]);
 }
 
+fn changed(from: &str, to: &str) -> String {
+    let text = ACE.replacen(from, to, 1);
+    assert_ne!(text, ACE, "{from}");
+    text
+}
+
+/// What is wrong with a setup.
+fn problems(text: &str) -> Vec<Problem> {
+    Spinner::parse("my.toml", text).unwrap_err().problems
+}
+
 #[test]
-fn a_setup_that_cannot_be_used_names_file_and_key() {
-    let change = |from: &str, to: &str| {
-        let text = ACE.replacen(from, to, 1);
-        assert_ne!(text, ACE, "{from}");
-        Spinner::parse("my.toml", &text).unwrap_err().to_string()
-    };
-    assert_names(
-        &change("force_n = 4.448", "force_n = -1.0"),
-        &["my.toml", "thruster[1].force_n", "-1", "positive"],
+fn a_setup_that_cannot_be_used_names_line_key_found_and_allowed() {
+    for (from, to, key, found, allowed) in [
+        ("force_n = 4.448", "force_n = -1.0", "thruster[1].force_n", "-1", "above 0 and at most 1e12"),
+        (
+            "direction = [0.0, 0.0, -1.0]",
+            "direction = [0.0, 0.1, -1.0]",
+            "thruster[1].direction",
+            "1.00498",
+            "unit vector",
+        ),
+        ("name = \"IVR\"", "name = \"IA\"", "thruster[10].name", "\"IA\"", "a name of its own"),
+        ("name = \"spin up\"", "name = \"IVR\"", "group[5].name", "\"IVR\"", "a name of its own"),
+        (
+            "[\"IR+\", \"IR-\"]",
+            "[\"IR+\", \"IIR+++\"]",
+            "group[1].thrusters[2]",
+            "mean \"IIR+\"?",
+            "[[thruster]]: IA, IR+",
+        ),
+        ("[\"IR+\", \"IR-\"]", "[]", "group[1].thrusters", "an empty list", "at least one"),
+        (
+            "opposite = \"upper radial II\"",
+            "opposite = \"west\"",
+            "group[1].opposite",
+            "\"west\"",
+            "upper radial I, ",
+        ),
+        (
+            "force_n = 4.448",
+            "force_n = 4.448\ncolour = 3",
+            "thruster[1].colour",
+            "the unknown key",
+            "force_n",
+        ),
+        (
+            "[1.471, 1.483, 1.494]",
+            "[1.471, 1.483]",
+            "mass_properties.inertia_ratio",
+            "a list of 2",
+            "3 of them",
+        ),
+        ("[1.471, 1.483, 1.494]", "[1.471, 0.0, 1.494]", "mass_properties.inertia_ratio[2]", "0", "above 0"),
+        (
+            "[1.471, 1.483, 1.494]",
+            "[1.471, 1.483, 2.1]",
+            "mass_properties.inertia_ratio[3]",
+            "triangle",
+            "a body",
+        ),
+        ("[0.0, 97.5, 195.0]", "[0.0, 97.5, 97.5]", "mass_properties.propellant_kg", "97.5, 97.5", "rising"),
+        (
+            "initial_propellant_kg = 97.5",
+            "initial_propellant_kg = 200",
+            "mass_properties.initial_propellant_kg",
+            "200",
+            "0 to 195",
+        ),
+        ("dry_mass_kg = 562.0", "", "mass_properties", "no key `dry_mass_kg`", "dry_mass_kg"),
+        ("resolution_s = 0.032", "resolution_s = nan", "thrusters.resolution_s", "NaN", "above 0"),
+        (
+            "resolution_s = 0.032",
+            "resolution_s = \"1 s\"",
+            "thrusters.resolution_s",
+            "string \"1 s\"",
+            "a number",
+        ),
+        (
+            "time_constant_s = 34200.0",
+            "time_constant_s = -1",
+            "damper.time_constant_s",
+            "-1",
+            "from 0 to 1e12",
+        ),
+        ("pickets = 900", "pickets = 902", "star_tracker.pickets", "902", "a multiple of 4"),
+        ("every = 8", "every = 0", "star_tracker.every", "0", "at least 1"),
+        ("every = 8", "every = -8", "star_tracker.every", "integer `-8`", "a whole number from 0"),
+        (
+            "field_of_view_deg = 20.0",
+            "field_of_view_deg = 181",
+            "star_tracker.field_of_view_deg",
+            "181",
+            "at most 180 deg",
+        ),
+        ("sectors = 16384", "sectors = 1.5", "sun_sensor.sectors", "floating point `1.5`", "a whole number"),
+        ("sun_angle_deg = 20.0", "sun_angle_deg = 0", "limits.sun_angle_deg", "0", "above 0"),
+        ("[8.1755e7,", "[2e9,", "l1_orbit.amplitude_m[1]", "2000000000", "less than earth_l1_distance_m"),
+        (
+            "earth_l1_distance_m = 1.5e9",
+            "earth_l1_distance_m = 1e14",
+            "l1_orbit.earth_l1_distance_m",
+            "1",
+            "at most 1e13 m",
+        ),
+        ("[damper]", "[dampers]", "dampers", "(did you mean `damper`?)", "name"),
+    ] {
+        let text = changed(from, to);
+        let problems = problems(&text);
+        let [problem] = problems.as_slice() else { panic!("{to}: {problems:?}") };
+        assert_eq!(problem.key, key, "{problem:?}");
+        assert!(problem.found.contains(found) && problem.allowed.contains(allowed), "{problem:?}");
+        // The line of what was changed; of what is missing, that of its table.
+        let at = ACE.find(if to.is_empty() { "[mass_properties]" } else { from }).unwrap();
+        let added = if to.contains('\n') { 1 } else { 0 };
+        assert_eq!(problem.line, Some(1 + added + text[..at].matches('\n').count()), "{problem:?}");
+    }
+    assert!(
+        Spinner::parse("my.toml", "[[[")
+            .unwrap_err()
+            .to_string()
+            .starts_with("my.toml:1: found text that is not TOML")
     );
-    assert_names(
-        &change("direction = [0.0, 0.0, -1.0]", "direction = [0.0, 0.1, -1.0]"),
-        &["my.toml", "thruster[1].direction", "unit vector"],
-    );
-    assert_names(&change("name = \"IR+\"", "name = \"IA\""), &["my.toml", "thruster[2].name", "IA"]);
-    assert_names(
-        &change("[\"IR+\", \"IR-\"]", "[\"IR+\", \"XX\"]"),
-        &["my.toml", "group[1].thrusters", "XX"],
-    );
-    assert_names(&change("force_n = 4.448", "force_n = 4.448\ncolour = 3"), &["my.toml", "colour", "line"]);
-    assert_names(
-        &change("[1.471, 1.483, 1.494]", "[1.471, 1.483]"),
-        &["my.toml", "inertia_ratio", "3 positive"],
-    );
-    assert_names(&change("[1.471, 1.483, 1.494]", "[1.471, 1.483, 2.1]"), &["my.toml", "triangle"]);
-    assert_names(&change("dry_mass_kg = 562.0", ""), &["my.toml", "dry_mass_kg"]);
-    assert_names(&change("resolution_s = 0.032", "resolution_s = nan"), &["my.toml", "resolution_s", "NaN"]);
-    assert!(Spinner::parse("my.toml", "[[[").is_err());
+}
+
+#[test]
+fn all_that_is_wrong_with_a_setup_is_told_at_once() {
+    let text =
+        changed("force_n = 4.448", "force_n = -1.0").replace("pickets = 900", "pickets = 902\nzoom = 3");
+    let text = text.replace("dry_mass_kg = 562.0", "dry_mass_kg = 0").replace("sectors = 16384", "");
+    let keys: Vec<String> = problems(&text).into_iter().map(|problem| problem.key).collect();
+    let wanted = [
+        "mass_properties.dry_mass_kg",
+        "thruster[1].force_n",
+        "star_tracker.pickets",
+        "star_tracker.zoom",
+        "sun_sensor",
+    ];
+    assert_eq!(keys, wanted);
+    // Groups are not judged by thrusters that nobody could read.
+    let text = ACE.replace("[[thruster]]", "[[thrustr]]");
+    assert!(problems(&text).iter().all(|problem| problem.key == "thrustr"), "{:?}", problems(&text));
 }
