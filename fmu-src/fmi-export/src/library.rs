@@ -1,7 +1,6 @@
 //! The models of one shared library, and how an importer's GUID finds its model.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 use std::path::Path;
 
 use crate::describe::{DescribeError, Prepared, prepare};
@@ -95,7 +94,7 @@ impl Library {
     pub(crate) fn select(&self, guid: &str, resource_location: &[u8]) -> Result<Prepared, String> {
         let resources = location::resolve(resource_location);
         let mut texts: BTreeMap<&str, Result<String, String>> = BTreeMap::new();
-        let mut seen = String::new();
+        let mut tried = Vec::new();
         for entry in self.entries {
             let text = match (entry.setup_file, &resources) {
                 (None, _) | (_, Ok(Resources::None)) => Ok(None),
@@ -107,50 +106,94 @@ impl Library {
                     .map(|text| Some(text.as_str()))
                     .map_err(Clone::clone),
             };
+            let file = entry.setup_file.filter(|_| !matches!(resources, Ok(Resources::None)));
             let was_read = text.is_ok();
-            let verdict = match text {
-                Ok(text) => match entry.prepare(None, text) {
-                    Ok(prepared) if prepared.description.guid == guid => return Ok(prepared),
-                    Ok(prepared) => match (entry.setup_file, text) {
-                        // Wrong library or changed file: the GUID cannot tell, so both are named.
-                        (Some(file), Some(_)) => {
-                            format!("has GUID {} with {file} as it is now", prepared.description.guid)
-                        }
-                        _ => format!("has GUID {}", prepared.description.guid),
-                    },
-                    Err(error) => format!("cannot be set up: {error}"),
-                },
-                Err(problem) => format!("cannot be set up: {problem}"),
+            let outcome = match text.map(|text| entry.prepare(None, text)) {
+                Ok(Ok(prepared)) if prepared.description.guid == guid => return Ok(prepared),
+                Ok(Ok(prepared)) => Ok(prepared.description.guid),
+                Ok(Err(error)) => Err(error.to_string()),
+                Err(problem) => Err(problem),
             };
-            let _ = write!(seen, "; {} {verdict}", entry.name);
-            if was_read && self.default_matches(entry, guid, &resources) {
-                let file = entry.setup_file.unwrap_or_default();
-                let _ = write!(
-                    seen,
-                    " (the GUID asked for is that of {} with its original {file}: the file was changed after packing; pack the FMU again)",
-                    entry.name
-                );
-            }
+            tried.push(Tried { entry, file, was_read, outcome });
         }
-        let files: BTreeSet<&str> = match resources {
-            Ok(Resources::Folder(_)) => self.entries.iter().filter_map(|entry| entry.setup_file).collect(),
-            _ => BTreeSet::new(),
-        };
-        let changed = if files.is_empty() {
-            String::new()
-        } else {
-            let files = files.into_iter().collect::<Vec<_>>().join(" or ");
-            format!(", or {files} in its resources was changed after packing (then pack the FMU again)")
-        };
-        Err(format!(
-            "no model of this library has the GUID {guid}: the modelDescription.xml and this binary do not belong together{changed}{seen}"
-        ))
+        Err(refusal(guid, tried))
+    }
+}
+
+/// A model that does not have the GUID asked for.
+struct Tried {
+    entry: &'static Entry,
+    /// Its setup file, unless the compiled-in setup was taken.
+    file: Option<&'static str>,
+    /// Whether there was such a file.
+    was_read: bool,
+    /// The GUID it has, or why it has none.
+    outcome: Result<String, String>,
+}
+
+impl Tried {
+    /// Whether the GUID asked for is the one it has with the setup that it was compiled with.
+    fn is_changed(&self, guid: &str) -> bool {
+        let original = || self.entry.prepare(None, None).is_ok_and(|it| it.description.guid == guid);
+        self.file.is_some() && self.was_read && original()
     }
 
-    fn default_matches(&self, entry: &Entry, guid: &str, resources: &Result<Resources, String>) -> bool {
-        let has_file = entry.setup_file.is_some() && !matches!(resources, Ok(Resources::None));
-        has_file && entry.prepare(None, None).is_ok_and(|prepared| prepared.description.guid == guid)
+    /// What there is to say of it; alike for models that fail for the same reason.
+    fn verdict(&self) -> String {
+        match (&self.outcome, self.file) {
+            (Ok(guid), Some(file)) => format!("has GUID {guid} with {file} as it is now"),
+            (Ok(guid), None) => format!("has GUID {guid}"),
+            (Err(reason), _) => format!("cannot be set up: {reason}"),
+        }
     }
+}
+
+/// Why there is no instance: what most likely happened first, then what was looked at.
+fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
+    let with_file = || tried.iter().filter(|it| it.file.is_some());
+    let lead = if let Some(index) = tried.iter().position(|it| it.is_changed(guid)) {
+        tried = vec![tried.swap_remove(index)];
+        tried.iter().map(|it| changed(guid, it)).collect()
+    } else if with_file().next().is_some() && with_file().all(|it| !it.was_read) {
+        let reasons: BTreeSet<String> = with_file().filter_map(|it| it.outcome.clone().err()).collect();
+        tried.retain(|it| it.file.is_none());
+        format!("{}; without its setup no model of this library has the GUID {guid}", joined(reasons, "; "))
+    } else {
+        let files: BTreeSet<String> =
+            with_file().filter(|it| it.was_read).filter_map(|it| it.file).map(str::to_owned).collect();
+        let changed = match joined(files, " or ") {
+            files if files.is_empty() => files,
+            files => format!("{files} was changed after packing (then pack the FMU again), or "),
+        };
+        format!(
+            "no model of this library has the GUID {guid}: {changed}the modelDescription.xml and this binary do not \
+             belong together"
+        )
+    };
+    // Models share a file's name, not its kind: the one that finds least wrong in a file is the one it is for.
+    let wrongs = |it: &Tried| it.outcome.as_ref().err().map_or(0, |reason| 1 + reason.lines().count());
+    let least = |file| tried.iter().filter(|it| it.file == file).map(wrongs).min();
+    let mut said: Vec<(String, String)> = Vec::new();
+    for it in tried.iter().filter(|it| it.file.is_none() || Some(wrongs(it)) == least(it.file)) {
+        let verdict = it.verdict();
+        match said.iter_mut().find(|(_, other)| *other == verdict) {
+            Some((names, _)) => *names = format!("{names}, {}", it.entry.name),
+            None => said.push((it.entry.name.to_owned(), verdict)),
+        }
+    }
+    said.iter().fold(lead, |text, (names, verdict)| format!("{text}; {names} {verdict}"))
+}
+
+fn changed(guid: &str, it: &Tried) -> String {
+    let (file, name) = (it.file.unwrap_or_default(), it.entry.name);
+    format!(
+        "{file}: the file was changed after packing: pack the FMU again (the GUID asked for, {guid}, is that of {name} \
+         with its original {file})"
+    )
+}
+
+fn joined(texts: BTreeSet<String>, separator: &str) -> String {
+    texts.into_iter().collect::<Vec<_>>().join(separator)
 }
 
 /// Joins for messages.

@@ -79,8 +79,20 @@ fn an_unknown_guid_lists_what_is_known() {
 fn a_setup_file_changed_after_packing_is_named() {
     let folder = Folder::new("changed", &[("all-types.toml", TWO)]);
     let text = refused(&described("AllTypes").guid, Some(&folder.uri()));
-    assert!(text.contains("all-types.toml: the file was changed after packing"), "{text}");
+    assert!(
+        text.starts_with("fmi2Instantiate: all-types.toml: the file was changed after packing"),
+        "{text}"
+    );
     assert!(text.contains(&guid("AllTypes", TWO)), "{text}");
+    // Nobody else matters then, and what is wrong with the file does.
+    assert!(!text.contains("Empty") && !text.contains("Panicking"), "{text}");
+    let folder = Folder::new("changed-and-torn", &[("all-types.toml", "label = 'x\n")]);
+    let text = refused(&described("AllTypes").guid, Some(&folder.uri()));
+    assert!(
+        text.starts_with("fmi2Instantiate: all-types.toml: the file was changed after packing"),
+        "{text}"
+    );
+    assert!(text.contains("AllTypes cannot be set up: "), "{text}");
 }
 
 #[test]
@@ -96,9 +108,23 @@ fn a_bad_setup_file_or_folder_is_named() {
         assert!(words.iter().all(|word| text.contains(word)), "{text}");
     }
     let text = refused(&asked, Some("file:///no/such%20folder"));
+    // What could not be read is the first thing told, and told once.
+    assert!(
+        text.starts_with("fmi2Instantiate: the resource location")
+            && text.matches("such folder").count() == 1,
+        "{text}"
+    );
     assert!(text.contains("`/no/such folder`, which does not exist"), "{text}");
     let text = refused(&asked, Some("https://example.org/x"));
     assert!(text.contains("is no file URI"), "{text}");
+}
+
+#[test]
+fn a_setup_file_that_is_not_there_is_the_first_thing_told() {
+    let folder = Folder::new("empty", &[]);
+    let text = refused(&guid("AllTypes", TWO), Some(&folder.uri()));
+    assert!(text.starts_with("fmi2Instantiate: cannot read `") && text.contains("all-types.toml"), "{text}");
+    assert!(text.contains(&described("Empty").guid) && !text.contains("belong together"), "{text}");
 }
 
 #[test]

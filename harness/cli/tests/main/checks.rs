@@ -132,6 +132,7 @@ fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
         ],
         0,
     );
+    loader::unpack(&fmu, &room.path().join("x"), loader::Limits::default()).unwrap();
     Some(room)
 }
 
@@ -161,4 +162,46 @@ fn a_spacecraft_is_judged_by_the_model_it_is_for() {
     let text = check(&orbiter.replace("mass_kg = 700", "mass_kg = -700"));
     assert!(text.contains("1 problem, judged as a file of MomentumPlant"), "{text}");
     assert!(check("").contains("judged as a file of MomentumPlant"));
+}
+
+#[test]
+fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
+    for (model, spacecraft, from, to, says) in [
+        ("MomentumPlant", "messenger.toml", "mass_kg = 700", "mass_kg = 701", "MomentumPlant has GUID {"),
+        (
+            "MomentumPlant",
+            "messenger.toml",
+            "mass_kg = 700",
+            "mass_kg = -7",
+            "mass_properties.mass_kg: found -7",
+        ),
+        (
+            "MomentumPlant",
+            "messenger-thermal.toml",
+            "mass_kg = 700",
+            "mass_kg = 701",
+            "MomentumPlant has GUID {",
+        ),
+        ("MomentumPlant", "messenger-thermal.toml", "mass_kg = 700", "mas_kg = 700", "`mas_kg`"),
+        ("SpinPlant", "ace.toml", "dry_mass_kg = 562", "dry_mass_kg = 563", "SpinPlant has GUID {"),
+    ] {
+        let Some(room) = shipped(model, spacecraft) else { return };
+        let folder = room.path().join("x");
+        let toml = folder.join("resources/spacecraft.toml");
+        let text = fs::read_to_string(&toml).unwrap();
+        assert!(text.contains(from), "{spacecraft}");
+        fs::write(&toml, text.replacen(from, to, 1)).unwrap();
+        let text = run(&["run", shown(&folder)], 1);
+        let changed = text.find("spacecraft.toml").unwrap();
+        assert!(text[changed..].contains("was changed after packing") && text.contains(says), "{text}");
+        // Models for another kind of file say nothing of this one.
+        let other = if model == "SpinPlant" { "MomentumPlant" } else { "SpinPlant" };
+        assert!(!text.contains(other), "{text}");
+        assert!(text.lines().count() < 5, "{text}");
+    }
+    let Some(room) = shipped("MomentumPlant", "messenger.toml") else { return };
+    let folder = room.path().join("x");
+    fs::remove_file(folder.join("resources/spacecraft.toml")).unwrap();
+    let text = run(&["run", shown(&folder)], 1);
+    assert_eq!(text.matches("resources").count(), 1, "{text}");
 }
