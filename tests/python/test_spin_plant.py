@@ -1,6 +1,8 @@
 """SpinPlant in FMPy: it validates, flies paper 002's manoeuvre on any grid, and the tapered train beats the paper's."""
 
 import csv
+import pathlib
+import re
 import subprocess
 
 import numpy as np
@@ -8,6 +10,7 @@ import pytest
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
+REPOSITORY = pathlib.Path(__file__).parents[2]
 SPIN_KG_M2 = 353.82
 RATE = np.pi / 6
 PERIOD_S = 12.0
@@ -135,22 +138,101 @@ def test_what_cannot_be_flown_is_refused(spin_plant, loaded):
     assert "maxNutation" in refusal("burn.maxNutation", 1e-6)
 
 
+def own_spacecraft(heliotorque, spin_plant, folder, change):
+    """ACE with its file changed, packed beside nothing else."""
+    text = (REPOSITORY / "fmu-src" / "resources" / "ace.toml").read_text()
+    changed = change(text)
+    assert changed != text
+    toml = folder / "own.toml"
+    toml.write_text(changed)
+    fmu = folder / "SpinPlant.fmu"
+    command = [str(heliotorque), "pack", "--spacecraft", str(toml), "--template", spin_plant, "--output", str(fmu)]
+    subprocess.run(command, check=True, capture_output=True)
+    return fmu
+
+
 def test_the_planner_flies_its_plan_through_the_fmu(heliotorque, spin_plant):
     command = [str(heliotorque), "plan", "spin", "--max-nutation", "0.02", "--fmu", spin_plant]
     text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     assert "1 2 2 ... 2 1" in text and "58 pulses, 11.40 min" in text and "24 ratios" in text
+    assert text.rstrip().endswith("limits kept")
     failed = subprocess.run(command + ["--max-duration", "1"], capture_output=True, text=True)
     assert failed.returncode != 0 and "no plan keeps the limits" in failed.stderr
 
 
+@pytest.mark.parametrize(
+    "arguments, angle_deg",
+    [
+        (["--thruster", "IA", "--max-duration", "4"], 2.0),
+        (["--thruster", "axial couple I-IV", "--max-duration", "4"], 2.0),
+        (["--angle", "120", "--max-duration", "50", "--ratio-uncertainty", "0.002"], 120.0),
+    ],
+)
+def test_a_plan_turns_as_far_as_it_says_whatever_fires(heliotorque, spin_plant, arguments, angle_deg):
+    command = [str(heliotorque), "plan", "spin", "--fmu", spin_plant] + arguments
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    moved = re.search(r"moved ([0-9.]+) to ([0-9.]+) deg \(foreseen ([0-9.]+) to ([0-9.]+)\)", text)
+    least, most, foreseen, _ = map(float, moved.groups())
+    assert least == pytest.approx(foreseen, rel=2e-3) and most == pytest.approx(foreseen, rel=2e-3)
+    assert foreseen == pytest.approx(angle_deg, rel=0.02)
+
+
+def test_a_plan_that_the_fmu_does_not_fly_as_foreseen_is_no_plan(heliotorque, spin_plant, tmp_path):
+    # A spacecraft whose thrusters bear the same names and push half as hard.
+    weak = own_spacecraft(heliotorque, spin_plant, tmp_path, lambda text: text.replace("force_n = 4.448", "force_n = 2.224"))
+    command = [str(heliotorque), "plan", "spin", "--thruster", "axial couple I-IV", "--fmu", str(weak)]
+    failed = subprocess.run(command, capture_output=True, text=True)
+    assert failed.returncode == 1 and "no plan keeps its limits when it is flown" in failed.stderr
+    assert re.search(r"the move misses by (49|50)\.\d+ % beyond 2", failed.stderr), failed.stderr
+
+
+def study(heliotorque, name, dist, output):
+    command = [str(heliotorque), "study", f"spin/{name}", "--quiet", "--dist", str(dist), "--output", str(output)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def verdicts(folder):
+    with open(folder / "numbers.csv", newline="") as file:
+        return {row["quantity"]: row["verdict"] for row in csv.DictReader(file)}
+
+
 def test_the_studies_agree_with_the_paper_or_say_why(heliotorque, dist, tmp_path):
     for name in ("figure2", "figure3", "figure4", "figure6", "figure7", "numbers"):
-        command = [str(heliotorque), "study", f"spin/{name}", "--quiet", "--dist", str(dist), "--output", str(tmp_path)]
-        subprocess.run(command, check=True, capture_output=True)
+        text = study(heliotorque, name, dist, tmp_path)
+        assert not re.search(r"┆ off\b", text), text
         assert (tmp_path / f"{name}.csv").stat().st_size > 100
         if name != "numbers":
             assert (tmp_path / f"{name}.svg").stat().st_size > 1000
-    with open(tmp_path / "numbers.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) >= 24
-    assert all(row["verdict"] not in ("", "off") for row in rows)
+    seen = verdicts(tmp_path)
+    assert len(seen) >= 24 and not {"", "off"} & set(seen.values())
+    assert [name for name, verdict in seen.items() if "arithmetic" in verdict] == ["simulation, end of the manoeuvre"]
+
+
+def test_the_studies_say_so_when_they_do_not_agree(heliotorque, spin_plant, tmp_path):
+    def change(text):
+        text = text.replace("force_n = 4.448", "force_n = 5.0")
+        return text.replace("line_rate_deg_day = 0.9829", "line_rate_deg_day = 0.8")
+
+    own_spacecraft(heliotorque, spin_plant, tmp_path, change)
+    study(heliotorque, "numbers", tmp_path, tmp_path)
+    off = {name for name, verdict in verdicts(tmp_path).items() if verdict == "off"}
+    assert {
+        "axis moved by one 1 s pulse (eq 3)",
+        "thruster time for 6 deg",
+        "axis moved by one 32 ms pulse",
+        "32 ms pulses for 2 deg, lower radial",
+        "32 ms pulses for 2 deg, upper axial",
+        "duration, once a turn",
+        "duration, twice a turn",
+        "days in the 3 deg deadband",
+        "envelope, radial, once a turn",
+        "uniform train, worst of 1.471 to 1.494",
+        "train 1 2 2 ... 2 1, worst of 1.471 to 1.494",
+        "train 1 3 4 ... 4 3 1, worst of 1.471 to 1.494",
+        "binomial train of order 4, worst of 1.471 to 1.494",
+        "split train, ratio known",
+    } <= off
+    # What does not depend on force or orbit still agrees.
+    assert not off & {"half arc of a 32 ms pulse", "nutation left after 9.5 h", "observation time at 5 rpm, ratio 1.483"}
+    assert "never beyond" in study(heliotorque, "figure4", tmp_path, tmp_path)
+    assert re.search(r"flight.*┆ off", study(heliotorque, "figure3", tmp_path, tmp_path))

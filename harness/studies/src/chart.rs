@@ -22,6 +22,10 @@ pub enum Mark {
     Line,
     /// Dots.
     Dots,
+    /// Rings, in which the dots of another series can sit.
+    Rings,
+    /// A dashed line, as for a limit.
+    Dashed,
 }
 
 /// One line of a panel.
@@ -44,6 +48,16 @@ impl Series {
     /// Dots at `points`.
     pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self { label: label.into(), points, mark: Mark::Dots }
+    }
+
+    /// Rings about `points`.
+    pub fn rings(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark: Mark::Rings }
+    }
+
+    /// A dashed line through `points`.
+    pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark: Mark::Dashed }
     }
 }
 
@@ -245,6 +259,18 @@ impl Chart {
                 Mark::Dots => {
                     let finite = series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
                     chart.draw_series(finite.map(|point| Circle::new(*point, 3 * FINE, colour.filled())))?;
+                }
+                Mark::Rings => {
+                    let finite = series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
+                    let ring = colour.stroke_width(FINE);
+                    chart.draw_series(finite.map(|point| Circle::new(*point, 5 * FINE, ring)))?;
+                }
+                Mark::Dashed => {
+                    for piece in pieces(&series.points) {
+                        let points = thinned(piece, x_range, columns);
+                        let pen = colour.stroke_width(2 * FINE);
+                        chart.draw_series(DashedLineSeries::new(points, 6 * FINE, 5 * FINE, pen))?;
+                    }
                 }
             }
         }

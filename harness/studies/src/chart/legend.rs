@@ -10,6 +10,7 @@ use super::{
 /// Height of a row in drawing units.
 pub(super) const ROW_HEIGHT: u32 = 26 * FINE;
 const SWATCH: i32 = 18 * UNITS;
+const DASH: i32 = 7 * UNITS;
 const GAP: i32 = 6 * UNITS;
 const BETWEEN: i32 = 20 * UNITS;
 const UNITS: i32 = FINE as i32;
@@ -31,6 +32,15 @@ pub(super) fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
             match series.mark {
                 Mark::Line => {
                     area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], colour.stroke_width(3 * FINE)))?;
+                }
+                Mark::Dashed => {
+                    for from in [x, x + SWATCH - DASH] {
+                        let dash = [(from, y), (from + DASH, y)];
+                        area.draw(&PathElement::new(dash, colour.stroke_width(3 * FINE)))?;
+                    }
+                }
+                Mark::Rings => {
+                    area.draw(&Circle::new((x + SWATCH / 2, y), 5 * UNITS, colour.stroke_width(FINE)))?
                 }
                 Mark::Dots => area.draw(&Circle::new((x + SWATCH / 2, y), 4 * UNITS, colour.filled()))?,
             }

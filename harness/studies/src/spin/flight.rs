@@ -65,6 +65,12 @@ impl Case {
             .real("damper.timeConstant", 0.0)
     }
 
+    /// For `stop_s` in steps of `step_s` instead.
+    pub fn grid(mut self, stop_s: f64, step_s: f64) -> Self {
+        (self.stop_s, self.step_s) = (stop_s, step_s);
+        self
+    }
+
     /// Sets a Real.
     pub fn real(mut self, name: &str, value: f64) -> Self {
         self.sets.retain(|(known, _)| known != name);
@@ -141,8 +147,34 @@ pub fn left<'a>(
     let only = options.only.as_deref().unwrap_or_default();
     let left: Vec<&str> = labels.clone().filter(|label| label.contains(only)).collect();
     if left.is_empty() {
-        let known = labels.collect::<Vec<_>>().join("\n  ");
+        let known = listed(&labels.collect::<Vec<_>>());
         return Err(StudyError::NothingLeft { study, only: only.to_owned(), known });
     }
     Ok(left)
+}
+
+/// Most labels that are listed one by one.
+const MOST_LISTED: usize = 12;
+
+/// The labels one below the other; of many the first and the last.
+fn listed(labels: &[&str]) -> String {
+    if labels.len() <= MOST_LISTED {
+        return labels.join("\n  ");
+    }
+    let ends = [&labels[..2], &["..."], &labels[labels.len() - 1..]].concat();
+    format!("{} ({} of them)", ends.join(", "), labels.len())
+}
+
+#[cfg(test)]
+mod tests {
+    //! A filter that leaves nothing says what there is, in a few lines.
+    use super::*;
+
+    #[test]
+    fn many_cases_are_not_listed_one_by_one() {
+        assert_eq!(listed(&["a", "b"]), "a\n  b");
+        let labels: Vec<String> = (1..=120).map(|n| format!("n = {n}")).collect();
+        let text = listed(&labels.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(text, "n = 1, n = 2, ..., n = 120 (120 of them)");
+    }
 }

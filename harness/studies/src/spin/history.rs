@@ -1,19 +1,54 @@
 //! Figure 4: nutation during the 2 deg manoeuvre, and what shape of body gives the paper's range.
 
 use super::flight::{Case, RATIO, left, open};
+use super::verdict::says;
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
 const STOP_S: f64 = 1400.0;
+/// End of the paper's simulation, in s.
+const PAPER_END_S: f64 = 1368.0;
+/// What the paper reads off its figure, in deg: least, greatest, and where it ends.
+const PAPER_DEG: (f64, f64, f64) = (0.001, 0.032, 0.024);
+/// To which it reads, in deg.
+const READ_DEG: f64 = 0.001;
 
 fn cases() -> Vec<Case> {
-    let case = |label: &str| Case::new(label, STOP_S, 1.0);
+    let case = |label: &str| Case::new(label, STOP_S, 0.5);
     vec![
         case("axisymmetric, ratio 1.483"),
         case("axisymmetric, ratio 1.484").ratio(1.484),
         case("triaxial, I1/I2 = 1.44").triaxial(RATIO, 1.44),
         case("triaxial, I1/I2 = 1.50").triaxial(RATIO, 1.50),
     ]
+}
+
+/// What was flown, in deg.
+struct Seen {
+    least_deg: f64,
+    most_deg: f64,
+    /// After the paper's end: the nutation of a triaxial body swings.
+    end_deg: (f64, f64),
+    envelope_deg: f64,
+}
+
+impl Seen {
+    /// What the comparison comes to.
+    fn verdict(&self) -> String {
+        let (least, most, end) = PAPER_DEG;
+        let range = (self.least_deg - least).abs() <= READ_DEG && (self.most_deg - most).abs() <= READ_DEG;
+        let ends = self.end_deg.0 - READ_DEG <= end && end <= self.end_deg.1 + READ_DEG;
+        let within = self.most_deg <= 1.001 * self.envelope_deg;
+        match (range, ends) {
+            (true, true) => "the paper's range and end".to_owned(),
+            (true, false) => "the paper's range, not its end".to_owned(),
+            (false, _) if within => {
+                format!("not the paper's range: never beyond the envelope of {:.4}", self.envelope_deg)
+            }
+            (false, true) => "not the paper's range, though its end".to_owned(),
+            (false, false) => "not the paper's range, nor its end".to_owned(),
+        }
+    }
 }
 
 /// Figure 4.
@@ -26,21 +61,26 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
         .line("Nutation during a 2 deg manoeuvre of 114 pulses of 32 ms, once a turn (paper 002, Figure 4)");
     let (mut rows, mut panels, mut csv) = (Vec::new(), Vec::new(), Vec::new());
     for case in cases.iter().filter(|case| wanted.contains(&case.label.as_str())) {
-        let flown = case.fly(&fmu, &["nutation.angle", "nutation.predicted", "burn.pulsesFired"])?;
+        let names = ["nutation.angle", "nutation.predicted", "burn.done", "nutation.envelope"];
+        let flown = case.fly(&fmu, &names)?;
         let degrees = |column: usize| flown.columns[column].iter().map(|angle| angle.to_degrees());
+        let between = |from_s: f64, to_s: f64| {
+            let chosen = flown.times_s.iter().zip(degrees(0)).filter(|(t, _)| (from_s..=to_s).contains(*t));
+            chosen.fold((f64::INFINITY, 0.0_f64), |range, (_, deg)| (range.0.min(deg), range.1.max(deg)))
+        };
         // After the first turns, as one reads a range off a picture.
-        let after = |column: usize| degrees(column).skip(60);
-        let (least, most) = (after(0).fold(f64::INFINITY, f64::min), after(0).fold(0.0, f64::max));
-        let verdict = if case.label.starts_with("axi") {
-            "the stated inputs: never beyond the envelope 0.0177"
-        } else {
-            "the paper's range: its body was most likely triaxial"
+        let (least_deg, most_deg) = between(60.0, PAPER_END_S);
+        let seen = Seen {
+            least_deg,
+            most_deg,
+            end_deg: between(PAPER_END_S, STOP_S),
+            envelope_deg: flown.last(3).to_degrees(),
         };
         rows.push(vec![
             case.label.clone(),
             "0.001 to 0.032, final 0.024".to_owned(),
-            format!("{least:.4} to {most:.4}, final {:.4}", flown.last(0).to_degrees()),
-            verdict.to_owned(),
+            format!("{least_deg:.4} to {most_deg:.4}, final {:.4} to {:.4}", seen.end_deg.0, seen.end_deg.1),
+            says(flown.last(2) == 1.0, &seen.verdict()).to_owned(),
         ]);
         csv.extend(flown.times_s.iter().zip(degrees(0)).zip(degrees(1)).map(
             |((time_s, angle), foreseen)| {
@@ -49,17 +89,22 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
         ));
         panels.push(Panel {
             y_label: "nutation [deg]".to_owned(),
-            series: vec![Series::line(
-                case.label.clone(),
-                flown.times_s.iter().copied().zip(degrees(0)).collect(),
-            )],
+            series: vec![
+                Series::line(case.label.clone(), flown.times_s.iter().copied().zip(degrees(0)).collect()),
+                Series::dashed("linear theory", flown.times_s.iter().copied().zip(degrees(1)).collect()),
+                Series::dashed(
+                    format!("envelope {:.4} deg", seen.envelope_deg),
+                    vec![(0.0, seen.envelope_deg), (STOP_S, seen.envelope_deg)],
+                ),
+            ],
             y_range: Some((0.0, 0.05)),
-            marks: vec![0.0177],
+            marks: Vec::new(),
         });
     }
     report.table(&["body", "paper [deg]", "ours [deg]", "verdict"], &rows);
     report.line(
-        "The final value turns with the ratio (1.483 and 1.484 above): histories and ranges are compared, not one number.",
+        "The final value turns with the ratio (1.483 and 1.484 above): histories and ranges are compared, not one number. A \
+         triaxial body gives the range, so the paper's was most likely one.",
     );
     report.csv(options, "figure4.csv", &["case", "time_s", "nutation_deg", "foreseen_deg"], csv)?;
     let chart = Chart {
@@ -69,4 +114,28 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
     };
     report.picture(options, "figure4.svg", &chart)?;
     Ok(report)
+}
+
+#[cfg(test)]
+mod tests {
+    //! The verdict follows what was flown.
+    use super::*;
+
+    #[test]
+    fn the_verdict_turns_with_the_numbers() {
+        let seen = |least_deg, most_deg, end_deg| Seen { least_deg, most_deg, end_deg, envelope_deg: 0.0177 };
+        for (seen, expected) in [
+            (seen(0.0005, 0.0324, (0.02, 0.03)), "the paper's range and end"),
+            (seen(0.0005, 0.0324, (0.002, 0.008)), "the paper's range, not its end"),
+            (seen(0.0005, 0.0359, (0.02, 0.03)), "not the paper's range, though its end"),
+            (seen(0.0005, 0.0359, (0.01, 0.02)), "not the paper's range, nor its end"),
+            (
+                seen(0.0005, 0.0176, (0.003, 0.003)),
+                "not the paper's range: never beyond the envelope of 0.0177",
+            ),
+            (seen(0.0005, 0.0190, (0.003, 0.003)), "not the paper's range, nor its end"),
+        ] {
+            assert_eq!(seen.verdict(), expected);
+        }
+    }
 }

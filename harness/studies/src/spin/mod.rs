@@ -5,6 +5,7 @@ mod history;
 mod numbers;
 mod tracker;
 mod trains;
+mod verdict;
 
 pub use history::figure4;
 pub use numbers::numbers;

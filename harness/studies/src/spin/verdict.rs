@@ -1,0 +1,34 @@
+//! Verdicts: what a comparison says, and nothing where it does not hold.
+
+/// The comparison holds.
+pub const AGREES: &str = "agrees";
+/// It does not.
+pub const OFF: &str = "off";
+
+/// `AGREES` or `OFF`.
+pub fn verdict(holds: bool) -> &'static str {
+    says(holds, AGREES)
+}
+
+/// `text`, which stands for a comparison that holds, or `OFF`.
+pub fn says(holds: bool, text: &str) -> &str {
+    if holds { text } else { OFF }
+}
+
+/// Whether `ours` is `paper` to half a unit of its last digit.
+pub fn rounds(ours: f64, paper: f64, digit: f64) -> bool {
+    (ours - paper).abs() <= 0.5 * digit * (1.0 + 1e-9)
+}
+
+#[cfg(test)]
+mod tests {
+    //! A verdict can turn either way.
+    use super::*;
+
+    #[test]
+    fn a_number_agrees_to_half_its_last_digit() {
+        assert!(rounds(0.01764, 0.0176, 1e-4) && rounds(0.01765, 0.0176, 1e-4));
+        assert!(!rounds(0.017_651, 0.0176, 1e-4) && !rounds(f64::NAN, 0.0176, 1e-4));
+        assert_eq!((verdict(true), verdict(false), says(false, "as printed")), (AGREES, OFF, OFF));
+    }
+}
