@@ -9,7 +9,7 @@ use physics::radiation::disturbance::{
     Disturbance, DisturbanceModel, Geometry, Options, PlanetLightMethod, Recoil, Workspace,
 };
 use physics::radiation::grid::CellLayout;
-use physics::spacecraft;
+use physics::spacecraft::{self, Spacecraft};
 use serde::{Deserialize, Serialize};
 
 use super::Plan;
@@ -99,15 +99,26 @@ impl<T> Inputs<T> {
     }
 }
 
-fn method(values: &Values, radiation: &RadiationVariables) -> PlanetLightMethod {
+fn method(
+    values: &Values,
+    radiation: &RadiationVariables,
+    spacecraft: &Spacecraft,
+) -> Result<PlanetLightMethod, Failure> {
     let count = |handle| usize::try_from(values.integer(handle)).unwrap_or(0);
-    match values.choice(radiation.method) {
+    Ok(match values.choice(radiation.method) {
         Some(PlanetMethod::Cells) => PlanetLightMethod::Cells(CellLayout::Corrected, count(radiation.belts)),
         Some(PlanetMethod::CellsAsPrinted) => {
             PlanetLightMethod::Cells(CellLayout::AsPrinted, count(radiation.belts))
         }
+        Some(PlanetMethod::Map) => {
+            PlanetLightMethod::Map(spacecraft.planet_map.clone().ok_or_else(|| {
+                Failure::new(
+                    "radiation.method is map, allowed only where the spacecraft's file has a planet_map",
+                )
+            })?)
+        }
         Some(PlanetMethod::Rings) | None => PlanetLightMethod::Rings(count(radiation.nodes)),
-    }
+    })
 }
 
 impl Prepared {
@@ -127,7 +138,7 @@ impl Prepared {
         });
         let options = Options {
             planet: present.then_some(surface),
-            planet_light: method(values, &variables.radiation),
+            planet_light: method(values, &variables.radiation, spacecraft)?,
             self_shadowing: values.boolean(variables.radiation.self_shadowing),
             sunshade_model: sunshade_model.filter(|_| spacecraft.sunshade.is_some()),
         };

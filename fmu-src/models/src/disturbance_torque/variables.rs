@@ -112,6 +112,8 @@ pub enum PlanetMethod {
     Cells = 2,
     /// The same to the letter of its eqs 6 and 7: centres taken for borders, for comparison with its tables.
     CellsAsPrinted = 3,
+    /// The cells of planet_map in the spacecraft's file, with albedo, emissivity and temperature of their own by local time.
+    Map = 4,
 }
 
 /// How light is computed.

@@ -158,61 +158,6 @@ fn in_range(
     if (low..=high).contains(&found) { Ok(()) } else { Err(SurfaceError { quantity, found, allowed }) }
 }
 
-/// One cell of a planet with a surface that differs from place to place (paper 004 Table 2).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SurfaceCell {
-    /// Diffusely reflected fraction of sunlight.
-    pub diffuse_reflectivity: f64,
-    /// Infrared emissivity.
-    pub emissivity: f64,
-    /// Temperature in K.
-    pub temperature_k: f64,
-}
-
-impl SurfaceCell {
-    /// Reflected exitance in W/m2 with the Sun's flux at the planet and the cosine of its zenith angle (eq 39).
-    pub fn reflected_w_m2<T: Scalar>(&self, solar_flux_w_m2: T, cos_zenith: T) -> T {
-        if cos_zenith.value() > 0.0 {
-            solar_flux_w_m2 * cos_zenith * self.diffuse_reflectivity
-        } else {
-            T::constant(0.0)
-        }
-    }
-
-    /// Infrared exitance in W/m2 (eq 34).
-    pub fn infrared_w_m2(&self) -> f64 {
-        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.temperature_k.powi(4)
-    }
-}
-
-/// Properties of every cell of a planet grid, belt by belt from the south, westernmost first; the Sun's meridian is in
-/// the middle, so that a map goes by local time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CellMap {
-    cells: Vec<SurfaceCell>,
-}
-
-impl CellMap {
-    /// A checked map.
-    ///
-    /// # Errors
-    /// Names the first property outside its range.
-    pub fn new(cells: Vec<SurfaceCell>) -> Result<Self, SurfaceError> {
-        for cell in &cells {
-            let fraction = "a number from 0 to 1";
-            in_range("cell diffuseReflectivity", cell.diffuse_reflectivity, 0.0, 1.0, fraction)?;
-            in_range("cell emissivity", cell.emissivity, 0.0, 1.0, fraction)?;
-            in_range("cell temperature", cell.temperature_k, 0.0, 1e4, "0 to 10000 K")?;
-        }
-        Ok(Self { cells })
-    }
-
-    /// The cells in order.
-    pub fn cells(&self) -> &[SurfaceCell] {
-        &self.cells
-    }
-}
-
 #[cfg(test)]
 mod tests {
     //! The planet radiates what it absorbs, and impossible planets are refused by name.
@@ -274,7 +219,5 @@ mod tests {
         assert_eq!(name(PlanetSurface { night_temperature_k: -1.0, ..good }), "nightTemperature");
         let sum = PlanetSurface { diffuse_reflectivity: 0.2, ..good };
         assert_eq!(name(sum), "absorptivity + diffuseReflectivity");
-        let cell = SurfaceCell { diffuse_reflectivity: 0.1, emissivity: 1.5, temperature_k: 300.0 };
-        assert_eq!(CellMap::new(vec![cell]).unwrap_err().quantity, "cell emissivity");
     }
 }

@@ -12,8 +12,9 @@ use super::flat_plate::ReceivedLight;
 use super::planet_light::PlanetLight;
 use super::ring::PlanetView;
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::surface::{CellMap, PlanetSurface};
+use crate::environment::surface::PlanetSurface;
 use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::spacecraft::PlanetMap;
 
 /// Where the cells' centres are and how large they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ const ON_TERMINATOR: f64 = 1e-12;
 pub struct PlanetGrid {
     cells: Vec<Cell>,
     resolution: usize,
-    map: Option<CellMap>,
+    map: Option<PlanetMap>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,14 +52,6 @@ pub enum GridError {
     Resolution {
         /// The resolution asked for.
         found: usize,
-    },
-    /// A map for another grid.
-    #[error("map of {found} planet cells, allowed: {allowed} for this grid")]
-    MapSize {
-        /// Cells of the map.
-        found: usize,
-        /// Cells of the grid.
-        allowed: usize,
     },
     /// A pole that gives no meridian.
     #[error("pole of the planet's cells {found:?}, allowed: a direction off the Sun's")]
@@ -102,7 +95,7 @@ impl PlanetGrid {
         self.resolution
     }
 
-    /// Unit normals of the cells in the planet frame, in the order of a [`CellMap`].
+    /// Unit normals of the cells in the planet frame, in the order of a [`PlanetMap`].
     pub fn normals(&self) -> impl Iterator<Item = Vector3<f64>> + '_ {
         self.cells.iter().map(|cell| cell.normal)
     }
@@ -112,17 +105,12 @@ impl PlanetGrid {
         self.cells.iter().map(|cell| cell.area).sum::<f64>() / (4.0 * PI)
     }
 
-    /// The same grid with albedo, emissivity and temperature of its own for every cell.
+    /// The cells of a map, with albedo, emissivity and temperature of their own.
     ///
     /// # Errors
-    /// When the map is for another grid.
-    pub fn with_map(mut self, map: CellMap) -> Result<Self, GridError> {
-        let (found, allowed) = (map.cells().len(), self.cells.len());
-        if found != allowed {
-            return Err(GridError::MapSize { found, allowed });
-        }
-        self.map = Some(map);
-        Ok(self)
+    /// A map finer than grids go.
+    pub fn of_map(map: &PlanetMap) -> Result<Self, GridError> {
+        Ok(Self { map: Some(map.clone()), ..Self::new(map.belts(), CellLayout::Corrected)? })
     }
 
     /// Light on a face of unit `normal`; `planet_axes` has the cells' axes as columns ([`sun_fixed_axes`]) in the frame of

@@ -2,11 +2,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::grid::{CellLayout, GridError, PlanetGrid, sun_fixed_axes};
+use super::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
 use super::ring::PlanetView;
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
-use crate::environment::surface::{CellMap, DayTemperature, PlanetSurface, SurfaceCell};
+use crate::environment::surface::{DayTemperature, PlanetSurface};
 use crate::numerics::scalar::{Dual64, constant_vector};
+use crate::spacecraft::{PlanetCell, PlanetMap};
 
 const FLUX_W_M2: f64 = 9000.0;
 const BELTS: usize = 40;
@@ -22,10 +23,10 @@ fn planet() -> PlanetSurface {
     }
 }
 
-fn mapped(cell: impl Fn(&Vector3<f64>) -> SurfaceCell) -> PlanetGrid {
+fn mapped(cell: impl Fn(&Vector3<f64>) -> PlanetCell) -> PlanetGrid {
     let grid = PlanetGrid::new(BELTS, CellLayout::Corrected).unwrap();
     let cells = grid.normals().map(|normal| cell(&normal)).collect();
-    grid.with_map(CellMap::new(cells).unwrap()).unwrap()
+    PlanetGrid::of_map(&PlanetMap::new(BELTS, cells).unwrap()).unwrap()
 }
 
 #[test]
@@ -35,7 +36,7 @@ fn a_map_of_one_kind_is_a_planet_of_one_kind() {
         let exitance = surface.exitance(FLUX_W_M2).infrared_w_m2(cos);
         (exitance / (surface.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).powf(0.25)
     });
-    let map = mapped(|normal| SurfaceCell {
+    let map = mapped(|normal| PlanetCell {
         diffuse_reflectivity: surface.diffuse_reflectivity,
         emissivity: surface.emissivity,
         temperature_k: if normal.x > 0.0 { day_k } else { night_k },
@@ -55,7 +56,7 @@ fn a_map_of_one_kind_is_a_planet_of_one_kind() {
 #[test]
 fn a_hot_spot_pushes_from_where_it_is() {
     let spot = PlanetGrid::new(BELTS, CellLayout::Corrected).unwrap().normals().nth(1234).unwrap();
-    let map = mapped(|normal| SurfaceCell {
+    let map = mapped(|normal| PlanetCell {
         diffuse_reflectivity: 0.0,
         emissivity: 1.0,
         temperature_k: if normal == &spot { 1000.0 } else { 0.0 },
@@ -98,9 +99,19 @@ fn poles_and_maps_that_cannot_be_are_refused() {
         let error = sun_fixed_axes(&Vector3::x(), &pole).unwrap_err();
         assert!(error.to_string().contains("a direction off the Sun's"), "{error}");
     }
-    let map = CellMap::new(Vec::new()).unwrap();
-    let grid = PlanetGrid::new(2, CellLayout::Corrected).unwrap();
-    assert_eq!(grid.with_map(map), Err(GridError::MapSize { found: 0, allowed: 8 }));
+    let cell = PlanetCell { diffuse_reflectivity: 0.1, emissivity: 0.9, temperature_k: 300.0 };
+    assert!(PlanetMap::new(2, vec![cell; 8]).is_ok());
+    for (belts, cells) in [(0, 0), (2, 7), (2, 9), (181, 2 * 181 * 181)] {
+        let error = PlanetMap::new(belts, vec![cell; cells]).unwrap_err().to_string();
+        assert!(error.contains("1 to 180 belts"), "{error}");
+    }
+    for wrong in [
+        PlanetCell { emissivity: 1.1, ..cell },
+        PlanetCell { temperature_k: f64::NAN, ..cell },
+        PlanetCell { diffuse_reflectivity: -0.1, ..cell },
+    ] {
+        assert!(PlanetMap::new(1, vec![cell, wrong]).unwrap_err().to_string().contains("from 0 to 1"));
+    }
     for belts in [0, 2001] {
         assert!(PlanetGrid::new(belts, CellLayout::Corrected).is_err());
     }

@@ -7,13 +7,14 @@ use nalgebra::{Matrix3, Vector3};
 use super::build_thermal::Material;
 use super::checker::Checker;
 use super::description::{
-    CylinderDescription, Description, MassDescription, OpticsDescription, PanelDescription, PlateDescription,
-    SunshadeDescription, WheelDescription,
+    CylinderDescription, Description, MassDescription, OpticsDescription, PanelDescription,
+    PlanetMapDescription, PlateDescription, SunshadeDescription, WheelDescription,
 };
 use super::document::{Document, Place, nearest};
 use super::error::SpacecraftError;
 use super::mass::{MassProperties, check_inertia};
 use super::panel::{Panel, PanelControl};
+use super::planet_map::{HOTTEST_K, MOST_BELTS, PlanetCell, PlanetMap};
 use super::surface::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
 use super::wheels::Wheel;
 use super::{Spacecraft, SunKeepIn};
@@ -73,6 +74,10 @@ impl Builder<'_> {
                 }))
             }),
             per_plate_outputs: description.per_plate_outputs.unwrap_or(false),
+            planet_map: description
+                .planet_map
+                .as_ref()
+                .and_then(|map| self.planet_map(&root.key("planet_map"), map)),
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
                 azimuth_rad: self.check.angle(&keep_in.key("azimuth_deg"), limits.azimuth_deg, 0.0, 180.0),
                 elevation_rad: self.check.angle(
@@ -83,6 +88,41 @@ impl Builder<'_> {
                 ),
             }),
         }
+    }
+
+    /// The map, unless something in it was reported.
+    fn planet_map(&mut self, at: &Place, description: &PlanetMapDescription) -> Option<PlanetMap> {
+        let belts = description.temperature_k.len();
+        let [reflectivity, emissivity, temperature] = [
+            ("diffuse_reflectivity", &description.diffuse_reflectivity, 1.0, "a number from 0 to 1"),
+            ("emissivity", &description.emissivity, 1.0, "a number from 0 to 1"),
+            ("temperature_k", &description.temperature_k, HOTTEST_K, "a number from 0 to 10000 K"),
+        ]
+        .map(|(key, rows, most, allowed)| {
+            let place = at.key(key);
+            if rows.len() != belts || !(1..=MOST_BELTS).contains(&belts) {
+                let wanted = format!("as many as `temperature_k` has, 1 to {MOST_BELTS}");
+                self.check.report(&place, format_args!("{} belts", rows.len()), wanted);
+            }
+            for (belt, row) in rows.iter().enumerate() {
+                let place = place.item(belt);
+                if row.len() != 2 * rows.len() {
+                    let wanted = format!("{}, twice as many as there are belts", 2 * rows.len());
+                    self.check.report(&place, format_args!("{} cells", row.len()), wanted);
+                }
+                for (cell, value) in row.iter().enumerate() {
+                    self.check.within(&place.item(cell), *value, 0.0, most, allowed);
+                }
+            }
+            rows.concat()
+        });
+        let cells = reflectivity.into_iter().zip(emissivity).zip(temperature);
+        let cells = cells.map(|((diffuse_reflectivity, emissivity), temperature_k)| PlanetCell {
+            diffuse_reflectivity,
+            emissivity,
+            temperature_k,
+        });
+        PlanetMap::new(belts, cells.collect()).ok()
     }
 
     /// A list that may be left out but not be empty.

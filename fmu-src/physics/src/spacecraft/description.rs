@@ -32,6 +32,24 @@ pub(crate) struct Description {
     pub wheels: Option<Vec<WheelDescription>>,
     pub momentum: Option<MomentumDescription>,
     pub sun_keep_in: Option<SunKeepInDescription>,
+    pub planet_map: Option<PlanetMapDescription>,
+}
+
+/// The planet's surface cell by cell, for `radiation.method` map of DisturbanceTorque. Each key has n rows, belts of
+/// latitude from south to north, of 2 n cells each, from midnight over morning, noon and evening.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlanetMapDescription {
+    /// Diffusely reflected fraction of sunlight.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 180)))]
+    pub diffuse_reflectivity: Vec<Vec<f64>>,
+    /// Infrared emissivity.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 180)))]
+    pub emissivity: Vec<Vec<f64>>,
+    /// Temperature, in K.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 180)))]
+    pub temperature_k: Vec<Vec<f64>>,
 }
 
 /// Mass properties of the whole spacecraft.

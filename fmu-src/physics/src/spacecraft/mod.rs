@@ -15,6 +15,7 @@ mod document;
 mod error;
 mod mass;
 mod panel;
+mod planet_map;
 mod polygon;
 mod reader;
 #[cfg(feature = "schema")]
@@ -34,6 +35,7 @@ pub(crate) use document::{Document, Place, nearest};
 pub use error::{Problem, SpacecraftError};
 pub use mass::{MassProperties, check_inertia};
 pub use panel::{Panel, PanelControl};
+pub use planet_map::{PlanetCell, PlanetMap, PlanetMapError};
 pub use polygon::{Polygon, PolygonError};
 #[cfg(feature = "schema")]
 pub use schema::schema;
@@ -73,6 +75,8 @@ pub struct Spacecraft {
     pub sun_keep_in: Option<SunKeepIn>,
     /// Whether models report temperature and force of every face.
     pub per_plate_outputs: bool,
+    /// The planet it flies about, cell by cell.
+    pub planet_map: Option<PlanetMap>,
 }
 
 /// The Sun keep-in zone: azimuth from -Y toward +X in the XY plane, elevation from that plane toward -Z.

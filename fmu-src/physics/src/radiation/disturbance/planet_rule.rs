@@ -4,11 +4,12 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::geometry::{GeometryError, PlanetGeometry};
 use super::model::ModelError;
-use crate::environment::surface::{CellMap, PlanetSurface, SurfaceExitance};
+use crate::environment::surface::{PlanetSurface, SurfaceExitance};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::ring::{PlanetView, RingRule};
+use crate::spacecraft::PlanetMap;
 
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +18,8 @@ pub enum PlanetLightMethod {
     Rings(usize),
     /// The paper's cells in so many belts of latitude: slow, and results bend as each cell rises or sets.
     Cells(CellLayout, usize),
-    /// Cells with properties of their own, in so many belts.
-    Map(CellMap, usize),
+    /// Cells with properties of their own, which go before those of the planet's surface.
+    Map(PlanetMap),
 }
 
 impl Default for PlanetLightMethod {
@@ -45,9 +46,7 @@ impl PlanetRule {
         Ok(match method {
             PlanetLightMethod::Rings(nodes) => Self::Rings(RingRule::new(*nodes)?),
             PlanetLightMethod::Cells(layout, belts) => Self::Cells(PlanetGrid::new(*belts, *layout)?),
-            PlanetLightMethod::Map(map, belts) => {
-                Self::Cells(PlanetGrid::new(*belts, CellLayout::Corrected)?.with_map(map.clone())?)
-            }
+            PlanetLightMethod::Map(map) => Self::Cells(PlanetGrid::of_map(map)?),
         })
     }
 

@@ -1,0 +1,101 @@
+//! A planet whose surface differs from place to place, cell by cell (paper 004 Table 2).
+
+use serde::{Deserialize, Serialize};
+
+use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
+use crate::numerics::scalar::Scalar;
+
+/// Most belts a map may have.
+pub const MOST_BELTS: usize = 180;
+
+/// Hottest a cell may be, in K.
+pub(super) const HOTTEST_K: f64 = 1e4;
+
+/// What one cell does with light.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlanetCell {
+    /// Diffusely reflected fraction of sunlight.
+    pub diffuse_reflectivity: f64,
+    /// Infrared emissivity.
+    pub emissivity: f64,
+    /// Temperature in K.
+    pub temperature_k: f64,
+}
+
+impl PlanetCell {
+    /// Reflected exitance in W/m2 with the Sun's flux at the planet and the cosine of its zenith angle (eq 39).
+    pub fn reflected_w_m2<T: Scalar>(&self, solar_flux_w_m2: T, cos_zenith: T) -> T {
+        if cos_zenith.value() > 0.0 {
+            solar_flux_w_m2 * cos_zenith * self.diffuse_reflectivity
+        } else {
+            T::constant(0.0)
+        }
+    }
+
+    /// Infrared exitance in W/m2 (eq 34).
+    pub fn infrared_w_m2(&self) -> f64 {
+        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.temperature_k.powi(4)
+    }
+
+    fn is_possible(&self) -> bool {
+        let is_fraction = |x: f64| (0.0..=1.0).contains(&x);
+        is_fraction(self.diffuse_reflectivity)
+            && is_fraction(self.emissivity)
+            && (0.0..=HOTTEST_K).contains(&self.temperature_k)
+    }
+}
+
+/// Every cell of n belts of latitude from south to north, each of 2 n cells from midnight over morning, noon and evening:
+/// a map goes by local time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlanetMap {
+    belts: usize,
+    cells: Vec<PlanetCell>,
+}
+
+/// A map that cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlanetMapError {
+    /// Not 2 n cells for each of n belts.
+    #[error(
+        "planet map of {belts} belts and {cells} cells, allowed: 1 to {MOST_BELTS} belts of twice as many cells each"
+    )]
+    Size {
+        /// Belts.
+        belts: usize,
+        /// All cells.
+        cells: usize,
+    },
+    /// A cell no planet has.
+    #[error("planet map with {cell:?}, allowed: fractions from 0 to 1, temperatures from 0 to {HOTTEST_K} K")]
+    Cell {
+        /// The first such cell.
+        cell: PlanetCell,
+    },
+}
+
+impl PlanetMap {
+    /// A checked map.
+    ///
+    /// # Errors
+    /// The number of cells, or the first cell out of range.
+    pub fn new(belts: usize, cells: Vec<PlanetCell>) -> Result<Self, PlanetMapError> {
+        if !(1..=MOST_BELTS).contains(&belts) || cells.len() != 2 * belts * belts {
+            return Err(PlanetMapError::Size { belts, cells: cells.len() });
+        }
+        if let Some(cell) = cells.iter().find(|cell| !cell.is_possible()) {
+            return Err(PlanetMapError::Cell { cell: *cell });
+        }
+        Ok(Self { belts, cells })
+    }
+
+    /// Belts of latitude.
+    pub fn belts(&self) -> usize {
+        self.belts
+    }
+
+    /// All cells, belt by belt.
+    pub fn cells(&self) -> &[PlanetCell] {
+        &self.cells
+    }
+}
