@@ -224,18 +224,71 @@ fn momentum_and_energy_are_conserved_over_1e5_revolutions() {
     for (principal, tolerance) in [([238.58, 238.58, 353.82], 1e-12), ([200.0, 260.0, 353.82], 1e-10)] {
         let inertia = Inertia::new(principal).unwrap();
         let motion = start(inertia, 0.0, rate, Vector3::zeros());
-        let (before, after) = (motion.at(0.0), state_at(motion, end_s));
+        let (before, after) = (motion.at(0.0), state_at(motion.clone(), end_s));
         assert_relative_eq!(after.energy_j(&inertia), before.energy_j(&inertia), max_relative = tolerance);
-        assert!(
-            (after.momentum_inertial - before.momentum_inertial).norm()
-                < tolerance * before.momentum_inertial.norm()
-        );
-        // The momentum of the turned body, from attitude and rate alone.
-        let [a, b, c] = principal;
-        let w = after.rate_rad_s(&inertia);
-        let h = after.attitude.inertial_from_body(&Vector3::new(a * w.x, b * w.y, c * w.z));
-        assert!((h - before.momentum_inertial).norm() < tolerance * h.norm());
+        let seen = if inertia.is_axisymmetric() {
+            momentum_by_precession(&inertia, &motion, end_s)
+        } else {
+            momentum_by_differences(&inertia, motion, end_s)
+        };
+        let off = (seen - before.momentum_inertial).norm() / before.momentum_inertial.norm();
+        assert!(off < tolerance, "{principal:?}: {off:e}");
     }
+}
+
+/// J omega in inertial space, the rate from differences of the attitude about `time_s`: nothing is taken from the momentum
+/// that the motion carries.
+fn momentum_by_differences(inertia: &Inertia, mut motion: Motion, time_s: f64) -> Vector3<f64> {
+    // Eighth order; a step of 1/16 s is exact in binary at any such time, and (omega dt)^8/630 is 1e-15.
+    let (dt_s, centre_s) = (1.0 / 16.0, time_s.floor());
+    let mut q = Vec::new();
+    for k in -4..=4 {
+        let at_s = centre_s + f64::from(k) * dt_s;
+        motion.reach(at_s);
+        q.push(motion.at(at_s).attitude.0);
+    }
+    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    let slope: [f64; 4] = std::array::from_fn(|i| {
+        weights.iter().enumerate().map(|(k, w)| w * (q[5 + k][i] - q[3 - k][i])).sum::<f64>() / dt_s
+    });
+    // omega = 2 q* q', body components.
+    let (v, w) = (Vector3::new(q[4][0], q[4][1], q[4][2]), q[4][3]);
+    let v_dot = Vector3::new(slope[0], slope[1], slope[2]);
+    let rate = (v_dot * w - v * slope[3] - v.cross(&v_dot)) * 2.0;
+    let [a, b, c] = inertia.principal_kg_m2();
+    Quaternion(q[4]).inertial_from_body(&Vector3::new(a * rate.x, b * rate.y, c * rate.z))
+}
+
+/// The momentum from the spin axis alone: it runs on a cone about H at |H|/IT. Directions near `time_s` give the axis of the
+/// cone whatever their phase, and the phase after all those turns gives |H| to a part of a turn in all.
+fn momentum_by_precession(inertia: &Inertia, motion: &Motion, time_s: f64) -> Vector3<f64> {
+    let axis = |at_s: f64| motion.at(at_s).attitude.spin_axis_inertial();
+    let [transverse, ..] = inertia.principal_kg_m2();
+    let cone = |at_s: f64| {
+        let (a, b, c) = (axis(at_s), axis(at_s + 3.0), axis(at_s + 6.0));
+        (b - a).cross(&(c - b)).normalize()
+    };
+    let (first, last) = (cone(0.0), cone(time_s));
+    let across = |z: Vector3<f64>| (z - last * last.dot(&z)).normalize();
+    let (from, to) = (across(axis(0.0)), across(axis(time_s)));
+    let phase = last.dot(&from.cross(&to)).atan2(from.dot(&to));
+    // Whole turns from the rate over the first second, then ten times as long and so on.
+    let (mut span_s, mut rate) = (1.0, 0.0);
+    while span_s < time_s {
+        let across = |z: Vector3<f64>| (z - first * first.dot(&z)).normalize();
+        let to = across(axis(span_s));
+        let start = across(axis(0.0));
+        let part = first.dot(&start.cross(&to)).atan2(start.dot(&to));
+        rate = turned(rate * span_s, part) / span_s;
+        span_s *= 10.0;
+    }
+    last * (turned(rate * time_s, phase) / time_s * transverse)
+}
+
+/// The angle nearest to `about_rad` that is `part_rad` but for whole turns.
+fn turned(about_rad: f64, part_rad: f64) -> f64 {
+    let turn = 2.0 * std::f64::consts::PI;
+    part_rad + turn * ((about_rad - part_rad) / turn).round()
 }
 
 #[test]
