@@ -11,6 +11,8 @@ mod thermal;
 
 use std::path::PathBuf;
 
+use loader::Fmu;
+
 pub use report::Report;
 
 /// Where a study finds its FMUs and leaves its files.
@@ -24,6 +26,13 @@ pub struct Options {
     pub only: Option<String>,
     /// Whether to show progress.
     pub progress: bool,
+}
+
+impl Options {
+    /// Opens an FMU of the folder.
+    fn fmu(&self, file: &str) -> Result<Fmu, StudyError> {
+        Fmu::open(self.dist.join(file)).map_err(|error| StudyError::Fmu(Box::new(error)))
+    }
 }
 
 /// Why a study did not finish.
@@ -47,7 +56,10 @@ pub enum StudyError {
         /// The labels there are.
         known: String,
     },
-    /// An FMU could not be loaded or flown.
+    /// An FMU could not be loaded; the error names its file.
+    #[error("{0}: see --dist")]
+    Fmu(Box<loader::Error>),
+    /// An FMU could not be flown.
     #[error("{case}: {source}")]
     Flight {
         /// Which case.

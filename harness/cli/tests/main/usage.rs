@@ -55,6 +55,14 @@ fn failure_is_one_and_names_the_file() {
         assert!(run(&[command, shown(&file)], 1).contains("not a usable FMU archive"), "{command}");
     }
     assert!(run(&["study", "no/such/study"], 1).contains("momentum/table2"));
+    for (study, fmu) in
+        [("momentum/table2", "Momentum"), ("spin/numbers", "Spin"), ("thermal/table7", "Momentum")]
+    {
+        let empty = room.path().join("empty");
+        let text = run(&["study", study, "--dist", shown(&empty)], 1);
+        let path = empty.join(format!("{fmu}Plant.fmu"));
+        assert!(text.matches(shown(&path)).count() == 1 && text.contains("see --dist"), "{text}");
+    }
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! The flights of paper 000's study and how one is flown.
 
-use std::path::Path;
-
 use indicatif::{ProgressBar, ProgressStyle};
 use loader::{Fmu, Value};
 use rayon::prelude::*;
@@ -142,7 +140,7 @@ pub fn fly_all(study: &'static str, options: &Options) -> Result<Vec<Flown>, Stu
         let known = all().iter().map(Case::label).collect::<Vec<_>>().join("\n  ");
         return Err(StudyError::NothingLeft { study, only: only.to_owned(), known });
     }
-    let fmu = open(&options.dist.join("MomentumPlant.fmu"))?;
+    let fmu = options.fmu("MomentumPlant.fmu")?;
     let bar = if options.progress { ProgressBar::new(cases.len() as u64) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} flights {elapsed}") {
         bar.set_style(style);
@@ -158,11 +156,6 @@ pub fn fly_all(study: &'static str, options: &Options) -> Result<Vec<Flown>, Stu
         .collect();
     bar.finish_and_clear();
     flown
-}
-
-fn open(path: &Path) -> Result<Fmu, StudyError> {
-    Fmu::open(path)
-        .map_err(|error| StudyError::Flight { case: path.display().to_string(), source: Box::new(error) })
 }
 
 fn fly(fmu: &Fmu, case: &Case) -> Result<Flown, StudyError> {

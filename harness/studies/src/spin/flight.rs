@@ -19,13 +19,6 @@ pub const PERIOD_S: f64 = 12.0;
 /// The ratio of the paper's figures.
 pub const RATIO: f64 = 1.483;
 
-/// Opens `SpinPlant.fmu`.
-pub fn open(options: &Options) -> Result<Fmu, StudyError> {
-    let path = options.dist.join("SpinPlant.fmu");
-    Fmu::open(&path)
-        .map_err(|error| StudyError::Flight { case: path.display().to_string(), source: Box::new(error) })
-}
-
 /// One flight: what is set, how long and how finely.
 #[derive(Clone, Debug)]
 pub struct Case {

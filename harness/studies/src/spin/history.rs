@@ -1,6 +1,6 @@
 //! Figure 4: nutation during the 2 deg manoeuvre, and what shape of body gives the paper's range.
 
-use super::flight::{Case, RATIO, left, open};
+use super::flight::{Case, RATIO, left};
 use super::verdict::says;
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -55,7 +55,7 @@ impl Seen {
 pub fn figure4(options: &Options) -> Result<Report, StudyError> {
     let cases = cases();
     let wanted = left("spin/figure4", options, cases.iter().map(|case| case.label.as_str()))?;
-    let fmu = open(options)?;
+    let fmu = options.fmu("SpinPlant.fmu")?;
     let mut report = Report::default();
     report
         .line("Nutation during a 2 deg manoeuvre of 114 pulses of 32 ms, once a turn (paper 002, Figure 4)");

@@ -6,7 +6,7 @@ use loader::Fmu;
 use rayon::prelude::*;
 
 use super::flight::{
-    AXIAL_ARM_M, Case, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, left, open,
+    AXIAL_ARM_M, Case, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, left,
 };
 use super::verdict::{rounds, says, verdict};
 use crate::{Options, Report, StudyError};
@@ -37,7 +37,7 @@ impl Row {
 
 /// Every number.
 pub fn numbers(options: &Options) -> Result<Report, StudyError> {
-    let fmu = open(options)?;
+    let fmu = options.fmu("SpinPlant.fmu")?;
     let mut rows = pulses(&fmu)?;
     rows.extend(envelopes(&fmu)?);
     rows.extend(observation(&fmu)?);

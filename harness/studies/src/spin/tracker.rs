@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::flight::{Case, RATIO, left, open};
+use super::flight::{Case, RATIO, left};
 use super::verdict::{rounds, says, verdict};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -22,7 +22,7 @@ const SAMPLINGS: [(&str, i32); 2] = [("clock, every 96 s", 2), ("every 8 spins",
 /// Figure 6.
 pub fn figure6(options: &Options) -> Result<Report, StudyError> {
     let wanted = left("spin/figure6", options, SAMPLINGS.iter().map(|(label, _)| *label))?;
-    let fmu = open(options)?;
+    let fmu = options.fmu("SpinPlant.fmu")?;
     let mut report = Report::default();
     report.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
     let (mut rows, mut csv, mut panels) = (Vec::new(), Vec::new(), Vec::new());
@@ -126,7 +126,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
     let ratios: Vec<f64> = (0..24).map(|i| 1.4715 + 0.001 * f64::from(i) * 22.5 / 23.0).collect();
     let labels: Vec<String> = ratios.iter().map(|ratio| format!("ratio {ratio:.4}")).collect();
     let wanted = left("spin/figure7", options, labels.iter().map(String::as_str))?;
-    let fmu = open(options)?;
+    let fmu = options.fmu("SpinPlant.fmu")?;
     let grid: Vec<(usize, f64)> = (0..ratios.len())
         .filter(|&i| wanted.contains(&labels[i].as_str()))
         .flat_map(|i| (0..40).map(move |j| (i, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0)))

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::flight::{Case, PERIOD_S, RADIAL_ARM_M, RATIO, eq8, left, open, width_s};
+use super::flight::{Case, PERIOD_S, RADIAL_ARM_M, RATIO, eq8, left, width_s};
 use super::verdict::{AGREES, rounds, says, verdict};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -44,7 +44,7 @@ fn figure(
 ) -> Result<Report, StudyError> {
     let labels: Vec<String> = (1..=MOST).map(|count| format!("n = {count}")).collect();
     let wanted = left(study, options, labels.iter().map(String::as_str))?;
-    let fmu = open(options)?;
+    let fmu = options.fmu("SpinPlant.fmu")?;
     let phase = core::f64::consts::TAU * turns * RATIO;
     let rows: Vec<Row> = (1..=MOST)
         .into_par_iter()

@@ -65,11 +65,10 @@ pub struct Fleet {
 impl Fleet {
     /// Opens both in the folder `options` names.
     pub fn open(options: &Options) -> Result<Self, StudyError> {
-        let open = |file: &str| {
-            let path = options.dist.join(file);
-            Fmu::open(&path).map_err(|error| failed(&path.display().to_string(), error))
-        };
-        Ok(Self { plant: open("MomentumPlant.fmu")?, disturbance: open("DisturbanceTorque.fmu")? })
+        Ok(Self {
+            plant: options.fmu("MomentumPlant.fmu")?,
+            disturbance: options.fmu("DisturbanceTorque.fmu")?,
+        })
     }
 
     /// Flies one case.
