@@ -126,6 +126,10 @@ pub const DISTURBANCE_TORQUE: &[Source] = &[
     SUNLIGHT,
     CYLINDER,
     PLANET_LIGHT,
+    source(
+        "cells of the planet",
+        "paper 004 eqs 5 to 8 and 27 to 31 where radiation.method asks for them: with the areas they have, or to the letter of eqs 6 and 7",
+    ),
     RECOIL,
     SHADOWS,
     LIT_FRACTION,
