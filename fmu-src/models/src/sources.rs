@@ -128,10 +128,12 @@ pub const DISTURBANCE_TORQUE: &[Source] = &[
     PLANET_LIGHT,
     source(
         "cells of the planet",
-        "paper 004 eqs 5 to 8 and 27 to 31 where radiation.method asks for them: with the areas they have, or to the letter of eqs 6 and 7",
+        "paper 004 eqs 5 to 8 and 27 to 31 where radiation.method asks for them: with the areas they have, or to the letter of \
+         eqs 6 and 7",
     ),
     RECOIL,
     SHADOWS,
     LIT_FRACTION,
     GRAVITY_GRADIENT,
+    source("input derivatives", "any order for every input, all taken where the step ends"),
 ];
