@@ -23,7 +23,7 @@ pub struct Reflight {
     pub final_rad: f64,
     /// Worst nutation at a communication point, in rad.
     pub peak_rad: f64,
-    /// Least and greatest move of the momentum, in rad.
+    /// Least and greatest move of the momentum in the plane of the turn, in rad.
     pub moved_rad: (f64, f64),
     /// Longest time from the first edge to the last, in s.
     pub longest_s: f64,
@@ -107,12 +107,13 @@ fn fly(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Flown, PlanErro
     let stop_s = row.train.duration_s(spin.period_s()) + 4.0 * spin.period_s();
     let names = [
         "nutation.angle",
-        "momentum.displacement",
+        "momentum.inertial[1]",
         "burn.done",
         "burn.pulsesFired",
         "burn.nextEdge",
         "torque.thruster[1]",
         "torque.thruster[2]",
+        "momentum.inertial[3]",
     ];
     let record = names
         .iter()
@@ -150,7 +151,8 @@ fn fly(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Flown, PlanErro
     Ok(Flown {
         final_rad: last(0),
         peak_rad: columns[0].iter().copied().fold(0.0, f64::max),
-        moved_rad: last(1),
+        // Within the plane of the turn, as it is foreseen: a clock that runs wrong also moves it aside.
+        moved_rad: last(1).atan2(last(7)),
         duration_s: last_s - first_s,
     })
 }

@@ -127,7 +127,7 @@ pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
             thruster: task.thruster.clone(),
             why: if pulse_s > half_turn_s {
                 format!(
-                    "its shortest pulse is {pulse_s} s, longer than half a turn ({half_turn_s:.6} s at --rate-rpm): beyond \
+                    "its shortest pulse is {pulse_s} s, longer than half a turn ({half_turn_s:.3e} s at --rate-rpm): beyond \
                      that a pulse works against itself"
                 )
             } else {
