@@ -138,3 +138,24 @@ fn ticks_read_well() {
     assert_eq!(tick_text(1_500_000.0, 500_000.0), "1.5e6");
     assert_eq!(tick_text(20.0, 10.0), "20");
 }
+
+/// A limit's dashes and the rings about dots are drawn, and stand in the legend as they are drawn.
+#[test]
+fn dashes_and_rings_are_told_from_lines_and_dots() {
+    let points = vec![(0.0, 1.0), (4.0, 2.0), (8.0, 1.5)];
+    let svg = |series: Series| {
+        let range = Some((0.0, 3.0));
+        let panel = Panel { series: vec![series], y_range: range, ..Panel::default() };
+        Chart { panels: vec![panel], ..Chart::default() }.to_svg().unwrap()
+    };
+    let count = |text: &str, part: &str| text.matches(part).count();
+    let (line, dashed) = (svg(Series::line("a", points.clone())), svg(Series::dashed("a", points.clone())));
+    assert!(count(&dashed, "<polyline") > count(&line, "<polyline") + 30);
+    let (dots, rings) = (svg(Series::dots("a", points.clone())), svg(Series::rings("a", points)));
+    // Three points and the legend's.
+    assert_eq!((count(&dots, "<circle"), count(&rings, "<circle")), (4, 4));
+    let hollow = |text: &str| {
+        text.lines().filter(|line| line.contains("<circle") && line.contains("fill=\"none\"")).count()
+    };
+    assert_eq!((hollow(&dots), hollow(&rings)), (0, 4));
+}
