@@ -3,10 +3,24 @@
 import os
 import pathlib
 
+import fmpy.simulation
 import pytest
 from fmpy import extract
 
 from studies import study
+
+
+# FMPy's native logger calls whichever function was registered last, also for FMUs that brought none, and does not keep it.
+_LOGGERS = []
+_LoggerType = fmpy.simulation.fmi2CallbackLoggerTYPE
+
+
+def _kept(function):
+    _LOGGERS.append(_LoggerType(function))
+    return _LOGGERS[-1]
+
+
+fmpy.simulation.fmi2CallbackLoggerTYPE = _kept
 
 
 def _path(variable):
