@@ -63,6 +63,6 @@ fn study(built: &Built) -> Outcome {
         seconds.push(begin.elapsed().as_secs_f64());
     }
     seconds.sort_by(f64::total_cmp);
-    println!("bench study_momentum_table2_24_flights {:.2} s", seconds[STUDY_RUNS / 2]);
+    println!("bench study_momentum_table2_30_flights {:.2} s", seconds[STUDY_RUNS / 2]);
     Ok(())
 }
