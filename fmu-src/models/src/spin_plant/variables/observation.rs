@@ -33,8 +33,9 @@ pub struct GeometryVariables {
 /// The Sun.
 #[derive(Variables)]
 pub struct SunVariables {
-    /// Direction of the Sun in EME2000, of any length but 0; unused on the L1 orbit.
-    #[input(unit = "1", start = [libm::sin(10.0 * DEG_RAD), 0.0, libm::cos(10.0 * DEG_RAD)])]
+    /// Direction of the Sun in EME2000, of any length but 0; unused on the L1 orbit. The default is 10 deg off the spin axis,
+    /// across the way to the default target: a burn timed by the Sun does not run into it.
+    #[input(unit = "1", start = [0.0, libm::sin(10.0 * DEG_RAD), libm::cos(10.0 * DEG_RAD)])]
     pub direction: RealVector<3>,
     /// From the spin axis +Z to the Sun.
     #[output(unit = "rad", display = "deg", nominal = 0.1)]
