@@ -5,23 +5,14 @@ use nalgebra::{Matrix3, Vector3};
 use super::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
 use super::ring::PlanetView;
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
-use crate::environment::surface::{DayTemperature, PlanetSurface};
+use crate::environment::surface::{MERCURY, PlanetSurface};
 use crate::numerics::scalar::{Dual64, constant_vector};
 use crate::spacecraft::{PlanetCell, PlanetMap};
 
 const FLUX_W_M2: f64 = 9000.0;
 const BELTS: usize = 40;
 
-fn planet() -> PlanetSurface {
-    PlanetSurface {
-        radius_m: 1.0,
-        absorptivity: 0.88,
-        diffuse_reflectivity: 0.12,
-        emissivity: 0.9,
-        night_temperature_k: 100.0,
-        day_temperature: DayTemperature::Uniform,
-    }
-}
+const PLANET: PlanetSurface = PlanetSurface { radius_m: 1.0, ..MERCURY };
 
 fn mapped(cell: impl Fn(&Vector3<f64>) -> PlanetCell) -> PlanetGrid {
     let grid = PlanetGrid::new(BELTS, CellLayout::Corrected).unwrap();
@@ -31,7 +22,7 @@ fn mapped(cell: impl Fn(&Vector3<f64>) -> PlanetCell) -> PlanetGrid {
 
 #[test]
 fn a_map_of_one_kind_is_a_planet_of_one_kind() {
-    let surface = planet();
+    let surface = PLANET;
     let [day_k, night_k] = [1.0, -1.0].map(|cos| {
         let exitance = surface.exitance(FLUX_W_M2).infrared_w_m2(cos);
         (exitance / (surface.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).powf(0.25)
@@ -63,7 +54,7 @@ fn a_hot_spot_pushes_from_where_it_is() {
     });
     let distance = 3.0;
     let view = PlanetView::new(&(-spot * distance), &Vector3::x(), 1.0).unwrap();
-    let light = map.receive(&planet(), FLUX_W_M2, &view, &Matrix3::identity(), &-spot);
+    let light = map.receive(&PLANET, FLUX_W_M2, &view, &Matrix3::identity(), &-spot);
     // Belt 1234 / 80 from the south; a cell's area is its width times the difference of its borders' sines.
     let step = core::f64::consts::PI / BELTS as f64;
     let south = -core::f64::consts::FRAC_PI_2 + (1234 / (2 * BELTS)) as f64 * step;
@@ -85,7 +76,7 @@ fn slopes_of_cells_are_those_of_small_differences() {
         let sun = constant_vector::<Dual64>(&sun) + Vector3::new(seed * -0.1, seed * 0.4, seed * 0.2);
         let view = PlanetView::new(&planet_m, &sun, 1.0).unwrap();
         let axes = sun_fixed_axes(&view.sun, &constant_vector(&Vector3::new(0.1, 0.1, 0.9))).unwrap();
-        grid.receive(&planet(), seed + FLUX_W_M2, &view, &axes, &constant_vector(&-normal)).albedo.vector_pa
+        grid.receive(&PLANET, seed + FLUX_W_M2, &view, &axes, &constant_vector(&-normal)).albedo.vector_pa
     };
     let exact = moved(Dual64::new(0.0, 1.0)).map(|x| x.eps);
     let [ahead, behind] = [1e-5, -1e-5].map(|h| moved(Dual64::new(h, 0.0)).map(|x| x.re));
