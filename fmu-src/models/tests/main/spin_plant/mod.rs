@@ -3,4 +3,5 @@
 mod driver;
 mod flights;
 mod refusals;
+mod torn_states;
 mod warnings;

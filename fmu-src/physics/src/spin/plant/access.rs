@@ -127,7 +127,7 @@ impl Plant {
     }
 
     /// Whether a decoded state can be flown on: its thrusters exist and its numbers belong together, so that no loop
-    /// over cells, ticks or refreshes runs away.
+    /// over cells, ticks, refreshes or pulses runs away.
     pub fn fits(&self, spinner: &Spinner) -> bool {
         let known = (1_u64 << spinner.thrusters.len()) - 1;
         let masks = [self.mask, self.commands.fire, self.sequencer().map_or(0, |s| s.burn().mask)];
@@ -137,6 +137,10 @@ impl Plant {
         let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
         let ticks = self.clock_period_s > 1e-3
             && (self.sampling == Sampling::Spins || tick_s > now_s - self.clock_period_s);
+        // A tank that is never empty and has nothing left would be emptied without end.
+        let tank_holds = (0.0..=spinner.mass_properties.most_propellant_kg())
+            .contains(&self.initial_propellant_kg)
+            && (0.0..=self.initial_propellant_kg).contains(&self.used_kg);
         let refreshes = match self.l1 {
             None => self.refresh_s == f64::INFINITY,
             Some(_) => {
@@ -150,6 +154,7 @@ impl Plant {
             && self.directions.are_directions()
             && cell_holds
             && !self.motion.runs_away()
+            && tank_holds
             && ticks
             && refreshes
             && self.sequencer().is_none_or(Sequencer::is_sound)
