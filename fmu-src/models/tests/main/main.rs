@@ -4,8 +4,10 @@
 mod disturbance_degenerate;
 mod disturbance_torque;
 mod pilot;
+mod plant_changes;
 mod plant_commands;
 mod plant_cuts;
 mod plant_light;
 mod plant_refusals;
+mod plant_slopes;
 mod spin_plant;

@@ -62,11 +62,11 @@ sun_offset_deg = 30.0
 const FACES: usize = 6;
 const RADIATOR: usize = 3;
 
-const EFFECTS: &[(&str, f64)] =
+pub const EFFECTS: &[(&str, f64)] =
     &[("planetLight.enabled", 1.0), ("thermal.enabled", 1.0), ("shadowing.enabled", 1.0)];
 
 /// Orbits that pass through the planet's shadow.
-const SHADOWED: &[(&str, f64)] =
+pub const SHADOWED: &[(&str, f64)] =
     &[("ephemeris.source", 2.0), ("ephemeris.trueAnomaly", 1.7), ("orbit.frame", 1.0)];
 
 /// Everything else that divides a flight into pieces.
@@ -79,7 +79,7 @@ const BUSY: &[(&str, f64)] = &[
     ("dump.threshold[3]", 0.02),
 ];
 
-fn warm<M: fmi_export::Model>() -> Hangar<M> {
+pub fn warm<M: fmi_export::Model>() -> Hangar<M> {
     Hangar::with("warm.toml", CRAFT)
 }
 
@@ -132,7 +132,7 @@ fn a_restored_flight_goes_on_to_the_bit() {
 }
 
 /// The memoryless model at the plant's own Sun, planet and panels.
-fn memoryless<'a>(
+pub fn memoryless<'a>(
     hangar: &'a Hangar<DisturbanceTorque>,
     plant: &Pilot<'_, MomentumPlant>,
     sets: &[(&str, f64)],

@@ -202,6 +202,9 @@ fn an_outside_torque_with_a_slope_is_integrated() {
     spinner.to(10.0);
     let after = spinner.real("spin.rate");
     assert!((after - before - (5.0 + 10.0) / 353.82).abs() < 1e-12);
+    // The slope held for that step alone.
+    spinner.to(20.0);
+    assert!((spinner.real("spin.rate") - after - 5.0 / 353.82).abs() < 1e-12);
 }
 
 #[test]
