@@ -1,6 +1,7 @@
 //! The way through the states, and Reset as the way back to the very beginning.
 
 use fmi_export::Status::{Error, Ok};
+use fmi_export::abi::StatePointer;
 
 use super::{all_reals, fresh, only_message, reference, started};
 
@@ -72,6 +73,31 @@ fn reset_equals_a_fresh_instance_byte_for_byte() {
     assert_eq!(fresh_one.get_real(&references, &mut values[0]), Ok);
     assert_eq!(used.get_real(&references, &mut values[1]), Ok);
     assert_eq!(values[0], values[1]);
+}
+
+/// What was switched off, said once or promised in one run has no meaning for the next.
+#[test]
+fn reset_forgets_what_was_logged_said_and_promised() {
+    let (mut instance, description) = fresh("AllTypes");
+    let input = [reference(&description, "input.real")];
+    assert_eq!(instance.set_real(&input, &[1.0]), Ok);
+    assert!(only_message(&instance).contains("before Initialization Mode"));
+    assert_eq!(instance.set_real(&input, &[2.0]), Ok);
+    assert!(instance.take_messages().is_empty());
+    assert_eq!(instance.set_debug_logging(false, &[]), Ok);
+    assert_eq!(instance.start(0.0, None), Ok);
+    for i in 0..3 {
+        assert_eq!(instance.do_step_without_return(f64::from(i), 1.0), Ok);
+    }
+    assert_eq!(instance.reset(), Ok);
+    assert_eq!(instance.set_real(&input, &[1.0]), Ok);
+    assert!(only_message(&instance).contains("before Initialization Mode"));
+    assert_eq!(instance.start(0.0, None), Ok);
+    let mut state = StatePointer::null();
+    assert_eq!(instance.get_state(&mut state), Ok);
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!(instance.set_state(&state), Ok);
+    assert!(instance.take_messages().is_empty());
 }
 
 #[test]

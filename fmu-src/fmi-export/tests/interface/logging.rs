@@ -43,6 +43,17 @@ fn an_unknown_category_is_a_warning_and_the_known_ones_count() {
 }
 
 #[test]
+fn nothing_but_unknown_categories_is_nothing_but_errors() {
+    let (mut instance, description) = started("AllTypes");
+    assert_eq!(instance.set_debug_logging(true, &[c"logNonsense"]), Warning);
+    instance.take_messages();
+    assert_eq!(instance.set_integer(&[reference(&description, "input.integer")], &[5000]), Discard);
+    assert!(instance.take_messages().is_empty());
+    assert_eq!(instance.do_step(99.0, 1.0), Error);
+    assert!(only_message(&instance).starts_with("fmi2DoStep"));
+}
+
+#[test]
 fn what_is_logged_is_declared() {
     let (_, description) = fresh("AllTypes");
     let names: Vec<_> = description.log_categories.iter().map(|it| it.name.as_str()).collect();

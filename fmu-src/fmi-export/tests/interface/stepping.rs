@@ -92,3 +92,32 @@ fn going_back_behind_a_promise_is_warned_about_and_works() {
     assert!(messages[0].text.contains("noSetFMUStatePriorToCurrentPoint"));
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
 }
+
+/// The promise is about times before the point at which it is given, not before the step's end.
+#[test]
+fn going_back_to_the_point_of_a_promise_keeps_it() {
+    let (mut instance, _) = started("AllTypes");
+    assert_eq!(instance.do_step_without_return(0.0, 1.0), Ok);
+    let mut state = StatePointer::null();
+    assert_eq!(instance.get_state(&mut state), Ok);
+    assert_eq!(instance.do_step_without_return(1.0, 1.0), Ok);
+    assert_eq!(instance.set_state(&state), Ok);
+    assert!(instance.take_messages().is_empty());
+    assert_eq!(instance.do_step_without_return(1.0, 0.5), Ok);
+}
+
+/// A clock of milliseconds far from its zero: two sums of the same steps differ by more than any share of a step.
+#[test]
+fn roundings_of_late_times_are_taken() {
+    for start_s in [1e9, -1e9, 1e11_f64] {
+        let (mut instance, _) = fresh("Empty");
+        assert_eq!(instance.start(start_s, None), Ok);
+        let (h, mut time_s) = (1e-3, start_s);
+        for i in 1..=50 {
+            let at = if i % 2 == 0 { time_s.next_up() } else { time_s.next_down() };
+            assert_eq!(instance.do_step(if i == 1 { time_s } else { at }, h), Ok, "{start_s} {i}");
+            assert_eq!(instance.last_successful_time().0, Ok);
+            time_s = instance.last_successful_time().1;
+        }
+    }
+}
