@@ -83,6 +83,7 @@ mod tests {
         assert!(matches("*.solar[*]", "force.solar[2]"));
         assert!(matches("a*a", "aa"));
         assert!(!matches("a*a", "a"));
+        assert!(!matches("torque.*[1]", "torque.solar[1][2]"));
         assert!(!matches("torque.*", "force.solar[1]"));
         assert!(!matches("momentum.body", "momentum.body[1]"));
     }

@@ -98,6 +98,7 @@ pub fn description() -> Description {
             display_units: vec![
                 DisplayUnit { name: "cm".to_owned(), factor: 100.0, offset: 0.0 },
                 DisplayUnit { name: "above sea".to_owned(), factor: 1.0, offset: -500.0 },
+                DisplayUnit { name: "cm above sea".to_owned(), factor: 100.0, offset: -50_000.0 },
             ],
         }],
         types: vec![SimpleType {

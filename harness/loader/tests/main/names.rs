@@ -21,6 +21,7 @@ fn reals_take_units() {
     assert_eq!(value("ship.mass=.5e1cm"), Value::Real(0.05));
     // Offsets too: 20 above a sea level that lies at 500.
     assert_eq!(value("ship.mass=20 above sea"), Value::Real(520.0));
+    assert_eq!(value("ship.mass=2000 cm above sea"), Value::Real(520.0));
     for (text, says) in [
         ("ship.mass=5km", "it takes m, cm, above sea"),
         ("ship.mass=", "no number"),
