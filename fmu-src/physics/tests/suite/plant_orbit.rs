@@ -136,3 +136,79 @@ fn periapses_are_counted_where_they_are_passed() {
         assert!(!quiet || activity & 8 == 0, "{time_s}");
     }
 }
+
+fn undisturbed() -> Configuration {
+    Configuration {
+        light: physics::plant::SunLight::Fixed { pressure_pa: 0.0 },
+        ..disturbed(Gravity::point_mass(MU), guided(&orbit()))
+    }
+}
+
+/// An input that changes just before a periapsis ends the cell that had seen it already.
+#[test]
+fn a_flight_cut_before_its_periapses_counts_them_once() {
+    let configuration = undisturbed();
+    let mut rig = Rig::new();
+    rig.course = Course::new(&configuration, 0.0).unwrap();
+    let mut accumulator = Accumulator::new(0.0, Totals::default());
+    let orbit = orbit();
+    for k in 1..2700 {
+        let time_s = 97.0 * f64::from(k);
+        let mut plant = rig.plant_with(&configuration, |_| ExternalLoad::default());
+        accumulator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
+        let epoch_s = time_s + EPOCH_S;
+        let expected_s = orbit.time_since_periapsis_s(epoch_s);
+        if expected_s > 1.0 && expected_s < orbit.period_s() - 1.0 {
+            let found_s = plant.time_since_periapsis_s(time_s);
+            assert!((found_s - expected_s).abs() < 0.01, "{time_s} {found_s} {expected_s}");
+            // Downlink from 2 h to 10 h after every second one.
+            let even = orbit.orbit_number(epoch_s) % 2 == 0;
+            let down = even && (7200.0..36_000.0).contains(&expected_s);
+            assert_eq!(plant.snapshot(time_s).branch & 8 == 8, down, "{time_s} {expected_s}");
+        }
+        rig.course.cut(&configuration, time_s, false);
+        accumulator.cut(time_s);
+    }
+}
+
+#[test]
+fn downlinks_begin_and_end_to_the_second_after_a_periapsis_that_was_met() {
+    let configuration = undisturbed();
+    let edges_s = [0, 2, 4].map(|number| {
+        let periapsis_s = orbit().periapsis_epoch_s(number) - EPOCH_S;
+        [periapsis_s + 7200.0, periapsis_s + 36_000.0]
+    });
+    let times = edges_s.into_iter().flatten().flat_map(|at_s| [at_s - 0.2, at_s + 0.2]);
+    let down =
+        fly(&configuration, Vector3::zeros(), times, |plant, time_s| plant.snapshot(time_s).branch & 8);
+    assert_eq!(down, [0, 8, 8, 0].repeat(3));
+}
+
+/// A slew that lasts longer than the cells of the orbit goes on from where it began.
+#[test]
+fn a_long_slew_turns_as_its_rate_says() {
+    let flattening = Flattening { j2: 5e-3, ..Flattening::mercury() };
+    let gravity = Gravity { flattening: Some(flattening), ..Gravity::mercury() };
+    let mut configuration = disturbed(gravity, guided(&orbit()));
+    if let AttitudeSource::Guided(guided) = &mut configuration.attitude {
+        guided.slew_rate_rad_s = 3e-4;
+    }
+    let step_s = 10.0;
+    let times = (1..26_000).map(|i| f64::from(i) * step_s);
+    let seen = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
+        let snapshot = plant.snapshot(time_s);
+        (snapshot.frame, snapshot.branch)
+    });
+    let mut compared = 0;
+    for pair in seen.windows(2) {
+        let [(before, one), (after, other)] = pair else { continue };
+        if one & other & 16 == 0 || one != other {
+            continue;
+        }
+        let turn = (before.inertial_from_body.inverse() * after.inertial_from_body).scaled_axis();
+        let expected = (before.rate_body_rad_s + after.rate_body_rad_s) * (0.5 * step_s);
+        assert!((turn - expected).norm() < 1e-6, "{turn} {expected}");
+        compared += 1;
+    }
+    assert!(compared > 500, "{compared}");
+}

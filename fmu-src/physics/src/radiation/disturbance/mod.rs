@@ -11,6 +11,8 @@ mod planet_rule;
 mod workspace;
 
 #[cfg(test)]
+mod heat_tests;
+#[cfg(test)]
 mod paper_tests;
 #[cfg(test)]
 mod tests;

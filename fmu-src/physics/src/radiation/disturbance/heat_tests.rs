@@ -1,0 +1,126 @@
+//! What a face takes in it gives off from where it took it in: temperatures and recoil by hand.
+
+use approx::assert_relative_eq;
+use nalgebra::Vector3;
+
+use super::*;
+use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::environment::surface::{DayTemperature, PlanetSurface};
+use crate::spacecraft::{
+    Emission, FaceThermal, MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft, Thermal,
+};
+
+const RADIUS_M: f64 = 2.4394e6;
+
+fn craft(plates: Vec<Plate>) -> Spacecraft {
+    let whole = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
+    Spacecraft { plates, sunshade: None, panels: Vec::new(), ..whole }
+}
+
+fn square(normal: Vector3<f64>, center_m: Vector3<f64>, half_m: f64, optics: Optics) -> Plate {
+    let east = if normal.x.abs() > 0.5 { Vector3::y() } else { Vector3::x() };
+    let north = normal.cross(&east);
+    let corner = |a: f64, b: f64| center_m + (east * a + north * b) * half_m;
+    let vertices = vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    Plate {
+        name: "square".to_owned(),
+        area_m2: 4.0 * half_m * half_m,
+        center_m,
+        normal,
+        optics,
+        rear_optics: None,
+        thermal: Thermal::insulated(&optics, None),
+        polygon: Some(Polygon::new(vertices).unwrap()),
+    }
+}
+
+fn sunlit(sun_direction_body: Vector3<f64>) -> Geometry<'static, f64> {
+    Geometry {
+        sun_direction_body,
+        sun_flux_w_m2: 9000.0,
+        lit_fraction: 1.0,
+        planet: None,
+        panel_angles_rad: &[],
+        center_of_mass_body_m: Vector3::zeros(),
+    }
+}
+
+/// A plate that faces a planet at night sees it under the square of radius over distance; how much of that heats it is
+/// its absorptivity for infrared, not for sunlight.
+#[test]
+fn planet_heat_is_absorbed_by_infrared_optics() {
+    let mut plate = square(Vector3::z(), Vector3::zeros(), 0.5, Optics::from_reflectivities(0.1, 0.1));
+    plate.thermal.front = FaceThermal {
+        infrared_optics: Optics::from_reflectivities(0.5, 0.2),
+        emission: Emission { emissivity: 0.6, slope_per_k: 0.0, reference_temperature_k: 300.0 },
+    };
+    let surface = PlanetSurface {
+        radius_m: RADIUS_M,
+        absorptivity: 0.9,
+        diffuse_reflectivity: 0.1,
+        emissivity: 0.95,
+        night_temperature_k: 400.0,
+        day_temperature: DayTemperature::Uniform,
+    };
+    let options =
+        Options { planet: Some(surface), planet_light: PlanetLightMethod::Rings(16), ..Options::default() };
+    let model = DisturbanceModel::new(&craft(vec![plate]), &options).unwrap();
+    let geometry = Geometry {
+        planet: Some(PlanetGeometry {
+            position_body_m: Vector3::z() * 2.0 * RADIUS_M,
+            sun_from_planet_body_m: Vector3::z(),
+            sun_flux_w_m2: 0.0,
+            pole_body: Vector3::x(),
+        }),
+        sun_flux_w_m2: 0.0,
+        ..sunlit(-Vector3::z())
+    };
+    let mut workspace = Workspace::default();
+    let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
+    // emissivity_plate T^4 = 0.3 emissivity_planet T_planet^4 / 4
+    let expected_k = 400.0 * (0.3 * 0.95 / (4.0 * 0.6_f64)).powf(0.25);
+    assert_relative_eq!(workspace.faces()[0].temperature_k, expected_k, max_relative = 1e-4);
+    let taken_w = 0.3 * 0.95 / 4.0 * crate::constants::STEFAN_BOLTZMANN_W_M2_K4 * 400.0_f64.powi(4);
+    let expected_n = -2.0 / 3.0 * taken_w / SPEED_OF_LIGHT_M_S;
+    assert_relative_eq!(found.thermal.force_body_n.z, expected_n, max_relative = 1e-4);
+}
+
+#[test]
+fn each_side_gives_off_the_heat_from_inside_that_is_its_own() {
+    let black = Optics::from_reflectivities(0.0, 0.0);
+    let mut plate = square(Vector3::z(), Vector3::x(), 0.5, black);
+    plate.rear_optics = Some(black);
+    plate.thermal = Thermal::insulated(&black, Some(&black));
+    plate.thermal.internal_heat_w = [300.0, 120.0];
+    let model = DisturbanceModel::new(&craft(vec![plate]), &Options::default()).unwrap();
+    let dark = Geometry { lit_fraction: 0.0, ..sunlit(Vector3::z()) };
+    let found = model.evaluate(&dark, Recoil::Balance, &mut Workspace::default()).unwrap();
+    let expected = Vector3::z() * (-2.0 / 3.0 * (300.0 - 120.0) / SPEED_OF_LIGHT_M_S);
+    assert_relative_eq!(found.thermal.force_body_n, expected, max_relative = 1e-12);
+    assert_relative_eq!(found.thermal.torque_body_n_m, Vector3::x().cross(&expected), max_relative = 1e-12);
+}
+
+/// An insulated plate half in shadow is warm on its lit half alone, and pushes there.
+#[test]
+fn a_face_half_in_shadow_recoils_where_it_is_lit() {
+    let black = Optics::from_reflectivities(0.0, 0.0);
+    // The caster, seen from the Sun, hides all with x > 0.
+    let plates = vec![
+        square(Vector3::z(), Vector3::zeros(), 1.0, black),
+        square(Vector3::z(), Vector3::new(2.0, 0.0, 1.0), 2.0, black),
+    ];
+    let options = Options { self_shadowing: true, ..Options::default() };
+    let model = DisturbanceModel::new(&craft(plates), &options).unwrap();
+    let mut workspace = Workspace::default();
+    let found = model.evaluate(&sunlit(Vector3::z()), Recoil::Balance, &mut workspace).unwrap();
+    let pressure_pa = 9000.0 / SPEED_OF_LIGHT_M_S;
+    // Lit: 2 m2 about x = -0.5 m, and the caster's 16 m2 about x = 2 m; twice the cross product of x and -z is y.
+    let moment_m3 = 2.0 * -0.5 + 16.0 * 2.0;
+    assert_relative_eq!(found.solar.torque_body_n_m.y, pressure_pa * moment_m3, max_relative = 1e-12);
+    assert_relative_eq!(
+        found.thermal.torque_body_n_m.y,
+        2.0 / 3.0 * pressure_pa * moment_m3,
+        max_relative = 1e-12
+    );
+    assert_relative_eq!(found.thermal.force_body_n.z, -2.0 / 3.0 * pressure_pa * 18.0, max_relative = 1e-12);
+}
