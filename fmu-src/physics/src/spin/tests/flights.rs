@@ -327,3 +327,39 @@ fn a_burn_far_ahead_waits_without_following_the_motion_there() {
         assert_eq!(cut.outputs(&spinner), whole);
     }
 }
+
+#[test]
+fn where_the_sun_sensor_sits_does_not_turn_the_burn() {
+    for azimuth_deg in [0.0, 75.0, -140.0] {
+        let mut spinner = ace();
+        spinner.sun_sensor.azimuth_deg = azimuth_deg;
+        let mut start = paper_start(1.483);
+        start.burn = Some(BurnRequest { timing: Timing::SunCrossing, ..request() });
+        let outputs = fly(&spinner, &start, 1600.0).outputs(&spinner);
+        assert!(outputs.burn_done && !outputs.burn_active);
+        // The momentum began along Z and was to move toward the target, square to it.
+        let moved = outputs.state.momentum_inertial.normalize();
+        let target = request().target_inertial;
+        assert_relative_eq!(moved.dot(&target).asin().to_degrees(), 2.0, max_relative = 0.01);
+        assert!(moved.cross(&target).z.abs() < 0.02 * moved.dot(&target), "{azimuth_deg}: {moved}");
+    }
+}
+
+/// Where Sun and target pass together, a Sun pulse comes just before the thruster's pulse or just after it.
+#[test]
+fn a_sun_pulse_at_the_time_of_a_pulse_does_not_cost_a_turn() {
+    let spinner = ace();
+    let period_s = 12.0;
+    for nutation_deg in [0.0, 0.01, 0.05] {
+        for degrees in [-4.0_f64, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0] {
+            let mut start = paper_start(1.483);
+            start.nutation_rad = f64::to_radians(nutation_deg);
+            let (sin, cos) = (degrees + 90.0).to_radians().sin_cos();
+            let target_inertial = Vector3::new(cos, sin, 0.0);
+            start.burn =
+                Some(BurnRequest { timing: Timing::SunCrossing, count: 30, target_inertial, ..request() });
+            let outputs = fly(&spinner, &start, 33.0 * period_s).outputs(&spinner);
+            assert!(outputs.burn_done, "{nutation_deg} {degrees}: {}", outputs.pulses_fired);
+        }
+    }
+}

@@ -194,3 +194,110 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     assert_eq!(whole.outputs(&spinner), cut.outputs(&spinner));
     assert!(whole.sun_watch().count() > 330);
 }
+
+#[test]
+fn the_sector_error_is_what_a_spin_divided_by_the_period_before_is_off() {
+    let spinner = ace();
+    let mut start = paper_start(1.4);
+    start.nutation_rad = 1.0_f64.to_radians();
+    start.damper_time_constant_s = 0.0;
+    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let (mut crossings, mut most) = (Vec::new(), 0.0_f64);
+    for i in 1..2000 {
+        plant.advance(&spinner, 0.1 * f64::from(i)).unwrap();
+        let seen_s = plant.sun_watch().last_s();
+        if crossings.last() != seen_s.as_ref() {
+            crossings.extend(seen_s);
+        }
+        let [.., a, b, c] = crossings[..] else { continue };
+        let outputs = plant.outputs(&spinner);
+        assert_relative_eq!(outputs.period_s, c - b, max_relative = 1e-12);
+        assert_relative_eq!(outputs.period_change_s, (c - b) - (b - a), epsilon = 1e-12);
+        // Sectors of the width learnt in one spin, counted over the next.
+        let width_s = (b - a) / 16_384.0;
+        assert_relative_eq!(outputs.sector_error, (c - b) / width_s - 16_384.0, epsilon = 1e-6);
+        most = most.max(outputs.sector_error.abs());
+    }
+    assert!(crossings.len() > 15 && most > 10.0, "{most}");
+}
+
+/// The star passes the slit when its azimuth in the body is that of the boresight, 90 deg.
+#[test]
+fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen() {
+    let mut spinner = ace();
+    spinner.star_tracker.every = 1;
+    spinner.star_tracker.noise_deg = 0.0;
+    let star = |azimuth_deg: f64, declination_deg: f64| {
+        let (azimuth, declination) = (azimuth_deg.to_radians(), declination_deg.to_radians());
+        let (sin, cos) = azimuth.sin_cos();
+        let star_inertial = Vector3::new(cos * declination.cos(), sin * declination.cos(), declination.sin());
+        Directions { star_inertial, ..directions() }
+    };
+    let mut plant =
+        Plant::start(&spinner, &paper_start(1.483), star(210.0, 3.0), Commands::none(), 0.0).unwrap();
+    // 30 deg a second: from 90 to 210 deg in 4 s.
+    plant.advance(&spinner, 26.0).unwrap();
+    assert_relative_eq!(plant.outputs(&spinner).declination_rad.to_degrees(), 3.0, max_relative = 1e-12);
+    let seen = plant.sample();
+    assert_eq!(seen.count, 2);
+    assert_relative_eq!(seen.time_s, 16.0, max_relative = 1e-12);
+    assert_relative_eq!(seen.declination_rad.to_degrees(), 3.0, max_relative = 1e-12);
+    // At 26 s the boresight is at 150 deg; a star at 240 deg comes 3 s later, the old one would in 2 s.
+    plant.command(Commands::none(), star(240.0, -9.9));
+    plant.advance(&spinner, 28.5).unwrap();
+    assert_eq!(plant.sample().count, 2);
+    plant.advance(&spinner, 30.0).unwrap();
+    let seen = plant.sample();
+    assert_eq!(seen.count, 3);
+    assert_relative_eq!(seen.time_s, 29.0, max_relative = 1e-12);
+    assert_relative_eq!(seen.declination_rad.to_degrees(), -9.9, max_relative = 1e-12);
+    // The field of view is 20 deg, 10 to either side.
+    plant.command(Commands::none(), star(240.0, 10.1));
+    plant.advance(&spinner, 90.0).unwrap();
+    assert_eq!(plant.sample().count, 3);
+}
+
+#[test]
+fn a_pulse_begins_the_estimate_anew() {
+    let mut spinner = ace();
+    spinner.star_tracker.noise_deg = 0.0;
+    let mut start = paper_start(1.478);
+    start.nutation_rad = 0.05_f64.to_radians();
+    start.damper_time_constant_s = 0.0;
+    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    plant.advance(&spinner, 4.0 * 3600.0).unwrap();
+    let before = plant.outputs(&spinner);
+    assert_relative_eq!(before.estimate.nutation_rad, before.nutation_rad, max_relative = 0.01);
+    plant.command(Commands { fire: 1 << 7, ..Commands::none() }, directions());
+    plant.advance(&spinner, 4.0 * 3600.0 + 0.2).unwrap();
+    plant.command(Commands::none(), directions());
+    plant.advance(&spinner, 4.0 * 3600.0 + 3.0).unwrap();
+    assert_eq!(plant.estimator().count(), 0);
+    plant.advance(&spinner, 8.0 * 3600.0).unwrap();
+    let after = plant.outputs(&spinner);
+    assert!((after.nutation_rad - before.nutation_rad).abs() > 0.2 * before.nutation_rad);
+    assert_relative_eq!(after.estimate.nutation_rad, after.nutation_rad, max_relative = 0.01);
+}
+
+/// The estimator's own error is the spread of its estimates, also where phases leave most of the turn unseen.
+#[test]
+fn the_stated_error_is_the_spread_of_estimates() {
+    let noise = 1e-4;
+    for towards in [0.6_f64, 2.2] {
+        let phases: Vec<f64> = (0..12).map(|k| 0.15 * f64::from(k)).collect();
+        let (mut squares, mut stated) = (0.0, 0.0);
+        let trials = 4000_u32;
+        for trial in 0..trials {
+            let mut estimator = NutationEstimator::default();
+            for (k, phase) in (0_u64..).zip(&phases) {
+                let draw = normal(3, Channel::StarTracker, 12 * u64::from(trial) + k);
+                estimator.add(*phase, 0.1 + 1e-2 * (phase - towards).cos() + noise * draw);
+            }
+            let estimate = estimator.estimate(noise);
+            squares += (estimate.nutation_rad - 1e-2).powi(2);
+            stated += estimate.sigma_rad;
+        }
+        let spread = (squares / f64::from(trials)).sqrt();
+        assert_relative_eq!(stated / f64::from(trials), spread, max_relative = 0.05);
+    }
+}

@@ -113,3 +113,27 @@ fn a_burn_whose_propellant_others_take_ends_in_the_midst_of_its_pulse() {
     let per_second = 1.7792 / (353.82 * core::f64::consts::PI / 6.0);
     assert_relative_eq!(outputs.momentum_displacement_rad, 2.5 * per_second, max_relative = 0.02);
 }
+
+#[test]
+fn a_lighter_spinner_gains_more_speed() {
+    let spinner = ace();
+    let mut plant = launch(&spinner, &start(97.5), Commands::none());
+    let mut expected = 0.0;
+    let mut mass_kg = 562.0 + 97.5;
+    // Along the axis, so that nothing turns; the mass is that at the beginning of each firing.
+    for firing_number in 0..4 {
+        let from_s = 6000.0 * f64::from(firing_number);
+        plant.command(firing(&[7, 9]), directions());
+        plant.advance(&spinner, from_s + 5000.0).unwrap();
+        plant.command(Commands::none(), directions());
+        plant.advance(&spinner, from_s + 6000.0).unwrap();
+        expected += 2.0 * 4.448 * 5000.0 / mass_kg;
+        mass_kg -= 2.0 * FLOW_KG_S * 5000.0;
+        assert_relative_eq!(
+            plant.outputs(&spinner).delta_v_inertial_m_s.norm(),
+            expected,
+            max_relative = 1e-9
+        );
+    }
+    assert!(mass_kg < 0.95 * 659.5);
+}
