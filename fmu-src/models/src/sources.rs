@@ -94,8 +94,8 @@ pub const SPIN_PLANT: &[Source] = &[
     PAPER_002,
     source(
         "motion",
-        "Euler's equations from pulse edge to pulse edge: under torque by Taylor series to rounding, without torque in closed \
-         form (Jacobi's functions for a triaxial body)",
+        "Euler's equations from pulse edge to pulse edge: a torque-free axisymmetric body in closed form, everything else by \
+         Taylor series to rounding",
     ),
     source("axis moved by a pulse", "paper 002 eqs 2 and 3"),
     source(
@@ -115,7 +115,12 @@ pub const SPIN_PLANT: &[Source] = &[
     source("Earth and Sun seen from L1", "a Lissajous orbit with the amplitudes and rates of the parameters"),
     source(
         "input derivatives",
-        "torque.external over the step, to the order its refusal names; directions are taken where the step ends",
+        "torque.external over the step, of orders 1 to 7; directions are taken where the step ends; other inputs are held",
+    ),
+    source(
+        "communication points",
+        "thruster[k].onDelay and onTime act once in every step, so that steps cut differently fire differently; all else flies \
+         the same",
     ),
 ];
 
@@ -136,4 +141,5 @@ pub const DISTURBANCE_TORQUE: &[Source] = &[
     LIT_FRACTION,
     GRAVITY_GRADIENT,
     source("input derivatives", "any order for every input, all taken where the step ends"),
+    source("outputs", "those of the inputs at the end of the last step: set inputs, step, read"),
 ];

@@ -6,7 +6,6 @@ use physics::attitude::{Attitude, SunAngles};
 use physics::momentum::{Convention, Totals};
 use physics::plant::{Configuration, ExternalLoad, PanelSetting, Plant, Snapshot};
 use physics::radiation::{TorquePolynomial, polynomial_valid};
-use physics::spacecraft::guaranteed_threshold_of;
 
 use super::state::PlantState;
 use super::{Plan, ended};
@@ -121,10 +120,9 @@ pub fn write_calculated(context: &Plan<'_>, values: &mut Values, configuration: 
             .ok()
     });
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
-    let spans = context.setup.wheel_array.is_some();
-    let wheels = spacecraft.wheels.iter().zip(&context.variables.wheel);
-    let wheels = wheels.map(|(wheel, variables)| (wheel.axis_body, values.real(variables.capacity)));
-    let guaranteed_n_m_s = if spans { guaranteed_threshold_of(wheels) } else { 0.0 };
+    let capacities_n_m_s = context.variables.wheel.iter().map(|wheel| values.real(wheel.capacity));
+    let array = context.setup.wheel_array.as_ref();
+    let guaranteed_n_m_s = array.map_or(0.0, |it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
 

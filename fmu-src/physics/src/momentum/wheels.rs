@@ -30,6 +30,15 @@ impl WheelArray {
     pub fn momentum_n_m_s(&self, wheel: usize, momentum_body_n_m_s: &Vector3<f64>) -> f64 {
         self.rows[wheel].dot(momentum_body_n_m_s)
     }
+
+    /// The greatest h, in N m s, such that no wheel has to hold more than its capacity (in N m s, in the wheels' order)
+    /// while the three body components of momentum all stay within -h .. +h: what a per-component dump threshold may be at
+    /// most. Wheels that share momentum better than by the smallest norm would hold more.
+    pub fn guaranteed_threshold_n_m_s(&self, capacities_n_m_s: impl Iterator<Item = f64>) -> f64 {
+        // The corner of the cube that loads a wheel most has the signs of its row.
+        let each = self.rows.iter().zip(capacities_n_m_s).map(|(row, capacity)| capacity / row.abs().sum());
+        each.fold(f64::INFINITY, f64::min)
+    }
 }
 
 #[cfg(test)]
@@ -37,6 +46,8 @@ mod tests {
     //! The wheels together hold exactly what they were given, by the pyramid's closed form.
     use super::*;
     use approx::assert_relative_eq;
+
+    use crate::spacecraft::{MESSENGER_TOML, PAPER_DUMP_THRESHOLDS_N_M_S, Spacecraft};
 
     fn pyramid() -> Vec<Vector3<f64>> {
         let c = (1.0f64 / 3.0).sqrt();
@@ -62,6 +73,42 @@ mod tests {
                 epsilon = 1e-14
             );
         }
+    }
+
+    fn shipped(text: &str) -> (Spacecraft, f64) {
+        let craft = Spacecraft::from_toml("shipped.toml", text).unwrap();
+        let axes: Vec<Vector3<f64>> = craft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+        let array = WheelArray::new(&axes).unwrap();
+        let threshold_n_m_s =
+            array.guaranteed_threshold_n_m_s(craft.wheels.iter().map(|wheel| wheel.capacity_n_m_s));
+        // Any corner of the cube can be held, one a little beyond cannot.
+        let loads = |scale: f64| {
+            let corners = (0..8_u32).map(move |corner| {
+                Vector3::from_fn(|i, _| if corner >> i & 1 == 0 { scale } else { -scale } * threshold_n_m_s)
+            });
+            let share = |corner: Vector3<f64>| {
+                let wheels = craft.wheels.iter().enumerate();
+                wheels
+                    .map(|(k, wheel)| array.momentum_n_m_s(k, &corner).abs() / wheel.capacity_n_m_s)
+                    .fold(0.0, f64::max)
+            };
+            corners.map(share).fold(0.0, f64::max)
+        };
+        assert!(loads(1.0 - 1e-9) <= 1.0 && loads(1.0 + 1e-9) > 1.0);
+        (craft, threshold_n_m_s)
+    }
+
+    #[test]
+    fn shipped_thresholds_are_guaranteed() {
+        // MESSENGER's corner along a wheel's axis loads it by sqrt 3 x 3/4.
+        let (craft, guaranteed) = shipped(MESSENGER_TOML);
+        assert_relative_eq!(guaranteed, 8.0 / (0.75 * 3.0_f64.sqrt()), max_relative = 1e-5);
+        assert!(craft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
+        assert_eq!(craft.dump_threshold_n_m_s, Some(Vector3::repeat(PAPER_DUMP_THRESHOLDS_N_M_S[1].1)));
+        // Three wheels along the axes hold their own capacity.
+        let (craft, guaranteed) = shipped(include_str!("../../../resources/examples/solar-sailer.toml"));
+        assert_relative_eq!(guaranteed, 2.0, epsilon = 1e-12);
+        assert!(craft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
     }
 
     #[test]

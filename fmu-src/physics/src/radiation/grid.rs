@@ -184,8 +184,11 @@ impl PlanetGrid {
 /// # Errors
 /// When the pole has no direction, or that of the Sun.
 pub fn sun_fixed_axes<T: Scalar>(sun: &Vector3<T>, pole: &Vector3<T>) -> Result<Matrix3<T>, GridError> {
-    let length = pole.dot(pole).sqrt();
-    let z = pole / length;
+    // Scaled first, so that no length over- or underflows.
+    let greatest = pole.iter().fold(0.0_f64, |most, x| most.max(x.value().abs()));
+    let scaled = pole / T::constant(greatest);
+    let length = scaled.dot(&scaled).sqrt();
+    let z = scaled / length;
     let across = sun - z * z.dot(sun);
     let reach = across.dot(&across).sqrt();
     if !(length.value() > 0.0 && length.value().is_finite() && reach.value() > 1e-9) {

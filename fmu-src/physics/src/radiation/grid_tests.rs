@@ -85,6 +85,16 @@ fn slopes_of_cells_are_those_of_small_differences() {
 }
 
 #[test]
+fn a_pole_may_have_any_length() {
+    let sun = Vector3::new(0.2, -0.9, 0.1).normalize();
+    let pole = Vector3::new(0.1, 0.3, -0.8);
+    let axes = sun_fixed_axes(&sun, &pole).unwrap();
+    for length in [1e-200, 1e200] {
+        assert!((sun_fixed_axes(&sun, &(pole * length)).unwrap() - axes).norm() < 1e-14);
+    }
+}
+
+#[test]
 fn poles_and_maps_that_cannot_be_are_refused() {
     for pole in [Vector3::zeros(), Vector3::x() * -3.0, Vector3::new(f64::NAN, 0.0, 1.0)] {
         let error = sun_fixed_axes(&Vector3::x(), &pole).unwrap_err();

@@ -43,10 +43,7 @@ pub use surface::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
 pub use thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
 };
-pub use wheels::{
-    PAPER_DUMP_THRESHOLDS_N_M_S, Wheel, guaranteed_threshold_n_m_s, guaranteed_threshold_of,
-    momentum_capacity_n_m_s,
-};
+pub use wheels::{PAPER_DUMP_THRESHOLDS_N_M_S, Wheel};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.
 pub const MESSENGER_TOML: &str = include_str!("../../../resources/messenger.toml");

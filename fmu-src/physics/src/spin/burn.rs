@@ -10,7 +10,7 @@ use super::{
     nutation::Spin,
     rotation::angle_between_rad,
     spinner::Spinner,
-    train::{MOST_ORDER, MOST_PULSES, Shape, Train, TrainError},
+    train::{LEAST_OF_SPLIT, MOST_ORDER, MOST_PULSES, Shape, Train, TrainError},
 };
 
 /// A transverse or axial torque below this share of the whole counts as none.
@@ -351,9 +351,7 @@ pub fn sized(
     angle_rad: f64,
 ) -> Result<Train, BurnError> {
     let spin = &flight.spin;
-    let moved = |train: &Train| -> f64 {
-        (0..train.count()).map(|k| spin.manoeuvre_rad(flight.torque_n_m, train.width_s(k))).sum()
-    };
+    let moved = |train: &Train| train.manoeuvre_rad(spin, flight.torque_n_m);
     // Shapes have at most 13 pulses before the plateau, so one short train makes the general case.
     let mut short = None;
     for count in 1..=2 * MOST_ORDER + 2 {
@@ -375,8 +373,30 @@ pub fn sized(
     if count.is_nan() || count > f64::from(MOST_PULSES) {
         return Err(too_long(angle_rad));
     }
-    let long = make(count as u32)?;
-    Ok(if (moved(&long) - angle_rad).abs() < miss { long } else { short })
+    let is_split = base.shape() == Shape::Split;
+    let long = if is_split {
+        // How far its halves are off depends on their length: the least off of those that move by the angle.
+        let longest = (angle_rad / plateau / LEAST_OF_SPLIT).min(f64::from(MOST_PULSES)) as u32;
+        let miss = |train: &Train| (moved(train) - angle_rad).abs();
+        let cost = |train: &Train| (miss(train).max(plateau), train.offset_turns(0).abs());
+        let trains = (count as u32..=longest).step_by(2).filter_map(|count| make(count).ok());
+        let first = make(count as u32)?;
+        trains.fold(first, |best, train| if cost(&train) < cost(&best) { train } else { best })
+    } else {
+        make(count as u32)?
+    };
+    let best = if (moved(&long) - angle_rad).abs() < miss { long } else { short };
+    // Pulses come in pairs, so that a train may be off by one.
+    if is_split && (moved(&best) - angle_rad).abs() > 1.5 * plateau {
+        let found = format!("{angle_rad} rad");
+        let most_deg = moved(&best).to_degrees();
+        let allowed = format!(
+            "the halves of a split train point too far apart with inertia ratio {}: the nearest it can do is {most_deg:.4} deg",
+            spin.ratio
+        );
+        return Err(parameter("burn.angle", found, &allowed));
+    }
+    Ok(best)
 }
 
 fn too_long(angle_rad: f64) -> BurnError {

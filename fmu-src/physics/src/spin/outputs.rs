@@ -217,8 +217,7 @@ impl Plant {
             let phase = spin.phase_advance_rad(train.turns_per_pulse());
             seen.manoeuvre_per_pulse_rad = spin.manoeuvre_rad(torque, widest_s);
             seen.kick_rad = spin.nutation_kick_rad(torque, widest_s);
-            seen.manoeuvre_rad =
-                (0..train.count()).map(|k| spin.manoeuvre_rad(torque, train.width_s(k))).sum();
+            seen.manoeuvre_rad = train.manoeuvre_rad(&spin, torque);
             seen.envelope_rad = finite(exact_envelope_rad(seen.kick_rad, phase));
             seen.printed_envelope_rad =
                 printed_envelope_rad(seen.manoeuvre_per_pulse_rad, spin.ratio, train.turns_per_pulse());

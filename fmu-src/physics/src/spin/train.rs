@@ -1,5 +1,7 @@
 //! Trains of pulses: how wide each is and how many turns after the first it comes.
 
+use core::f64::consts::TAU;
+
 use serde::{Deserialize, Serialize};
 
 use super::nutation::Spin;
@@ -12,6 +14,11 @@ pub const MOST_PULSES: u32 = 1_000_000;
 const LONGEST_WAIT_TURNS: f64 = 20.0;
 /// A split train is content with halves that miss the direction by this much together, in turns.
 const CONTENT_OFFSET_TURNS: f64 = 0.02;
+
+/// Halves that miss the direction by more together cancel too much of each other's work, in turns.
+const MOST_OFFSET_TURNS: f64 = 0.25;
+/// Least part of the move of exact pulses that a split train keeps: cos(pi / 4) at [`MOST_OFFSET_TURNS`].
+pub const LEAST_OF_SPLIT: f64 = core::f64::consts::FRAC_1_SQRT_2;
 
 /// The shape of a train.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -64,6 +71,17 @@ pub enum TrainError {
     /// Split trains need a nutation that turns in the body.
     #[error("a split train waits for nutation to turn in the body; with inertia ratio {ratio} it does not")]
     NoNutation {
+        /// I3/I_T.
+        ratio: f64,
+    },
+    /// No turn soon enough on which both halves point near the target.
+    #[error(
+        "the halves of a split train would point {offset_turns:.3} turns apart with inertia ratio {ratio}, allowed: up to \
+         {MOST_OFFSET_TURNS} turns"
+    )]
+    OffsetHalves {
+        /// Turns from the direction of the first half to that of the second.
+        offset_turns: f64,
         /// I3/I_T.
         ratio: f64,
     },
@@ -186,6 +204,10 @@ impl Train {
             }
             half_turns += step;
         }
+        // The ratios 1.4 and 1.6 are on the edge itself.
+        if best.offset_turns.abs() > MOST_OFFSET_TURNS * (1.0 + 1e-9) {
+            return Err(TrainError::OffsetHalves { offset_turns: best.offset_turns, ratio: spin.ratio });
+        }
         self.second_half = best;
         Ok(())
     }
@@ -256,6 +278,13 @@ impl Train {
     /// Turns from the centre of the first pulse to that of pulse `k`.
     pub fn turns(&self, k: u32) -> f64 {
         0.5 * f64::from(self.half_turns(k)) + (self.offset_turns(k) - self.offset_turns(0))
+    }
+
+    /// How far the train moves the momentum toward its target, in rad: each pulse by eq 3 times the cosine of how far it is
+    /// off the exact direction. The halves of a split train are off to either side alike.
+    pub fn manoeuvre_rad(&self, spin: &Spin, torque_n_m: f64) -> f64 {
+        let toward = |k| (TAU * self.offset_turns(k)).cos();
+        (0..self.count).map(|k| toward(k) * spin.manoeuvre_rad(torque_n_m, self.width_s(k))).sum()
     }
 
     /// Sum of the widths, in s.

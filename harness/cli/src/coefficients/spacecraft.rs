@@ -128,8 +128,8 @@ fn wheels(fmu: &Fmu, sets: &[(String, Value)], instance: &mut Instance) -> Resul
     let beyond = greatest_n_m_s > guaranteed_n_m_s * (1.0 + 1e-9);
     let verdict = if beyond { "more than these wheels guarantee" } else { "which these wheels guarantee" };
     Ok(format!(
-        "Dump threshold the {} wheels guarantee: whatever body components stay within it, they can hold\n\
-         (dump.guaranteedThreshold, from wheel axes and capacities; 0 unless the axes span all directions).\n\
+        "Dump threshold the {} wheels guarantee: whatever body components stay within it, none saturates\n\
+         (dump.guaranteedThreshold, from axes, capacities and smallest-norm sharing; 0 unless they span all directions).\n\
          In use: dump.threshold = {} N.m.s, {verdict}.\n\
          Paper 000's are MESSENGER's; it does not print the axes.\n{table}",
         names.len(),

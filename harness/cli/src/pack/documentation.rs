@@ -223,7 +223,7 @@ fn computation(page: &mut String, sources: &[(String, String)]) {
 fn stepping(page: &mut String, description: &Description) {
     page.push_str(
         "<h2 id=\"stepping\">Stepping</h2>\n<p>Communication points may lie anywhere: while inputs and tunable parameters stay \
-         as they are, results do not depend on where they lie. Setting an input to another value takes effect at the \
+         as they are, results do not depend on where they lie, but for what Sources says. Setting an input to another value takes effect at the \
          beginning of the next step; setting it to the same value does nothing.</p>\n",
     );
     let Some(flags) = &description.co_simulation else { return };

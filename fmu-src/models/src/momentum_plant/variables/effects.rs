@@ -161,8 +161,8 @@ pub struct DumpVariables {
     /// Time that must lie between dumps; paper 000's mission asks for five days.
     #[parameter(unit = "s", display = "d", min = 0.0, start = 432_000.0)]
     pub required_spacing: Real,
-    /// Largest threshold the wheels can honour on all axes at once, by their capacities and spin axes; 0 without wheels
-    /// in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
+    /// Largest threshold at which no wheel saturates whatever components stay within it, by their capacities and spin axes
+    /// and the distribution of wheel[k].momentum; 0 without wheels in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
     #[calculated_parameter(unit = "N.m.s")]
     pub guaranteed_threshold: Real,
     /// Whether two dumps lay closer together than dump.requiredSpacing.

@@ -4,6 +4,7 @@ mod flights;
 mod motion;
 mod observation;
 mod refusals;
+mod split;
 mod tank;
 mod theory;
 
