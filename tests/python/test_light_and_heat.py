@@ -1,6 +1,7 @@
 """Light and heat at Mercury inside MomentumPlant, flown by FMPy: albedo against a plain sum over the planet's surface, the same
 bits for any step through eclipses, states carried over an eclipse's edge, stored heat."""
 
+import re
 import tomllib
 
 import numpy as np
@@ -48,6 +49,16 @@ def fly(fmu, step_s, stop_s, start, output):
 
 def test_fmpy_has_nothing_to_report(orbiter):
     assert validate_fmu(orbiter) == []
+
+
+def test_every_plate_says_which_surface_it_is(orbiter):
+    surfaces = tomllib.loads(FILE.read_text(encoding="utf-8"))
+    expected = []
+    for surface in surfaces["plates"] + surfaces["panels"]:
+        expected += [surface["name"]] + [f"{surface['name']}, rear"] * ("rear_optics" in surface)
+    variables = read_model_description(orbiter).modelVariables
+    found = [variable.start for variable in variables if re.fullmatch(r"plate\[\d+\]\.name", variable.name)]
+    assert found == expected and len(set(found)) == len(found)
 
 
 def test_steps_of_60_and_600_s_give_the_same_bits_through_eclipses(orbiter):

@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 use physics::environment::surface::{self, MERCURY, PlanetSurface};
 use physics::radiation::disturbance::{DisturbanceModel, Options};
 use physics::spacecraft::{self, Spacecraft};
+use serde::Serialize;
 
 /// How the day side's temperature is distributed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -72,12 +73,22 @@ pub fn inertia_body_kg_m2(values: &Values, handle: RealMatrix<3, 3>) -> Result<M
     Ok(inertia)
 }
 
-/// The faces reported one by one, none unless the file asks for that: for each the panel it belongs to, if to one.
-pub fn reported_faces(file: &str, spacecraft: &Spacecraft) -> Result<Vec<Option<usize>>, SetupError> {
+/// A face whose temperature and force are reported.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReportedFace {
+    /// What the file calls its surface, and whether it is the rear.
+    pub name: String,
+    /// The panel it belongs to, if to one.
+    pub panel: Option<usize>,
+}
+
+/// The faces reported one by one, none unless the file asks for that.
+pub fn reported_faces(file: &str, spacecraft: &Spacecraft) -> Result<Vec<ReportedFace>, SetupError> {
     if !spacecraft.per_plate_outputs {
         return Ok(Vec::new());
     }
     let model = DisturbanceModel::new(spacecraft, &Options::default())
         .map_err(|error| SetupError(format!("{file}: {error}")))?;
-    Ok(model.face_panels().collect())
+    let faces = model.face_names().zip(model.face_panels());
+    Ok(faces.map(|(name, panel)| ReportedFace { name, panel }).collect())
 }

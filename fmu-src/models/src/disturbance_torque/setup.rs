@@ -11,7 +11,7 @@ pub struct DisturbanceSetup {
     pub spacecraft: Spacecraft,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
-    pub reported_faces: Vec<Option<usize>>,
+    pub reported_faces: Vec<crate::shared::ReportedFace>,
 }
 
 impl DisturbanceSetup {

@@ -1,6 +1,6 @@
 //! The model's variables at its public face.
 
-use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text, Variables};
 use physics::constants;
 use physics::environment::sun;
 use physics::environment::surface::MERCURY;
@@ -202,6 +202,9 @@ pub struct ForceVariables {
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct PlateVariables {
+    /// Name of its surface in the spacecraft's file.
+    #[output(constant, start = setup.reported_faces[index].name.as_str())]
+    pub name: Text,
     /// Temperature.
     #[output(unit = "K", nominal = 300.0)]
     pub temperature: Real,

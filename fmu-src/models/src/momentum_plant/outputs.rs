@@ -98,7 +98,7 @@ pub fn write_plates(
     }
     let left_out = |panel: usize| configuration.panels.get(panel) == Some(&PanelSetting::Disabled);
     let faces = context.variables.plate.iter().zip(&context.setup.reported_faces);
-    let mut flown = faces.filter(|(_, panel)| !panel.is_some_and(left_out)).map(|(plate, _)| plate);
+    let mut flown = faces.filter(|(_, face)| !face.panel.is_some_and(left_out)).map(|(plate, _)| plate);
     let craft = context.setup.craft(configuration.sunshade)?;
     let (course, ephemeris, light) = (&mut state.course, &mut state.ephemeris, state.light.as_mut());
     Plant::new(craft, configuration, course, ephemeris, light, |_| ExternalLoad::default())

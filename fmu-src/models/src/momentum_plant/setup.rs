@@ -21,7 +21,7 @@ pub struct PlantSetup {
     cylinder: Option<SolarModel>,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
-    pub reported_faces: Vec<Option<usize>>,
+    pub reported_faces: Vec<crate::shared::ReportedFace>,
     /// Distribution of momentum over the wheels; absent unless they span all directions.
     #[serde(skip)]
     pub wheel_array: Option<WheelArray>,

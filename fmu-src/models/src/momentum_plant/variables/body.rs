@@ -1,6 +1,6 @@
 //! The spacecraft itself: mass, shade, panels, wheels, faces.
 
-use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Text, Variables};
 
 use super::super::choices::{PanelControl, PanelTilt, SunshadeModel};
 use super::super::defaults;
@@ -97,6 +97,9 @@ pub struct KeepInVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct PlateVariables {
+    /// Name of its surface in the spacecraft's file.
+    #[output(constant, start = setup.reported_faces[index].name.as_str())]
+    pub name: Text,
     /// Temperature.
     #[output(unit = "K", nominal = 300.0)]
     pub temperature: Real,
