@@ -15,11 +15,30 @@ use std::{
     process::ExitCode,
 };
 
+use loader::{Binary, Described};
 use model_description::Description;
 
 use crate::{app::Outcome, args::Pack, destination::Destination, output};
 use source::Source;
 use writer::Entries;
+
+/// A refusal, with the model that takes the file if there is another.
+fn with_hint(
+    binary: &Binary,
+    model: &str,
+    file: Option<&str>,
+    text: Option<&str>,
+    refusal: String,
+) -> String {
+    let takes = |other: &Described| {
+        let reads_files = other.model != model && other.setup_file.is_some() && text.is_some();
+        reads_files && binary.describe(&other.model, file, text).is_ok()
+    };
+    match binary.models().unwrap_or_default().into_iter().find(takes) {
+        Some(other) => format!("{refusal}\nthis is a file of {}: see --model", other.model),
+        None => refusal,
+    }
+}
 
 /// Packs the FMU.
 pub fn run(arguments: &Pack) -> Outcome {
@@ -27,7 +46,10 @@ pub fn run(arguments: &Pack) -> Outcome {
     let model = source.model(arguments)?;
     let spacecraft = arguments.spacecraft.as_deref().map(read_text).transpose()?;
     let file = arguments.spacecraft.as_deref().map(|path| path.display().to_string());
-    let described = source.binary().describe(&model, file.as_deref(), spacecraft.as_deref())?;
+    let described =
+        source.binary().describe(&model, file.as_deref(), spacecraft.as_deref()).map_err(|refusal| {
+            with_hint(source.binary(), &model, file.as_deref(), spacecraft.as_deref(), refusal)
+        })?;
     let mut description = model_description::parse(described.xml.as_bytes())?.description;
     let mut setup = spacecraft.unwrap_or(described.default_setup);
     if arguments.per_plate {

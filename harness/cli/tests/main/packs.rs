@@ -165,6 +165,17 @@ fn outputs_of_single_plates_are_added_on_request() {
 }
 
 #[test]
+fn a_file_of_another_model_names_the_model() {
+    let Some(library) = library() else { return };
+    let room = tempfile::tempdir().unwrap();
+    let output = room.path().join("Ace.fmu");
+    let arguments = ["pack", "--library", shown(&library), "--output", shown(&output), "--spacecraft", ACE];
+    let text = run(&[&arguments[..], &["--model", "MomentumPlant"]].concat(), 1);
+    assert!(text.contains("this is a file of SpinPlant: see --model") && !output.exists(), "{text}");
+    run(&[&arguments[..], &["--model", "SpinPlant"]].concat(), 0);
+}
+
+#[test]
 fn models_without_outputs_of_single_plates_refuse_them() {
     let Some(library) = library() else { return };
     let room = tempfile::tempdir().unwrap();
