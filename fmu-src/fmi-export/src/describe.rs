@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use model_description::{
     CoSimulation, DefaultExperiment, Description, ModelStructure, NamingConvention, ScalarVariable,
-    VariableKind, digest, rules, units,
+    Variability, VariableKind, digest, rules, units,
 };
 use uuid::Uuid;
 
@@ -101,8 +101,13 @@ fn structure<M: Model>(declared: &[ScalarVariable], variables: &M::Variables) ->
         .map(|(index, variable)| (variable.value_reference, index))
         .collect();
     for unknown in &mut structure.outputs {
-        let variable = declared.get(unknown.index as usize - 1).filter(|variable| is_real(variable));
+        let variable = declared.get(unknown.index as usize - 1);
+        if variable.is_some_and(|variable| variable.variability == Variability::Constant) {
+            unknown.dependencies = Some(Vec::new());
+            continue;
+        }
         let knowns = variable
+            .filter(|variable| is_real(variable))
             .and_then(|variable| M::dependencies(variables, Real::from_reference(variable.value_reference)));
         unknown.dependencies = knowns.map(|knowns| {
             let indices: BTreeSet<u32> =

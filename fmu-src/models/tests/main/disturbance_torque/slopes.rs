@@ -89,6 +89,11 @@ fn what_depends_is_declared() {
             .structure
             .outputs
             .iter()
+            // Value references of texts are counted on their own.
+            .filter(|unknown| {
+                let variable = &fmu.description.variables[unknown.index as usize - 1];
+                matches!(variable.kind, model_description::VariableKind::Real { .. })
+            })
             .map(|unknown| {
                 let known = unknown.dependencies.as_ref().unwrap();
                 let known = known.iter().map(|index| reference_of(&fmu, *index)).collect();
