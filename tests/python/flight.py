@@ -16,6 +16,10 @@ PAPER = {
     "panel[2].enabled": False,
 }
 
+# Its Table 2, rows "thruster dumps only", for the cylinder: dumps in 90 days by threshold in N.m.s, one for each offset.
+OFFSETS_M = (0.0, -0.0254, -0.0508)
+PAPER_COUNTS = {4.0: (4, 9, 14), 7.0: (2, 6, 8)}
+
 
 def vector(name):
     return [f"{name}[{i}]" for i in (1, 2, 3)]

@@ -4,12 +4,9 @@ import itertools
 
 import pytest
 
-from flight import DAY_S, PAPER, Stepped
+from flight import DAY_S, OFFSETS_M, PAPER, PAPER_COUNTS, Stepped
 
-OFFSETS_M = (0.0, -0.0254, -0.0508)
-# Dumps in 90 days by threshold in N.m.s, one for each offset. The paper says of the plates that "the number and spacing
-# of thruster dumps was comparable".
-PAPER_COUNTS = {4.0: (4, 9, 14), 7.0: (2, 6, 8)}
+# The paper says of the plates that "the number and spacing of thruster dumps was comparable".
 SHADES = {"plates": 1, "cylinder": 2}
 # The pointing rules, epoch, downlink windows and panel tilt behind the paper's counts are unpublished.
 COUNT_TOLERANCE = 2

@@ -6,10 +6,10 @@
 //! ```
 //!
 //! With `model` NULL the models are listed: for each one its name, the name of its setup file under
-//! `resources/` (left out if it has none), its compiled-in setup text, and by what it computes, one `quantity TAB source`
-//! at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for the compiled-in text if that is NULL. `setup_file`
-//! names the text in errors; NULL means the model's own file name. Returns 0, or 1 after an error was received.
-//! The texts are UTF-8 of the given length, without a NUL at the end, and live until `receive` returns.
+//! `resources/` (left out if it has none), its compiled-in setup text, and by what it computes, one `quantity TAB
+//! source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for the
+//! compiled-in text if that is NULL. `setup_file` names the text in errors; NULL means the model's own file name.
+//! Returns 0, or 1 after an error was received. The texts are UTF-8 of the given length, without a NUL at the end, and live until `receive` returns.
 
 use core::ffi::{c_char, c_int, c_void};
 

@@ -113,7 +113,7 @@ impl DisturbanceModel {
                 turns.then(|| workspace.normals[..index].iter().position(|known| same(known, normal)));
             workspace.lights[index] = match alike.flatten() {
                 Some(known) => workspace.lights[known],
-                None => self.planet_light.receive(&lamp, normal),
+                None => lamp.receive(normal),
             };
         }
         Ok(())

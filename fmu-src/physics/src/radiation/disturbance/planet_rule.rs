@@ -35,10 +35,20 @@ pub(super) enum PlanetRule {
     Cells(PlanetGrid),
 }
 
-/// A view with what its method needs beside.
-pub(super) enum Lamp<T: Scalar> {
-    Rings(PlanetView<T>, SurfaceExitance<T>),
-    Cells { view: PlanetView<T>, surface: PlanetSurface, flux_w_m2: T, axes: Matrix3<T> },
+/// The planet as one geometry shows it, for every face.
+pub(super) enum Lamp<'r, T: Scalar> {
+    Rings {
+        rings: &'r RingRule,
+        view: PlanetView<T>,
+        exitance: SurfaceExitance<T>,
+    },
+    Cells {
+        grid: &'r PlanetGrid,
+        view: PlanetView<T>,
+        surface: PlanetSurface,
+        flux_w_m2: T,
+        axes: Matrix3<T>,
+    },
 }
 
 impl PlanetRule {
@@ -55,12 +65,15 @@ impl PlanetRule {
         &self,
         surface: &PlanetSurface,
         planet: &PlanetGeometry<T>,
-    ) -> Result<Lamp<T>, GeometryError> {
+    ) -> Result<Lamp<'_, T>, GeometryError> {
         let view =
             PlanetView::new(&planet.position_body_m, &planet.sun_from_planet_body_m, surface.radius_m)?;
         Ok(match self {
-            Self::Rings(_) => Lamp::Rings(view, surface.exitance(planet.sun_flux_w_m2)),
-            Self::Cells(_) => Lamp::Cells {
+            Self::Rings(rings) => {
+                Lamp::Rings { rings, view, exitance: surface.exitance(planet.sun_flux_w_m2) }
+            }
+            Self::Cells(grid) => Lamp::Cells {
+                grid,
                 surface: *surface,
                 flux_w_m2: planet.sun_flux_w_m2,
                 axes: sun_fixed_axes(&view.sun, &planet.pole_body)?,
@@ -68,16 +81,16 @@ impl PlanetRule {
             },
         })
     }
+}
 
+impl<T: Scalar> Lamp<'_, T> {
     /// Light on a face of unit `normal`.
-    pub(super) fn receive<T: Scalar>(&self, lamp: &Lamp<T>, normal: &Vector3<T>) -> PlanetLight<T> {
-        match (self, lamp) {
-            (Self::Rings(rings), Lamp::Rings(view, exitance)) => rings.receive(view, exitance, normal),
-            (Self::Cells(grid), Lamp::Cells { view, surface, flux_w_m2, axes }) => {
+    pub(super) fn receive(&self, normal: &Vector3<T>) -> PlanetLight<T> {
+        match self {
+            Self::Rings { rings, view, exitance } => rings.receive(view, exitance, normal),
+            Self::Cells { grid, view, surface, flux_w_m2, axes } => {
                 grid.receive(surface, *flux_w_m2, view, axes, normal)
             }
-            // A lamp is made by the rule that uses it.
-            _ => PlanetLight::dark(),
         }
     }
 }

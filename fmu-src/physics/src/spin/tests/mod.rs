@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 use super::{
     burn::BurnRequest,
     forecast::Timing,
+    nutation::Spin,
     plant::{Directions, MassSource, Sampling, Start},
     spinner::Spinner,
     train::Shape,
@@ -54,6 +55,11 @@ fn request() -> BurnRequest {
         max_nutation_rad: 0.0,
         max_duration_s: 0.0,
     }
+}
+
+/// The paper's spinner at 5 rpm.
+fn paper_spin(ratio: f64) -> Spin {
+    Spin { rate_rad_s: std::f64::consts::PI / 6.0, ratio, inertia_kg_m2: 353.82 }
 }
 
 fn paper_start(ratio: f64) -> Start {

@@ -1,6 +1,6 @@
 //! A split train moves the momentum as far as it says, whatever the ratio leaves of its halves.
 
-use super::{ace, directions, paper_start, request};
+use super::{ace, directions, paper_spin, paper_start, request};
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
@@ -60,16 +60,8 @@ fn an_angle_that_no_split_train_reaches_is_refused() {
 #[test]
 fn halves_that_undo_each_other_are_refused() {
     // Nutation gains a third of a turn a turn: the halves never point less than half a turn apart.
-    let spin = crate::spin::nutation::Spin { ratio: 4.0 / 3.0, ..paper_spin() };
+    let spin = paper_spin(4.0 / 3.0);
     let error = Train::new(Shape::Split, 114, 0.032, 1.0, &spin, 0.032).unwrap_err();
     assert!(matches!(error, TrainError::OffsetHalves { .. }), "{error}");
     assert!(error.to_string().contains("0.500 turns apart with inertia ratio 1.3333"), "{error}");
-}
-
-fn paper_spin() -> crate::spin::nutation::Spin {
-    crate::spin::nutation::Spin {
-        rate_rad_s: core::f64::consts::PI / 6.0,
-        ratio: 1.483,
-        inertia_kg_m2: 353.82,
-    }
 }

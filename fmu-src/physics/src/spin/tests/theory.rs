@@ -3,10 +3,11 @@
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
 
+use super::paper_spin;
 use crate::spin::{
     forecast::{Flight, Range, Timing},
     nutation::{
-        Spin, allowed_nutation_rad, exact_envelope_rad, period_variation_s, printed_envelope_rad,
+        allowed_nutation_rad, exact_envelope_rad, period_variation_s, printed_envelope_rad,
         tapered_bound_rad, uniform_train_rad,
     },
     tracker::{observation_time_eq20_s, observation_time_s},
@@ -15,13 +16,9 @@ use crate::spin::{
 
 const TORQUE_N_M: f64 = 4.448 * 0.40;
 
-fn paper(ratio: f64) -> Spin {
-    Spin { rate_rad_s: PI / 6.0, ratio, inertia_kg_m2: 353.82 }
-}
-
 #[test]
 fn the_papers_numbers_come_out() {
-    let spin = paper(1.483);
+    let spin = paper_spin(1.483);
     assert!((spin.manoeuvre_rad(TORQUE_N_M, 1.0) - 0.0095).abs() < 5e-5);
     assert!((spin.manoeuvre_rad(TORQUE_N_M, 0.032).to_degrees() - 0.0176).abs() < 5e-5);
     let radial = 2.0 / spin.manoeuvre_rad(TORQUE_N_M, 0.032).to_degrees();
@@ -80,14 +77,14 @@ fn observation_takes_11_76_min_by_eq_20_and_the_spin_rate_drops_out_of_sampling_
 
 #[test]
 fn a_tapered_train_stays_under_its_bound_at_any_length() {
-    let spin = paper(1.483);
+    let spin = paper_spin(1.483);
     let q = spin.nutation_kick_rad(TORQUE_N_M, 0.032);
     for (ratio, notes_deg) in [(1.471, 0.0032), (1.483, 0.0019), (1.494, 0.0007)] {
         let bound = tapered_bound_rad(q, 2.0 * PI * ratio, 1).to_degrees();
         assert!((bound - notes_deg).abs() < 6e-5, "{ratio}: {bound}");
         for order in 1..=4 {
             for count in 2 * order + 1..80 {
-                let spin = paper(ratio);
+                let spin = paper_spin(ratio);
                 let train = Train::new(Shape::Tapered { order }, count, 0.032, 1.0, &spin, 0.032).unwrap();
                 let flight = Flight {
                     spin,
@@ -111,7 +108,7 @@ fn a_tapered_train_stays_under_its_bound_at_any_length() {
 fn forecasts_of_uniform_trains_are_eq_8() {
     for turns in [0.5, 1.0, 1.5, 2.0] {
         for count in [1, 2, 17, 114] {
-            let spin = paper(1.479);
+            let spin = paper_spin(1.479);
             let train = Train::new(Shape::Uniform, count, 0.064, turns, &spin, 0.032).unwrap();
             let flight = Flight {
                 spin,
@@ -156,7 +153,7 @@ fn scanned(flight: &Flight, range: &Range, train: &Train) -> [f64; 2] {
 
 #[test]
 fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
-    let spin = paper(1.4825);
+    let spin = paper_spin(1.4825);
     let flight =
         |timing| Flight { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M };
     let known = Range { ratio: 0.0115, rate_rad_s: 0.0 };
@@ -201,7 +198,7 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
 
 #[test]
 fn trains_that_make_no_sense_are_refused() {
-    let spin = paper(1.483);
+    let spin = paper_spin(1.483);
     let make = |shape, count, width, turns| Train::new(shape, count, width, turns, &spin, 0.032);
     assert!(matches!(make(Shape::Uniform, 5, 0.032, 0.7), Err(TrainError::Turns { .. })));
     assert!(matches!(make(Shape::Uniform, 5, 0.032, f64::NAN), Err(TrainError::Turns { .. })));
