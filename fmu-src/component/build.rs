@@ -1,9 +1,15 @@
 //! Linker settings of the shared library.
 
-fn main() {
-    // Rust's thread-local destructors do not survive dlclose: the library stays mapped.
-    if std::env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "linux") {
-        println!("cargo:rustc-cdylib-link-arg=-Wl,-z,nodelete");
-    }
+use std::{env, error::Error, fs, path::PathBuf};
+
+fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo:rerun-if-changed=build.rs");
+    if env::var("CARGO_CFG_TARGET_OS")? == "linux" && env::var("CARGO_CFG_TARGET_ENV")? == "gnu" {
+        // The standard library asks for libgcc_s by name: the linker finds this script of that name first, and so
+        // the FMU brings its own unwinder.
+        let folder = PathBuf::from(env::var("OUT_DIR")?);
+        fs::write(folder.join("libgcc_s.so"), "INPUT(-lgcc_eh -lgcc)\n")?;
+        println!("cargo:rustc-cdylib-link-arg=-L{}", folder.display());
+    }
+    Ok(())
 }

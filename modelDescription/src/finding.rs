@@ -68,9 +68,9 @@ codes! {
     BadValue "bad-value" Error "Attribute values have the type that the schema gives."
     ElementOrder "element-order" Error "Elements stand in the order of the schema."
     EmptyList "empty-list" Error "Lists have at least one entry, or are left out."
-    UnknownElement "unknown-element" Warning "Elements are those of the schema."
-    UnknownAttribute "unknown-attribute" Warning "Attributes are those of the schema."
-    UnexpectedText "unexpected-text" Warning "Elements hold no text."
+    UnknownElement "unknown-element" Error "Elements are those of the schema."
+    UnknownAttribute "unknown-attribute" Error "Attributes are those of the schema."
+    UnexpectedText "unexpected-text" Error "Elements hold no text."
     DuplicateTool "duplicate-tool" Error "Tool names are unique within a list of annotations (2.2.6)."
 
     NoInterface "no-interface" Error "At least one of CoSimulation and ModelExchange is present (2.2.1)."
@@ -142,7 +142,7 @@ codes! {
     DependencyKindCount "dependency-kind-count" Error "dependenciesKind is as long as dependencies (2.2.8)."
     DependencyKindAlone "dependency-kind-alone" Error "dependenciesKind needs dependencies (2.2.8)."
     DependencyKindInitial "dependency-kind-initial" Error "Kinds of InitialUnknowns are dependent or constant (2.2.8)."
-    DependencyKindReal "dependency-kind-real" Error "Kinds other than dependent are for Reals (2.2.8)."
+    DependencyKindReal "dependency-kind-real" Warning "Kinds other than dependent are for Real unknowns (2.2.8)."
 }
 
 impl fmt::Display for Code {

@@ -12,6 +12,7 @@ mod reader;
 pub mod rules;
 pub mod units;
 pub mod validate;
+pub mod value;
 mod words;
 mod write;
 

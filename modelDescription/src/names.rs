@@ -1,4 +1,6 @@
-//! Names: the structured naming convention (2.2.9) and C identifiers.
+//! Names: the structured naming convention (2.2.9), C identifiers, elements of vectors, near misses.
+
+use crate::ScalarVariable;
 
 /// Whether `name` may be a `modelIdentifier`: letters, digits and `_`, not starting with a digit.
 pub fn is_c_identifier(name: &str) -> bool {
@@ -144,4 +146,83 @@ fn is_nondigit(byte: u8) -> bool {
 
 fn is_q_char(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || b"_!#$%&()*+,-./:;<>=?@[]^{}|~ ".contains(&byte)
+}
+
+/// Positions of the elements of a vector or matrix under its bare name, in declaration order: `x` means `x[1]`,
+/// `x[2]`, … or `x[1,1]`, `x[1,2]`, …
+pub fn elements(variables: &[ScalarVariable], name: &str) -> Vec<usize> {
+    let is_index = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let is_element = |candidate: &str| {
+        let rest = candidate.strip_prefix(name).and_then(|rest| rest.strip_prefix('['));
+        rest.and_then(|rest| rest.strip_suffix(']')).is_some_and(|indices| indices.split(',').all(is_index))
+    };
+    let all = variables.iter().enumerate();
+    all.filter(|(_, variable)| is_element(&variable.name)).map(|(index, _)| index).collect()
+}
+
+/// The names closest to `name`, best first.
+pub fn similar<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let wanted = name.to_lowercase();
+    let mut ranked: Vec<(usize, &str)> = names
+        .map(|candidate| {
+            let lower = candidate.to_lowercase();
+            let contained = lower.contains(&wanted) || wanted.contains(&lower);
+            (if contained { 1 } else { distance(&wanted, &lower) }, candidate)
+        })
+        .filter(|(distance, _)| *distance <= 2 + name.len() / 5 && *distance < name.len().max(2))
+        .collect();
+    ranked.sort();
+    ranked.into_iter().take(3).map(|(_, candidate)| candidate).collect()
+}
+
+/// Levenshtein's edit distance, in characters.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, to) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(from != *to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_the_pen_is_recognised() {
+        let names = ["spacecraft.mass", "solar.flux", "dump.count"];
+        assert_eq!(similar("spacecraft.maas", names.into_iter()), ["spacecraft.mass"]);
+        assert_eq!(similar("flux", names.into_iter()), ["solar.flux"]);
+        assert!(similar("nothing.like.it", names.into_iter()).is_empty());
+    }
+
+    #[test]
+    fn a_bare_name_means_the_elements_of_one_vector_or_matrix() {
+        let named = |name: &str| ScalarVariable {
+            name: name.to_owned(),
+            value_reference: 0,
+            description: None,
+            causality: crate::Causality::Parameter,
+            variability: crate::Variability::Fixed,
+            initial: None,
+            can_handle_multiple_set_per_time_instant: None,
+            kind: crate::VariableKind::Boolean { start: None, declared_type: None },
+        };
+        let all =
+            ["a[1]", "a[2]", "a.b", "ab[1]", "m[1,1]", "m[1,2]", "wheel[1].axis[1]", "wheel[1].axis[2]"]
+                .map(named);
+        assert_eq!(elements(&all, "a"), [0, 1]);
+        assert_eq!(elements(&all, "m"), [4, 5]);
+        assert_eq!(elements(&all, "wheel[1].axis"), [6, 7]);
+        for none in ["wheel", "a.b", "a[1]", "b", ""] {
+            assert!(elements(&all, none).is_empty(), "{none}");
+        }
+    }
 }

@@ -50,8 +50,8 @@ static void ten_reals(const Library *library, const char *xml) {
     fmi2Component c = start(library, xml);
     fmi2ValueReference in[10], out[10];
     fmi2Real numbers[10], values[RUNS];
-    const char *inputs[] = {"torque.external[1]", "torque.external[2]", "torque.external[3]", "force.external[1]",
-                            "force.external[2]",  "force.external[3]",  "command.rate[1]",    "command.rate[2]",
+    const char *inputs[] = {"torque.applied[1]", "torque.applied[2]", "torque.applied[3]", "force.applied[1]",
+                            "force.applied[2]",  "force.applied[3]",  "command.rate[1]",    "command.rate[2]",
                             "command.rate[3]",    "dump.target[1]"};
     const char *outputs[] = {"torque.total[1]",  "torque.total[2]",  "torque.total[3]",  "momentum.body[1]",
                              "momentum.body[2]", "momentum.body[3]", "attitude.rate[1]", "attitude.rate[2]",
@@ -154,7 +154,7 @@ static void mercury_year(const Library *library, const char *folder, const char 
             fmi2Boolean on = fmi2True;
             CHECK(library->SetBoolean(c, &effect, 1, &on) == fmi2OK);
         }
-        fmi2ValueReference model = reference_of(xml, "orbit.model");
+        fmi2ValueReference model = reference_of(xml, "orbit.dynamics");
         fmi2Integer disturbed = 2;
         CHECK(library->SetInteger(c, &model, 1, &disturbed) == fmi2OK);
         CHECK(library->SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK);
@@ -178,7 +178,7 @@ static void mercury_year(const Library *library, const char *folder, const char 
 static void fifty_hertz(const Library *library, const char *xml, fmi2Boolean effects, const char *name) {
     double per_step[RUNS];
     const int steps = 50000;
-    fmi2ValueReference enabled[2], torque = reference_of(xml, "torque.external[1]");
+    fmi2ValueReference enabled[2], torque = reference_of(xml, "torque.applied[1]");
     enabled[0] = reference_of(xml, "planetLight.enabled");
     enabled[1] = reference_of(xml, "thermal.enabled");
     fmi2Boolean values[2] = {effects, effects};

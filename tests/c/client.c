@@ -2,6 +2,7 @@
 #include "fmu.h"
 
 #include <math.h>
+#include <pthread.h>
 
 /* Flies with these Booleans on, watching the vector `watched`. */
 static void fly(const Library *library, const char *xml, const char *watched, double step_s, int steps,
@@ -55,7 +56,7 @@ static void fly(const Library *library, const char *xml, const char *watched, do
     CHECK(library->FreeFMUstate(twin, &state) == fmi2OK);
 
     /* A NaN is discarded and the instance lives; a wrong time is an error, and Reset brings the instance back. */
-    fmi2ValueReference torque = reference_of(xml, "torque.external[1]");
+    fmi2ValueReference torque = reference_of(xml, "torque.applied[1]");
     fmi2Real nan_value = NAN;
     CHECK(library->SetReal(twin, &torque, 1, &nan_value) == fmi2Discard);
     CHECK(library->DoStep(twin, step_s * steps, step_s, fmi2True) == fmi2OK);
@@ -76,8 +77,8 @@ static void fly(const Library *library, const char *xml, const char *watched, do
 static void place(const Library *library, const char *xml, int steps) {
     fmi2Component c = start(library, xml);
     CHECK(library->ExitInitializationMode(c) == fmi2OK);
-    fmi2ValueReference planet[3] = {reference_of(xml, "planet.position[1]"), reference_of(xml, "planet.position[2]"),
-                                    reference_of(xml, "planet.position[3]")};
+    fmi2ValueReference planet[3] = {reference_of(xml, "planet.positionBody[1]"), reference_of(xml, "planet.positionBody[2]"),
+                                    reference_of(xml, "planet.positionBody[3]")};
     fmi2ValueReference outputs[3] = {reference_of(xml, "sun.litFraction"), reference_of(xml, "torque.total[1]"),
                                      reference_of(xml, "torque.total[2]")};
     fmi2FMUstate state = NULL;
@@ -113,6 +114,31 @@ static void place(const Library *library, const char *xml, int steps) {
     library->FreeInstance(c);
 }
 
+/* Two threads fly instances of their own through the same library. */
+typedef struct {
+    const Library *library;
+    const char *xml, *watched;
+    double step_s;
+    int steps;
+} Pilot;
+
+static void *fly_alone(void *context) {
+    const Pilot *pilot = context;
+    fly(pilot->library, pilot->xml, pilot->watched, pilot->step_s, pilot->steps, NULL, 0);
+    return NULL;
+}
+
+static void fly_together(const Library *library, int steps) {
+    char *plant = description_of(library, "MomentumPlant"), *spinner = description_of(library, "SpinPlant");
+    Pilot pilots[] = {{library, plant, "momentum.body", 600.0, steps}, {library, plant, "momentum.body", 600.0, steps},
+                      {library, spinner, "attitude.rate", 0.5, steps}};
+    pthread_t threads[3];
+    for (int i = 0; i < 3; i++) CHECK(pthread_create(&threads[i], NULL, fly_alone, &pilots[i]) == 0);
+    for (int i = 0; i < 3; i++) CHECK(pthread_join(threads[i], NULL) == 0);
+    free(plant);
+    free(spinner);
+}
+
 int main(int count, char **arguments) {
     if (count < 3) {
         fprintf(stderr, "usage: %s libheliotorque libprobe [--short]\n", arguments[0]);
@@ -133,6 +159,7 @@ int main(int count, char **arguments) {
     xml = description_of(&library, "DisturbanceTorque");
     place(&library, xml, short_flight ? 40 : 4000);
     free(xml);
+    fly_together(&library, short_flight ? 40 : 1000);
     Library probe = open_library(arguments[2]);
     xml = description_of(&probe, "AllTypes");
     fmi2Component c = start(&probe, xml);

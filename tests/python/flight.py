@@ -11,7 +11,7 @@ PAPER = {
     "momentum.convention": 2,
     "solar.fixedPressure": True,
     "gravityGradient.enabled": False,
-    "eclipse.model": 4,
+    "eclipse.method": 4,
     "panel[1].enabled": False,
     "panel[2].enabled": False,
 }
@@ -19,6 +19,12 @@ PAPER = {
 # Its Table 2, rows "thruster dumps only", for the cylinder: dumps in 90 days by threshold in N.m.s, one for each offset.
 OFFSETS_M = (0.0, -0.0254, -0.0508)
 PAPER_COUNTS = {4.0: (4, 9, 14), 7.0: (2, 6, 8)}
+
+# Ours, by where a dump leaves a component: at the opposite threshold as the paper's, and at 0.9 of it, the default.
+COUNTS = {
+    "1.0": {4.0: (4, 9, 15), 7.0: (2, 6, 10)},
+    "0.9": {4.0: (4, 7, 14), 7.0: (2, 4, 8)},
+}
 
 
 def vector(name):

@@ -33,28 +33,38 @@ def attitude(plant):
 
 HELD = ([1.0, -2.0, 0.5], 0.9)
 ERRORS = [([0.3, 1.0, -0.2], 0.4), ([-1.0, 0.1, 0.7], 2.1)]
-COMMANDED = {"attitude.source": 2} | elements("initial.q", quaternion(*HELD))
+COMMANDED = {"attitude.source": 2} | elements("start.q", quaternion(*HELD))
 
 
-def test_an_error_quaternion_turns_the_attitude_held_once(unpacked_plant):
+def undone(matrix, axis_body, angle):
+    """The matrix after the body has turned out an error: the rotation from the commanded to the actual frame."""
+    return body_turned(matrix, axis_body, -angle)
+
+
+def test_an_error_quaternion_is_turned_out_once(unpacked_plant):
     first, second = ERRORS
     start = COMMANDED | {"command.kind": 2} | elements("command.error", quaternion(*first))
     # What another kind of command would follow.
     start |= elements("command.q", quaternion([0.0, 1.0, 0.0], 1.0))
     plant = Stepped(unpacked_plant, start)
-    expected = body_turned(body_turned(np.eye(3), *HELD), *first)
+    expected = undone(body_turned(np.eye(3), *HELD), *first)
     for _ in range(3):
         assert np.abs(attitude(plant) - expected).max() < 1e-13
         plant.step(600.0)
+    # Another error counts only when the kind becomes errorQuaternion again.
     plant.set(**elements("command.error", quaternion(*second)))
-    expected = body_turned(expected, *second)
+    plant.step(600.0)
+    assert np.abs(attitude(plant) - expected).max() < 1e-13
+    plant.set(**{"command.kind": 0})
+    plant.step(600.0)
+    plant.set(**{"command.kind": 2})
+    expected = undone(expected, *second)
     for _ in range(3):
         plant.step(600.0)
         assert np.abs(attitude(plant) - expected).max() < 1e-13
-    # From then on the rate turns it, about body axes.
+    # From then on the rate alone turns it, about body axes.
     rate = np.array([1e-4, -2e-4, 0.5e-4])
     plant.set(**elements("command.rate", rate))
-    expected = body_turned(expected, *second)
     for k in (1, 2, 3):
         plant.step(600.0)
         assert np.abs(attitude(plant) - body_turned(expected, rate, np.linalg.norm(rate) * 600.0 * k)).max() < 1e-13
@@ -81,7 +91,7 @@ def test_a_rate_alone_turns_the_attitude_held(unpacked_plant):
 
 # Nothing acts but a torque from outside, on a body that stands still: its momentum is the torque times the time.
 TORQUE = np.array([1e-4, -3e-5, 2e-5])
-DARK = {"attitude.source": 2, "solar.flux": 0.0, "gravityGradient.enabled": False} | elements("torque.external", TORQUE)
+DARK = {"attitude.source": 2, "solar.flux": 0.0, "gravityGradient.enabled": False} | elements("torque.applied", TORQUE)
 DUMPED = vector("momentum.body") + vector("dump.impulse") + ["dump.count", "dump.lastTime", "dump.closest", "dump.tooClose"]
 THRESHOLD = 2.0
 FIRST_S = THRESHOLD / TORQUE[0]
@@ -89,10 +99,10 @@ FIRST_S = THRESHOLD / TORQUE[0]
 
 @pytest.mark.parametrize("convention", [1, 2])
 @pytest.mark.parametrize("left, policy", [
-    (0.0, {"dump.reinit": 2}),
-    (-1.25, {"dump.reinit": 2, "dump.target[1]": -1.25, "dump.target[2]": 7.0}),
-    (0.5, {"dump.reinit": 2, "dump.target[1]": 0.5}),
-    (-0.6 * THRESHOLD, {"dump.reinit": 1, "dump.reinitFraction": 0.6, "dump.target[1]": 0.5}),
+    (0.0, {"dump.reinitTo": 2}),
+    (-1.25, {"dump.reinitTo": 2, "dump.target[1]": -1.25, "dump.target[2]": 7.0}),
+    (0.5, {"dump.reinitTo": 2, "dump.target[1]": 0.5}),
+    (-0.6 * THRESHOLD, {"dump.reinitTo": 1, "dump.reinitFraction": 0.6, "dump.target[1]": 0.5}),
 ])
 def test_a_dump_leaves_the_component_where_the_policy_says(momentum_plant, convention, left, policy):
     start = DARK | policy | {"momentum.convention": convention, "dump.threshold[1]": THRESHOLD}
@@ -119,7 +129,7 @@ def test_a_dump_leaves_the_component_where_the_policy_says(momentum_plant, conve
 
 @pytest.mark.parametrize("gap_d, flagged", [(4.9, True), (5.1, False)])
 def test_the_missions_five_days_between_dumps_are_watched(momentum_plant, gap_d, flagged):
-    start = DARK | {"dump.reinit": 2, "torque.external[1]": 2.0 / (gap_d * DAY_S)}
+    start = DARK | {"dump.reinitTo": 2, "torque.applied[1]": 2.0 / (gap_d * DAY_S)}
     start |= {f"dump.threshold[{axis}]": threshold for axis, threshold in ((1, 2.0), (2, 1e6), (3, 1e6))}
     result = fly(momentum_plant, 3600.0, days=16.0, start=start, output=DUMPED)
     assert result["dump.count"][-1] == 3
@@ -129,7 +139,7 @@ def test_the_missions_five_days_between_dumps_are_watched(momentum_plant, gap_d,
 
 @pytest.mark.parametrize("required_s, flagged", [(9_999.0, False), (10_001.0, True)])
 def test_the_required_spacing_can_be_chosen(momentum_plant, required_s, flagged):
-    start = DARK | {"dump.reinit": 2, "dump.threshold[1]": 1.0, "dump.requiredSpacing": required_s}
+    start = DARK | {"dump.reinitTo": 2, "dump.threshold[1]": 1.0, "dump.requiredSpacing": required_s}
     start |= {"dump.threshold[2]": 1e6, "dump.threshold[3]": 1e6}
     result = fly(momentum_plant, 600.0, days=0.5, start=start, output=DUMPED)
     assert result["dump.closest"][-1] == pytest.approx(10_000.0, abs=1e-3)
@@ -157,7 +167,7 @@ MOMENTA = vector("momentum.body") + vector("momentum.inertial") + vector("attitu
 @pytest.fixture(scope="module")
 def guided(momentum_plant):
     """Sixty days under guidance, with dumps, slews and every component of momentum."""
-    start = {"guided.slewRate": 1e-3, "wheel[2].capacity": 1.2} | elements("initial.momentum", [0.5, -1.0, 2.0])
+    start = {"guided.slewRate": 1e-3, "wheel[2].capacity": 1.2} | elements("start.momentum", [0.5, -1.0, 2.0])
     start |= elements("dump.threshold", [3.0, 2.0, 2.5])
     wheels = [f"wheel[{k}].{what}" for k in (1, 2, 3, 4) for what in ("momentum", "saturated", "capacity")]
     return fly(momentum_plant, 600.0, days=60.0, start=start, output=MOMENTA + wheels + ["dump.lastTime", "dump.closest"])

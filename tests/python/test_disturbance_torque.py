@@ -94,7 +94,7 @@ def test_sunlight_falls_with_the_square_of_the_distance(disturbance_torque):
     near, _ = total_and_parts(disturbance_torque, "force", [], {"planet.present": False})
     solar = []
     for metres in (-5.0e10, -1.0e11):
-        start = {"planet.present": False, "sun.position[2]": metres}
+        start = {"planet.present": False, "sun.positionBody[2]": metres}
         solar.append(total_and_parts(disturbance_torque, "force", [], start)[1][0])
     assert np.allclose(solar[0], 4.0 * solar[1], rtol=1e-12)
     assert np.abs(near).max() > 0.0
@@ -131,9 +131,9 @@ def test_plates_reported_one_by_one_add_up_to_the_force(heliotorque, dist, tmp_p
 
 
 IMPOSSIBLE = {
-    "inside the planet": ("planet.position", [1e6, -1e6, 0.0], "radius"),
-    "at the planet's centre": ("planet.position", [0.0, 0.0, 0.0], "radius"),
-    "in the Sun": ("sun.position", [0.0, 0.0, 0.0], "Sun"),
+    "inside the planet": ("planet.positionBody", [1e6, -1e6, 0.0], "radius"),
+    "near the planet's centre": ("planet.positionBody", [0.0, 0.0, 1.0], "radius"),
+    "in the Sun": ("sun.positionBody", [2e6, 3e6, 9e6], "Sun"),
 }
 
 

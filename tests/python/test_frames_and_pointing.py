@@ -121,7 +121,7 @@ def test_the_nadir_rule_points_z_at_the_planet_as_far_as_the_zone_allows(momentu
 
 MESSENGER = (RESOURCES / "messenger.toml").read_text(encoding="utf-8")
 PRESSURE_PA = 9e-6
-FIXED_LIGHT = {"solar.fixedPressure": True, "solar.pressure": PRESSURE_PA, "eclipse.model": 4}
+FIXED_LIGHT = {"solar.fixedPressure": True, "solar.pressure": PRESSURE_PA, "eclipse.method": 4}
 PANELS = vector("sun.direction") + vector("torque.solar") + ["panel[1].angleActual", "panel[2].angleActual"]
 
 

@@ -3,7 +3,8 @@
 import pytest
 from fmpy import simulate_fmu
 
-from flight import vector
+from flight import fly, vector
+from spacecraft import RESOURCES, pack
 
 # FMU, step and how many, outputs, which of them must have moved.
 FLIGHTS = {
@@ -40,3 +41,20 @@ def test_libcosim_and_fmpy_agree_to_the_bit(dist, model):
     ours = [float(result[name][-1]) for name in names]
     assert libcosim_values(fmu, step_s, steps, names) == ours
     assert any(value != 0.0 for value in ours)
+
+
+def test_libcosim_flies_options_that_it_cannot_set(heliotorque, dist, tmp_path):
+    options = {"momentum.convention": ("bodyIntegral", 2), "eclipse.method": ("off", 4)}
+    table = "\n".join(f'"{name}" = "{item}"' for name, (item, _) in options.items())
+    text = (RESOURCES / "messenger.toml").read_text(encoding="utf-8") + f"\n[start]\n{table}\n"
+    fmu = pack(heliotorque, dist, tmp_path, text, "Chosen")
+    names = vector("momentum.body")
+    shipped = str(dist / "MomentumPlant.fmu")
+
+    def last(start):
+        result = fly(shipped, days=3.0, start=start, output=names)
+        return [float(result[name][-1]) for name in names]
+
+    chosen = last({name: number for name, (_, number) in options.items()})
+    assert libcosim_values(fmu, 600.0, 3 * 144, names) == chosen
+    assert chosen != last({})

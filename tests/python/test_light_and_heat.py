@@ -22,7 +22,7 @@ FILE = RESOURCES / "examples" / "mercury-orbiter.toml"
 EFFECTS = {"planetLight.enabled": True, "thermal.enabled": True, "shadowing.enabled": True}
 # The orbit's plane holds the Sun: an eclipse every revolution.
 ECLIPSES = {"ephemeris.source": 2, "ephemeris.trueAnomaly": 1.7, "orbit.frame": 1}
-DISTURBED = {"orbit.model": 2, "guided.slewRate": 3e-3, "guided.downlinkEvery": 1}
+DISTURBED = {"orbit.dynamics": 2, "guided.slewRate": 3e-3, "guided.downlinkEvery": 1}
 
 
 @pytest.fixture(scope="module")
@@ -189,7 +189,7 @@ def test_a_state_is_carried_over_the_edge_of_an_eclipse(orbiter, tmp_path):
         slave.instantiate()
         slave.setupExperiment(startTime=0.0)
         slave.setBoolean([references[key] for key in EFFECTS], [True] * len(EFFECTS))
-        choices = ["ephemeris.source", "orbit.frame", "orbit.model"]
+        choices = ["ephemeris.source", "orbit.frame", "orbit.dynamics"]
         slave.setInteger([references[key] for key in choices], [2, 1, 2])
         slave.setReal([references["ephemeris.trueAnomaly"]], [1.7])
         slave.enterInitializationMode()

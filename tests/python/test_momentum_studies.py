@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from flight import DAY_S, PAPER, PAPER_COUNTS, dump_times, fly
+from flight import COUNTS, DAY_S, PAPER, PAPER_COUNTS, dump_times, fly
 from studies import table
 
 # As the study writes its rows.
@@ -16,12 +16,48 @@ PAPER_CELLS = {
     for threshold, counts in PAPER_COUNTS.items()
     for offset, count in zip(("0 cm", "-2.54 cm", "-5.08 cm"), counts)
 }
-PAPERS, CYLINDER = "paper's", "cylinder"
+OUR_CELLS = {
+    (rule, f"{threshold:g} N.m.s", offset): count
+    for rule, ours in COUNTS.items()
+    for threshold, counts in ours.items()
+    for offset, count in zip(("0 cm", "-2.54 cm", "-5.08 cm"), counts)
+}
+PAPERS, CYLINDER, WITH_PANELS = "paper's", "cylinder", "plates and panels"
+# By where dumps leave a component; the paper says "comparable" of them.
+WITH_PANELS_COUNTS = {"1.0": [10, 6, 13], "0.9": [4, 7, 13]}
+
+# What the paper leaves open: dumps at the three offsets by rule, threshold and choice.
+ASSUMPTIONS = {
+    ("1.0", "4 N.m.s", "study's own"): (4, 9, 15),
+    ("1.0", "4 N.m.s", "start 40 days later"): (6, 23, 20),
+    ("1.0", "4 N.m.s", "Mercury's orbit plane"): (13, 10, 18),
+    ("1.0", "4 N.m.s", "ecliptic"): (9, 10, 17),
+    ("1.0", "7 N.m.s", "study's own"): (2, 6, 10),
+    ("1.0", "7 N.m.s", "start 40 days later"): (2, 4, 12),
+    ("1.0", "7 N.m.s", "Mercury's orbit plane"): (2, 4, 10),
+    ("1.0", "7 N.m.s", "ecliptic"): (6, 16, 9),
+    ("1.0", "5.5 N.m.s", "panel tilts + +"): (10, 6, 13),
+    ("1.0", "5.5 N.m.s", "panel tilts - -"): (10, 6, 17),
+    ("1.0", "5.5 N.m.s", "panel tilts + -"): (87, 83, 90),
+    ("1.0", "5.5 N.m.s", "panel tilts - +"): (87, 83, 90),
+    ("0.9", "4 N.m.s", "study's own"): (4, 7, 14),
+    ("0.9", "4 N.m.s", "start 40 days later"): (4, 9, 14),
+    ("0.9", "4 N.m.s", "Mercury's orbit plane"): (7, 8, 15),
+    ("0.9", "4 N.m.s", "ecliptic"): (7, 9, 14),
+    ("0.9", "7 N.m.s", "study's own"): (2, 4, 8),
+    ("0.9", "7 N.m.s", "start 40 days later"): (2, 4, 8),
+    ("0.9", "7 N.m.s", "Mercury's orbit plane"): (1, 5, 9),
+    ("0.9", "7 N.m.s", "ecliptic"): (4, 4, 8),
+    ("0.9", "5.5 N.m.s", "panel tilts + +"): (4, 7, 13),
+    ("0.9", "5.5 N.m.s", "panel tilts - -"): (4, 7, 13),
+    ("0.9", "5.5 N.m.s", "panel tilts + -"): (85, 88, 94),
+    ("0.9", "5.5 N.m.s", "panel tilts - +"): (85, 88, 94),
+}
 
 
 @pytest.fixture(scope="module")
 def flown(studied):
-    return {name: studied(f"momentum/{name}") for name in ("table2", "table3", "figure4")}
+    return {name: studied(f"momentum/{name}") for name in ("table2", "table3", "figure4", "assumptions")}
 
 
 def dumps_by_row(files, rows):
@@ -30,15 +66,17 @@ def dumps_by_row(files, rows):
     times = [(case, np.array([float(row["dump_time_d"]) for row in group])) for case, group in cases]
     assert len(times) == len(rows)
     for row, (case, days) in zip(rows, times):
-        assert f"{row['threshold']}, " in case and case.endswith(f"Z {row['Z offset']}")
+        assert f"{row['threshold']}, to {row['dumps to']}, " in case and case.endswith(f"Z {row['Z offset']}")
         assert (np.diff(days) > 0.0).all() and 0.0 < days[0] and days[-1] <= 90.0
     return [days for _, days in times]
 
 
 def cylinder(rows):
-    """The paper's six cells, by threshold and offset."""
-    cells = {(row["threshold"], row["Z offset"]): row for row in rows if (row["shade"], row["momentum"]) == (CYLINDER, PAPERS)}
-    assert set(cells) == set(PAPER_CELLS)
+    """The paper's six cells under its rule and ours, by rule, threshold and offset."""
+    chosen = [row for row in rows if (row["shade"], row["momentum"]) == (CYLINDER, PAPERS)]
+    cells = {(row["dumps to"], row["threshold"], row["Z offset"]): row for row in chosen}
+    assert set(cells) == set(OUR_CELLS) and len(chosen) == len(cells)
+    assert [row["dumps to"] for row in chosen] == ["1.0"] * 6 + ["0.9"] * 6, "the paper's rule stands first"
     return cells
 
 
@@ -52,19 +90,23 @@ def test_table_2_counts_as_its_verdicts_say(flown):
             near = abs(int(row["ours"]) - int(number[1])) <= 2
             assert row["verdict"] == ("within 2" if near else "off"), row
     for cell, row in cylinder(rows).items():
-        assert int(row["paper"]) == PAPER_CELLS[cell] and row["verdict"] == "within 2", row
+        assert int(row["ours"]) == OUR_CELLS[cell], row
+        assert int(row["paper"]) == PAPER_CELLS[cell[1:]] and row["verdict"] == "within 2", row
         assert row["our gaps"] in text
+    for rule, counts in WITH_PANELS_COUNTS.items():
+        panels = [row for row in rows if (row["dumps to"], row["shade"], row["momentum"]) == (rule, WITH_PANELS, PAPERS)]
+        assert [int(row["ours"]) for row in panels] == counts
     for row, days in zip(rows, dumps_by_row(files, rows)):
         # Under the physical momentum two dumps can fall into one step, of which the file has the last.
         assert len(days) == int(row["ours"]) if row["momentum"] == PAPERS else len(days) <= int(row["ours"]), row
 
 
-@pytest.mark.parametrize("threshold, offset_cm", [(4, -5.08), (7, -2.54)])
-def test_dumps_are_those_that_fmpy_flies(flown, momentum_plant, threshold, offset_cm):
-    start = PAPER | {"sunshade.model": 2, "spacecraft.centerOfMass[3]": offset_cm / 100.0}
+@pytest.mark.parametrize("threshold, offset_cm, rule", [(4, -5.08, 0.9), (7, -2.54, 0.9), (4, -2.54, 1.0)])
+def test_dumps_are_those_that_fmpy_flies(flown, momentum_plant, threshold, offset_cm, rule):
+    start = PAPER | {"sunshade.shape": 2, "spacecraft.centerOfMass[3]": offset_cm / 100.0, "dump.reinitFraction": rule}
     start |= {f"dump.threshold[{axis}]": float(threshold) for axis in (1, 2, 3)}
     expected = [f"{time / DAY_S:.6f}" for time in dump_times(fly(momentum_plant, start=start))]
-    label = [f"{threshold} N.m.s", CYLINDER, PAPERS, f"Z {offset_cm} cm"]
+    label = [f" {threshold} N.m.s, to {rule:.1f}, ", CYLINDER, PAPERS, f"Z {offset_cm} cm"]
     for name in ("table2", "table3"):
         found = table(flown[name][1], "dumps.csv")
         assert [row["dump_time_d"] for row in found if all(part in row["case"] for part in label)] == expected
@@ -88,13 +130,53 @@ def test_table_3_has_the_gaps_of_its_dumps(flown):
 
 def test_figure_4_draws_the_momentum_that_fmpy_flies(flown, momentum_plant):
     _, files = flown["figure4"]
-    result = fly(momentum_plant, start=PAPER | {"sunshade.model": 2} | {f"dump.threshold[{axis}]": 4.0 for axis in (1, 2, 3)})
+    start = PAPER | {"sunshade.shape": 2, "dump.reinitFraction": 1.0} | {f"dump.threshold[{axis}]": 4.0 for axis in (1, 2, 3)}
+    result = fly(momentum_plant, start=start)
     rows = [row for row in table(files, "figure4.csv") if row["case"].endswith("Z 0 cm")]
     hourly = slice(None, None, 6)
     assert np.abs(np.array([float(row["time_d"]) for row in rows]) - result["time"][hourly] / DAY_S).max() < 1e-6
     momentum = np.array([float(row["momentum_x_n_m_s"]) for row in rows])
     assert np.abs(momentum - result["momentum.body[1]"][hourly]).max() < 1e-9
     picture = "".join(ElementTree.fromstring(files["figure4.svg"]).itertext())
-    for offset in ("0 cm", "-2.54 cm", "-5.08 cm"):
-        assert f"Z = {offset}, " in picture
+    for offset, count in zip(("0 cm", "-2.54 cm", "-5.08 cm"), COUNTS["1.0"][4.0]):
+        assert f"Z = {offset}, {count} dumps" in picture
     assert files["figure4.svg"] == flown["table2"][1]["figure4.svg"]
+
+
+def test_choices_that_the_paper_leaves_open_move_the_counts(flown):
+    text, files = flown["assumptions"]
+    rows = table(files, "assumptions.csv")
+    ours = {(row["dumps to"], row["threshold"], row["choice"]): row for row in rows}
+    assert list(ours) == list(ASSUMPTIONS) and len(rows) == len(ours)
+    for key, counts in ASSUMPTIONS.items():
+        row = ours[key]
+        assert row["ours"] == " / ".join(str(count) for count in counts), row
+        assert row["ours"] in text
+        if row["shade"] == CYLINDER:
+            paper = [PAPER_CELLS[key[1], offset] for offset in row["Z offsets"].split(" / ")]
+            near = all(abs(count - published) <= 2 for count, published in zip(counts, paper))
+            assert row["paper"] == " / ".join(map(str, paper)) and row["verdict"] == ("within 2" if near else "off"), row
+        else:
+            ranges = [[int(bound) for bound in part.split(" to ")] for part in row["paper"].split(" / ")]
+            inside = all(least <= count <= most for count, (least, most) in zip(counts, ranges))
+            assert row["verdict"] == ("comparable" if inside else "off"), row
+    # Under the default rule panels that tilt against each other turn the craft about the Sun line.
+    equal = [ours["0.9", "5.5 N.m.s", f"panel tilts {signs}"]["verdict"] for signs in ("+ +", "- -", "+ -", "- +")]
+    assert equal == ["comparable", "comparable", "off", "off"]
+
+
+@pytest.mark.parametrize(
+    "key, offset_cm, start",
+    [
+        (("0.9", "4 N.m.s", "start 40 days later"), -2.54, {"start.epoch": 292_248_000.0 + 40.0 * DAY_S}),
+        (("0.9", "4 N.m.s", "Mercury's orbit plane"), 0.0, {"orbit.frame": 1}),
+        (("0.9", "4 N.m.s", "ecliptic"), -2.54, {"orbit.frame": 4}),
+        (("1.0", "7 N.m.s", "ecliptic"), -2.54, {"orbit.frame": 4, "dump.reinitFraction": 1.0}),
+    ],
+)
+def test_choices_are_those_that_fmpy_flies(momentum_plant, key, offset_cm, start):
+    threshold = float(key[1].split()[0])
+    start = PAPER | start | {"sunshade.shape": 2, "spacecraft.centerOfMass[3]": offset_cm / 100.0}
+    start |= {f"dump.threshold[{axis}]": threshold for axis in (1, 2, 3)}
+    count = fly(momentum_plant, start=start)["dump.count"][-1]
+    assert count == ASSUMPTIONS[key][[0.0, -2.54, -5.08].index(offset_cm)]

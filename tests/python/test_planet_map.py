@@ -10,7 +10,7 @@ from spacecraft import RESOURCES, call
 CRAFT = (RESOURCES / "messenger-thermal.toml").read_text(encoding="utf-8")
 STEFAN_BOLTZMANN = 5.670374419e-8
 BELTS = 8
-MAP = {"radiation.method": 4}
+MAP = {"planetLight.method": 3}
 FORCES = [f"force.{effect}[{i}]" for effect in ("albedo", "infrared") for i in (1, 2, 3)]
 
 
@@ -42,14 +42,14 @@ def forces(fmu, start, **options):
 
 
 def test_a_map_of_the_planets_own_temperatures_is_the_planet(pack):
-    place = {"sun.position[2]": -6.0e10, "planet.position[1]": 1e6, "planet.position[2]": 3.5e6, "planet.position[3]": -2e6}
+    place = {"sun.positionBody[2]": -6.0e10, "planet.positionBody[1]": 1e6, "planet.positionBody[2]": 3.5e6, "planet.positionBody[3]": -2e6}
     sun_from_planet = np.array([0.0, -6.0e10, 0.0]) - [1e6, 3.5e6, -2e6]
     # Paper 004 eq 32: the day side radiates twice what a quarter of its own area would absorb square to the Sun.
     flux = 1365.0 * (1.495978707e11 / np.linalg.norm(sun_from_planet)) ** 2
     day_k = (0.88 * flux / (2 * 0.9 * STEFAN_BOLTZMANN)) ** 0.25
 
     fmu = pack(planet_map(lambda belt, column: day_k if BELTS / 2 <= column < 3 * BELTS / 2 else 100.0))
-    cells = forces(fmu, {**place, "radiation.method": 2, "radiation.belts": BELTS})
+    cells = forces(fmu, {**place, "planetLight.method": 2, "planetLight.belts": BELTS})
     assert np.linalg.norm(cells, axis=1).min() > 1e-8
     assert np.allclose(forces(fmu, {**place, **MAP}), cells, rtol=0.0, atol=1e-7 * np.linalg.norm(cells))
 
@@ -59,7 +59,7 @@ def test_columns_run_from_midnight_over_morning_to_evening(pack, hot, columns):
     fmu = pack(planet_map(lambda belt, column: 500.0 if column in columns else 0.0, diffuse=0.0))
     # The Sun at -Y, north at -Z: a place on the planet turns from the Sun toward -X, where its evening is.
     for side, lit in ((+1, hot == "evening"), (-1, hot == "morning")):
-        place = {"planet.position[1]": side * 3.6e6, "planet.position[2]": 0.0, "planet.position[3]": 0.0}
+        place = {"planet.positionBody[1]": side * 3.6e6, "planet.positionBody[2]": 0.0, "planet.positionBody[3]": 0.0}
         albedo, infrared = forces(fmu, {**place, **MAP})
         assert not albedo.any() and infrared.any() == lit
         # Light pushes away from the planet.
@@ -71,7 +71,7 @@ def test_belts_run_from_south_to_north(pack):
     seen = []
     for above in (-1, +1):
         # North is at -Z: a spacecraft there has the planet at +Z.
-        place = {"planet.position[1]": 0.0, "planet.position[2]": 0.0, "planet.position[3]": above * 3.6e6}
+        place = {"planet.positionBody[1]": 0.0, "planet.positionBody[2]": 0.0, "planet.positionBody[3]": above * 3.6e6}
         seen.append(forces(fmu, {**place, **MAP})[1])
     assert not seen[0].any() and -seen[1][2] > 1e-7
     # The other pole as north turns it over.
@@ -83,7 +83,7 @@ def test_without_a_map_the_method_is_refused_by_name(dist):
     told = []
     with pytest.raises(FMICallException):
         forces(str(dist / "DisturbanceTorque.fmu"), MAP, logger=lambda *message: told.append(message[-1].decode()))
-    assert any("radiation.method is map, allowed only where the spacecraft's file has a planet_map" in it for it in told), told
+    assert any("planetLight.method is map, allowed only where the spacecraft's file has a planet_map" in it for it in told), told
 
 
 def test_a_torn_map_is_told_by_line_and_cell(heliotorque, tmp_path):

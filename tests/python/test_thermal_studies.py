@@ -7,6 +7,27 @@ from studies import table
 # Case: solar (1e-7 m/s2), greatest albedo, infrared and recoil in % of it.
 TABLE_7 = {1: (8.45, 0.32, 6.68, 25.60), 2: (5.51, 2.37, 14.10, 23.24), 3: (3.71, 0.95, 19.24, 19.99), 4: (6.22, 6.45, 26.79, 24.05)}
 TABLE_8 = {1: (8.45, 0.20, 3.66, 23.78), 2: (5.51, 4.40, 25.22, 20.43), 3: (3.72, 0.77, 17.56, 18.97), 4: (6.33, 6.11, 25.70, 21.33)}
+# The least albedo, infrared and recoil; of solar the paper prints none.
+TABLE_7_LEAST = {1: (0.02, 0.18, 23.44), 2: (0.00, 0.01, 18.80), 3: (0.01, 0.14, 18.81), 4: (0.00, 0.00, 17.93)}
+TABLE_8_LEAST = {1: (0.00, 0.17, 23.31), 2: (0.00, 0.02, 18.46), 3: (0.01, 0.08, 16.89), 4: (0.00, 0.00, 17.74)}
+# Ours, greatest and least, as the studies print them.
+OURS_7 = {
+    1: ("8.450 / 8.448", "0.32 / 0.02", "6.39 / 0.18", "25.06 / 23.36"),
+    2: ("5.516 / 5.512", "2.38 / 0.00", "14.11 / 0.01", "24.61 / 18.92"),
+    3: ("3.711 / 3.711", "0.94 / 0.01", "18.90 / 0.14", "22.16 / 20.98"),
+    4: ("6.226 / 6.222", "6.52 / 0.00", "27.00 / 0.00", "25.01 / 14.53"),
+}
+OURS_8 = {
+    1: ("8.448 / 8.416", "0.35 / 0.02", "6.73 / 0.18", "25.05 / 23.29"),
+    2: ("5.509 / 5.431", "2.35 / 0.00", "13.95 / 0.01", "24.24 / 18.62"),
+    3: ("3.719 / 3.711", "0.94 / 0.01", "18.86 / 0.14", "22.24 / 20.94"),
+    4: ("6.325 / 6.225", "6.42 / 0.00", "26.58 / 0.00", "25.07 / 14.30"),
+}
+# What counts as the paper's, in %: solar, albedo, infrared, recoil.
+ALLOWED_7, ALLOWED_8 = (0.15, 2.0, 5.0, 3.0), (0.15, 2.0, 8.0, 3.0)
+# Cases and effects that do not.
+FAR_7 = {(2, "thermal"), (3, "thermal"), (4, "thermal")}
+FAR_8 = {(case, effect) for case in (1, 2, 3, 4) for effect in ("albedo", "thermal")} | {(1, "infrared"), (2, "infrared")}
 EFFECTS = ("solar", "albedo", "infrared", "thermal")
 
 
@@ -23,24 +44,43 @@ def greatest(text):
     return float(text.split("/")[0])
 
 
+def least(text):
+    return float(text.split("/")[1])
+
+
 def cells(rows):
     return {(int(row["case"]), row["effect"].split()[0]): row for row in rows}
 
 
-@pytest.mark.parametrize("name, printed", [("table7", TABLE_7), ("table8", TABLE_8)])
-def test_tables_carry_the_papers_numbers_and_verdicts_that_follow(study, name, printed):
-    _, rows = study(name)
+@pytest.mark.parametrize(
+    "name, printed, printed_least, ours, allowed, far",
+    [
+        ("table7", TABLE_7, TABLE_7_LEAST, OURS_7, ALLOWED_7, FAR_7),
+        ("table8", TABLE_8, TABLE_8_LEAST, OURS_8, ALLOWED_8, FAR_8),
+    ],
+)
+def test_tables_carry_the_papers_numbers_and_verdicts_that_follow(study, name, printed, printed_least, ours, allowed, far):
+    text, rows = study(name)
     rows = cells(rows)
     assert len(rows) == 16
     for case, numbers in printed.items():
-        for effect, number in zip(EFFECTS, numbers):
+        for effect, number, found, percent in zip(EFFECTS, numbers, ours[case], allowed):
             row = rows[case, effect]
+            assert row["ours"] == found and found in text, row
             assert greatest(row["paper"]) == number
             off = greatest(row["ours"]) / number - 1.0
             stated = float(row["difference of the greatest"].split()[0]) / 100.0
             # Both are rounded: the number to its last digit, the difference to 0.1 %.
             assert abs(off - stated) < 0.006 / number + 0.0006
-            assert row["verdict"] == "-" or row["verdict"].startswith("within")
+            verdict = f"off by more than {percent:g} %" if (case, effect) in far else f"within {percent:g} %"
+            assert row["verdict"] == verdict, row
+            assert (abs(stated) > percent / 100.0 + 0.0006) == ((case, effect) in far), row
+        for effect, number in zip(EFFECTS[1:], printed_least[case]):
+            row = rows[case, effect]
+            assert least(row["paper"]) == number
+            stated = float(row["difference of the least"].split()[0])
+            assert abs(least(row["ours"]) - number - stated) < 0.011, row
+        assert rows[case, "solar"]["difference of the least"] == "-"
 
 
 def test_cells_come_closer_to_the_papers_infrared_than_their_limit(study):

@@ -32,7 +32,7 @@ impl Client {
             reals: (reals.clone(), vec![0.0; reals.len()]),
             integers: (integers.clone(), vec![0; integers.len()]),
             booleans: (booleans.clone(), vec![0; booleans.len()]),
-            torque: names.vector("torque.external"),
+            torque: names.vector("torque.applied"),
             moved: moved.iter().map(|name| names.real(name)).collect(),
             switched: names.of(Base::Boolean, switched),
         }
@@ -129,8 +129,12 @@ fn placing_allocates_nothing() {
     let names = &flight.names;
     let (reals, booleans) = (names.all(Base::Real), names.all(Base::Boolean));
     let integers = names.all(Base::Integer);
-    let planet = names.vector::<3>("planet.position");
-    let others = [names.real("sun.position[1]"), names.real("panel[2].angle"), names.real("centerOfMass[3]")];
+    let planet = names.vector::<3>("planet.positionBody");
+    let others = [
+        names.real("sun.positionBody[1]"),
+        names.real("panel[2].angle"),
+        names.real("spacecraft.centerOfMass[3]"),
+    ];
     let lit = names.real("sun.litFraction");
     let (mut values, mut switches) = (vec![0.0; reals.len()], vec![0; booleans.len()]);
     let mut choices = vec![0; integers.len()];

@@ -140,12 +140,12 @@ fn flying() -> (InProcess, Names) {
 #[test]
 fn nan_and_infinity_are_discarded_and_the_instance_lives() {
     let (mut instance, names) = flying();
-    let torque = names.vector::<3>("torque.external");
+    let torque = names.vector::<3>("torque.applied");
     let before = everything(&mut instance, &names);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         // The good elements beside the bad one are not written either.
         assert_eq!(instance.set_real(&torque, &[1e-3, bad, 1e-3]), Status::Discard);
-        says(&text(&instance.take_messages()), &["torque.external[2]", "finite"]);
+        says(&text(&instance.take_messages()), &["torque.applied[2]", "finite"]);
         assert_eq!(everything(&mut instance, &names), before);
     }
     let threshold = names.real("dump.threshold[1]");
@@ -178,7 +178,7 @@ fn a_step_past_the_stop_time_is_an_error() {
 #[test]
 fn an_unknown_reference_in_a_vector_writes_nothing() {
     let (mut instance, names) = flying();
-    let torque = names.vector::<3>("torque.external");
+    let torque = names.vector::<3>("torque.applied");
     let before = real_bits(&mut instance, &names.all(Base::Real));
     assert_eq!(instance.set_real(&[torque[0], 4_000_000, torque[2]], &[1.0, 2.0, 3.0]), Status::Error);
     says(&text(&instance.take_messages()), &["4000000"]);

@@ -54,7 +54,7 @@ fn genuine(model: &str) -> Vec<Vec<u8>> {
         let names = support::names(model);
         let on = |name: &str| names.of(support::Base::Boolean, name);
         ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
-        ok(instance.set_integer(&[names.of(support::Base::Integer, "orbit.model")], &[2]));
+        ok(instance.set_integer(&[names.of(support::Base::Integer, "orbit.dynamics")], &[2]));
         ok(instance.start(0.0, None));
         ok(instance.do_step(0.0, 1000.0));
         save(&mut instance);
@@ -282,5 +282,5 @@ fn states_of_other_models_and_other_setups_are_refused() {
     let _ = target.instance.take_messages();
     assert_eq!(target.instance.deserialize(&later).0, Status::Error);
     let messages = target.instance.take_messages();
-    assert!(messages[0].text.contains("layout version 2, this library reads 1"), "{messages:?}");
+    assert!(messages[0].text.contains("layout version 3, this library reads 2"), "{messages:?}");
 }

@@ -55,13 +55,13 @@ impl Style {
             Self::Lit => {
                 let on = |name: &str| names.of(Boolean, name);
                 ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
-                let choices = ["orbit.model", "ephemeris.source", "orbit.frame"];
+                let choices = ["orbit.dynamics", "ephemeris.source", "orbit.frame"];
                 ok(instance.set_integer(&choices.map(|name| names.of(Integer, name)), &[2, 2, 1]));
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[0.5; 3]));
                 ok(instance.set_real(&[names.real("ephemeris.trueAnomaly")], &[1.7]));
             }
             Self::Burning | Self::Fired => {
-                let reals = [names.real("initial.nutation"), names.real("damper.timeConstant")];
+                let reals = [names.real("start.nutation"), names.real("damper.timeConstant")];
                 ok(instance.set_real(&reals, &[0.01, 2_000.0]));
                 // 4 leaves the thrusters to the master.
                 let plan = if self == Self::Burning { 1 } else { 4 };
@@ -75,7 +75,7 @@ impl Style {
         // Held for six steps, so that a state saved in between must know of it.
         let held = i32::from(Dice(1_000_000 + step_number / 6).below(2) == 0);
         if matches!(self, Self::Commanded | Self::Fired) {
-            let torque = names.vector::<3>("torque.external");
+            let torque = names.vector::<3>("torque.applied");
             match dice.below(4) {
                 0 => ok(instance.set_real(&torque, &[1e-5 * (dice.unit() - 0.5), 1e-6, -2e-6])),
                 1 => ok(instance.set_input_derivatives(&torque, &[1; 3], &[1e-9, -2e-9, 3e-10])),
@@ -107,22 +107,24 @@ impl Style {
                 ok(instance.set_boolean(&[fire], &[held]));
             }
             Self::Placed => {
-                let planet = names.vector::<3>("planet.position");
+                let planet = names.vector::<3>("planet.positionBody");
                 match dice.below(4) {
                     0 => ok(instance.set_real(&planet, &behind_or_aside(dice))),
                     1 => ok(instance.set_input_derivatives(&planet, &[1; 3], &[500.0, -30.0, 800.0])),
                     2 => {
                         let sun =
                             [0, 1, 2].map(|i| 1e10 * (dice.unit() - 0.5) - if i == 1 { 6e10 } else { 0.0 });
-                        ok(instance.set_real(&names.vector::<3>("sun.position"), &sun));
+                        ok(instance.set_real(&names.vector::<3>("sun.positionBody"), &sun));
                     }
                     _ => {}
                 }
                 if dice.below(3) == 0 {
                     let angles = [names.real("panel[1].angle"), names.real("panel[2].angle")];
                     ok(instance.set_real(&angles, &[dice.unit() - 0.5, 3.0 * dice.unit()]));
-                    ok(instance
-                        .set_real(&names.vector::<3>("centerOfMass"), &[0.01, 0.02 * dice.unit(), 0.0]));
+                    ok(instance.set_real(
+                        &names.vector::<3>("spacecraft.centerOfMass"),
+                        &[0.01, 0.02 * dice.unit(), 0.0],
+                    ));
                 }
             }
         }

@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 
 use loader::{Binary, Fmu};
 
-use crate::support::{built, description};
-
-const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque"];
+use crate::support::{SHIPPED, built, description};
 
 fn golden_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("modelDescription").join("golden")
@@ -33,6 +31,30 @@ fn every_shipped_model_is_described_as_in_its_golden_file() {
             differs.map_or(golden.lines().count(), |line| line) + 1,
             differs.and_then(|line| found.lines().nth(line)).unwrap_or("(one file is longer)"),
         );
+    }
+}
+
+/// PyFMI stores results by reference alone; elements of a vector are read as one block.
+#[test]
+fn value_references_are_unique_over_all_base_types_and_consecutive_in_a_vector() {
+    for model in ["Empty", "AllTypes", "Panicking"].iter().chain(SHIPPED) {
+        let description = description(model);
+        let mut seen = std::collections::BTreeMap::new();
+        for variable in &description.variables {
+            if let Some(other) = seen.insert(variable.value_reference, &variable.name) {
+                panic!(
+                    "{model}: {other} and {} have the reference {}",
+                    variable.name, variable.value_reference
+                );
+            }
+        }
+        let vector =
+            |name: &str| name.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector.to_owned());
+        for pair in description.variables.windows(2) {
+            if vector(&pair[0].name).is_some() && vector(&pair[0].name) == vector(&pair[1].name) {
+                assert_eq!(pair[0].value_reference + 1, pair[1].value_reference, "{model}: {}", pair[1].name);
+            }
+        }
     }
 }
 

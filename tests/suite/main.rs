@@ -11,6 +11,8 @@ mod foreign;
 mod golden;
 mod instances;
 mod plant;
+mod public_names;
+mod reference;
 mod shared_library;
 mod states;
 mod support;

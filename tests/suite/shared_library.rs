@@ -58,6 +58,19 @@ fn panics_stay_inside_the_library() {
     }
 }
 
+/// An importer may run where GCC's runtime is not installed; the names of needed libraries stand in the file as they are.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_unwinder_is_part_of_the_library() {
+    for variable in ["HELIOTORQUE_LIBRARY", "HELIOTORQUE_PROBE_LIBRARY"] {
+        let Some(library) = built(variable) else { return };
+        let bytes = fs::read(library).unwrap();
+        let names = |name: &[u8]| bytes.windows(name.len()).any(|part| part == name);
+        assert!(names(b"libc.so.6"), "{variable}");
+        assert!(!names(b"libgcc_s"), "{variable} needs libgcc_s");
+    }
+}
+
 #[test]
 fn both_copies_of_a_library_serve_their_own_states() {
     let Some(library) = built("HELIOTORQUE_PROBE_LIBRARY") else { return };

@@ -43,6 +43,9 @@ pub fn library(model: &str) -> &'static Library {
     }
 }
 
+/// The models that are packed into `dist/`.
+pub const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque"];
+
 /// The four base types of the interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Base {
@@ -188,10 +191,13 @@ pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> Str
     said
 }
 
-/// The path in an environment variable that `cargo xtask test` sets; without it the test says so and ends.
+/// The path in an environment variable that `cargo xtask test` sets; without it the test says so and ends, and fails in
+/// CI.
+#[track_caller]
 pub fn built(variable: &str) -> Option<PathBuf> {
     let path = std::env::var_os(variable).map(PathBuf::from);
     if path.is_none() {
+        assert!(std::env::var_os("CI").is_none(), "{variable} is not set");
         eprintln!("skipped: {variable} is not set (cargo xtask test sets it)");
     }
     path

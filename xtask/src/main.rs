@@ -1,8 +1,9 @@
-//! `cargo xtask demo | test | dist | bench | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long] | dist | bench | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod bench;
 mod build;
 mod locale;
+mod long;
 mod notices;
 mod python;
 mod shell;
@@ -17,15 +18,27 @@ cargo xtask <task>
 
   demo    build the library, pack dist/MomentumPlant.fmu, fly paper 000's 90 days, compare with its Table 2
   test    everything that must hold: format, lints, Rust tests, FMPy, C client
+  test --long
+          the same, then what hunts longer: each fuzz target of tests/fuzz for a minute (cargo-fuzz, nightly), the C
+          client under the address and thread sanitizers, the exporter's unit tests in Miri, a failing n-th
+          allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
+          HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes);
+          HELIOTORQUE_FUZZ_SECONDS is another time per target
   dist    build and pack every shipped FMU into dist/
   bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
   notices write anew what licences the linked crates have, after Cargo.lock has changed
 ";
 
 fn main() -> ExitCode {
-    let task = std::env::args().nth(1).unwrap_or_default();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let task = arguments.first().cloned().unwrap_or_default();
+    let option = arguments.get(1).map(String::as_str);
     let outcome = match task.as_str() {
         "demo" => demo(),
+        "test" if option == Some("--long") => long::all(),
+        "test" if option.is_some() => {
+            Err(format!("unknown option `{}` of test; there is --long", option.unwrap_or_default()))
+        }
         "test" => test::all(),
         "dist" => build::dist().map(|_| ()),
         "bench" => bench::all(),

@@ -1,6 +1,6 @@
 //! `cargo xtask test`: format, lints, Rust tests, FMPy, C client.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built};
 use crate::shell::{Outcome, cargo, command, need, root, run};
@@ -65,6 +65,8 @@ fn c_client(built: &Built) -> Outcome {
     }
     let scratch = build::scratch("c-client")?;
     let client = compile_c(&scratch, "client")?;
+    let unload = compile_c(&scratch, "unload")?;
+    run(command(&unload).arg(&built.library).arg(&built.probe).arg("1000").current_dir(&scratch))?;
     run(command(&client).arg(&built.library).arg(&built.probe).current_dir(&scratch))?;
     if need("valgrind", "the memory check of the C client")? {
         run(command("valgrind")
@@ -74,19 +76,33 @@ fn c_client(built: &Built) -> Outcome {
             .arg(&built.probe)
             .arg("--short")
             .current_dir(&scratch))?;
+        run(command("valgrind")
+            .args(["--quiet", "--leak-check=full", "--errors-for-leak-kinds=definite", "--error-exitcode=9"])
+            .arg(&unload)
+            .arg(&built.library)
+            .arg(&built.probe)
+            .arg("3")
+            .current_dir(&scratch))?;
     }
     Ok(())
 }
 
 /// Compiles `tests/c/<name>.c` into the scratch folder.
-pub fn compile_c(scratch: &std::path::Path, name: &str) -> Result<std::path::PathBuf, String> {
-    let program = scratch.join(name);
+pub fn compile_c(scratch: &Path, name: &str) -> Result<PathBuf, String> {
+    compile_c_with(scratch, name, name, &[])
+}
+
+/// The same with more flags, under a name of its own.
+pub fn compile_c_with(scratch: &Path, name: &str, called: &str, flags: &[&str]) -> Result<PathBuf, String> {
+    let program = scratch.join(called);
     run(command("gcc")
-        .args(["-std=c11", "-O2", "-g", "-Wall", "-Wextra", "-Werror", "-I"])
+        .args(["-std=c11", "-O2", "-g", "-Wall", "-Wextra", "-Werror"])
+        .args(flags)
+        .arg("-I")
         .arg(python::fmi_headers()?)
         .arg(root().join("tests").join("c").join(format!("{name}.c")))
         .arg("-o")
         .arg(&program)
-        .args(["-ldl", "-lm"]))?;
+        .args(["-ldl", "-lm", "-pthread"]))?;
     Ok(program)
 }

@@ -97,7 +97,7 @@ fn item(variant: &Variant, before: i32, names: &mut Vec<String>) -> syn::Result<
         syn::Error::new(ident.span(), format!("`{ident}` needs a doc comment: it is the item's description"))
     })?;
     let value = match &variant.discriminant {
-        Some((_, expression)) => discriminant(expression)?,
+        Some((_, expression)) => discriminant(expression, &name)?,
         None => before
             .checked_add(1)
             .ok_or_else(|| syn::Error::new(ident.span(), "the item's value does not fit an Integer"))?,
@@ -105,12 +105,15 @@ fn item(variant: &Variant, before: i32, names: &mut Vec<String>) -> syn::Result<
     Ok(Item { name, value, description })
 }
 
-fn discriminant(expression: &Expr) -> syn::Result<i32> {
+/// Items count from 1; 0 is what masters send before they have a choice.
+fn discriminant(expression: &Expr, name: &str) -> syn::Result<i32> {
     let value = match expression {
         Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => value.base10_parse::<i32>().ok(),
         _ => None,
     };
-    value.filter(|value| *value >= 1).ok_or_else(|| {
-        syn::Error::new_spanned(expression, "an item's value is a literal integer from 1 to 2147483647")
+    let least = if name == "none" { 0 } else { 1 };
+    value.filter(|value| *value >= least).ok_or_else(|| {
+        let problem = "an item's value is a literal integer from 1 to 2147483647, or 0 if it is named `none`";
+        syn::Error::new_spanned(expression, problem)
     })
 }

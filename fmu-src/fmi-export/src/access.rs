@@ -1,9 +1,14 @@
 //! Per variable, computed once: when it may be set and read, its limits, its name.
 //!
-//! The arrays run parallel to the flat value tables, so a get or set costs one byte and one pair of limits.
+//! The arrays run parallel to the flat value tables, so a get or set costs a subtraction, one byte and one pair of
+//! limits.
 
 use model_description::rules::{Phase, gettable, settable};
-use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
+use model_description::{
+    Causality, Description, ScalarVariable, SimpleTypeKind, Unknown, Variability, VariableKind,
+};
+
+use crate::variables::Values;
 
 /// Settable in `instantiated`.
 pub(crate) const SET_INSTANTIATED: u8 = 1;
@@ -23,7 +28,7 @@ pub(crate) const CONTINUOUS: u8 = 1 << 6;
 pub(crate) const OUTPUT: u8 = 1 << 7;
 
 /// The four base types of the C interface; an enumeration is an Integer there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum BaseType {
     /// `fmi2Real`.
     Real,
@@ -39,6 +44,32 @@ impl BaseType {
     /// Every base type.
     pub const ALL: [Self; 4] = [Self::Real, Self::Integer, Self::Boolean, Self::String];
 
+    /// Value reference of the first variable of this type. Every type counts on from its own, so that no reference
+    /// means two variables; tools store results by reference alone.
+    pub const fn first_reference(self) -> u32 {
+        self as u32 * Self::MOST
+    }
+
+    /// The type whose variables have references like this one.
+    pub const fn of_reference(reference: u32) -> Option<Self> {
+        match reference / Self::MOST {
+            0 => Some(Self::Real),
+            1 => Some(Self::Integer),
+            2 => Some(Self::Boolean),
+            3 => Some(Self::String),
+            _ => None,
+        }
+    }
+
+    /// Most variables of one type.
+    pub(crate) const MOST: u32 = 1_000_000;
+
+    /// Where a reference stands in the table of this type; beyond its end for another type's reference.
+    #[inline]
+    pub(crate) const fn index(self, reference: u32) -> usize {
+        reference.wrapping_sub(self.first_reference()) as usize
+    }
+
     /// The standard's word.
     pub const fn name(self) -> &'static str {
         match self {
@@ -49,7 +80,7 @@ impl BaseType {
         }
     }
 
-    fn of(variable: &ScalarVariable) -> Self {
+    pub(crate) fn of(variable: &ScalarVariable) -> Self {
         match variable.kind {
             VariableKind::Real { .. } => Self::Real,
             VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Self::Integer,
@@ -64,6 +95,10 @@ impl BaseType {
 pub(crate) struct AccessTable {
     flags: [Vec<u8>; 4],
     names: [Vec<String>; 4],
+    /// References in the order of the XML, for what the structure says.
+    references: Vec<u32>,
+    outputs: Vec<Unknown>,
+    initial_unknowns: Vec<Unknown>,
     /// Smallest and largest admitted Real; infinities and NaN are never admitted.
     pub(crate) real_limits: Vec<(f64, f64)>,
     /// Smallest and largest admitted Integer.
@@ -73,20 +108,29 @@ pub(crate) struct AccessTable {
 }
 
 impl AccessTable {
-    /// The table of a description whose value references are dense per base type.
+    /// The table of a description whose value references are dense from [`BaseType::first_reference`] on.
     ///
     /// The error names a variable out of order or an enumeration without its type.
     pub(crate) fn of(description: &Description) -> Result<Self, String> {
-        let mut table = Self::default();
+        let mut table = Self {
+            references: description.variables.iter().map(|variable| variable.value_reference).collect(),
+            outputs: description.structure.outputs.clone(),
+            initial_unknowns: description.structure.initial_unknowns.clone(),
+            ..Self::default()
+        };
         let unknowns = &description.structure.initial_unknowns;
         for (index, variable) in (1..).zip(&description.variables) {
-            let base = BaseType::of(variable) as usize;
-            if variable.value_reference as usize != table.flags[base].len() {
+            let base_type = BaseType::of(variable);
+            let base = base_type as usize;
+            let count = table.flags[base].len();
+            if base_type.index(variable.value_reference) != count || count >= BaseType::MOST as usize {
                 return Err(format!(
-                    "variable `{}` has value reference {}, expected {}",
+                    "variable `{}` has value reference {}, expected {} of at most {} from {}",
                     variable.name,
                     variable.value_reference,
-                    table.flags[base].len()
+                    base_type.first_reference() as usize + count,
+                    BaseType::MOST,
+                    base_type.first_reference(),
                 ));
             }
             // Listed in ascending order.
@@ -131,21 +175,57 @@ impl AccessTable {
         &self.flags[base as usize]
     }
 
-    /// Whether the Integer or Enumeration may take `value`.
+    /// Whether the Integer or Enumeration at `index` may take `value`.
     #[inline]
-    pub(crate) fn admits_integer(&self, reference: usize, value: i32) -> bool {
-        let Some(&(min, max)) = self.integer_limits.get(reference) else { return false };
+    pub(crate) fn admits_integer(&self, index: usize, value: i32) -> bool {
+        let Some(&(min, max)) = self.integer_limits.get(index) else { return false };
         min <= value
             && value <= max
-            && match self.integer_items.get(reference) {
+            && match self.integer_items.get(index) {
                 Some(Some(items)) => items.binary_search(&value).is_ok(),
                 _ => true,
             }
     }
 
+    /// The first Real that is no finite number, with its reference; `None` costs one pass without branches.
+    #[inline]
+    pub(crate) fn first_not_finite(&self, values: &Values) -> Option<(u32, f64)> {
+        // A finite number times 0 is 0, all else is NaN; in lanes, so that it becomes vector code.
+        let (chunks, rest) = values.reals.as_chunks::<8>();
+        let mut lanes = [0.0; 8];
+        for chunk in chunks {
+            for (lane, value) in lanes.iter_mut().zip(chunk) {
+                *lane += value * 0.0;
+            }
+        }
+        let sum = lanes.iter().sum::<f64>() + rest.iter().map(|value| value * 0.0).sum::<f64>();
+        if sum == 0.0 { None } else { Self::find_not_finite(values) }
+    }
+
+    #[cold]
+    fn find_not_finite(values: &Values) -> Option<(u32, f64)> {
+        let numbered = (BaseType::Real.first_reference()..).zip(&values.reals);
+        numbered.map(|(reference, &value)| (reference, value)).find(|(_, value)| !value.is_finite())
+    }
+
+    /// What the Real `reference` depends on, by reference: after initialization if `initially`, else at a step's end.
+    /// `None` where that is not declared.
+    pub(crate) fn dependencies(&self, reference: u32, initially: bool) -> Option<Vec<u32>> {
+        let index = self.references.iter().position(|it| *it == reference)? as u32 + 1;
+        let unknowns = if initially { &self.initial_unknowns } else { &self.outputs };
+        let indices = unknowns.iter().find(|unknown| unknown.index == index)?.dependencies.as_ref()?;
+        let reference = |index: &u32| self.references.get(*index as usize - 1).copied();
+        Some(indices.iter().filter_map(reference).collect())
+    }
+
+    /// The name behind a value reference of whatever type.
+    pub(crate) fn any_name(&self, reference: u32) -> Option<&str> {
+        self.name(BaseType::of_reference(reference)?, reference)
+    }
+
     /// The name behind a value reference.
     pub(crate) fn name(&self, base: BaseType, reference: u32) -> Option<&str> {
-        self.names[base as usize].get(reference as usize).map(String::as_str)
+        self.names[base as usize].get(base.index(reference)).map(String::as_str)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::problem::{Problem, StateMismatch};
 use crate::runtime::{ErasedState, unencodable};
 
 const MARK: [u8; 8] = *b"FMUSTATE";
-const LAYOUT: u32 = 1;
+const LAYOUT: u32 = 2;
 const HEADER: usize = 8 + 4 + 16 + 8 + 8;
 
 /// A saved instance.

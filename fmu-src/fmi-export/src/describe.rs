@@ -1,18 +1,19 @@
 //! From a model and its setup to a description, a GUID and the parts of an instance.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use model_description::{
-    CoSimulation, DefaultExperiment, Description, ModelStructure, NamingConvention, ScalarVariable,
-    Variability, VariableKind, digest, rules, units,
+    CoSimulation, DefaultExperiment, Description, NamingConvention, VariableKind, digest, units,
 };
 use uuid::Uuid;
 
 use crate::access::AccessTable;
+use crate::library::Entry;
 use crate::logger::Category;
 use crate::model::{Model, SetupError};
 use crate::runtime::{Capabilities, Parts, Typed};
-use crate::variables::{Declare, DeclareError, Real, Table, Variables};
+use crate::start::{self, Readers};
+use crate::variables::{Declare, DeclareError, Table, Variables};
 
 /// Name space of the GUIDs: UUIDv5 of "https://fmi-standard.org/heliotorque" in the URL name space.
 const NAME_SPACE: &[u8] = b"https://fmi-standard.org/heliotorque";
@@ -29,6 +30,9 @@ pub enum DescribeError {
     /// The declarations do not fit together.
     #[error("{0}")]
     Table(String),
+    /// Start values of the setup that no variable takes, one a line.
+    #[error("{0}")]
+    Start(String),
     /// The setup cannot enter the GUID.
     #[error("the setup cannot be digested: {0}")]
     Digest(String),
@@ -39,7 +43,7 @@ pub enum DescribeError {
 
 /// The description of a model with this setup, GUID included.
 pub fn describe<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
-    prepare::<M>(file, setup_text).map(|prepared| prepared.description)
+    prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
 }
 
 fn said(text: String) -> Option<String> {
@@ -52,11 +56,25 @@ pub(crate) struct Prepared {
     pub(crate) parts: Parts,
 }
 
-pub(crate) fn prepare<M: Model>(file: &str, setup_text: &str) -> Result<Prepared, DescribeError> {
+/// The names that start values may have, if the model takes the setup text.
+pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
+    let setup = M::parse_setup(file, setup_text).ok()?;
+    let mut declare = Declare::new();
+    M::Variables::declare(&mut declare, &setup, 0).ok()?;
+    Some(start::settable_names(&declare.finish().variables))
+}
+
+/// Describes a model; `library` holds the models that the setup may serve beside it.
+pub(crate) fn prepare<M: Model>(
+    file: &str,
+    setup_text: &str,
+    library: &[Entry],
+) -> Result<Prepared, DescribeError> {
     let setup = M::parse_setup(file, setup_text)?;
     let mut declare = Declare::new();
     let variables = M::Variables::declare(&mut declare, &setup, 0)?;
-    let Table { variables: declared, types, start, .. } = declare.finish();
+    let Table { variables: declared, types, start: mut start_values, .. } = declare.finish();
+    let structure = M::dependencies(&setup, &variables).structure(&declared).map_err(DescribeError::Table)?;
     let about = M::about(&setup);
     let mut description = Description {
         model_name: M::NAME.to_owned(),
@@ -75,51 +93,23 @@ pub(crate) fn prepare<M: Model>(file: &str, setup_text: &str) -> Result<Prepared
             tolerance: (about.tolerance > 0.0).then_some(about.tolerance),
             step_size: (about.step_size_s > 0.0).then_some(about.step_size_s),
         }),
-        structure: structure::<M>(&declared, &variables),
+        structure,
         variables: declared,
         ..Description::default()
     };
     description.units = units_of(&description);
+    let readers = Readers::new(M::NAME, library, file, setup_text);
+    start::apply(&M::start_values(&setup), &readers, &mut description, &mut start_values)
+        .map_err(DescribeError::Start)?;
     let digest = digest_of::<M>(&description, &setup)?;
     description.guid = format!("{{{digest}}}");
     let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
     let capabilities = Capabilities {
         max_output_derivative_order: M::MAX_OUTPUT_DERIVATIVE_ORDER,
         interpolates_inputs: M::CAN_INTERPOLATE_INPUTS,
-        directional_derivative: M::PROVIDES_DIRECTIONAL_DERIVATIVE,
     };
     let runtime = Box::new(Typed::<M> { setup, variables, state: None });
-    Ok(Prepared { description, parts: Parts { access, start, runtime, digest, capabilities } })
-}
-
-/// The structure, with what the model says its outputs depend on.
-fn structure<M: Model>(declared: &[ScalarVariable], variables: &M::Variables) -> ModelStructure {
-    let mut structure = rules::structure(declared);
-    let index_of: BTreeMap<u32, u32> = (1..)
-        .zip(declared)
-        .filter(|(_, variable)| is_real(variable))
-        .map(|(index, variable)| (variable.value_reference, index))
-        .collect();
-    for unknown in &mut structure.outputs {
-        let variable = declared.get(unknown.index as usize - 1);
-        if variable.is_some_and(|variable| variable.variability == Variability::Constant) {
-            unknown.dependencies = Some(Vec::new());
-            continue;
-        }
-        let knowns = variable
-            .filter(|variable| is_real(variable))
-            .and_then(|variable| M::dependencies(variables, Real::from_reference(variable.value_reference)));
-        unknown.dependencies = knowns.map(|knowns| {
-            let indices: BTreeSet<u32> =
-                knowns.iter().filter_map(|reference| index_of.get(reference).copied()).collect();
-            indices.into_iter().collect()
-        });
-    }
-    structure
-}
-
-fn is_real(variable: &ScalarVariable) -> bool {
-    matches!(variable.kind, VariableKind::Real { .. })
+    Ok(Prepared { description, parts: Parts { access, start: start_values, runtime, digest, capabilities } })
 }
 
 fn co_simulation<M: Model>() -> CoSimulation {

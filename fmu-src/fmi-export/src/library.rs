@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use crate::describe::{DescribeError, Prepared, prepare};
+use crate::describe::{DescribeError, Prepared, prepare, start_names};
 use crate::location::{self, Resources};
 use crate::model::{Model, Source};
 use crate::panics::contain;
@@ -15,7 +15,8 @@ pub struct Entry {
     setup_file: Option<&'static str>,
     default_setup: &'static str,
     sources: &'static [Source],
-    prepare: fn(&str, &str) -> Result<Prepared, DescribeError>,
+    prepare: fn(&str, &str, &[Self]) -> Result<Prepared, DescribeError>,
+    start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
 }
 
 impl Entry {
@@ -27,6 +28,7 @@ impl Entry {
             default_setup: M::DEFAULT_SETUP,
             sources: M::SOURCES,
             prepare: prepare::<M>,
+            start_names: start_names::<M>,
         }
     }
 
@@ -50,23 +52,31 @@ impl Entry {
         self.sources
     }
 
-    /// Describes the model for a setup text, the compiled-in one if `None`; `file` names it in errors.
+    /// Describes the model for a setup text, the compiled-in one if `None`; `file` names it in errors. Start values for
+    /// other models are errors: see [`Library::describe`].
     pub fn describe(
         &self,
         file: Option<&str>,
         setup_text: Option<&str>,
     ) -> Result<model_description::Description, DescribeError> {
-        self.prepare(file, setup_text).map(|prepared| prepared.description)
+        self.prepare(file, setup_text, &[]).map(|prepared| prepared.description)
+    }
+
+    /// The names that start values in this setup text may have for this model; `None` if it cannot take the text.
+    pub(crate) fn start_names(&self, file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
+        self.setup_file?;
+        (self.start_names)(file, setup_text)
     }
 
     pub(crate) fn prepare(
         &self,
         file: Option<&str>,
         setup_text: Option<&str>,
+        library: &[Self],
     ) -> Result<Prepared, DescribeError> {
         let file = file.or(self.setup_file).unwrap_or("the built-in setup");
         // One model that panics here must not hide the others of the library.
-        contain(|| (self.prepare)(file, setup_text.unwrap_or(self.default_setup)))
+        contain(|| (self.prepare)(file, setup_text.unwrap_or(self.default_setup), library))
             .unwrap_or_else(|text| Err(DescribeError::Panic(text)))
     }
 }
@@ -82,6 +92,17 @@ impl Library {
     /// The entry of this name.
     pub fn find(&self, name: &str) -> Option<&'static Entry> {
         self.entries.iter().find(|entry| entry.name == name)
+    }
+
+    /// Describes a model of this library, see [`Entry::describe`]; start values may be for any of its models that takes
+    /// the same setup.
+    pub fn describe(
+        &self,
+        entry: &Entry,
+        file: Option<&str>,
+        setup_text: Option<&str>,
+    ) -> Result<model_description::Description, DescribeError> {
+        entry.prepare(file, setup_text, self.entries).map(|prepared| prepared.description)
     }
 
     /// The names, for messages.
@@ -108,7 +129,7 @@ impl Library {
             };
             let file = entry.setup_file.filter(|_| !matches!(resources, Ok(Resources::None)));
             let was_read = text.is_ok();
-            let outcome = match text.map(|text| entry.prepare(None, text)) {
+            let outcome = match text.map(|text| entry.prepare(None, text, self.entries)) {
                 Ok(Ok(prepared)) if prepared.description.guid == guid => return Ok(prepared),
                 Ok(Ok(prepared)) => Ok(prepared.description.guid),
                 Ok(Err(error)) => Err(error.to_string()),
@@ -134,7 +155,7 @@ struct Tried {
 impl Tried {
     /// Whether the GUID asked for is the one it has with the setup that it was compiled with.
     fn is_changed(&self, guid: &str) -> bool {
-        let original = || self.entry.prepare(None, None).is_ok_and(|it| it.description.guid == guid);
+        let original = || self.entry.prepare(None, None, &[]).is_ok_and(|it| it.description.guid == guid);
         self.file.is_some() && self.was_read && original()
     }
 

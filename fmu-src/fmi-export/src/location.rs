@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use crate::library::shown;
 
-/// No setup file is larger than this; a device or pipe in its place ends here.
+/// No setup file is larger than this.
 const MAX_SETUP_BYTES: u64 = 64 << 20;
 
 /// What the location gave.
@@ -41,6 +41,10 @@ pub(crate) fn resolve(location: &[u8]) -> Result<Resources, String> {
 /// The text of `file` in `folder`.
 pub(crate) fn read_setup(folder: &Path, file: &str) -> Result<String, String> {
     let path = folder.join(file);
+    // Opening a pipe waits until somebody writes to it.
+    if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+        return Err(format!("`{}` is no regular file", shown(&path)));
+    }
     let mut text = String::new();
     let read =
         File::open(&path).and_then(|opened| opened.take(MAX_SETUP_BYTES + 1).read_to_string(&mut text));
@@ -224,5 +228,23 @@ mod tests {
         let unread = read_setup(&base, "other.toml").unwrap_err();
         assert!(unread.contains("other.toml"), "{unread}");
         std::fs::remove_dir_all(&base).unwrap();
+    }
+
+    /// Opening a pipe would wait for ever.
+    #[test]
+    #[cfg(unix)]
+    fn what_is_no_regular_file_is_refused_by_name() {
+        let folder = std::env::temp_dir().join(format!("fmi-export-pipe-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("a-folder")).unwrap();
+        let pipe = folder.join("a-pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        for name in ["a-folder", "a-pipe"] {
+            if name == "a-pipe" && !made.as_ref().is_ok_and(std::process::ExitStatus::success) {
+                continue;
+            }
+            let refused = read_setup(&folder, name).unwrap_err();
+            assert!(refused.contains(name) && refused.contains("no regular file"), "{refused}");
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

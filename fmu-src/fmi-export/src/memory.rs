@@ -10,11 +10,13 @@ use crate::variables::Values;
 /// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
 pub const MAX_INPUT_DERIVATIVE_ORDER: u32 = 170;
 
-/// What `fmi2SetupExperiment` told; the tolerance is not used by any model.
+/// What `fmi2SetupExperiment` told.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Experiment {
     pub(crate) start_s: f64,
     pub(crate) stop_s: Option<f64>,
+    /// A positive number.
+    pub(crate) tolerance: Option<f64>,
 }
 
 /// The mutable part of an instance.
@@ -28,14 +30,15 @@ pub(crate) struct Memory {
     pub(crate) terminated: bool,
     /// In Initialization Mode: the outputs do not belong to what was set.
     pub(crate) needs_initialization: bool,
-    /// Between steps: an input or tunable parameter differs from what the last step used.
-    pub(crate) changed: bool,
+    /// The master set the parameter that the experiment's tolerance would stand in for.
+    pub(crate) tolerance_set: bool,
     /// The last step had input derivatives, which ended with it.
     pub(crate) derivatives_ended: bool,
     /// Value reference, order, value; until the end of the next step.
     pub(crate) input_derivatives: Vec<(u32, u32, f64)>,
     pub(crate) values: Values,
-    /// The values as the last step left them, where derivatives may still be asked of them; else empty.
+    /// Once a different value was set between steps: the values as the last step left them. What is set next may be
+    /// set back, and derivatives belong to them.
     pub(crate) at_last_step: Option<Values>,
 }
 
@@ -48,7 +51,7 @@ impl Memory {
             time_s: 0.0,
             terminated: false,
             needs_initialization: false,
-            changed: false,
+            tolerance_set: false,
             derivatives_ended: false,
             input_derivatives: Vec::new(),
             values: start.clone(),
@@ -65,7 +68,7 @@ impl Memory {
             time_s,
             terminated,
             needs_initialization,
-            changed,
+            tolerance_set,
             derivatives_ended,
             input_derivatives,
             values,
@@ -76,7 +79,7 @@ impl Memory {
         self.time_s = *time_s;
         self.terminated = *terminated;
         self.needs_initialization = *needs_initialization;
-        self.changed = *changed;
+        self.tolerance_set = *tolerance_set;
         self.derivatives_ended = *derivatives_ended;
         self.input_derivatives.clone_from(input_derivatives);
         copy_values(&mut self.values, values);
@@ -86,15 +89,22 @@ impl Memory {
         }
     }
 
+    /// Whether an input or tunable parameter differs from what the last step used. One that was set and set back does
+    /// not: values agree to the bit, so the model goes on as if nothing had been set.
+    pub(crate) fn differs(&self) -> bool {
+        self.at_last_step.as_ref().is_some_and(|before| !same_values(before, &self.values))
+    }
+
     /// Whether decoded bytes make sense for a model with these variables. The error says what does not.
     pub(crate) fn check(&self, access: &AccessTable) -> Result<(), StateMismatch> {
         self.check_clock()?;
-        check_values(&self.values, access)?;
-        if let Some(values) = &self.at_last_step {
+        for values in core::iter::once(&self.values).chain(&self.at_last_step) {
             check_values(values, access)?;
+            self.check_finite(values, access)?;
         }
         for &(reference, order, value) in &self.input_derivatives {
-            let flags = access.flags(BaseType::Real).get(reference as usize).copied().unwrap_or(0);
+            let flags =
+                access.flags(BaseType::Real).get(BaseType::Real.index(reference)).copied().unwrap_or(0);
             let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
             if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !value.is_finite() {
                 return Err(content(format!(
@@ -103,6 +113,17 @@ impl Memory {
             }
         }
         Ok(())
+    }
+
+    /// What an instance in the error state holds is for debugging; all else may be read under OK.
+    fn check_finite(&self, values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
+        match access.first_not_finite(values) {
+            Some((reference, value)) if self.state != State::Error => {
+                let name = access.name(BaseType::Real, reference).unwrap_or_default();
+                Err(content(format!("`{name}` is {value:?}")))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn check_clock(&self) -> Result<(), StateMismatch> {
@@ -115,7 +136,12 @@ impl Memory {
         );
         match self.experiment {
             None if started => return Err(content("started without an experiment".to_owned())),
-            Some(Experiment { start_s, stop_s })
+            Some(Experiment { tolerance: Some(tolerance), .. })
+                if !(tolerance > 0.0 && tolerance.is_finite()) =>
+            {
+                return Err(content(format!("tolerance {tolerance:?}")));
+            }
+            Some(Experiment { start_s, stop_s, .. })
                 if !start_s.is_finite()
                     || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) =>
             {
@@ -139,6 +165,15 @@ pub(crate) fn copy_values(to: &mut Values, from: &Values) {
     to.strings.clone_from(&from.strings);
 }
 
+/// Whether two sets of values agree to the bit.
+fn same_values(a: &Values, b: &Values) -> bool {
+    a.integers == b.integers
+        && a.booleans == b.booleans
+        && a.strings == b.strings
+        && a.reals.len() == b.reals.len()
+        && a.reals.iter().zip(&b.reals).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
 fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
     let lengths = [values.reals.len(), values.integers.len(), values.booleans.len(), values.strings.len()];
     for (base, length) in BaseType::ALL.into_iter().zip(lengths) {
@@ -149,16 +184,17 @@ fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismat
     }
     // What the model computes is its own affair; what a master sets obeys the same limits here.
     let reals = access.flags(BaseType::Real).iter().zip(&values.reals).zip(&access.real_limits);
-    for (reference, ((&flags, &value), &(min, max))) in reals.enumerate() {
+    for (reference, ((&flags, &value), &(min, max))) in (BaseType::Real.first_reference()..).zip(reals) {
         if flags & GIVEN != 0 && !(value >= min && value <= max) {
-            let name = access.name(BaseType::Real, reference as u32).unwrap_or_default();
+            let name = access.name(BaseType::Real, reference).unwrap_or_default();
             return Err(content(format!("`{name}` is {value:?}")));
         }
     }
-    for (reference, &value) in values.integers.iter().enumerate() {
-        let flags = access.flags(BaseType::Integer).get(reference).copied().unwrap_or(0);
-        if flags & GIVEN != 0 && !access.admits_integer(reference, value) {
-            let name = access.name(BaseType::Integer, reference as u32).unwrap_or_default();
+    for (index, &value) in values.integers.iter().enumerate() {
+        let flags = access.flags(BaseType::Integer).get(index).copied().unwrap_or(0);
+        if flags & GIVEN != 0 && !access.admits_integer(index, value) {
+            let reference = BaseType::Integer.first_reference() + index as u32;
+            let name = access.name(BaseType::Integer, reference).unwrap_or_default();
             return Err(content(format!("`{name}` is {value}")));
         }
     }

@@ -2,6 +2,8 @@
 
 use serde::{Serialize, de::DeserializeOwned};
 
+use crate::dependencies::Dependencies;
+use crate::start::StartValue;
 use crate::variables::{Real, RealVector, Values, Variables};
 
 /// A co-simulation model.
@@ -39,6 +41,12 @@ pub trait Model: Sized + 'static {
 
     /// Parses and validates the setup text; `file` names it in errors.
     fn parse_setup(file: &str, text: &str) -> Result<Self::Setup, SetupError>;
+
+    /// Start values that the setup gives to parameters and inputs, instead of the declared ones. What they are for
+    /// is checked when the model is described.
+    fn start_values(_setup: &Self::Setup) -> Vec<StartValue> {
+        Vec::new()
+    }
 
     /// Description, default experiment and the like.
     fn about(setup: &Self::Setup) -> About;
@@ -82,11 +90,16 @@ pub trait Model: Sized + 'static {
         None
     }
 
-    /// The Real inputs, by value reference, that a Real output depends on after initialization; `None` means on
-    /// everything. Written as `dependencies` under `ModelStructure/Outputs`.
-    fn dependencies(_variables: &Self::Variables, _output: Real) -> Option<Vec<u32>> {
+    /// The parameter by which the master chooses how exact the results are, if there is one. A tolerance given to
+    /// `fmi2SetupExperiment` becomes its value (within its limits) before [`Model::initialize`], unless the master set the
+    /// parameter itself. Its default should be [`About::tolerance`]: masters give that back.
+    fn tolerance(_variables: &Self::Variables) -> Option<Real> {
         None
     }
+
+    /// What every output and calculated parameter depends on: the union over all values of all options. Written as
+    /// `dependencies` under `ModelStructure`; an unknown without a row is refused.
+    fn dependencies(setup: &Self::Setup, variables: &Self::Variables) -> Dependencies;
 
     /// Product of the Jacobian d(unknown)/d(known) with `seed` at the last communication point.
     /// `unknowns`, `knowns` are value references of Reals; `result` is as long as `unknowns`.

@@ -1,7 +1,45 @@
 //! A panic stays inside: caught, turned into text, and its payload buried.
 
+use core::cell::Cell;
 use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind, set_hook};
+use std::sync::Once;
+
+/// Where the last panic of a thread was.
+#[derive(Clone, Copy)]
+struct Place {
+    file: [u8; Self::LONGEST],
+    line: u32,
+}
+
+impl Place {
+    const LONGEST: usize = 96;
+}
+
+thread_local! {
+    // Without a destructor, which would keep the library in memory after it is unloaded.
+    static PLACE: Cell<Option<Place>> = const { Cell::new(None) };
+}
+
+/// For a shared library, whose every panic is contained: nothing goes to standard error, where the usual hook, if
+/// RUST_BACKTRACE is set, also maps the library's file into memory for good.
+pub(crate) fn keep_quiet() {
+    static ONCE: Once = Once::new();
+    // Neither captures anything: nothing is allocated that nobody could free.
+    ONCE.call_once(|| set_hook(Box::new(note)));
+}
+
+fn note(info: &PanicHookInfo<'_>) {
+    let place = info.location().map(|location| {
+        let mut file = [0; Place::LONGEST];
+        // The end of a long path tells more than its beginning.
+        let bytes = location.file().as_bytes();
+        let end = &bytes[bytes.len().saturating_sub(Place::LONGEST)..];
+        file[..end.len()].copy_from_slice(end);
+        Place { file, line: location.line() }
+    });
+    PLACE.set(place);
+}
 
 /// Runs `body`; a panic becomes its text.
 ///
@@ -12,16 +50,23 @@ pub(crate) fn contain<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(body)).map_err(bury)
 }
 
-/// The text of a panic. Dropping the payload may panic in turn; then that payload is leaked.
+/// The text of a panic. Dropping the payload may panic in turn; then that payload is dropped if it is text, else leaked.
 #[cold]
 fn bury(payload: Box<dyn Any + Send>) -> String {
-    let text = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
+    let mut text = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
         (Some(text), _) => (*text).to_owned(),
         (_, Some(text)) => text.clone(),
         _ => "a payload that is no text".to_owned(),
     };
+    if let Some(Place { file, line }) = PLACE.take() {
+        let file = String::from_utf8_lossy(&file);
+        text.push_str(&format!(" ({}, line {line})", file.trim_end_matches('\0')));
+    }
     if let Err(second) = catch_unwind(AssertUnwindSafe(|| drop(payload))) {
-        core::mem::forget(second);
+        // Text is dropped without accident; what else it may be, nobody knows.
+        if !second.is::<String>() && !second.is::<&str>() {
+            core::mem::forget(second);
+        }
     }
     text
 }

@@ -29,6 +29,12 @@ pub(crate) enum Problem {
     NoText { reference: u32 },
     /// An input derivative that is not finite.
     DerivativeNotFinite { reference: u32, value: f64 },
+    /// A seed of a directional derivative that is not finite.
+    SeedNotFinite { reference: u32, value: f64 },
+    /// A Real that the model computed, and what is behind it where that is declared.
+    NotFinite { reference: u32, value: f64, behind: Option<String> },
+    /// A derivative that the model computed, and what it is along.
+    SlopeNotFinite { of: u32, along: Option<String>, value: f64 },
     /// A derivative order that is not offered.
     Order { order: i32, largest: u32 },
     /// A time that is not finite, or start and stop in the wrong order.
@@ -154,9 +160,15 @@ impl Explained<'_> {
         }
     }
 
+    /// The type of a variable that is there, but not of type `base`.
+    fn of_another_type(&self, base: BaseType, reference: u32) -> Option<BaseType> {
+        BaseType::of_reference(reference)
+            .filter(|other| *other != base && self.access.name(*other, reference).is_some())
+    }
+
     fn when_settable(&self, base: BaseType, reference: u32) -> &'static str {
         use crate::access::{INPUT, SET_INITIALIZATION, SET_INSTANTIATED, SET_STEP};
-        let flags = self.access.flags(base).get(reference as usize).copied().unwrap_or(0);
+        let flags = self.access.flags(base).get(base.index(reference)).copied().unwrap_or(0);
         match flags {
             f if f & (SET_STEP | INPUT) != 0 => "before a step",
             f if f & (SET_INSTANTIATED | SET_INITIALIZATION) != 0 => "before the end of Initialization Mode",
@@ -182,14 +194,21 @@ impl fmt::Display for Explained<'_> {
                 Complaint::TooLong { given } => write!(f, "argument {name} cannot have {given} elements"),
                 Complaint::NotOurs => write!(f, "argument {name} was not made by this library"),
             },
+            Problem::UnknownReference { base, reference, .. }
+                if self.of_another_type(*base, *reference).is_some() =>
+            {
+                let other = self.of_another_type(*base, *reference).unwrap_or(*base);
+                write!(f, "{} is no {}", self.named(other, *reference), base.name())
+            }
             Problem::UnknownReference { base, reference, count: 0 } => {
                 write!(f, "unknown value reference {reference}: this model has no {} variables", base.name())
             }
             Problem::UnknownReference { base, reference, count } => write!(
                 f,
-                "unknown {} value reference {reference}: this model has 0 to {}",
+                "unknown {} value reference {reference}: this model has {} to {}",
                 base.name(),
-                count - 1
+                base.first_reference(),
+                base.first_reference() as usize + count - 1
             ),
             Problem::NotSettable { base, reference, state } => write!(
                 f,
@@ -202,8 +221,12 @@ impl fmt::Display for Explained<'_> {
                 write!(f, "{} is no {role}", self.named(BaseType::Real, *reference))
             }
             Problem::RealOutOfRange { reference, value } => {
-                let (min, max) =
-                    self.access.real_limits.get(*reference as usize).copied().unwrap_or((f64::MIN, f64::MAX));
+                let (min, max) = self
+                    .access
+                    .real_limits
+                    .get(BaseType::Real.index(*reference))
+                    .copied()
+                    .unwrap_or((f64::MIN, f64::MAX));
                 let name = self.named(BaseType::Real, *reference);
                 write!(f, "{name} was set to {value:?}, ")?;
                 match (min == f64::MIN, max == f64::MAX) {
@@ -214,7 +237,7 @@ impl fmt::Display for Explained<'_> {
                 }
             }
             Problem::IntegerOutOfRange { reference, value } => {
-                let index = *reference as usize;
+                let index = BaseType::Integer.index(*reference);
                 let name = self.named(BaseType::Integer, *reference);
                 write!(f, "{name} was set to {value}, ")?;
                 if let Some(Some(items)) = self.access.integer_items.get(index) {
@@ -237,6 +260,27 @@ impl fmt::Display for Explained<'_> {
                 "a derivative of {} was set to {value:?}, allowed is any finite value",
                 self.named(BaseType::Real, *reference)
             ),
+            Problem::SeedNotFinite { reference, value } => write!(
+                f,
+                "the seed of {} is {value:?}, allowed is any finite value",
+                self.named(BaseType::Real, *reference)
+            ),
+            Problem::NotFinite { reference, value, behind } => {
+                let name = self.named(BaseType::Real, *reference);
+                write!(f, "{name} came out as {value:?}, which is no finite number")?;
+                match behind {
+                    Some(behind) => write!(f, "; it depends on {behind}"),
+                    None => write!(f, "; look for inputs or parameters beyond what can be"),
+                }
+            }
+            Problem::SlopeNotFinite { of, along, value } => {
+                let name = self.named(BaseType::Real, *of);
+                write!(f, "the derivative of {name}")?;
+                if let Some(along) = along {
+                    write!(f, " along {along}")?;
+                }
+                write!(f, " came out as {value:?}, which is no finite number")
+            }
             Problem::Order { order, largest: 0 } => {
                 write!(f, "derivatives of order {order} are asked for, this model offers none")
             }

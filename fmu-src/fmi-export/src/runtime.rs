@@ -25,6 +25,8 @@ pub(crate) trait Runtime: Send {
         result: &mut [f64],
         log: &dyn Log,
     ) -> Result<(), Problem>;
+    /// The parameter that the experiment's tolerance stands in for.
+    fn tolerance(&self) -> Option<Real>;
     /// Forgets the state.
     fn clear(&mut self);
     /// A copy of the state, in `reuse` where its type allows.
@@ -91,6 +93,10 @@ impl<M: Model> Runtime for Typed<M> {
         let state = self.state.as_ref().ok_or(Problem::NotInitialized)?;
         let context = self.context(log);
         Ok(M::directional_derivative(&context, values, state, unknowns, knowns, seed, result)?)
+    }
+
+    fn tolerance(&self) -> Option<Real> {
+        M::tolerance(&self.variables)
     }
 
     fn clear(&mut self) {
@@ -163,5 +169,4 @@ pub(crate) struct Parts {
 pub(crate) struct Capabilities {
     pub(crate) max_output_derivative_order: u32,
     pub(crate) interpolates_inputs: bool,
-    pub(crate) directional_derivative: bool,
 }

@@ -5,6 +5,7 @@ mod momentum_plant;
 mod shared;
 mod sources;
 mod spin_plant;
+mod start_values;
 
 pub use disturbance_torque::{DisturbanceSetup, DisturbanceTorque};
 pub use momentum_plant::{MomentumPlant, PlantSetup};

@@ -10,6 +10,10 @@ const PAPER_000: Source = source(
     "paper 000",
     "R. M. Vaughan, D. R. Haley, H. S. Shapiro, D. J. O'Shaughnessy: Momentum Management for the MESSENGER Mission, AAS 01-380",
 );
+const PAPER_001: Source = source(
+    "paper 001",
+    "D. O'Shaughnessy, R. Vaughan: MESSENGER Spacecraft Pointing Options, Johns Hopkins University APL",
+);
 const PAPER_002: Source = source(
     "paper 002",
     "M. A. Woodard, D. F. Baker: Optimal Attitude Maneuver Execution for the Advanced Composition Explorer (ACE) Mission",
@@ -34,7 +38,21 @@ const POLYNOMIAL: Source = source(
 const PLANET_LIGHT: Source = source(
     "light of the planet",
     "paper 004 eqs 33 to 36 and 39 to 41 as integrals over the planet's visible cap, on rings about the nadir instead of the \
-     paper's cells; day side by eq 32, a cosine profile or a given temperature; nothing shadows it",
+     paper's cells; nothing shadows it",
+);
+const DAY_SIDE: Source = source(
+    "infrared of the day side",
+    "planet.dayTemperature uniform: a S / 2 all over the day side (paper 004 eq 32), for absorptivity a and solar flux S at the \
+     planet; cosine: N + (a S - N) cos z at the Sun's zenith angle z, for the night side's exitance N = e sigma T^4, so that every \
+     place gives off what it absorbs below the Sun and N at the terminator. The whole day side gives off pi R^2 a S the one way \
+     and pi R^2 (a S + N) the other",
+);
+const LOOP: Source = source(
+    "sun.positionBody and planet.positionBody in a loop",
+    "MomentumPlant's outputs have the names of DisturbanceTorque's inputs, to connect by name. A master that steps both at once \
+     (Jacobi) hands over where Sun and planet stood when the step began: torque lags by one communication step, an error of \
+     attitude rate times step in the directions. Stepping DisturbanceTorque after the plant (Gauss-Seidel) removes it there and \
+     leaves it in what returns to torque.applied; halve the step to see what the lag does",
 );
 const RECOIL: Source = source(
     "recoil of heat",
@@ -55,6 +73,7 @@ const GRAVITY_GRADIENT: Source =
 /// Of `MomentumPlant`.
 pub const MOMENTUM_PLANT: &[Source] = &[
     PAPER_000,
+    PAPER_001,
     PAPER_004,
     source(
         "orbit",
@@ -70,9 +89,17 @@ pub const MOMENTUM_PLANT: &[Source] = &[
     CYLINDER,
     POLYNOMIAL,
     PLANET_LIGHT,
+    DAY_SIDE,
     RECOIL,
     SHADOWS,
     GRAVITY_GRADIENT,
+    LOOP,
+    source(
+        "inputs that are all zero",
+        "count as not set yet, for masters send zeros before the first exchange: without orbit.position, orbit.velocity or \
+         sun.position where they are asked for nothing acts, without command.q, command.error or command.kind the attitude is \
+         held; a warning names them once",
+    ),
     source(
         "momentum",
         "dH/dt = T in the inertial frame; with momentum.convention 2 the body components one by one, as paper 000 eq 13 is read \
@@ -84,7 +111,7 @@ pub const MOMENTUM_PLANT: &[Source] = &[
     ),
     source(
         "input derivatives",
-        "any order for force.external and torque.external; a commanded attitude is propagated by command.rate; other inputs \
+        "any order for force.applied and torque.applied; a commanded attitude is propagated by command.rate; other inputs \
          are held over the step",
     ),
 ];
@@ -99,13 +126,33 @@ pub const SPIN_PLANT: &[Source] = &[
     ),
     source("axis moved by a pulse", "paper 002 eqs 2 and 3"),
     source(
+        "deltaV",
+        "the integral of thrust, which turns with the body, over the mass left at each instant: ve ln(m0/m) along the spin axis",
+    ),
+    source(
+        "burn.nextEdge",
+        "a forecast from the motion at the last communication point. A pulse that is on ends as said. The first pulse, and every \
+         pulse with burn.timing 3, is foreseen where the thruster's torque will point at burn.targetDirection if the present \
+         torques last, and again whenever they change; with burn.timing 2 a pulse is foreseen a delay after the last Sun crossing \
+         and again at each crossing; with burn.timing 1 all but the first are fixed. It is -1 before a Sun crossing that timing 2 \
+         waits for, where the body does not bring the thruster round, and, while torques or unequal moments of inertia leave no \
+         closed form, more than two turns ahead of a pulse",
+    ),
+    source(
+        "directions of 0",
+        "sun.direction, earth.direction and star.direction may be 0, which masters send before the first exchange: nothing is seen \
+         there, angles to it are 0, and Sun-timed pulses wait",
+    ),
+    source(
+        "work of a step",
+        "solver.workLimit bounds it: 16 units for a cell of the motion, 64 with a damper, 4 for a crossing of Sun or star, an edge of a pulse or a panel of the impulse, 2 \
+         for a clock sample or a direction on the L1 orbit; where a step is cut changes nothing but that",
+    ),
+    source(
         "foreseen nutation",
         "paper 002 eq 8 with the nutation kick sin(l t / 2) / l, l = (I3/IT - 1) Omega, in place of Gamma/n, for any train",
     ),
-    source(
-        "envelopes",
-        "exact: (Gamma/n) / |sin(phi/2)|; as printed: paper 002 eqs 9 and 10, both of which have slips",
-    ),
+    source("envelopes", "(Gamma/n) / |sin(phi/2)|, where paper 002 eqs 9 and 10 are misprinted"),
     source(
         "damper",
         "takes energy, not momentum: nutation falls by e in its time constant, and grows where I3 is not the greatest",
@@ -115,7 +162,7 @@ pub const SPIN_PLANT: &[Source] = &[
     source("Earth and Sun seen from L1", "a Lissajous orbit with the amplitudes and rates of the parameters"),
     source(
         "input derivatives",
-        "torque.external over the step, of orders 1 to 7; directions are taken where the step ends; other inputs are held",
+        "torque.applied over the step, of orders 1 to 7; directions are taken where the step ends; other inputs are held",
     ),
     source(
         "communication points",
@@ -131,10 +178,17 @@ pub const DISTURBANCE_TORQUE: &[Source] = &[
     SUNLIGHT,
     CYLINDER,
     PLANET_LIGHT,
+    DAY_SIDE,
+    source(
+        "inputs that are all zero",
+        "count as not set yet: without sun.positionBody nothing acts, without planet.positionBody there is no planet, a planet.pole \
+         of zero is -Z",
+    ),
+    LOOP,
     source(
         "cells of the planet",
-        "paper 004 eqs 5 to 8 and 27 to 31 where radiation.method asks for them: with the areas they have, or to the letter of \
-         eqs 6 and 7",
+        "paper 004 eqs 5 to 8 and 27 to 31 where planetLight.method asks for them, with the areas they have: eqs 6 and 7 mix \
+         borders and centres",
     ),
     RECOIL,
     SHADOWS,

@@ -10,11 +10,11 @@ use std::time::Instant;
 use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
 use i_overlay::float::single::SingleFloatOverlay;
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use physics::bodies::surface::MERCURY;
 use physics::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2};
 use physics::environment::orbit::Elements;
 use physics::environment::paper004::{Frames, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::sun::SOLAR_FLUX_PAPER_004_W_M2;
-use physics::environment::surface::MERCURY;
 use physics::numerics::scalar::{Dual64, Scalar, constant_vector};
 use physics::radiation::disturbance::{
     DisturbanceModel, Geometry, Options, PlanetGeometry, Recoil, Workspace,

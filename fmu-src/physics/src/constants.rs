@@ -21,6 +21,10 @@ pub const GM_MERCURY_M3_S2: f64 = 2.203_186_855_1e13;
 pub const GM_VENUS_M3_S2: f64 = 3.248_585_920_0e14;
 /// Gravitational parameter of the Earth without the Moon, m3/s2 (JPL DE440).
 pub const GM_EARTH_M3_S2: f64 = 3.986_004_355_07e14;
+/// Gravitational parameter of Mars without its moons, m3/s2 (JPL DE440).
+pub const GM_MARS_M3_S2: f64 = 4.282_837_362_07e13;
+/// Gravitational parameter of Jupiter without its moons, m3/s2 (JPL DE440).
+pub const GM_JUPITER_M3_S2: f64 = 1.266_865_341_96e17;
 
 /// Nominal radius of the Sun, m (IAU 2015 Resolution B3).
 pub const RADIUS_SUN_M: f64 = 6.957e8;
@@ -30,6 +34,10 @@ pub const RADIUS_MERCURY_M: f64 = 2.439_4e6;
 pub const RADIUS_VENUS_M: f64 = 6.051_8e6;
 /// Mean radius of the Earth, m (IAU Working Group on Cartographic Coordinates, 2015).
 pub const RADIUS_EARTH_M: f64 = 6.371_008_4e6;
+/// Mean radius of Mars, m (IAU Working Group on Cartographic Coordinates, 2015).
+pub const RADIUS_MARS_M: f64 = 3.389_5e6;
+/// Mean radius of Jupiter, m (IAU Working Group on Cartographic Coordinates, 2015).
+pub const RADIUS_JUPITER_M: f64 = 6.991_1e7;
 
 /// Second zonal harmonic J2 of Mercury, dimensionless, unnormalised (Mazarico et al. 2014, HgM005).
 pub const J2_MERCURY: f64 = 5.032_3e-5;

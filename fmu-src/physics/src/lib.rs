@@ -1,13 +1,15 @@
 //! Spacecraft disturbance physics: what sunlight, planet light, heat, wheels and thrusters do to force, torque
 //! and stored momentum. Knows nothing of FMI.
 //!
-//! One way through the house: a module uses only modules listed before it. All quantities are SI, angles in
+//! A module uses only modules listed before it. All quantities are SI, angles in
 //! radians; frames and units stand in the identifiers.
 
 #![forbid(unsafe_code)]
 
 pub mod constants;
 pub mod numerics;
+
+pub mod bodies;
 
 pub mod spacecraft;
 

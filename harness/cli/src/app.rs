@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command},
-    check, fly, info, output, pack, plan, study,
+    check, fly, info, interrupt, output, pack, plan, study,
 };
 
 /// JSON Schema of the spacecraft file, kept in step with its reader by a test of `physics`.
@@ -17,11 +17,20 @@ pub type Outcome = Result<ExitCode, Box<dyn std::error::Error>>;
 
 /// Parses the arguments and runs the command.
 pub fn run() -> Outcome {
-    match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    match command {
+        // A child is ended by its parent.
+        Command::Probe(_) | Command::RunInChild(_) => {}
+        // What was recorded until then is written.
+        Command::Run(_) => interrupt::listen(true)?,
+        _ => interrupt::listen(false)?,
+    }
+    match command {
         Command::Info(arguments) => info::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Probe(arguments) => check::run_probe(&arguments),
         Command::Run(arguments) => fly::run(&arguments),
+        Command::RunInChild(arguments) => fly::run_in_child(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema => {
             output::print(SPACECRAFT_SCHEMA.trim_end())?;

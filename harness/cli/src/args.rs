@@ -43,6 +43,9 @@ pub enum Command {
     /// Runs one probe of `check` in a process of its own
     #[command(hide = true, name = "probe-in-child")]
     Probe(Probe),
+    /// Runs an FMU for `run` in a process of its own
+    #[command(hide = true)]
+    RunInChild(RunInChild),
 }
 
 /// `heliotorque info`.
@@ -60,7 +63,7 @@ pub struct Info {
     /// the start, what the wheels guarantee
     #[arg(long, conflicts_with_all = ["variables", "only"])]
     pub coefficients: bool,
-    /// Set a parameter before --coefficients; repeatable, written as for `run`: sunshade.model=cylinder,
+    /// Set a parameter before --coefficients; repeatable, written as for `run`: sunshade.shape=cylinder,
     /// spacecraft.centerOfMass[3]=-2.54cm
     #[arg(long, value_name = "NAME=VALUE", requires = "coefficients")]
     pub set: Vec<String>,
@@ -75,14 +78,14 @@ pub struct Check {
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
     /// For an FMU only: check what can be read, without running it
-    #[arg(long)]
-    pub still: bool,
+    #[arg(long = "static")]
+    pub is_static: bool,
     /// For an FMU only: run the probes whose name contains this text
-    #[arg(long, value_name = "TEXT", conflicts_with = "still")]
+    #[arg(long, value_name = "TEXT", conflicts_with = "is_static")]
     pub only: Option<String>,
     /// Longest time a probe may take, in s or with a unit
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "60s")]
-    pub patience: f64,
+    pub timeout: f64,
     /// Show every check, not only the findings
     #[arg(long, short)]
     pub verbose: bool,
@@ -95,6 +98,17 @@ pub struct Probe {
     pub fmu: PathBuf,
     /// The probe
     pub name: String,
+}
+
+/// `heliotorque run-in-child`.
+#[derive(Debug, Args)]
+pub struct RunInChild {
+    /// The folder that the FMU was unpacked into
+    #[arg(long)]
+    pub unpacked_in: PathBuf,
+    /// What the parent was given
+    #[command(flatten)]
+    pub run: Run,
 }
 
 /// `heliotorque run`.
@@ -128,12 +142,16 @@ pub struct Run {
     /// Record at most this often, in s or with a unit; otherwise at every step
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub every: Option<f64>,
-    /// Write what was recorded as CSV
+    /// Write what is recorded as CSV; - is the standard output. Until the run is complete the file is <CSV>.part; it
+    /// stays if the FMU fails, crashes or hangs
     #[arg(long, value_name = "CSV")]
     pub output: Option<PathBuf>,
     /// Draw what was recorded as SVG
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// Longest time an FMI call may take, in s or with a unit; otherwise without bound
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
+    pub timeout: Option<f64>,
     /// Show the FMU's log
     #[arg(long)]
     pub log: bool,
@@ -153,6 +171,10 @@ pub struct Pack {
     /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
     #[arg(long)]
     pub per_plate: bool,
+    /// Give a parameter or input another start value, in the `[start]` of the packed file; repeatable, written as for
+    /// `run`: attitude.source=commanded, dump.threshold=4,4,4
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
     /// Name of the new FMU, a C identifier; otherwise the model's
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
@@ -165,7 +187,7 @@ pub struct Pack {
     /// The model: MomentumPlant, ...; otherwise the template's
     #[arg(long, value_name = "MODEL")]
     pub model: Option<String>,
-    /// The FMU to write; otherwise its name with .fmu, in this folder
+    /// The FMU to write; otherwise its name with .fmu, in this folder; - is the standard output
     #[arg(long, short, value_name = "FMU")]
     pub output: Option<PathBuf>,
 }

@@ -1,89 +1,79 @@
-//! `heliotorque run`: flies an FMU, records, writes, draws.
+//! `heliotorque run`: flies an FMU in a process of its own, records, writes, draws.
 
 use std::{
     io::IsTerminal,
     path::{Path, PathBuf},
     process::ExitCode,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
     time::Instant,
 };
 
+use files::{Destination, Growing};
 use indicatif::{ProgressBar, ProgressStyle};
-use loader::{Ended, Fmu, InputTable, InstanceOptions, LogMessage, Options, Recording, Times};
+use loader::{Collector, Ended, Fmu, InputTable, LogMessage, Recording, Times};
 
-use crate::{app::Outcome, args::Run, destination::Destination, output, plot};
+use crate::{
+    app::Outcome,
+    args::{Run, RunInChild},
+    interrupt::INTERRUPTED,
+    output, plot,
+};
 
-/// The usual exit status of a program that Ctrl-C ended.
-const INTERRUPTED: u8 = 130;
+mod child;
 
-/// Flies the FMU.
+/// Flies the FMU in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     if let Some(path) = &arguments.plot {
         plot::check_path(path)?;
     }
     let fmu = Fmu::open(&arguments.fmu)?;
-    let times = Times::of(&fmu, arguments.start, arguments.stop, arguments.step)?;
-    let mut sets = Vec::new();
-    for setting in &arguments.set {
-        sets.extend(loader::parse_assignment(&fmu, setting)?);
-    }
-    let inputs = arguments.input.as_deref().map(|path| read_table(&fmu, path)).transpose()?;
-    let record = selection(&fmu, &arguments.record)?;
+    // Everything that can be refused without the FMU's library is refused here.
+    let flight = Flight::of(&fmu, arguments)?;
+    fmu.binary_path()?;
+    let mut files = Files::open(arguments)?;
+    let (times, positions) = (flight.times, flight.positions);
+    let mut collector = Collector::new(&fmu, &positions);
+    let every = loader::steps_between_points(&times, arguments.every)?;
+    let points = times.steps().div_ceil(every).saturating_add(1);
+    collector.fits(points)?;
 
-    let cancel = interruptible()?;
-    // After all that can be refused, before what takes long.
-    let files = Files::open(arguments)?;
     let progress = progress_bar(&times, arguments.quiet);
-    let mut advance = |time_s: f64| {
-        progress.set_position((time_s - times.start_s) as u64);
-    };
     let began = Instant::now();
-    let outcome = loader::simulate(
-        &fmu,
-        Options {
-            start_s: arguments.start,
-            stop_s: arguments.stop,
-            step_s: arguments.step,
-            record_every_s: arguments.every,
-            sets,
-            inputs: inputs.as_ref(),
-            input_derivatives: arguments.slopes,
-            record,
-            instance: InstanceOptions { logging: arguments.log, ..InstanceOptions::default() },
-            progress: (!progress.is_hidden()).then_some(&mut advance),
-            cancel: Some(&cancel),
-        },
-    );
+    let flown = child::fly(&fmu, arguments.timeout, points, &mut collector, |recording, time_s| {
+        if let Some(time_s) = time_s {
+            progress.set_position((time_s - times.start_s).max(0.0) as u64);
+        }
+        files.record(recording)
+    });
     let elapsed = began.elapsed();
     progress.finish_and_clear();
 
-    let flight = match outcome {
-        Ok(flight) => flight,
-        Err(stopped) => {
+    let recording = collector.recording();
+    if arguments.log {
+        print_log(&flown.messages);
+    }
+    let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
+    let ended = match flown.outcome {
+        Ok(ended) => ended,
+        Err(error) => {
             // What was flown until then is worth keeping.
-            if !stopped.partial.times_s.is_empty() {
-                files.write(&fmu, &stopped.partial)?;
-            }
-            return Err(stopped.error.into());
+            let kept = files.leave(&fmu, recording);
+            let rows = recording.times_s.len();
+            let kept: String =
+                kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect();
+            return Err(format!("{error}{kept}").into());
         }
     };
-    if arguments.log {
-        print_log(&flight.messages);
+    let shows_summary = !arguments.quiet && arguments.output.is_none() && arguments.plot.is_none();
+    files.finish(&fmu, recording)?;
+    if shows_summary {
+        output::print(&summary(&fmu, recording))?;
     }
-    files.write(&fmu, &flight.recording)?;
-    let last_s = flight.recording.times_s.last().copied().unwrap_or(times.start_s);
     if !arguments.quiet {
-        if arguments.output.is_none() && arguments.plot.is_none() {
-            output::print(&summary(&fmu, &flight.recording))?;
-        }
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
         let (last, elapsed) = (output::short(last_s), elapsed.as_secs_f64());
         output::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
     }
-    match flight.ended {
+    match ended {
         Ended::AtStop => {}
         Ended::ByItself => {
             output::note(&format!("the FMU ended by itself at {} s", output::short(last_s)));
@@ -94,7 +84,37 @@ pub fn run(arguments: &Run) -> Outcome {
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
-    Ok(ExitCode::SUCCESS)
+    match flown.fault {
+        // The recording is complete, the FMU is not what it should be.
+        Some(fault) => Err(fault.into()),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// Flies the FMU in this process for the parent.
+pub fn run_in_child(arguments: &RunInChild) -> Outcome {
+    child::run(arguments)
+}
+
+/// What the arguments mean for an FMU.
+struct Flight {
+    times: Times,
+    sets: Vec<(String, loader::Value)>,
+    inputs: Option<InputTable>,
+    positions: Vec<usize>,
+}
+
+impl Flight {
+    fn of(fmu: &Fmu, arguments: &Run) -> Result<Self, Box<dyn std::error::Error>> {
+        let times = Times::of(fmu, arguments.start, arguments.stop, arguments.step)?;
+        let mut sets = Vec::new();
+        for setting in &arguments.set {
+            sets.extend(loader::parse_assignment(fmu, setting)?);
+        }
+        let inputs = arguments.input.as_deref().map(|path| read_table(fmu, path)).transpose()?;
+        let positions = selection(fmu, &arguments.record)?.unwrap_or_else(|| loader::outputs(fmu));
+        Ok(Self { times, sets, inputs, positions })
+    }
 }
 
 /// Positions of the variables to record; `None` for all outputs.
@@ -111,18 +131,6 @@ fn selection(fmu: &Fmu, patterns: &[String]) -> Result<Option<Vec<usize>>, loade
         }
     }
     Ok(Some(positions))
-}
-
-/// A flag that Ctrl-C raises; a second Ctrl-C ends the program at once.
-fn interruptible() -> Result<Arc<AtomicBool>, ctrlc::Error> {
-    let cancel = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&cancel);
-    ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-    })?;
-    Ok(cancel)
 }
 
 fn progress_bar(times: &Times, quiet: bool) -> ProgressBar {
@@ -145,8 +153,7 @@ fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::
         .flexible(true)
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
-        .from_path(path)
-        .map_err(|error| format!("{}: see --input", in_file(&error)))?;
+        .from_reader(files::open(path).map_err(|error| format!("{}: see --input", in_file(&error)))?);
     let mut rows = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| in_file(&error))?;
@@ -156,29 +163,84 @@ fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::
     Ok(InputTable::parse(fmu, &header, &rows).map_err(|error| in_file(&error))?)
 }
 
+/// Rows of a table that are written at once.
+const ROWS_AT_ONCE: usize = 64;
+
 /// What a flight leaves.
 struct Files {
-    output: Option<Destination>,
+    output: Option<Growing>,
     plot: Option<Destination>,
+    rows_written: Option<usize>,
+    bytes: Vec<u8>,
 }
 
 impl Files {
     fn open(arguments: &Run) -> Result<Self, String> {
+        let inputs: Vec<&Path> =
+            [arguments.fmu.as_path()].into_iter().chain(arguments.input.as_deref()).collect();
         let open = |path: &Option<PathBuf>, option| {
-            path.as_deref().map(|path| Destination::open(path, option)).transpose()
+            path.as_deref().map(|path| Destination::open(path, option, &inputs)).transpose()
         };
-        Ok(Self { output: open(&arguments.output, "--output")?, plot: open(&arguments.plot, "--plot")? })
+        let (output, plot) = (open(&arguments.output, "--output")?, open(&arguments.plot, "--plot")?);
+        if let (Some(output), Some(plot)) = (&output, &plot)
+            && output.is_same(plot)
+        {
+            return Err("one file cannot take both: see --output and --plot".to_owned());
+        }
+        let output = output.map(|output| output.grow(&inputs)).transpose()?;
+        Ok(Self { output, plot, rows_written: None, bytes: Vec::new() })
     }
 
-    fn write(self, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn std::error::Error>> {
-        if let Some(file) = self.output {
-            file.fill(|mut file| recording.write_csv(&mut file))?;
+    /// Appends the rows that are new.
+    fn record(&mut self, recording: &Recording) -> Result<(), String> {
+        let rows = recording.times_s.len();
+        let Some(output) = self.output.as_mut() else { return Ok(()) };
+        let write = |output: &mut Growing, bytes: &mut Vec<u8>, from: Option<usize>, to: usize| {
+            bytes.clear();
+            let written = match from {
+                None => recording.write_header(bytes),
+                Some(from) => recording.write_rows(from..to, bytes),
+            };
+            written.map_err(|error| error.to_string())?;
+            output.append(bytes)
+        };
+        if self.rows_written.is_none() && rows > 0 {
+            write(output, &mut self.bytes, None, 0)?;
+            self.rows_written = Some(0);
         }
-        if let Some(file) = self.plot {
-            let svg = plot::chart(fmu, recording).to_svg()?;
-            file.fill(|file| file.write_all(svg.as_bytes()))?;
+        while let Some(from) = self.rows_written.filter(|from| *from < rows) {
+            let to = rows.min(from + ROWS_AT_ONCE);
+            write(output, &mut self.bytes, Some(from), to)?;
+            self.rows_written = Some(to);
         }
         Ok(())
+    }
+
+    /// Gives the complete files their names.
+    fn finish(mut self, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn std::error::Error>> {
+        self.record(recording)?;
+        if let Some(output) = self.output {
+            output.finish()?;
+        }
+        if let Some(plot) = self.plot {
+            let svg = plot::chart(fmu, recording).to_svg()?;
+            plot.fill(|file| file.write_all(svg.as_bytes()))?;
+        }
+        Ok(())
+    }
+
+    /// Leaves what there is under the names of recordings in progress, and tells them.
+    fn leave(mut self, fmu: &Fmu, recording: &Recording) -> Vec<PathBuf> {
+        // The flight failed already: what cannot be kept now changes nothing of that.
+        let _ = self.record(recording);
+        let table = self.output.and_then(Growing::leave);
+        let picture = self.plot.filter(|_| !recording.times_s.is_empty()).and_then(|plot| {
+            let svg = plot::chart(fmu, recording).to_svg().ok()?;
+            let mut part = plot.grow(&[]).ok()?;
+            part.append(svg.as_bytes()).ok()?;
+            part.leave()
+        });
+        table.into_iter().chain(picture).collect()
     }
 }
 

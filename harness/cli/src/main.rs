@@ -6,10 +6,11 @@
 mod app;
 mod args;
 mod check;
+mod child;
 mod coefficients;
-mod destination;
 mod fly;
 mod info;
+mod interrupt;
 mod output;
 mod pack;
 mod plan;

@@ -1,13 +1,16 @@
 //! What the commands print.
 
-use std::io::{self, IsTerminal, Write};
+use std::{
+    borrow::Cow,
+    io::{self, IsTerminal, Write},
+};
 
 use comfy_table::{ContentArrangement, Table, TableComponent, presets};
 
 /// Prints a text; a reader that went away (as `head` does) is no error.
 pub fn print(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+    match writeln!(out, "{}", plain(text)).and_then(|()| out.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         other => other,
     }
@@ -15,7 +18,29 @@ pub fn print(text: &str) -> io::Result<()> {
 
 /// Says something beside the output, on stderr; nobody there to read it is no error.
 pub fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    let _ = writeln!(io::stderr().lock(), "{}", plain(text));
+}
+
+/// The text with every control character but line break and tab written out, and those that turn the direction of
+/// writing: what an FMU or a file says moves no cursor and hides nothing.
+pub fn plain(text: &str) -> Cow<'_, str> {
+    let is_plain = |letter: char| match letter {
+        '\n' | '\t' => true,
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => false,
+        _ => !letter.is_control(),
+    };
+    if text.chars().all(is_plain) {
+        return text.into();
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for letter in text.chars() {
+        if is_plain(letter) {
+            shown.push(letter);
+        } else {
+            shown.extend(letter.escape_default());
+        }
+    }
+    shown.into()
 }
 
 /// A plain table with a header; as wide as the terminal at most, unbounded elsewhere.
@@ -61,6 +86,14 @@ fn trim(digits: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn texts_are_shown_without_control_characters() {
+        assert!(matches!(plain("two\nlines\tλ 火星"), Cow::Borrowed(_)));
+        assert_eq!(plain("\u{1b}[2Jok\r\u{7}"), "\\u{1b}[2Jok\\r\\u{7}");
+        assert_eq!(plain("\u{9b}1m\u{202e}"), "\\u{9b}1m\\u{202e}");
+        assert_eq!(plain("\0\u{7f}"), "\\u{0}\\u{7f}");
+    }
 
     #[test]
     fn numbers_are_short() {

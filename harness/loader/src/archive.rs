@@ -2,7 +2,7 @@
 
 use std::{
     fs::{self, File},
-    io::{self, Read},
+    io::{self, Read, Write},
     path::{Component, Path, PathBuf},
 };
 
@@ -31,14 +31,17 @@ impl Default for Limits {
 /// Refused: a path that is absolute, leaves the folder or has a drive or backslash root; a symbolic link; an
 /// encrypted entry; the same path twice; more entries or bytes than `limits`, counted while unpacking, so
 /// that an archive which lies about its sizes gains nothing; a torn or corrupted archive.
-pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<(), Error> {
+///
+/// Gives the paths of the entries as the archive writes them.
+pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>, Error> {
     let refuse = |what: String| Error::Archive { path: archive.to_owned(), what };
-    let file = File::open(archive).map_err(|source| Error::File { path: archive.to_owned(), source })?;
+    let file = files::open(archive).map_err(|source| Error::File { path: archive.to_owned(), source })?;
     let mut zip = ZipArchive::new(io::BufReader::new(file)).map_err(|error| refuse(error.to_string()))?;
     if zip.len() > limits.entries {
         return Err(refuse(format!("{} entries, at most {} are allowed", zip.len(), limits.entries)));
     }
     let mut left = limits.total_bytes;
+    let mut names = Vec::with_capacity(zip.len());
     for index in 0..zip.len() {
         let mut entry = zip.by_index(index).map_err(|error| refuse(error.to_string()))?;
         let name = String::from_utf8_lossy(entry.name_raw()).into_owned();
@@ -54,6 +57,7 @@ pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<(), Error> 
         let at_target = |source| Error::File { path: target.clone(), source };
         if entry.is_dir() || name.ends_with('\\') {
             fs::create_dir_all(&target).map_err(at_target)?;
+            names.push(name);
             continue;
         }
         if let Some(parent) = target.parent() {
@@ -63,13 +67,40 @@ pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<(), Error> 
             io::ErrorKind::AlreadyExists => refuse(format!("entry {name:?} stands twice in the archive")),
             _ => Error::File { path: target.clone(), source },
         })?;
-        let written = io::copy(&mut entry.by_ref().take(left.saturating_add(1)), &mut output)
-            .map_err(|error| refuse(format!("entry {name:?}: {error}")))?;
+        let written = copy(&mut entry.by_ref().take(left.saturating_add(1)), &mut output).map_err(
+            |error| match error {
+                CopyError::Read(error) => refuse(format!("entry {name:?}: {error}")),
+                CopyError::Write(source) => Error::File { path: target.clone(), source },
+            },
+        )?;
         left = left.checked_sub(written).ok_or_else(|| {
             refuse(format!("unpacks to more than {} bytes at entry {name:?}", limits.total_bytes))
         })?;
+        names.push(name);
     }
-    Ok(())
+    Ok(names)
+}
+
+/// Which side of a copy failed: a torn archive is not a full disk.
+enum CopyError {
+    Read(io::Error),
+    Write(io::Error),
+}
+
+/// Bytes copied, all there are.
+fn copy(from: &mut impl Read, to: &mut impl Write) -> Result<u64, CopyError> {
+    let mut block = vec![0; 1 << 16];
+    let mut copied = 0;
+    loop {
+        let count = match from.read(&mut block) {
+            Ok(0) => return Ok(copied),
+            Ok(count) => count,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(error) => return Err(CopyError::Read(error)),
+        };
+        to.write_all(&block[..count]).map_err(CopyError::Write)?;
+        copied += count as u64;
+    }
 }
 
 /// The entry's path below the folder, or `None` if it leaves it.
@@ -90,4 +121,34 @@ fn inside(name: &str) -> Option<PathBuf> {
     }
     let plain = path.components().all(|part| matches!(part, Component::Normal(_)));
     (plain && path.components().next().is_some()).then_some(path)
+}
+
+#[cfg(test)]
+mod tests {
+    //! A full disk is told as such, not as a torn archive.
+
+    use super::*;
+
+    struct Full;
+
+    impl Write for Full {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(io::ErrorKind::StorageFull.into())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_no_fault_of_the_archive() {
+        let outcome = copy(&mut io::repeat(1).take(10), &mut Full);
+        assert!(
+            matches!(outcome, Err(CopyError::Write(error)) if error.kind() == io::ErrorKind::StorageFull)
+        );
+        let mut all = Vec::new();
+        assert_eq!(copy(&mut io::repeat(1).take(200_000), &mut all).ok(), Some(200_000));
+        assert_eq!(all.len(), 200_000);
+    }
 }

@@ -97,6 +97,17 @@ pub enum Error {
         /// Points of as many variables that are allowed.
         allowed: u64,
     },
+    /// The texts recorded take more than memory is given for.
+    #[error(
+        "the texts recorded take more than {allowed} bytes: record less often (--every) or fewer (--record)"
+    )]
+    TooLong {
+        /// Bytes that are allowed.
+        allowed: u64,
+    },
+    /// What takes the rows went wrong.
+    #[error("{0}")]
+    Rows(String),
 }
 
 /// An FMI call that was not answered with fmi2OK or fmi2Warning, or was not allowed to be made.
@@ -116,7 +127,7 @@ pub struct CallError {
 }
 
 /// How a call failed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// The FMU's answer.
     Status(Status),
@@ -128,6 +139,8 @@ pub enum Outcome {
     NotAllowed(String),
     /// The arguments make no sense before any call is made.
     BadArguments(String),
+    /// The answer was good but its number is NaN, at this time in s.
+    NotANumber(f64),
 }
 
 impl std::fmt::Display for Outcome {
@@ -138,6 +151,7 @@ impl std::fmt::Display for Outcome {
             Self::NoInstance => write!(f, "gave no instance"),
             Self::NotAllowed(why) => write!(f, "not made: {why}"),
             Self::BadArguments(why) => write!(f, "not made: {why}"),
+            Self::NotANumber(time_s) => write!(f, "answered NaN at {time_s} s"),
         }
     }
 }

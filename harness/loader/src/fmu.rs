@@ -6,10 +6,10 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
+use files::Scratch;
 use model_description::{CoSimulation, Description, Parsed, ScalarVariable};
-use tempfile::TempDir;
 
-use crate::{Binary, Error, Instance, InstanceOptions, archive, checker::AccessTable, select::similar};
+use crate::{Binary, Error, Instance, InstanceOptions, archive, checker::AccessTable, select::unknown};
 
 /// An opened FMU. Cheap to clone; instances may be made and flown on many threads.
 #[derive(Clone)]
@@ -18,8 +18,9 @@ pub struct Fmu(Arc<Inner>);
 struct Inner {
     source: PathBuf,
     folder: PathBuf,
+    entries: Vec<String>,
     // Removed with the last clone and instance.
-    _temporary: Option<TempDir>,
+    _temporary: Option<Scratch>,
     parsed: Parsed,
     xml: Vec<u8>,
     positions: HashMap<String, usize>,
@@ -42,22 +43,25 @@ impl Fmu {
         let source = path.as_ref().to_owned();
         let at_source = |error| Error::File { path: source.clone(), source: error };
         let metadata = std::fs::metadata(&source).map_err(at_source)?;
-        let (folder, temporary) = if metadata.is_dir() {
-            (std::path::absolute(&source).map_err(at_source)?, None)
+        let (folder, entries, temporary) = if metadata.is_dir() {
+            (std::path::absolute(&source).map_err(at_source)?, Vec::new(), None)
         } else {
-            let temporary = tempfile::Builder::new()
-                .prefix("heliotorque-")
-                .tempdir()
+            let temporary = Scratch::new("heliotorque-")
                 .map_err(|error| Error::File { path: std::env::temp_dir(), source: error })?;
-            archive::unpack(&source, temporary.path(), archive::Limits::default())?;
-            (temporary.path().to_owned(), Some(temporary))
+            let entries = archive::unpack(&source, temporary.path(), archive::Limits::default())?;
+            (temporary.path().to_owned(), entries, Some(temporary))
         };
-        Self::from_folder(source, folder, temporary)
+        Self::from_folder(source, folder, entries, temporary)
     }
 
-    fn from_folder(source: PathBuf, folder: PathBuf, temporary: Option<TempDir>) -> Result<Self, Error> {
+    fn from_folder(
+        source: PathBuf,
+        folder: PathBuf,
+        entries: Vec<String>,
+        temporary: Option<Scratch>,
+    ) -> Result<Self, Error> {
         let xml_path = folder.join("modelDescription.xml");
-        let xml = std::fs::read(&xml_path).map_err(|error| match error.kind() {
+        let xml = files::read(&xml_path).map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => Error::Description {
                 path: source.clone(),
                 what: "holds no modelDescription.xml, so it is no FMU".to_owned(),
@@ -79,6 +83,7 @@ impl Fmu {
         Ok(Self(Arc::new(Inner {
             source,
             folder,
+            entries,
             _temporary: temporary,
             parsed,
             xml,
@@ -96,6 +101,11 @@ impl Fmu {
     /// The folder it is unpacked in.
     pub fn folder(&self) -> &Path {
         &self.0.folder
+    }
+
+    /// The paths of the archive's entries as it writes them; none for an unpacked folder.
+    pub fn entries(&self) -> &[String] {
+        &self.0.entries
     }
 
     /// The model description.
@@ -135,23 +145,12 @@ impl Fmu {
 
     /// The variable called `name`; an error proposes similar names.
     pub fn variable(&self, name: &str) -> Result<&ScalarVariable, Error> {
-        self.find(name).ok_or_else(|| self.unknown(name))
+        self.find(name).ok_or_else(|| unknown(self.description(), name))
     }
 
     /// Position of `name` in `ModelVariables`, from 0.
     pub fn position(&self, name: &str) -> Option<usize> {
         self.0.positions.get(name).copied()
-    }
-
-    pub(crate) fn unknown(&self, name: &str) -> Error {
-        let near =
-            similar(name, self.0.parsed.description.variables.iter().map(|variable| variable.name.as_str()));
-        let hint = if near.is_empty() {
-            "; `heliotorque info --variables` lists them".to_owned()
-        } else {
-            format!("; near it: {}", near.join(", "))
-        };
-        Error::UnknownVariable { fmu: self.name().to_owned(), name: name.to_owned(), hint }
     }
 
     /// Path of the shared library for this computer.

@@ -7,6 +7,7 @@
 
 mod abi;
 mod archive;
+mod calls;
 mod checker;
 mod error;
 mod fmu;
@@ -20,16 +21,21 @@ mod status;
 mod uri;
 mod values;
 
-pub use abi::{Binary, Callbacks, Described, SYMBOLS, set_locale};
+pub use abi::{Binary, Callbacks, Described, SYMBOLS, SharedWords, set_locale};
 pub use archive::{Limits, unpack};
+pub use calls::{CallMark, MARK_WORDS, Marked, call_under_way, mark_calls, read_mark, step_begin_s};
 pub use checker::Checking;
 pub use error::{CallError, Error, Outcome};
 pub use fmu::{Fmu, platform_folders};
 pub use inputs::InputTable;
 pub use instance::{Instance, InstanceOptions, Resources, State};
+pub use model_description::value::{Value, display_unit, unit};
+pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
 pub use select::select;
-pub use simulate::{Ended, Flight, Options, Stopped, Times, simulate};
+pub use simulate::{
+    Ended, Flight, Options, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
+};
 pub use status::{LogMessage, Status};
 pub use uri::file_uri;
-pub use values::{Value, display_unit, parse_assignment, parse_value, unit};
+pub use values::{Assigned, assignment, parse_assignment, parse_value};

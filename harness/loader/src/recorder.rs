@@ -2,30 +2,44 @@
 
 use model_description::VariableKind;
 
-use crate::{Column, Error, Fmu, Instance, Recording, values};
+use crate::{CallError, Column, Error, Fmu, Instance, Recording, error::Outcome};
 
 /// Most that a recording may take, in bytes: about ten million points of a dozen Reals.
 const MAX_BYTES: u64 = 1_000_000_000;
 /// A row's time.
 const TIME_BYTES: u64 = 8;
+/// What a short text takes with its bookkeeping.
+const TEXT_BYTES: u64 = 64;
 
-/// What one more row adds to a column; a short text counts with its bookkeeping.
+/// What one more row adds to a column.
 fn column_bytes(column: &Column) -> u64 {
     match column {
         Column::Real(_) => 8,
         Column::Integer(_) => 4,
         Column::Boolean(_) => 1,
-        Column::Text(_) => 64,
+        Column::Text(_) => TEXT_BYTES,
     }
 }
 
-/// Reads the recorded variables, one call per base type.
-pub(crate) struct Recorder {
-    pub(crate) recording: Recording,
-    groups: [Group; 4],
-    reals: Vec<f64>,
-    integers: Vec<i32>,
-    booleans: Vec<i32>,
+/// One row of a recording: its time, and the recorded variables of each base type in their order.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a> {
+    /// Time in s.
+    pub time_s: f64,
+    /// Reals, in their units.
+    pub reals: &'a [f64],
+    /// Integers and Enumerations.
+    pub integers: &'a [i32],
+    /// Booleans; 0 is false.
+    pub booleans: &'a [i32],
+    /// Strings.
+    pub texts: &'a [String],
+}
+
+/// What takes rows as they are recorded.
+pub trait Rows {
+    /// Takes one more row.
+    fn take(&mut self, row: &Row<'_>) -> Result<(), Error>;
 }
 
 /// The recorded variables of one base type: their columns and value references.
@@ -35,34 +49,54 @@ struct Group {
     references: Vec<u32>,
 }
 
-impl Recorder {
-    pub(crate) fn new(fmu: &Fmu, positions: &[usize]) -> Self {
+/// The recorded variables by base type: Reals, Integers, Booleans, Strings.
+fn groups(fmu: &Fmu, positions: &[usize]) -> [Group; 4] {
+    let mut groups: [Group; 4] = Default::default();
+    for (column, &position) in positions.iter().enumerate() {
+        let variable = &fmu.description().variables[position];
+        let group = match variable.kind {
+            VariableKind::Real { .. } => 0,
+            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
+            VariableKind::Boolean { .. } => 2,
+            VariableKind::String { .. } => 3,
+        };
+        groups[group].columns.push(column);
+        groups[group].references.push(variable.value_reference);
+    }
+    groups
+}
+
+/// Makes a [`Recording`] of rows.
+pub struct Collector {
+    recording: Recording,
+    columns: [Vec<usize>; 4],
+    text_bytes: u64,
+}
+
+impl Collector {
+    /// For the variables at these positions in `ModelVariables`.
+    pub fn new(fmu: &Fmu, positions: &[usize]) -> Self {
         let mut recording = Recording::default();
-        let mut groups: [Group; 4] = Default::default();
         for &position in positions {
             let variable = &fmu.description().variables[position];
-            let (group, column) = match variable.kind {
-                VariableKind::Real { .. } => (0, Column::Real(Vec::new())),
-                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
-                    (1, Column::Integer(Vec::new()))
-                }
-                VariableKind::Boolean { .. } => (2, Column::Boolean(Vec::new())),
-                VariableKind::String { .. } => (3, Column::Text(Vec::new())),
-            };
-            groups[group].columns.push(recording.columns.len());
-            groups[group].references.push(variable.value_reference);
             recording.names.push(variable.name.clone());
-            recording.units.push(values::unit(fmu.description(), variable).unwrap_or_default().to_owned());
-            recording.columns.push(column);
+            recording.units.push(
+                model_description::value::unit(fmu.description(), variable).unwrap_or_default().to_owned(),
+            );
+            recording.columns.push(match variable.kind {
+                VariableKind::Real { .. } => Column::Real(Vec::new()),
+                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
+                    Column::Integer(Vec::new())
+                }
+                VariableKind::Boolean { .. } => Column::Boolean(Vec::new()),
+                VariableKind::String { .. } => Column::Text(Vec::new()),
+            });
         }
-        let reals = vec![0.0; groups[0].columns.len()];
-        let integers = vec![0; groups[1].columns.len()];
-        let booleans = vec![0; groups[2].columns.len()];
-        Self { recording, groups, reals, integers, booleans }
+        Self { recording, columns: groups(fmu, positions).map(|group| group.columns), text_bytes: 0 }
     }
 
     /// Refuses more points than memory is given for, before anything is flown.
-    pub(crate) fn fits(&self, points: u64) -> Result<(), Error> {
+    pub fn fits(&self, points: u64) -> Result<(), Error> {
         let row: u64 = self.recording.columns.iter().map(column_bytes).sum::<u64>() + TIME_BYTES;
         if points <= MAX_BYTES / row {
             return Ok(());
@@ -70,11 +104,78 @@ impl Recorder {
         Err(Error::TooMuch { points, columns: self.recording.columns.len(), allowed: MAX_BYTES / row })
     }
 
-    /// Appends a row; an error leaves none.
-    pub(crate) fn record(&mut self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
+    /// How many values of each base type a row has: Reals, Integers, Booleans, Strings.
+    pub fn widths(&self) -> [usize; 4] {
+        std::array::from_fn(|group| self.columns[group].len())
+    }
+
+    /// The recording so far.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
+    }
+
+    /// The recording.
+    pub fn into_recording(self) -> Recording {
+        self.recording
+    }
+}
+
+impl Rows for Collector {
+    fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
+        self.text_bytes += row.texts.iter().map(|text| text.len() as u64 + TEXT_BYTES).sum::<u64>();
+        if self.text_bytes > MAX_BYTES {
+            return Err(Error::TooLong { allowed: MAX_BYTES });
+        }
+        self.recording.times_s.push(row.time_s);
+        let columns = &mut self.recording.columns;
+        let [reals, integers, booleans, texts] = &self.columns;
+        for (&column, &value) in reals.iter().zip(row.reals) {
+            if let Column::Real(values) = &mut columns[column] {
+                values.push(value);
+            }
+        }
+        for (&column, &value) in integers.iter().zip(row.integers) {
+            if let Column::Integer(values) = &mut columns[column] {
+                values.push(value);
+            }
+        }
+        for (&column, &value) in booleans.iter().zip(row.booleans) {
+            if let Column::Boolean(values) = &mut columns[column] {
+                values.push(value != 0);
+            }
+        }
+        for (&column, value) in texts.iter().zip(row.texts) {
+            if let Column::Text(values) = &mut columns[column] {
+                values.push(value.clone());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads the recorded variables, one call per base type.
+pub(crate) struct Reader {
+    groups: [Group; 4],
+    reals: Vec<f64>,
+    integers: Vec<i32>,
+    booleans: Vec<i32>,
+}
+
+impl Reader {
+    pub fn new(fmu: &Fmu, positions: &[usize]) -> Self {
+        let groups = groups(fmu, positions);
+        let [reals, integers, booleans, _] = std::array::from_fn(|group| groups[group].columns.len());
+        Self { groups, reals: vec![0.0; reals], integers: vec![0; integers], booleans: vec![0; booleans] }
+    }
+
+    /// Hands one row on; an error hands on none. A Real that is NaN is one.
+    pub fn read(&mut self, instance: &mut Instance, time_s: f64, rows: &mut dyn Rows) -> Result<(), Error> {
         let [reals, integers, booleans, strings] = &self.groups;
         if !reals.columns.is_empty() {
             instance.get_reals(&reals.references, &mut self.reals)?;
+            if let Some(at) = self.reals.iter().position(|value| value.is_nan()) {
+                return Err(nan(instance, reals.references[at], time_s));
+            }
         }
         let texts = if strings.columns.is_empty() {
             Vec::new()
@@ -87,28 +188,21 @@ impl Recorder {
         if !booleans.columns.is_empty() {
             instance.get_booleans(&booleans.references, &mut self.booleans)?;
         }
-        self.recording.times_s.push(time_s);
-        let columns = &mut self.recording.columns;
-        for (&column, &value) in reals.columns.iter().zip(&self.reals) {
-            if let Column::Real(values) = &mut columns[column] {
-                values.push(value);
-            }
-        }
-        for (&column, &value) in integers.columns.iter().zip(&self.integers) {
-            if let Column::Integer(values) = &mut columns[column] {
-                values.push(value);
-            }
-        }
-        for (&column, &value) in booleans.columns.iter().zip(&self.booleans) {
-            if let Column::Boolean(values) = &mut columns[column] {
-                values.push(value != 0);
-            }
-        }
-        for (&column, value) in strings.columns.iter().zip(texts) {
-            if let Column::Text(values) = &mut columns[column] {
-                values.push(value);
-            }
-        }
-        Ok(())
+        let Self { reals, integers, booleans, .. } = self;
+        rows.take(&Row { time_s, reals, integers, booleans, texts: &texts })
     }
+}
+
+fn nan(instance: &Instance, reference: u32, time_s: f64) -> Error {
+    let variables = &instance.fmu().description().variables;
+    let is_it = |kind: &VariableKind| matches!(kind, VariableKind::Real { .. });
+    let variable = variables.iter().find(|it| it.value_reference == reference && is_it(&it.kind));
+    let name = variable.map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone());
+    Error::Call(Box::new(CallError {
+        fmu: instance.fmu().name().to_owned(),
+        instance: instance.name().to_owned(),
+        call: format!("fmi2GetReal({name})"),
+        outcome: Outcome::NotANumber(time_s),
+        messages: crate::instance::last(instance.messages()),
+    }))
 }

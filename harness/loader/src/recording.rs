@@ -99,20 +99,31 @@ impl Recording {
     /// Writes CSV: a header `time,name,...`, then one row per time; Booleans as 0 and 1, Reals so that they read
     /// back to the same bits.
     pub fn write_csv(&self, to: &mut dyn Write) -> io::Result<()> {
+        self.write_header(to)?;
+        self.write_rows(0..self.times_s.len(), to)?;
+        to.flush()
+    }
+
+    /// Writes the header of the CSV.
+    pub fn write_header(&self, to: &mut dyn Write) -> io::Result<()> {
         write!(to, "time")?;
         for name in &self.names {
             write!(to, ",{}", csv_field(name))?;
         }
-        writeln!(to)?;
-        for (row, time) in self.times_s.iter().enumerate() {
-            write_real(*time, to)?;
+        writeln!(to)
+    }
+
+    /// Writes these rows of the CSV.
+    pub fn write_rows(&self, rows: std::ops::Range<usize>, to: &mut dyn Write) -> io::Result<()> {
+        for row in rows {
+            write_real(self.times_s.get(row).copied().unwrap_or(f64::NAN), to)?;
             for column in &self.columns {
                 write!(to, ",")?;
                 column.write(row, to)?;
             }
             writeln!(to)?;
         }
-        to.flush()
+        Ok(())
     }
 }
 

@@ -6,7 +6,7 @@ use model_description::{Causality, Initial, Variability, rules};
 
 use crate::{
     Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Value,
-    recorder::Recorder,
+    recorder::{Collector, Reader, Rows},
 };
 
 /// What to fly. `Options::default()` flies the FMU's default experiment and records its outputs.
@@ -141,27 +141,38 @@ impl Times {
 /// Flies an FMU and records it.
 ///
 /// Communication points are `start + k*step`; the last step ends at the stop time. Inputs are set at the start
-/// of each step, and only if their value changed.
+/// of each step, and only if their value changed. A recorded Real that is NaN is an error.
 pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Flight, Box<Stopped>> {
+    let positions = options.record.take().unwrap_or_else(|| outputs(fmu));
+    let mut collector = Collector::new(fmu, &positions);
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
-    let positions = match options.record.take() {
-        Some(positions) => positions,
-        None => outputs(fmu),
-    };
     let every = steps_between_points(&times, options.record_every_s)?;
-    let mut recorder = Recorder::new(fmu, &positions);
-    recorder.fits(times.steps().div_ceil(every).saturating_add(1))?;
-    let mut instance = fmu.instantiate("run", &options.instance)?;
-    let outcome = fly(fmu, &mut instance, (&times, every), &mut options, &mut recorder);
-    let messages = instance.messages();
-    match outcome {
-        Ok(ended) => Ok(Flight { recording: recorder.recording, ended, messages }),
-        Err(error) => Err(Box::new(Stopped { error, partial: recorder.recording })),
+    collector.fits(times.steps().div_ceil(every).saturating_add(1))?;
+    options.record = Some(positions);
+    match simulate_into(fmu, options, &mut collector) {
+        Ok((ended, messages)) => Ok(Flight { recording: collector.into_recording(), ended, messages }),
+        Err(error) => Err(Box::new(Stopped { error, partial: collector.into_recording() })),
     }
 }
 
+/// As [`simulate`], with the rows handed on as they are recorded. Also gives what the instance logged.
+pub fn simulate_into(
+    fmu: &Fmu,
+    mut options: Options<'_>,
+    rows: &mut dyn Rows,
+) -> Result<(Ended, Vec<LogMessage>), Error> {
+    let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
+    let every = steps_between_points(&times, options.record_every_s)?;
+    let positions = options.record.take().unwrap_or_else(|| outputs(fmu));
+    let mut reader = Reader::new(fmu, &positions);
+    let mut instance = fmu.instantiate("run", &options.instance)?;
+    let mut record = |instance: &mut Instance, time_s: f64| reader.read(instance, time_s, rows);
+    let ended = fly(fmu, &mut instance, (&times, every), &mut options, &mut record)?;
+    Ok((ended, instance.messages()))
+}
+
 /// How many steps lie between two recorded points.
-fn steps_between_points(times: &Times, every_s: Option<f64>) -> Result<u64, Error> {
+pub fn steps_between_points(times: &Times, every_s: Option<f64>) -> Result<u64, Error> {
     match every_s {
         None => Ok(1),
         Some(every_s) if every_s >= 0.0 => Ok(((every_s / times.step_s).round() as u64).max(1)),
@@ -176,7 +187,7 @@ fn fly(
     instance: &mut Instance,
     (times, every): (&Times, u64),
     options: &mut Options<'_>,
-    recorder: &mut Recorder,
+    record: &mut dyn FnMut(&mut Instance, f64) -> Result<(), Error>,
 ) -> Result<Ended, Error> {
     let tolerance = fmu.description().default_experiment.and_then(|default| default.tolerance);
     instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
@@ -196,7 +207,7 @@ fn fly(
         feed.set(instance, times.start_s, true)?;
     }
     instance.exit_initialization_mode()?;
-    recorder.record(instance, times.start_s)?;
+    record(instance, times.start_s)?;
 
     let steps = times.steps();
     for k in 0..steps {
@@ -212,7 +223,7 @@ fn fly(
             if error.status() == Some(Status::Discard) && instance.terminated().unwrap_or(false) {
                 let last_s = instance.last_successful_time().unwrap_or(time_s);
                 if last_s > time_s {
-                    recorder.record(instance, last_s)?;
+                    record(instance, last_s)?;
                 }
                 return Ok(Ended::ByItself);
             }
@@ -220,7 +231,7 @@ fn fly(
         }
         let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
         if (k + 1) % every == 0 || k + 1 == steps || cancelled {
-            recorder.record(instance, end_s)?;
+            record(instance, end_s)?;
         }
         if let Some(progress) = options.progress.as_mut() {
             progress(end_s);
@@ -233,8 +244,8 @@ fn fly(
     Ok(Ended::AtStop)
 }
 
-/// Positions of all outputs.
-fn outputs(fmu: &Fmu) -> Vec<usize> {
+/// Positions of all outputs in `ModelVariables`.
+pub fn outputs(fmu: &Fmu) -> Vec<usize> {
     let variables = &fmu.description().variables;
     (0..variables.len()).filter(|&position| variables[position].causality == Causality::Output).collect()
 }

@@ -30,6 +30,21 @@ impl From<c_int> for Status {
     }
 }
 
+impl Status {
+    /// The number at the C interface.
+    pub fn code(self) -> i32 {
+        match self {
+            Self::Ok => 0,
+            Self::Warning => 1,
+            Self::Discard => 2,
+            Self::Error => 3,
+            Self::Fatal => 4,
+            Self::Pending => 5,
+            Self::Invalid(code) => code,
+        }
+    }
+}
+
 impl std::fmt::Display for Status {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

@@ -6,8 +6,6 @@ mod legend;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
-
 use plotters::{
     coord::Shift,
     prelude::*,
@@ -99,14 +97,6 @@ pub enum ChartError {
         /// What the library says.
         reason: String,
     },
-    /// The file cannot be written.
-    #[error("{}: {source}", path.display())]
-    File {
-        /// Where to.
-        path: std::path::PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
 }
 
 /// Drawing units per pixel at which the picture shows: the library rounds coordinates to whole units, and a curve drawn
@@ -158,12 +148,6 @@ impl Chart {
         };
         // The view box keeps the fine units.
         Ok(size(self.height() / FINE) + rest)
-    }
-
-    /// Writes the chart as an SVG file.
-    pub fn write(&self, path: &Path) -> Result<(), ChartError> {
-        let svg = self.to_svg()?;
-        std::fs::write(path, svg).map_err(|source| ChartError::File { path: path.to_owned(), source })
     }
 
     /// Horizontal range of the finite points of all panels.

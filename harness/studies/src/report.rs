@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use comfy_table::{ContentArrangement, Table, presets};
+use files::Destination;
 
 use crate::chart::Chart;
 use crate::{Options, StudyError};
@@ -43,34 +44,40 @@ impl Report {
         header: &[&str],
         rows: impl IntoIterator<Item = Vec<String>>,
     ) -> Result<(), StudyError> {
-        let path = self.prepare(options, file)?;
-        let write = || -> Result<(), csv::Error> {
-            let mut writer = csv::Writer::from_path(&path)?;
+        let table = || -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
+            let mut writer = csv::Writer::from_writer(Vec::new());
             writer.write_record(header)?;
             for row in rows {
                 writer.write_record(row)?;
             }
-            Ok(writer.flush()?)
+            Ok(writer.into_inner()?)
         };
-        write().map_err(|error| failed(&path, error))?;
-        self.files.push(path);
-        Ok(())
+        let bytes = table().map_err(|error| StudyError::Write(format!("{file}: {error}")))?;
+        self.write(options, file, &bytes)
     }
 
     /// Writes a picture below the output folder.
     pub(crate) fn picture(&mut self, options: &Options, file: &str, chart: &Chart) -> Result<(), StudyError> {
-        let path = self.prepare(options, file)?;
-        chart.write(&path).map_err(|error| failed(&path, error))?;
+        let svg = chart.to_svg().map_err(|error| StudyError::Write(format!("{file}: {error}")))?;
+        self.write(options, file, svg.as_bytes())
+    }
+
+    fn write(&mut self, options: &Options, file: &str, bytes: &[u8]) -> Result<(), StudyError> {
+        let folder = &options.output;
+        fs::create_dir_all(folder)
+            .map_err(|error| StudyError::Write(format!("{}: {error}", folder.display())))?;
+        let path = folder.join(file);
+        // An FMU that is flown is never written over.
+        let fmus: Vec<PathBuf> = fs::read_dir(&options.dist)
+            .map(|entries| {
+                entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect()
+            })
+            .unwrap_or_default();
+        let fmus: Vec<&Path> = fmus.iter().map(PathBuf::as_path).collect();
+        Destination::open(&path, "--output", &fmus)
+            .and_then(|destination| destination.fill(|to| to.write_all(bytes)))
+            .map_err(StudyError::Write)?;
         self.files.push(path);
         Ok(())
     }
-
-    fn prepare(&self, options: &Options, file: &str) -> Result<PathBuf, StudyError> {
-        fs::create_dir_all(&options.output).map_err(|error| failed(&options.output, error))?;
-        Ok(options.output.join(file))
-    }
-}
-
-fn failed(path: &Path, source: impl std::error::Error + Send + Sync + 'static) -> StudyError {
-    StudyError::Write { path: path.to_owned(), source: Box::new(source) }
 }

@@ -196,13 +196,16 @@ impl Check<'_> {
             self.add(Code::DependencyKindCount, place, message);
             return;
         }
-        let real =
-            |index: u32| self.variable(index).is_none_or(|v| matches!(v.kind, VariableKind::Real { .. }));
-        let bad = dependencies.iter().zip(kinds).find(|(index, kind)| {
-            **kind != DependencyKind::Dependent && !(real(**index) && real(unknown.index))
-        });
-        if let Some((index, kind)) = bad {
-            let message = format!("dependenciesKind is {kind} for index {index}; allowed between Reals only");
+        // The standard asks this of the unknown alone: a Real may have a factor for a known of any type.
+        let variable = self.variable(unknown.index);
+        if variable.is_none_or(|variable| matches!(variable.kind, VariableKind::Real { .. })) {
+            return;
+        }
+        let factor = dependencies.iter().zip(kinds).find(|(_, kind)| **kind != DependencyKind::Dependent);
+        if let Some((index, kind)) = factor {
+            let message = format!(
+                "dependenciesKind is {kind} for index {index}; it says something for Real unknowns only"
+            );
             self.add(Code::DependencyKindReal, place, message);
         }
     }

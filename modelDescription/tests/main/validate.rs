@@ -33,6 +33,53 @@ fn findings_say_what_was_found_and_what_is_allowed() {
     );
 }
 
+/// The standard restricts the kinds by the unknown alone (2.2.8).
+#[test]
+fn a_real_may_have_a_factor_for_a_known_of_any_type() {
+    let variable = |name: &str, causality, variability, kind| ScalarVariable {
+        name: name.to_owned(),
+        value_reference: u32::from(causality == Causality::Output),
+        description: None,
+        causality,
+        variability,
+        initial: None,
+        can_handle_multiple_set_per_time_instant: None,
+        kind,
+    };
+    let real = |start| VariableKind::Real {
+        start,
+        declared_type: None,
+        attributes: RealAttributes::default(),
+        derivative: None,
+        reinit: None,
+    };
+    let boolean = |start| VariableKind::Boolean { start, declared_type: None };
+    let codes = |known: VariableKind, unknown: VariableKind, kind| {
+        let entry = Unknown { index: 2, dependencies: Some(vec![1]), dependencies_kind: Some(vec![kind]) };
+        let described = Description {
+            variables: vec![
+                variable("u", Causality::Input, Variability::Discrete, known),
+                variable("y", Causality::Output, Variability::Discrete, unknown),
+            ],
+            structure: ModelStructure {
+                outputs: vec![entry],
+                initial_unknowns: vec![Unknown { index: 2, ..Unknown::default() }],
+                ..ModelStructure::default()
+            },
+            ..rich()
+        };
+        validate(&described).into_iter().map(|finding| (finding.code, finding.severity())).collect::<Vec<_>>()
+    };
+    use DependencyKind::{Constant, Dependent, Discrete, Fixed, Tunable};
+    for kind in [Dependent, Constant, Fixed, Tunable, Discrete] {
+        assert_eq!(codes(boolean(Some(true)), real(None), kind), [], "{kind}");
+        assert_eq!(codes(real(Some(0.0)), real(None), kind), [], "{kind}");
+        let of_boolean = codes(boolean(Some(true)), boolean(None), kind);
+        let said = [(Code::DependencyKindReal, Severity::Warning)];
+        assert_eq!(of_boolean, if kind == Dependent { &said[..0] } else { &said[..] }, "{kind}");
+    }
+}
+
 #[test]
 fn lines_are_those_of_the_elements() {
     let mut description = rich();
@@ -88,4 +135,33 @@ fn date_times_are_those_of_xml_schema() {
     ] {
         assert!(!legal(text), "{text}");
     }
+}
+
+#[test]
+fn ten_times_the_faults_take_ten_times_as_long() {
+    let seconds = |count: usize| {
+        let mut description = rich();
+        let template = description.variables[1].clone();
+        for index in 0..count {
+            let mut variable = template.clone();
+            // One name, one reference, a start value out of bounds, an unknown unit: each is a fault.
+            if let VariableKind::Real { start, attributes, .. } = &mut variable.kind {
+                *start = Some(-4.0 - index as f64);
+                attributes.unit = Some(format!("unit{index}"));
+            }
+            description.variables.push(variable);
+        }
+        let text = to_xml(&description);
+        // The least of some, for the machine has other things to do.
+        let once = || {
+            let began = std::time::Instant::now();
+            let found = parse(text.as_bytes()).unwrap().findings().len();
+            assert!(found >= count, "{found}");
+            began.elapsed().as_secs_f64()
+        };
+        (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
+    };
+    let (few, many) = (seconds(1_000), seconds(10_000));
+    // With room for caches; each pair compared once would make a hundred.
+    assert!(many < 40.0 * few, "{few} s for 1000, {many} s for 10000");
 }

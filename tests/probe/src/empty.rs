@@ -1,6 +1,8 @@
 //! The smallest model: one output, no setup, no state.
 
-use fmi_export::{About, Context, Failure, Model, Real, SetupError, Step, Values, Variables};
+use fmi_export::{
+    About, Context, Dependencies, Failure, Model, Real, SetupError, Step, Values, Variables, knowns,
+};
 
 /// A model of one output.
 pub struct Empty;
@@ -56,5 +58,11 @@ impl Model for Empty {
     ) -> Result<(), Failure> {
         values.set_real(context.variables.clock, step.end_s);
         Ok(())
+    }
+
+    fn dependencies(_setup: &(), variables: &EmptyVariables) -> Dependencies {
+        let mut table = Dependencies::new();
+        table.output(variables.clock, knowns![], knowns![]);
+        table
     }
 }

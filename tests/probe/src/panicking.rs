@@ -1,7 +1,8 @@
 //! The model that panics: in the callback it is told to by its setup or by the parameter `accident`.
 
 use fmi_export::{
-    About, Choice, Context, Enumeration, Failure, Model, Real, SetupError, Step, Values, Variables,
+    About, Choice, Context, Dependencies, Enumeration, Failure, Model, Real, SetupError, Step, Values,
+    Variables, knowns,
 };
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 
@@ -261,6 +262,13 @@ impl Model for Panicking {
     ) -> Option<f64> {
         panic_if(chosen(context, values) == Accident::OutputDerivative, "OutputDerivative");
         None
+    }
+
+    fn dependencies(_setup: &Setup, variables: &PanickingVariables) -> Dependencies {
+        let mut table = Dependencies::new();
+        table.output(variables.output, variables.input, variables.input);
+        table.output(variables.clock, knowns![], knowns![]);
+        table
     }
 
     fn directional_derivative(

@@ -125,7 +125,7 @@ fn integer(value: Value, min: i32, max: i32) -> bool {
 }
 
 fn colour(value: Value) -> bool {
-    matches!(value, Value::Integer(1 | 2 | 4))
+    matches!(value, Value::Integer(0 | 1 | 2 | 4))
 }
 
 fn boolean(value: Value) -> bool {

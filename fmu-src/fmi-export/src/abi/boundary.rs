@@ -47,13 +47,12 @@ pub(super) struct Inner {
 pub(super) struct Lent(Vec<Option<CString>>);
 
 impl Lent {
-    /// A C string with this text (NUL replaced) that lives in the slot of `reference`.
-    pub(super) fn lend(&mut self, reference: u32, text: &str) -> *const c_char {
+    /// A C string with this text (NUL replaced) that lives in the slot of the String `index`.
+    pub(super) fn lend(&mut self, index: usize, text: &str) -> *const c_char {
         let text = match text.contains('\0') {
             true => Cow::Owned(text.replace('\0', "\u{FFFD}")),
             false => Cow::Borrowed(text),
         };
-        let index = reference as usize;
         if index >= self.0.len() {
             self.0.resize(index + 1, None);
         }

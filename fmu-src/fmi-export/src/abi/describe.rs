@@ -81,9 +81,10 @@ pub unsafe fn describe(
         let entry = library
             .find(model)
             .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))?;
-        let description = entry.describe(file, setup).map_err(|error| match error {
-            // It names its file and line first, where editors look for them.
+        let description = library.describe(entry, file, setup).map_err(|error| match error {
+            // They name their file and line first, where editors look for them.
             DescribeError::Setup(problem) => problem.to_string(),
+            DescribeError::Start(problems) => problems,
             other => format!("{model}: {other}"),
         })?;
         introduce(entry);

@@ -20,11 +20,11 @@ macro_rules! export {
                 instance_name: *const c_char, fmu_type: c_int, guid: *const c_char,
                 resource_location: *const c_char, functions: *const $crate::abi::CallbackFunctions,
                 visible: c_int, logging_on: c_int,
-            ) -> *mut c_void = instantiate(&LIBRARY);
+            ) -> *mut c_void = loaded::instantiate(&LIBRARY);
             fn fmi_export_describe(
                 model: *const c_char, setup_file: *const c_char, setup_text: *const c_char,
                 context: *mut c_void, receive: Option<$crate::abi::Receive>,
-            ) -> c_int = describe(&LIBRARY);
+            ) -> c_int = loaded::describe(&LIBRARY);
             fn fmi2GetTypesPlatform() -> *const c_char = get_types_platform();
             fn fmi2GetVersion() -> *const c_char = get_version();
             fn fmi2FreeInstance(c: *mut c_void) -> () = free_instance();
@@ -95,7 +95,8 @@ macro_rules! export {
 #[macro_export]
 macro_rules! __emit {
     ($(
-        fn $symbol:ident($($argument:ident: $type:ty),* $(,)?) -> $result:ty = $target:ident($($first:expr)?);
+        fn $symbol:ident($($argument:ident: $type:ty),* $(,)?) -> $result:ty
+            = $($target:ident)::+($($first:expr)?);
     )*) => {
         #[allow(unsafe_code, reason = "symbols of the C interface, forwarded to fmi_export::abi")]
         #[allow(non_snake_case, reason = "the standard's names")]
@@ -110,7 +111,7 @@ macro_rules! __emit {
                 #[unsafe(no_mangle)]
                 pub unsafe extern "C" fn $symbol($($argument: $type),*) -> $result {
                     // SAFETY: the master keeps the standard's contract.
-                    unsafe { $crate::abi::$target($($first,)? $($argument),*) }
+                    unsafe { $crate::abi::$($target)::+($($first,)? $($argument),*) }
                 }
             )*
         }

@@ -145,8 +145,8 @@ guarded! {
     GetString get_string(inner, references: *const c_uint, count: usize, values: *mut *const c_char) {
         let values = slice_mut(values, count, "value")?;
         let lent = &mut inner.lent;
-        inner.instance.get_string(slice(references, count, "vr")?, |position, reference, text| {
-            values[position] = lent.lend(reference, text);
+        inner.instance.get_string(slice(references, count, "vr")?, |position, index, text| {
+            values[position] = lent.lend(index, text);
         })
     }
     SetReal set_real(inner, references: *const c_uint, count: usize, values: *const f64) {

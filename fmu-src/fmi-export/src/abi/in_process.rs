@@ -165,6 +165,12 @@ impl InProcess {
         status(unsafe { c::setup_experiment(self.component, 0, 0.0, start_s, defined, stop) })
     }
 
+    /// `fmi2SetupExperiment` with a tolerance.
+    pub fn setup_experiment_with_tolerance(&mut self, tolerance: f64, start_s: f64) -> Status {
+        // SAFETY: a live instance.
+        status(unsafe { c::setup_experiment(self.component, 1, tolerance, start_s, 0, 0.0) })
+    }
+
     /// `fmi2DoStep`.
     pub fn do_step(&mut self, point_s: f64, step_size_s: f64) -> Status {
         // SAFETY: a live instance.

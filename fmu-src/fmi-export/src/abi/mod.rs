@@ -11,6 +11,7 @@ mod describe;
 mod export;
 mod functions;
 mod in_process;
+pub mod loaded;
 
 pub use describe::{Receive, describe, kind};
 pub use functions::*;

@@ -58,6 +58,9 @@ impl Instance {
                 1 => self.runtime.output_derivative(self.values_at_last_step(), reference, &self.logger)?,
                 _ => 0.0,
             };
+            if !value.is_finite() {
+                return Err(Problem::SlopeNotFinite { of: reference, along: None, value: *value });
+            }
         }
         Ok(())
     }
@@ -82,17 +85,29 @@ impl Instance {
         for &reference in knowns {
             self.require(reference, known, 0, "Real input")?;
         }
+        if let Some((&reference, &value)) = knowns.iter().zip(seed).find(|(_, seed)| !seed.is_finite()) {
+            return Err(Problem::SeedNotFinite { reference, value });
+        }
         if initializing {
             self.initialize_if_needed()?;
         }
         let values = self.values_at_last_step();
-        self.runtime.directional_derivative(values, unknowns, knowns, seed, result, &self.logger)
+        self.runtime.directional_derivative(values, unknowns, knowns, seed, result, &self.logger)?;
+        match unknowns.iter().zip(result).find(|(_, slope)| !slope.is_finite()) {
+            None => Ok(()),
+            Some((&of, &mut value)) => {
+                let moved = knowns.iter().zip(seed).filter(|(_, seed)| **seed != 0.0);
+                let names = moved.filter_map(|(known, _)| self.access.any_name(*known));
+                let along = Some(names.collect::<Vec<_>>().join(", ")).filter(|names| !names.is_empty());
+                Err(Problem::SlopeNotFinite { of, along, value })
+            }
+        }
     }
 
     /// Refuses a Real reference without any of the flags `any`, or without all of the flags `all`.
     fn require(&self, reference: u32, any: u8, all: u8, role: &'static str) -> Result<(), Problem> {
         let table = self.access.flags(BaseType::Real);
-        match table.get(reference as usize) {
+        match table.get(BaseType::Real.index(reference)) {
             Some(flags) if flags & any != 0 && flags & all == all => Ok(()),
             Some(_) => Err(Problem::NotA { role, reference }),
             None => Err(Problem::UnknownReference { base: BaseType::Real, reference, count: table.len() }),

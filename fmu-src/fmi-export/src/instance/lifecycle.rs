@@ -2,6 +2,7 @@
 
 use super::{Instance, once};
 use crate::Status;
+use crate::access::BaseType;
 use crate::call_table::Function;
 use crate::logger::Category;
 use crate::memory::{Experiment, Memory};
@@ -37,8 +38,9 @@ impl Instance {
         if !start_s.is_finite() || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) {
             return Err(Problem::Experiment { start_s, stop_s });
         }
+        let usable = |tolerance: &f64| *tolerance > 0.0 && tolerance.is_finite();
         if let Some(tolerance) = tolerance
-            && !(tolerance > 0.0 && tolerance.is_finite())
+            && !usable(&tolerance)
         {
             self.logger.log(
                 Status::Warning,
@@ -47,7 +49,7 @@ impl Instance {
                 ),
             );
         }
-        self.memory.experiment = Some(Experiment { start_s, stop_s });
+        self.memory.experiment = Some(Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) });
         Ok(())
     }
 
@@ -56,8 +58,31 @@ impl Instance {
         self.guard(Function::EnterInitializationMode)?;
         let experiment = self.memory.experiment.ok_or(Problem::NoExperiment)?;
         self.memory.time_s = experiment.start_s;
+        self.take_tolerance(experiment.tolerance);
         self.memory.needs_initialization = true;
         Ok(())
+    }
+
+    /// The tolerance of the experiment becomes the value of the model's parameter, unless the master set that: so it is
+    /// read, saved and restored like any value.
+    fn take_tolerance(&mut self, tolerance: Option<f64>) {
+        let Some(at) = self.tolerance.filter(|_| !self.memory.tolerance_set) else { return };
+        let default = self.start.real(at);
+        let limits = self.access.real_limits.get(BaseType::Real.index(at.reference())).copied();
+        let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
+        // Not `clamp`, which panics where the limits are no range.
+        let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
+        if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance != taken) {
+            let name = self.access.any_name(at.reference()).unwrap_or_default();
+            self.logger.log(
+                Status::Warning,
+                format_args!(
+                    "fmi2SetupExperiment: the tolerance {tolerance:?} is taken as {taken:?}, for `{name}` may be \
+                     {min:?} to {max:?}"
+                ),
+            );
+        }
+        self.memory.values.set_real(at, taken);
     }
 
     /// `fmi2ExitInitializationMode`.
@@ -72,6 +97,7 @@ impl Instance {
     pub(super) fn initialize_if_needed(&mut self) -> Result<(), Problem> {
         if self.memory.needs_initialization {
             self.runtime.initialize(&mut self.memory.values, self.memory.time_s, &self.logger)?;
+            self.check_finite(true)?;
             self.memory.needs_initialization = false;
         }
         Ok(())

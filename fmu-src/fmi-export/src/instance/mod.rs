@@ -8,13 +8,13 @@ mod lifecycle;
 mod stepping;
 mod values;
 
-use crate::access::AccessTable;
+use crate::access::{AccessTable, BaseType};
 use crate::call_table::{self, Access, Function, Next, State};
 use crate::logger::Logger;
 use crate::memory::{Memory, copy_values};
 use crate::problem::Problem;
 use crate::runtime::{Capabilities, Parts, Runtime};
-use crate::variables::Values;
+use crate::variables::{Real, Values};
 use crate::{Status, describe::Prepared};
 
 pub(crate) use stepping::StatusKind;
@@ -41,10 +41,10 @@ pub(crate) struct Instance {
     said: u8,
     /// The master promised not to go back before this time.
     promised_s: f64,
-    /// Whether the model may be asked for derivatives, so that [`Memory::at_last_step`] is needed.
-    keeps_last_step: bool,
-    /// Spare memory for it.
+    /// Spare memory for [`Memory::at_last_step`].
     spare: Values,
+    /// The parameter that the experiment's tolerance stands in for.
+    tolerance: Option<Real>,
     poisoned: bool,
 }
 
@@ -54,11 +54,9 @@ impl Instance {
         let Parts { access, start, runtime, digest, capabilities } = prepared.parts;
         let mut memory = Memory::new(&start);
         memory.input_derivatives.reserve(access.real_limits.len());
-        let keeps_last_step =
-            capabilities.directional_derivative || capabilities.max_output_derivative_order > 0;
         Self {
-            spare: if keeps_last_step { start.clone() } else { Values::default() },
-            keeps_last_step,
+            spare: start.clone(),
+            tolerance: runtime.tolerance(),
             memory,
             runtime,
             access,
@@ -139,6 +137,37 @@ impl Instance {
         }
     }
 
+    /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot go on with.
+    pub(super) fn check_finite(&self, initially: bool) -> Result<(), Problem> {
+        match self.access.first_not_finite(&self.memory.values) {
+            None => Ok(()),
+            Some((reference, value)) => Err(self.not_finite(reference, value, initially)),
+        }
+    }
+
+    #[cold]
+    fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
+        let behind = self.access.dependencies(reference, initially);
+        let shown = behind.map(|behind| {
+            let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));
+            behind.iter().filter_map(shown).collect::<Vec<_>>().join(", ")
+        });
+        Problem::NotFinite { reference, value, behind: shown.filter(|it| !it.is_empty()) }
+    }
+
+    /// A variable's value for a message.
+    fn shown(&self, reference: u32) -> Option<String> {
+        let values = &self.memory.values;
+        let base = BaseType::of_reference(reference)?;
+        let index = base.index(reference);
+        Some(match base {
+            BaseType::Real => format!("{:?}", values.reals.get(index)?),
+            BaseType::Integer => values.integers.get(index)?.to_string(),
+            BaseType::Boolean => values.booleans.get(index)?.to_string(),
+            BaseType::String => format!("{:?}", values.strings.get(index)?),
+        })
+    }
+
     /// The values that derivatives are asked of: those of the last step, whatever was set since.
     pub(super) fn values_at_last_step(&self) -> &Values {
         self.memory.at_last_step.as_ref().unwrap_or(&self.memory.values)
@@ -146,9 +175,7 @@ impl Instance {
 
     /// Brings the spare values to their size, so that no step has to.
     pub(super) fn warm_up(&mut self) {
-        if self.keeps_last_step {
-            copy_values(&mut self.spare, &self.memory.values);
-        }
+        copy_values(&mut self.spare, &self.memory.values);
     }
 
     /// Forgets the values kept for derivatives, but not their memory.

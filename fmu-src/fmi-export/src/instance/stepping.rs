@@ -62,13 +62,20 @@ impl Instance {
             self.promised_s = self.promised_s.max(point_s);
         }
         let memory = &mut self.memory;
+        // An input whose derivatives are 0 stays where it is.
+        memory.input_derivatives.retain(|(_, _, derivative)| *derivative != 0.0);
         let step = Step {
             start_s,
             end_s,
-            changed: memory.changed || memory.derivatives_ended || !memory.input_derivatives.is_empty(),
+            changed: memory.derivatives_ended || !memory.input_derivatives.is_empty() || memory.differs(),
             input_derivatives: &memory.input_derivatives,
         };
         let result = self.runtime.step(&mut memory.values, &step, &self.logger);
+        let ended = matches!(&result, Err(Problem::Model(failure)) if failure.is_terminated());
+        if result.is_ok() || ended {
+            self.check_finite(false)?;
+        }
+        let memory = &mut self.memory;
         match &result {
             Ok(()) => memory.time_s = end_s,
             Err(Problem::Model(failure)) if failure.is_terminated() => {
@@ -81,7 +88,6 @@ impl Instance {
         }
         memory.derivatives_ended = !memory.input_derivatives.is_empty();
         memory.input_derivatives.clear();
-        memory.changed = false;
         self.forget_last_step();
         result
     }

@@ -20,7 +20,7 @@ macro_rules! getter {
                 }
                 let table = &self.memory.values.$table;
                 for (&reference, value) in references.iter().zip(values) {
-                    match table.get(reference as usize) {
+                    match table.get(BaseType::$base.index(reference)) {
                         Some(stored) => *value = $read(stored),
                         None => return Err(unknown(BaseType::$base, reference, table.len())),
                     }
@@ -44,7 +44,7 @@ macro_rules! setter {
                 let table = &self.memory.values.$table;
                 let flags = self.access.flags(BaseType::$base);
                 for (&reference, value) in references.iter().zip(values) {
-                    let index = reference as usize;
+                    let index = BaseType::$base.index(reference);
                     let (Some(&flags), Some(stored)) = (flags.get(index), table.get(index)) else {
                         return Err(unknown(BaseType::$base, reference, table.len()));
                     };
@@ -61,11 +61,14 @@ macro_rules! setter {
                 if lenient {
                     self.say_input_before_initialization();
                 }
+                if BaseType::$base as u8 == BaseType::Real as u8 && self.memory.state != State::StepComplete {
+                    self.note_tolerance(references);
+                }
                 if differs {
                     self.before_change();
                     let table = &mut self.memory.values.$table;
                     for (&reference, value) in references.iter().zip(values) {
-                        if let Some(stored) = table.get_mut(reference as usize) {
+                        if let Some(stored) = table.get_mut(BaseType::$base.index(reference)) {
                             $write(stored, value);
                         }
                     }
@@ -82,7 +85,7 @@ getter!(get_boolean, GetBoolean, Boolean, booleans, i32, |stored: &bool| i32::fr
 
 setter!(set_real, SetReal, Real, reals, f64,
     check: |access: &AccessTable, reference: u32, value: &f64| {
-        match access.real_limits.get(reference as usize) {
+        match access.real_limits.get(BaseType::Real.index(reference)) {
             // Written so that NaN fails.
             Some(&(min, max)) if min <= *value && *value <= max => Ok(()),
             _ => Err(Problem::RealOutOfRange { reference, value: *value }),
@@ -93,7 +96,7 @@ setter!(set_real, SetReal, Real, reals, f64,
 
 setter!(set_integer, SetInteger, Integer, integers, i32,
     check: |access: &AccessTable, reference: u32, value: &i32| {
-        match access.admits_integer(reference as usize, *value) {
+        match access.admits_integer(BaseType::Integer.index(reference), *value) {
             true => Ok(()),
             false => Err(Problem::IntegerOutOfRange { reference, value: *value }),
         }
@@ -121,11 +124,11 @@ setter!(set_string, SetString, String, strings, MaybeText<'_>,
     write: |stored: &mut String, value: &MaybeText<'_>| value.unwrap_or_default().clone_into(stored));
 
 impl Instance {
-    /// `fmi2GetString`: hands each value to `take`, by position and reference.
+    /// `fmi2GetString`: hands each value to `take`, by position and place in the table.
     pub(crate) fn get_string(
         &mut self,
         references: &[u32],
-        mut take: impl FnMut(usize, u32, &str),
+        mut take: impl FnMut(usize, usize, &str),
     ) -> Result<(), Problem> {
         self.guard(Function::GetString)?;
         if self.reading_needs_care() {
@@ -133,8 +136,9 @@ impl Instance {
         }
         let table = &self.memory.values.strings;
         for (position, &reference) in references.iter().enumerate() {
-            match table.get(reference as usize) {
-                Some(stored) => take(position, reference, stored),
+            let index = BaseType::String.index(reference);
+            match table.get(index) {
+                Some(stored) => take(position, index, stored),
                 None => return Err(unknown(BaseType::String, reference, table.len())),
             }
         }
@@ -155,7 +159,9 @@ impl Instance {
     #[inline]
     fn reading_needs_care(&self) -> bool {
         match self.memory.state {
-            State::StepComplete => self.memory.changed && self.said & once::OUTPUT_AFTER_SET == 0,
+            State::StepComplete => {
+                self.memory.at_last_step.is_some() && self.said & once::OUTPUT_AFTER_SET == 0
+            }
             State::InitializationMode => true,
             _ => false,
         }
@@ -166,7 +172,7 @@ impl Instance {
         let flags = self.access.flags(base);
         let mut all = u8::MAX;
         for &reference in references {
-            match flags.get(reference as usize) {
+            match flags.get(base.index(reference)) {
                 Some(flags) => all &= flags,
                 None => return Err(unknown(base, reference, flags.len())),
             }
@@ -199,16 +205,19 @@ impl Instance {
     fn before_change(&mut self) {
         match self.memory.state {
             State::InitializationMode => self.memory.needs_initialization = true,
-            State::StepComplete if !self.memory.changed => {
-                if self.keeps_last_step {
-                    let mut values = core::mem::take(&mut self.spare);
-                    copy_values(&mut values, &self.memory.values);
-                    self.memory.at_last_step = Some(values);
-                }
-                self.memory.changed = true;
+            State::StepComplete if self.memory.at_last_step.is_none() => {
+                let mut values = core::mem::take(&mut self.spare);
+                copy_values(&mut values, &self.memory.values);
+                self.memory.at_last_step = Some(values);
             }
             _ => {}
         }
+    }
+
+    /// What the master sets of the tolerance goes before the experiment's.
+    #[cold]
+    fn note_tolerance(&mut self, references: &[u32]) {
+        self.memory.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&at.reference()));
     }
 
     #[cold]

@@ -90,6 +90,16 @@ pub fn items(items: &[EnumerationItem]) -> Checked {
     Ok(())
 }
 
+/// Checks that an enumeration can be an input: masters send 0 before the first exchange.
+pub fn has_none(items: &[EnumerationItem]) -> Checked {
+    match items.iter().any(|item| item.value == 0 && item.name == "none") {
+        true => Ok(()),
+        false => {
+            Err("is an input whose enumeration has no item 0 `none`, which masters send first".to_owned())
+        }
+    }
+}
+
 fn list<T: Display>(all: impl IntoIterator<Item = T>) -> String {
     let words: Vec<_> = all.into_iter().map(|word| word.to_string()).collect();
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }

@@ -11,6 +11,7 @@ use model_description::{
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 use super::values::Values;
+use crate::access::BaseType;
 
 /// Why a declaration is wrong; names the variable.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -167,30 +168,30 @@ impl Declare {
         max: Option<i32>,
     ) -> Result<Integer, DeclareError> {
         self.checked(spec.name, check::range(start, min, max))?;
-        let reference = self.table.start.integers.len() as u32;
+        let index = self.table.start.integers.len() as u32;
         let kind = VariableKind::Integer { start, declared_type: None, quantity: None, min, max };
-        self.push(spec.name, spec.description, spec.role, reference, kind)?;
+        self.push(spec.name, spec.description, spec.role, index, kind)?;
         self.table.start.integers.push(start.unwrap_or(0));
-        Ok(Integer(reference))
+        Ok(Integer(index))
     }
 
     /// Declares a Boolean.
     pub fn boolean(&mut self, spec: &ScalarSpec<'_>, start: Option<bool>) -> Result<Boolean, DeclareError> {
-        let reference = self.table.start.booleans.len() as u32;
+        let index = self.table.start.booleans.len() as u32;
         let kind = VariableKind::Boolean { start, declared_type: None };
-        self.push(spec.name, spec.description, spec.role, reference, kind)?;
+        self.push(spec.name, spec.description, spec.role, index, kind)?;
         self.table.start.booleans.push(start.unwrap_or(false));
-        Ok(Boolean(reference))
+        Ok(Boolean(index))
     }
 
     /// Declares a String.
     pub fn text(&mut self, spec: &ScalarSpec<'_>, start: Option<&str>) -> Result<Text, DeclareError> {
-        let reference = self.table.start.strings.len() as u32;
+        let index = self.table.start.strings.len() as u32;
         self.checked(spec.name, check::text("start", start.unwrap_or_default()))?;
         let kind = VariableKind::String { start: start.map(str::to_owned), declared_type: None };
-        self.push(spec.name, spec.description, spec.role, reference, kind)?;
+        self.push(spec.name, spec.description, spec.role, index, kind)?;
         self.table.start.strings.push(start.unwrap_or_default().to_owned());
-        Ok(Text(reference))
+        Ok(Text(index))
     }
 
     /// Declares an Enumeration; its values live in the Integer table.
@@ -200,7 +201,10 @@ impl Declare {
         start: Option<E>,
     ) -> Result<Choice<E>, DeclareError> {
         let first = self.enumeration_type::<E>(spec.name)?;
-        let reference = self.table.start.integers.len() as u32;
+        if spec.role.causality == Causality::Input {
+            self.checked(spec.name, check::has_none(&E::items()))?;
+        }
+        let index = self.table.start.integers.len() as u32;
         let kind = VariableKind::Enumeration {
             start: start.map(E::value),
             declared_type: E::TYPE_NAME.to_owned(),
@@ -208,9 +212,9 @@ impl Declare {
             min: None,
             max: None,
         };
-        self.push(spec.name, spec.description, spec.role, reference, kind)?;
+        self.push(spec.name, spec.description, spec.role, index, kind)?;
         self.table.start.integers.push(start.map_or(first, E::value));
-        Ok(Choice(reference, PhantomData))
+        Ok(Choice(index, PhantomData))
     }
 
     /// Adds the type definition of `E` where it is new; the value of its first item.
@@ -262,7 +266,7 @@ impl Declare {
         {
             return Err(self.error(name, format!("nominal is {nominal}; it must be above 0")));
         }
-        let reference = self.table.start.reals.len() as u32;
+        let index = self.table.start.reals.len() as u32;
         let attributes = RealAttributes {
             unit: Some(unit.to_owned()),
             display_unit: display_unit.map(str::to_owned),
@@ -273,9 +277,9 @@ impl Declare {
         };
         let kind =
             VariableKind::Real { start, declared_type: None, attributes, derivative: None, reinit: None };
-        self.push(name, spec.description, spec.role, reference, kind)?;
+        self.push(name, spec.description, spec.role, index, kind)?;
         self.table.start.reals.push(start.unwrap_or(0.0));
-        Ok(Real(reference))
+        Ok(Real(index))
     }
 
     fn push(
@@ -283,13 +287,13 @@ impl Declare {
         name: &str,
         description: &str,
         role: Role,
-        value_reference: u32,
+        index: u32,
         kind: VariableKind,
     ) -> Result<(), DeclareError> {
         let full = format!("{}{name}", self.prefix);
-        let variable = ScalarVariable {
+        let mut variable = ScalarVariable {
             name: full.clone(),
-            value_reference,
+            value_reference: index,
             description: Some(description.to_owned()),
             causality: role.causality,
             variability: role.variability,
@@ -297,7 +301,13 @@ impl Declare {
             can_handle_multiple_set_per_time_instant: None,
             kind,
         };
-        let is_real = matches!(variable.kind, VariableKind::Real { .. });
+        let base = BaseType::of(&variable);
+        if index >= BaseType::MOST {
+            let problem = format!("is one {} too many; at most {} are allowed", base.name(), BaseType::MOST);
+            return Err(self.error(name, problem));
+        }
+        variable.value_reference = base.first_reference() + index;
+        let is_real = base == BaseType::Real;
         self.checked(name, check::name(&full))?;
         self.checked(name, check::role(role, is_real, rules::has_start(&variable)))?;
         self.checked(name, check::text("description", description))?;

@@ -1,11 +1,13 @@
-//! Handles: what a declared variable is to the model's code.
+//! Handles: what a declared variable is to the model's code. Each holds the index into the table of its type.
 
 use core::marker::PhantomData;
 
 use model_description::EnumerationItem;
 
+use crate::access::BaseType;
+
 macro_rules! scalar_handle {
-    ($(#[$doc:meta])* $name:ident) => {
+    ($(#[$doc:meta])* $name:ident, $base:ident) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub struct $name(pub(super) u32);
@@ -13,7 +15,7 @@ macro_rules! scalar_handle {
         impl $name {
             /// The FMI value reference.
             pub fn reference(self) -> u32 {
-                self.0
+                BaseType::$base.first_reference() + self.0
             }
         }
     };
@@ -21,25 +23,29 @@ macro_rules! scalar_handle {
 
 scalar_handle!(
     /// A Real variable.
+    Real,
     Real
 );
 scalar_handle!(
     /// An Integer variable.
+    Integer,
     Integer
 );
 scalar_handle!(
     /// A Boolean variable.
+    Boolean,
     Boolean
 );
 scalar_handle!(
     /// A String variable.
-    Text
+    Text,
+    String
 );
 
 impl Real {
     /// The handle of a value reference, for code that walks references.
     pub fn from_reference(reference: u32) -> Self {
-        Self(reference)
+        Self(reference.wrapping_sub(BaseType::Real.first_reference()))
     }
 }
 
@@ -50,7 +56,7 @@ pub struct RealVector<const N: usize>(pub(super) u32);
 impl<const N: usize> RealVector<N> {
     /// Reference of the first element.
     pub fn reference(self) -> u32 {
-        self.0
+        BaseType::Real.first_reference() + self.0
     }
 
     /// Element `index`, 0-based, below `N`.
@@ -67,7 +73,7 @@ pub struct RealMatrix<const R: usize, const C: usize>(pub(super) u32);
 impl<const R: usize, const C: usize> RealMatrix<R, C> {
     /// Reference of element (1,1).
     pub fn reference(self) -> u32 {
-        self.0
+        BaseType::Real.first_reference() + self.0
     }
 
     /// Element at 0-based `row` and `column`.
@@ -90,9 +96,9 @@ impl<E> Clone for Choice<E> {
 impl<E> Copy for Choice<E> {}
 
 impl<E> Choice<E> {
-    /// The FMI value reference (in the Integer table).
+    /// The FMI value reference, one of the Integers'.
     pub fn reference(self) -> u32 {
-        self.0
+        BaseType::Integer.first_reference() + self.0
     }
 }
 

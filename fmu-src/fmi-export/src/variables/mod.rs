@@ -1,6 +1,7 @@
 //! Variables: typed handles into flat tables, one table a base type.
 //!
-//! A value reference is the index into its table, so a get or set is one bounds-checked array access.
+//! A value reference is the index into its table beyond the type's first reference, so a get or set is a subtraction and
+//! one bounds-checked array access.
 
 mod check;
 mod declare;

@@ -1,5 +1,6 @@
 //! The values of one instance: four flat tables.
 
+use model_description::value::Value;
 use serde::{Deserialize, Serialize};
 
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
@@ -14,6 +15,16 @@ pub struct Values {
 }
 
 impl Values {
+    /// Writes the value at a position in the table of its base type.
+    pub(crate) fn set(&mut self, position: usize, value: Value) {
+        match value {
+            Value::Real(value) => self.reals[position] = value,
+            Value::Integer(value) => self.integers[position] = value,
+            Value::Boolean(value) => self.booleans[position] = value,
+            Value::Text(value) => self.strings[position] = value,
+        }
+    }
+
     /// Value of a Real.
     pub fn real(&self, handle: Real) -> f64 {
         self.reals[handle.0 as usize]

@@ -1,9 +1,11 @@
 //! What `#[derive(Variables)]` declares is what the builder's table holds: names, references, roles, starts.
 
 use fmi_export::variables::{Causality, Initial, Table, Variability};
+use std::collections::BTreeSet;
+
 use fmi_export::{
-    Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Real, RealMatrix, RealVector, Text,
-    Variables,
+    BaseType, Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Real, RealMatrix, RealVector,
+    Text, Variables,
 };
 use model_description::{ScalarVariable, SimpleTypeKind, VariableKind};
 
@@ -141,9 +143,11 @@ fn names_follow_fields_groups_and_elements() {
 }
 
 #[test]
-fn references_are_dense_for_each_base_type_and_in_order() {
+fn references_are_unique_and_dense_for_each_base_type_in_order() {
     let (variables, table) = craft();
-    let mut next = [0; 4];
+    let all: BTreeSet<_> = table.variables.iter().map(|variable| variable.value_reference).collect();
+    assert_eq!(all.len(), table.variables.len());
+    let mut next = BaseType::ALL.map(BaseType::first_reference);
     for variable in &table.variables {
         let base = match variable.kind {
             VariableKind::Real { .. } => 0,

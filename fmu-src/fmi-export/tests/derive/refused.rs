@@ -141,6 +141,35 @@ fn type_names_mean_one_type_and_no_variable() {
     assert_eq!(found, "variable `Mode`: an enumeration type has this name");
 }
 
+#[derive(Variables)]
+#[allow(dead_code, reason = "declared only")]
+struct Chosen<E: Enumeration> {
+    /// A choice.
+    #[input(start = E::from_value(1).unwrap())]
+    kind: Choice<E>,
+}
+
+mod with_none {
+    /// A mode.
+    #[derive(Clone, Copy, fmi_export::Enumeration)]
+    pub enum Mode {
+        /// Not chosen yet.
+        None = 0,
+        /// On.
+        On,
+    }
+}
+
+#[test]
+fn an_enumeration_that_is_an_input_accepts_the_zero_that_masters_send() {
+    assert!(Chosen::<with_none::Mode>::declare(&mut Declare::new(), &(), 0).is_ok());
+    let found = refusal(Chosen::<one::Mode>::declare(&mut Declare::new(), &(), 0));
+    assert_eq!(
+        found,
+        "variable `kind`: is an input whose enumeration has no item 0 `none`, which masters send first"
+    );
+}
+
 #[test]
 fn the_builder_checks_roles_by_itself() {
     let role = |causality, variability| Role { causality, variability, initial: None };

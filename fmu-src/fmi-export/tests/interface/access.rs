@@ -2,6 +2,9 @@
 
 use fmi_export::Status::{Discard, Error, Ok};
 
+use fmi_export::abi::InProcess;
+use fmi_export::model_description::Description;
+
 use super::{fresh, only_message, real, reference, started};
 
 #[test]
@@ -34,9 +37,9 @@ fn values_out_of_range_are_discarded_whole_and_the_instance_lives() {
     assert!(only_message(&instance).contains("any finite value"));
     assert_eq!(instance.set_integer(&[at("input.integer")], &[1001]), Discard);
     assert!(only_message(&instance).contains("`input.integer`"));
-    for gap in [0, 3, 5, i32::MIN] {
+    for gap in [-1, 3, 5, i32::MIN] {
         assert_eq!(instance.set_integer(&[at("input.choice")], &[gap]), Discard, "{gap}");
-        assert!(only_message(&instance).contains("[1, 2, 4]"));
+        assert!(only_message(&instance).contains("[0, 1, 2, 4]"));
     }
     assert_eq!(instance.set_integer(&[at("input.choice")], &[4]), Ok);
     assert_eq!(instance.set_boolean(&[at("input.boolean")], &[2]), Discard);
@@ -149,6 +152,63 @@ fn only_a_different_value_ends_what_was_computed_ahead() {
         real(&mut instance, reference(&description, "output.integral"))
     };
     assert_eq!(run(false).to_bits(), run(true).to_bits());
+}
+
+/// The integral of AllTypes is one product while nothing changes, so a step that ends what was computed ahead shows.
+#[test]
+fn a_value_set_and_set_back_between_two_steps_is_no_change() {
+    type Disturb = fn(&mut InProcess, u32, &Description);
+    let run = |disturb: Disturb| {
+        let (mut instance, description) = fresh("AllTypes");
+        let input = reference(&description, "input.real");
+        assert_eq!(instance.set_real(&[input], &[0.1]), Ok);
+        assert_eq!(instance.start(0.0, None), Ok);
+        for i in 0..7 {
+            disturb(&mut instance, input, &description);
+            assert_eq!(instance.do_step(0.1 * f64::from(i), 0.1), Ok);
+        }
+        real(&mut instance, reference(&description, "output.integral")).to_bits()
+    };
+    let undisturbed = run(|_, _, _| {});
+    let there_and_back: Disturb = |it, input, description| {
+        let (integer, text) = (reference(description, "input.integer"), reference(description, "input.text"));
+        assert_eq!(it.set_real(&[input], &[0.7]), Ok);
+        assert_eq!(it.set_integer(&[integer], &[5]), Ok);
+        assert_eq!(it.set_string(&[text], &[b"longer than what was there"]), Ok);
+        assert_eq!(it.set_real(&[input], &[0.1]), Ok);
+        assert_eq!(it.set_integer(&[integer], &[1]), Ok);
+        assert_eq!(it.set_string(&[text], &[b""]), Ok);
+    };
+    assert_eq!(run(there_and_back), undisturbed);
+    // Also where the state is saved and restored, as bytes, while the other value is set.
+    let over_a_state: Disturb = |it, input, _| {
+        assert_eq!(it.set_real(&[input], &[0.7]), Ok);
+        let (status, bytes) = it.state_bytes();
+        assert_eq!(status, Ok);
+        let (status, mut state) = it.deserialize(&bytes);
+        assert_eq!((status, it.set_state(&state)), (Ok, Ok));
+        assert_eq!(it.free_state(&mut state), Ok);
+        assert_eq!(it.set_real(&[input], &[0.1]), Ok);
+    };
+    assert_eq!(run(over_a_state), undisturbed);
+    // An input that moves with the slope 0 stays where it is.
+    let still: Disturb = |it, input, _| assert_eq!(it.set_input_derivatives(&[input], &[1], &[0.0]), Ok);
+    assert_eq!(run(still), undisturbed);
+    // And one that does change is a change: the sum of products differs from the product.
+    let changed: Disturb = |it, input, _| {
+        let value = real(it, input);
+        assert_eq!(it.set_real(&[input], &[value.next_up()]), Ok);
+    };
+    assert_ne!(run(changed), undisturbed);
+}
+
+#[test]
+fn a_reference_of_another_type_is_named() {
+    let (mut instance, description) = started("AllTypes");
+    let integer = reference(&description, "input.integer");
+    assert_eq!(instance.get_real(&[integer], &mut [0.0]), Error);
+    let text = only_message(&instance);
+    assert!(text.contains("`input.integer`") && text.contains("is no Real"), "{text}");
 }
 
 #[test]

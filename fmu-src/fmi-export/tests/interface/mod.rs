@@ -3,6 +3,7 @@
 mod access;
 mod allocations;
 mod derivatives;
+mod finite;
 mod library;
 mod lifecycle;
 mod logging;

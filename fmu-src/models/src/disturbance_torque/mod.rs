@@ -1,6 +1,7 @@
 //! `DisturbanceTorque`: geometry in, force and torque of light, heat and gravity gradient by source out, without
 //! memory, with exact partial derivatives; to embed in somebody else's dynamics.
 
+mod dependencies;
 mod outputs;
 mod prepared;
 mod setup;
@@ -8,12 +9,14 @@ mod variables;
 
 use std::sync::Arc;
 
-use fmi_export::{About, Context, Failure, Model, Real, SetupError, Source, Step, Values};
+use fmi_export::{
+    About, Context, Dependencies, Failure, Model, SetupError, Source, StartValue, Step, Values,
+};
 use physics::numerics::scalar::Dual64;
 use physics::radiation::disturbance::Workspace;
 use serde::{Deserialize, Serialize};
 
-use prepared::{Inputs, Prepared};
+use prepared::{Inputs, Parameters, Prepared};
 pub use setup::DisturbanceSetup;
 use variables::DisturbanceVariables;
 
@@ -26,6 +29,8 @@ type Plan<'a> = Context<'a, DisturbanceTorque>;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DisturbanceState {
     inputs: Inputs<f64>,
+    /// Whether it was said which inputs are not set yet.
+    said_unset: bool,
     #[serde(skip)]
     prepared: Option<Arc<Prepared>>,
     #[serde(skip)]
@@ -34,7 +39,7 @@ pub struct DisturbanceState {
 
 impl Model for DisturbanceTorque {
     const NAME: &'static str = "DisturbanceTorque";
-    const STATE_VERSION: u32 = 1;
+    const STATE_VERSION: u32 = 2;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const SOURCES: &'static [Source] = crate::sources::DISTURBANCE_TORQUE;
@@ -46,6 +51,10 @@ impl Model for DisturbanceTorque {
 
     fn parse_setup(file: &str, text: &str) -> Result<DisturbanceSetup, SetupError> {
         DisturbanceSetup::from_toml(file, text)
+    }
+
+    fn start_values(setup: &DisturbanceSetup) -> Vec<StartValue> {
+        crate::start_values::start_values(&setup.spacecraft.start)
     }
 
     fn about(setup: &DisturbanceSetup) -> About {
@@ -63,6 +72,10 @@ impl Model for DisturbanceTorque {
         }
     }
 
+    fn dependencies(setup: &DisturbanceSetup, variables: &DisturbanceVariables) -> Dependencies {
+        dependencies::table(setup, variables)
+    }
+
     fn initialize(
         context: &Plan<'_>,
         values: &mut Values,
@@ -71,6 +84,7 @@ impl Model for DisturbanceTorque {
         let prepared = Arc::new(Prepared::new(context, values)?);
         let mut state = DisturbanceState {
             inputs: Inputs::read(context.variables, |handle| values.real(handle)),
+            said_unset: false,
             prepared: Some(prepared.clone()),
             workspace: Workspace::default(),
         };
@@ -89,6 +103,17 @@ impl Model for DisturbanceTorque {
             None => Arc::new(Prepared::new(context, values)?),
         };
         state.inputs.refresh(context.variables, |handle| step.input(values, handle, step.end_s));
+        if !state.said_unset {
+            let unset = prepared.unset(&state.inputs);
+            state.said_unset = !unset.is_empty();
+            if state.said_unset {
+                context.log.warning(&format!(
+                    "inputs that are all zero count as not set yet: {}; without a Sun nothing acts, without a planet the Sun \
+                     alone does (planet.present = false says that there is none)",
+                    unset.join(", ")
+                ));
+            }
+        }
         let outcome = update(context, values, state, &prepared);
         state.prepared = Some(prepared);
         outcome
@@ -96,14 +121,13 @@ impl Model for DisturbanceTorque {
 
     fn check_state(setup: &DisturbanceSetup, state: &DisturbanceState) -> Result<(), Failure> {
         let (found, allowed) = (state.inputs.panel_angles_rad.len(), setup.spacecraft.panels.len());
-        if found == allowed {
+        if found == allowed && state.inputs.is_finite() {
             return Ok(());
         }
+        if found == allowed {
+            return Err(Failure::new("the inputs in the saved state are not all finite numbers"));
+        }
         Err(Failure::new(format!("the saved state has {found} panel angles, allowed: {allowed}")))
-    }
-
-    fn dependencies(variables: &DisturbanceVariables, output: Real) -> Option<Vec<u32>> {
-        Some(outputs::dependencies(variables, output.reference()))
     }
 
     fn directional_derivative(
@@ -116,9 +140,11 @@ impl Model for DisturbanceTorque {
         result: &mut [f64],
     ) -> Result<(), Failure> {
         let variables = context.variables;
-        if let Some(stranger) = knowns.iter().find(|known| !Inputs::<f64>::has(variables, **known)) {
+        let known = |at: u32| Inputs::<f64>::has(variables, at) || Parameters::<f64>::has(variables, at);
+        if let Some(stranger) = knowns.iter().find(|at| !known(**at)) {
             return Err(Failure::new(format!(
-                "no directional derivative with respect to the Real of value reference {stranger}, allowed: the inputs"
+                "no directional derivative with respect to the Real of value reference {stranger}, allowed: the inputs, and \
+                 in Initialization Mode the parameters"
             )));
         }
         let prepared = match &state.prepared {
@@ -130,7 +156,8 @@ impl Model for DisturbanceTorque {
         };
         let inputs = state.inputs.with_seed(variables, along);
         let mut workspace = Workspace::<Dual64>::default();
-        let outcome = prepared.evaluate(&inputs, &mut workspace)?;
+        let parameters = prepared.parameters.with_seed(variables, along);
+        let outcome = prepared.evaluate(&parameters, &inputs, &mut workspace)?;
         for (unknown, slope) in unknowns.iter().zip(result) {
             *slope = outputs::value(variables, &outcome, &workspace, *unknown)
                 .ok_or_else(|| {
@@ -151,12 +178,12 @@ fn update(
     state: &mut DisturbanceState,
     prepared: &Prepared,
 ) -> Result<(), Failure> {
-    let outcome = prepared.evaluate(&state.inputs, &mut state.workspace)?;
+    let outcome = prepared.evaluate(&prepared.parameters, &state.inputs, &mut state.workspace)?;
     let total = outcome.disturbance.total();
     let numbers = total.force_body_n + total.torque_body_n_m + outcome.gravity_gradient_n_m;
     if !numbers.iter().all(|number| number.is_finite()) {
         return Err(Failure::new(
-            "force or torque is no number at these inputs; see sun.position, planet.position, centerOfMass, solar.flux and \
+            "force or torque is no number at these inputs; see sun.positionBody, planet.positionBody, spacecraft.centerOfMass, solar.flux and \
              spacecraft.inertia, allowed: values a spacecraft can have",
         ));
     }

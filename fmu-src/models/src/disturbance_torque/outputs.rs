@@ -1,4 +1,4 @@
-//! From an outcome to the output variables, and what each output depends on.
+//! From an outcome to the output variables.
 
 use fmi_export::{RealVector, Values};
 use nalgebra::Vector3;
@@ -68,29 +68,4 @@ fn vectors<T: Scalar>(
         (force.thermal, found.thermal.force_body_n),
         (force.total, total.force_body_n),
     ]
-}
-
-/// The inputs an output depends on. All light depends on where Sun and planet are and how the panels stand, but for
-/// sunlight also on the pole of the planet's cells; a torque also on the centre of mass, but not on its component along the torque; the gravity gradient on the planet only.
-pub fn dependencies(variables: &DisturbanceVariables, output: u32) -> Vec<u32> {
-    let span = |vector: RealVector<3>| vector.reference()..vector.reference() + 3;
-    let mut places: Vec<u32> = span(variables.sun.position).chain(span(variables.planet.position)).collect();
-    let torque = &variables.torque;
-    if output == variables.sun.lit_fraction.reference() {
-        return places;
-    }
-    if span(torque.gravity_gradient).contains(&output) {
-        return span(variables.planet.position).collect();
-    }
-    places.extend(variables.panel.iter().map(|panel| panel.angle.reference()));
-    if ![torque.solar, variables.force.solar].iter().any(|solar| span(*solar).contains(&output)) {
-        places.extend(span(variables.planet.pole));
-    }
-    let torques = [torque.solar, torque.albedo, torque.infrared, torque.thermal, torque.total];
-    if let Some(vector) = torques.iter().find(|vector| span(**vector).contains(&output)) {
-        let along = output - vector.reference();
-        let center = variables.center_of_mass.reference();
-        places.extend((0..3).filter(|i| *i != along).map(|i| center + i));
-    }
-    places
 }

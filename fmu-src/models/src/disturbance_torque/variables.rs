@@ -1,12 +1,12 @@
 //! The model's variables at its public face.
 
 use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text, Variables};
+use physics::bodies::surface::MERCURY;
 use physics::constants;
 use physics::environment::sun;
-use physics::environment::surface::MERCURY;
 
 use super::setup::DisturbanceSetup;
-use crate::momentum_plant::choices::{EclipseModel, SunshadeModel};
+use crate::momentum_plant::choices::{EclipseMethod, SunshadeShape};
 use crate::momentum_plant::defaults;
 use crate::shared::SurfaceVariables;
 
@@ -20,15 +20,14 @@ pub struct DisturbanceVariables {
     pub planet: PlanetVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
-    /// Centre of mass in the body frame.
-    #[input(unit = "m", display = "cm", start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
-    pub center_of_mass: RealVector<3>,
     #[group]
     pub solar: SolarVariables,
     #[group]
     pub eclipse: EclipseVariables,
     #[group]
-    pub radiation: RadiationVariables,
+    pub planet_light: PlanetLightVariables,
+    #[group]
+    pub shadowing: ShadowingVariables,
     #[group]
     pub spacecraft: SpacecraftVariables,
     #[group]
@@ -47,7 +46,7 @@ pub struct DisturbanceVariables {
 pub struct SunVariables {
     /// From the spacecraft to the Sun, body frame.
     #[input(unit = "m", display = "AU", start = [0.0, -5.791e10, 0.0])]
-    pub position: RealVector<3>,
+    pub position_body: RealVector<3>,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", nominal = 1.0)]
     pub lit_fraction: Real,
@@ -59,7 +58,7 @@ pub struct SunVariables {
 pub struct PlanetVariables {
     /// From the spacecraft to the planet's centre, body frame.
     #[input(unit = "m", display = "km", start = [2e6, 3e6, 9e6])]
-    pub position: RealVector<3>,
+    pub position_body: RealVector<3>,
     /// Whether there is a planet; without one its position does not count.
     #[parameter(start = true)]
     pub present: Boolean,
@@ -99,8 +98,8 @@ pub struct SolarVariables {
 #[variables(setup = DisturbanceSetup)]
 pub struct EclipseVariables {
     /// How the planet's shadow dims the Sun.
-    #[parameter(start = EclipseModel::Discs)]
-    pub model: Choice<EclipseModel>,
+    #[parameter(start = EclipseMethod::Discs)]
+    pub method: Choice<EclipseMethod>,
 }
 
 /// How planet light is summed.
@@ -110,16 +109,14 @@ pub enum PlanetMethod {
     Rings = 1,
     /// The cells of paper 004 with the areas they have: slow, and results bend as each cell rises or sets.
     Cells = 2,
-    /// The same to the letter of its eqs 6 and 7: centres taken for borders, for comparison with its tables.
-    CellsAsPrinted = 3,
     /// The cells of planet_map in the spacecraft's file, with albedo, emissivity and temperature of their own by local time.
-    Map = 4,
+    Map = 3,
 }
 
-/// How light is computed.
+/// Light of the planet.
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
-pub struct RadiationVariables {
+pub struct PlanetLightVariables {
     /// How light of the planet is summed over what the spacecraft sees of it.
     #[parameter(start = PlanetMethod::Rings)]
     pub method: Choice<PlanetMethod>,
@@ -130,15 +127,24 @@ pub struct RadiationVariables {
     /// Quadrature nodes for planet light on rings: 6 for 1e-4 of the force, 16 for 1e-5.
     #[parameter(min = 1, max = 64, start = 6)]
     pub nodes: Integer,
+}
+
+/// Shadows of the spacecraft's surfaces on one another.
+#[derive(Variables)]
+#[variables(setup = DisturbanceSetup)]
+pub struct ShadowingVariables {
     /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.
     #[parameter(start = true)]
-    pub self_shadowing: Boolean,
+    pub enabled: Boolean,
 }
 
 /// Mass properties.
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct SpacecraftVariables {
+    /// Centre of mass in the body frame.
+    #[input(unit = "m", display = "cm", start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
+    pub center_of_mass: RealVector<3>,
     /// Inertia about the centre of mass, body frame, for the gravity gradient.
     #[parameter(unit = "kg.m2", start = setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into())]
     pub inertia: RealMatrix<3, 3>,
@@ -150,7 +156,7 @@ pub struct SpacecraftVariables {
 pub struct SunshadeVariables {
     /// Which model of the shade takes the light; without a shade it does not count.
     #[parameter(start = defaults::shade_of(&setup.spacecraft))]
-    pub model: Choice<SunshadeModel>,
+    pub shape: Choice<SunshadeShape>,
 }
 
 /// Torque about the centre of mass by source, body frame.

@@ -18,9 +18,12 @@ pub enum AttitudeSource {
 /// What a command gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum CommandKind {
+    /// No command yet: the attitude is held.
+    None = 0,
     /// Attitude command.q and rate command.rate.
     Attitude = 1,
-    /// The attitude held turns at once by command.error, then with command.rate.
+    /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
+    /// command.rate.
     ErrorQuaternion = 2,
     /// The attitude held turns on with command.rate.
     RateOnly = 3,
@@ -33,8 +36,9 @@ pub enum ScienceRule {
     Scaled = 1,
     /// Z points to nadir as far as the keep-in zone allows.
     Nadir = 2,
-    /// Paper 004's attitude: -Y from the planet to the Sun, -Z to the north of the planet's orbit; no keep-in zone.
-    Paper004 = 3,
+    /// Fixed to the Sun line: -Y from the planet to the Sun, -Z to the north of the planet's orbit, as in paper 004; no
+    /// keep-in zone.
+    FixedToSunLine = 3,
 }
 
 /// Central body.
@@ -44,6 +48,14 @@ pub enum OrbitCenter {
     Mercury = 1,
     /// The Sun.
     Sun = 2,
+    /// Venus.
+    Venus = 3,
+    /// The Earth.
+    Earth = 4,
+    /// Mars.
+    Mars = 6,
+    /// Jupiter.
+    Jupiter = 7,
 }
 
 /// Origin of the orbit.
@@ -57,7 +69,7 @@ pub enum OrbitSource {
 
 /// What moves the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum OrbitModel {
+pub enum OrbitDynamics {
     /// The centre's gravity alone: the orbit in closed form.
     TwoBody = 1,
     /// Integrated with the planet's flattening, the Sun's tide, and light and heat.
@@ -67,10 +79,10 @@ pub enum OrbitModel {
 /// Frame of the orbital elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum OrbitFrame {
-    /// Paper 004's Mercury-centred inertial frame: Mercury's orbit plane, from its ascending node.
-    Paper004Mci = 1,
-    /// Mercury's equator of J2000.
-    MercuryEquator = 2,
+    /// The planet's orbit plane, from its ascending node on the ecliptic: the Mercury-centred inertial frame of paper 004.
+    PlanetOrbit = 1,
+    /// The planet's equator of J2000.
+    PlanetEquator = 2,
     /// Earth mean equator and equinox of J2000.
     Eme2000 = 3,
     /// Ecliptic and equinox of J2000.
@@ -84,14 +96,14 @@ pub enum EphemerisSource {
     Vsop87 = 1,
     /// The planet on an ellipse about the Sun by ephemeris.semiMajorAxis and so on, as paper 004 prints it; the Earth by
     /// VSOP87.
-    KeplerAsPrinted = 2,
+    Kepler = 2,
     /// The inputs sun.position and earth.position.
     Inputs = 3,
 }
 
 /// How the planet's shadow dims the Sun.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum EclipseModel {
+pub enum EclipseMethod {
     /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
     Discs = 1,
     /// Paper 004: no light as soon as the discs touch.
@@ -120,9 +132,9 @@ pub enum PanelTilt {
     Negative = 2,
 }
 
-/// Model of the sunshade.
+/// Shape of the sunshade.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum SunshadeModel {
+pub enum SunshadeShape {
     /// Flat plates.
     Plates = 1,
     /// Section of a cylinder.
@@ -140,7 +152,7 @@ pub enum MomentumConvention {
 
 /// Where a dump leaves a component that exceeded its threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum DumpReinit {
+pub enum DumpReinitTo {
     /// The opposite sign at dump.reinitFraction of the threshold.
     Opposite = 1,
     /// The component of dump.target.

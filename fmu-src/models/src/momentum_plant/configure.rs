@@ -1,21 +1,23 @@
 //! From parameters and inputs to the physics' configuration; refuses what cannot be flown, by name.
 
 use fmi_export::{Failure, Values};
+use physics::bodies::surface::MERCURY;
+use physics::bodies::{Body, BodyData};
 use physics::constants;
 use physics::environment::State;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::ephemeris::VALID_EPOCH_S;
-use physics::environment::frames::{self, Frame};
-use physics::environment::orbit::{Elements, Flattening, Gravity, TwoBodyOrbit};
+use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
 use physics::guidance::{self, Guided, Schedule};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{self, Configuration, LightEffects, LightModel, Motion, PanelSetting, SunLight};
 use physics::spacecraft;
 
+use super::center::Center;
 use super::choices::{
-    AttitudeSource, DumpReinit, EclipseModel, EphemerisSource, MomentumConvention, OrbitCenter, OrbitFrame,
-    OrbitModel, OrbitSource, PanelControl, PanelTilt, ScienceRule, SunshadeModel,
+    AttitudeSource, DumpReinitTo, EclipseMethod, EphemerisSource, MomentumConvention, OrbitDynamics,
+    OrbitSource, PanelControl, PanelTilt, ScienceRule, SunshadeShape,
 };
 use super::state::PlantState;
 use super::variables::PlantVariables;
@@ -39,34 +41,25 @@ pub fn refreshed(
     previous: Option<Configuration>,
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
-    let epoch_minus_time_s = values.real(variables.initial.epoch) - state.start_s;
-    let center = match values.choice(variables.orbit.center) {
-        Some(OrbitCenter::Sun) => plant::OrbitCenter::Sun,
-        Some(OrbitCenter::Mercury) | None => plant::OrbitCenter::Mercury,
-    };
-    let gm_m3_s2 = match center {
-        plant::OrbitCenter::Mercury => values.real(variables.planet.gravitational_parameter),
-        plant::OrbitCenter::Sun => constants::GM_SUN_M3_S2,
-    };
-    let orbit = orbit(variables, values, state, gm_m3_s2, epoch_minus_time_s)?;
-    let radius_m = values.real(variables.planet.radius);
-    let (inside, limit_m) = match center {
-        plant::OrbitCenter::Mercury => ("the planet, whose planet.radius", radius_m),
-        plant::OrbitCenter::Sun => ("the Sun, whose radius", constants::RADIUS_SUN_M),
-    };
+    let epoch_minus_time_s = values.real(variables.start.epoch) - state.start_s;
+    let center = Center::of(variables, values);
+    let (body, data) = (center.body, center.data());
+    let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
+    let limit_m = data.radius_m;
     let lowest_m = orbit.elements().periapsis_distance_m();
     let from_elements = !matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
     if from_elements && lowest_m <= limit_m {
         return Err(Failure::new(format!(
-            "orbit.semiMajorAxis, orbit.eccentricity: the periapsis at {lowest_m:.0} m lies inside {inside} is \
-             {limit_m:.0} m"
+            "orbit.semiMajorAxis, orbit.eccentricity: the periapsis at {lowest_m:.0} m lies inside {}, whose \
+             planet.radius is {limit_m:.0} m",
+            data.name
         )));
     }
-    let epoch_s = values.real(variables.initial.epoch);
+    let epoch_s = values.real(variables.start.epoch);
     let computed = !matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs));
     if computed && epoch_s.abs() > VALID_EPOCH_S {
         return Err(Failure::new(format!(
-            "initial.epoch: found {epoch_s:?} s, allowed: within {VALID_EPOCH_S:e} s (4000 years) of J2000, for which \
+            "start.epoch: found {epoch_s:?} s, allowed: within {VALID_EPOCH_S:e} s (4000 years) of J2000, for which \
              VSOP87 is made"
         )));
     }
@@ -90,17 +83,17 @@ pub fn refreshed(
     }));
     Ok(Configuration {
         epoch_minus_time_s,
-        center,
-        attitude: attitude(variables, values, state, center, &orbit)?,
+        center: body,
+        attitude: attitude(variables, values, state, body, &orbit)?,
         orbit,
-        motion: motion(variables, values, center, gm_m3_s2),
-        ephemeris: ephemeris(variables, values)?,
+        motion: motion(variables, values, &data),
+        ephemeris: ephemeris(&center, variables, values, state)?,
         light: if values.boolean(variables.solar.fixed_pressure) {
             SunLight::Fixed { pressure_pa: values.real(variables.solar.pressure) }
         } else {
             SunLight::Distance { flux_w_m2: values.real(variables.solar.flux) }
         },
-        shadow: shadow(variables, values, radius_m)?,
+        shadow: shadow(variables, values, data.radius_m)?,
         light_and_heat: LightEffects {
             planet_light: values.boolean(variables.planet_light.enabled),
             recoil: values.boolean(variables.thermal.enabled),
@@ -109,16 +102,16 @@ pub fn refreshed(
             grid_s: values.real(variables.solver.disturbance_step),
             tolerance: values.real(variables.solver.disturbance_tolerance),
         },
-        sunshade: match values.choice(variables.sunshade.model) {
-            Some(SunshadeModel::Cylinder) => spacecraft::SunshadeModel::Cylinder,
-            Some(SunshadeModel::Plates) | None => spacecraft::SunshadeModel::Plates,
+        sunshade: match values.choice(variables.sunshade.shape) {
+            Some(SunshadeShape::Cylinder) => spacecraft::SunshadeModel::Cylinder,
+            Some(SunshadeShape::Plates) | None => spacecraft::SunshadeModel::Plates,
         },
         panels,
         center_of_mass_body_m: physics_vector(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
         gravity_gradient_m3_s2: if values.boolean(variables.gravity_gradient.enabled) {
-            gm_m3_s2
+            data.gm_m3_s2
         } else {
             0.0
         },
@@ -136,115 +129,103 @@ pub fn light(
     if !configuration.light_and_heat.any() && variables.plate.is_empty() {
         return Ok(None);
     }
-    let planet = &variables.planet;
-    let surface = planet.surface.read(values, planet.radius);
+    let surface = Center::of(variables, values).data().surface.unwrap_or(MERCURY);
     let nodes = usize::try_from(values.integer(variables.planet_light.nodes)).unwrap_or(0);
     let spacecraft = &context.setup.spacecraft;
     let asked = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);
     if !variables.plate.is_empty() && asked != configuration.sunshade {
         return Err(Failure::new(
-            "sunshade.model: found another than the spacecraft file's, allowed: the file's, whose faces plate[k] are",
+            "sunshade.shape: found another than the spacecraft file's, allowed: the file's, whose faces plate[k] are",
         ));
     }
     LightModel::new(spacecraft, configuration, &surface, nodes)
         .map(Some)
-        .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.model: {error}")))
+        .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.shape: {error}")))
 }
 
 fn shadow(variables: &PlantVariables, values: &Values, radius_m: f64) -> Result<Shadow, Failure> {
-    let model = match values.choice(variables.eclipse.model) {
-        Some(EclipseModel::Cone) => ShadowModel::AllOrNothingCone,
-        Some(EclipseModel::Cylinder) => ShadowModel::AllOrNothingCylinder,
-        Some(EclipseModel::Off) => ShadowModel::Off,
-        Some(EclipseModel::Discs) | None => ShadowModel::DiscOverlap,
+    let model = match values.choice(variables.eclipse.method) {
+        Some(EclipseMethod::Cone) => ShadowModel::AllOrNothingCone,
+        Some(EclipseMethod::Cylinder) => ShadowModel::AllOrNothingCylinder,
+        Some(EclipseMethod::Off) => ShadowModel::Off,
+        Some(EclipseMethod::Discs) | None => ShadowModel::DiscOverlap,
     };
     Shadow::new(model, radius_m).map_err(|error| Failure::new(format!("planet.radius: {error}")))
 }
 
 fn orbit(
+    center: &Center<'_>,
     variables: &PlantVariables,
     values: &Values,
     state: &PlantState,
-    gm_m3_s2: f64,
     epoch_minus_time_s: f64,
 ) -> Result<TwoBodyOrbit, Failure> {
-    let orbit = &variables.orbit;
+    let (orbit, data) = (&variables.orbit, center.data());
     match values.choice(orbit.source) {
+        // Nothing is computed on it before position and velocity are set.
+        Some(OrbitSource::Inputs) if state.waiting => {
+            let distance_m = 1e10;
+            let start = State {
+                position_m: nalgebra::Vector3::x() * distance_m,
+                velocity_m_s: nalgebra::Vector3::y() * (data.gm_m3_s2 / distance_m).sqrt(),
+            };
+            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_minus_time_s)
+                .map_err(|error| Failure::new(format!("planet.gravitationalParameter: {error}")))
+        }
         Some(OrbitSource::Inputs) => {
             let start = State {
                 position_m: physics_vector(values.vector(orbit.position)),
                 velocity_m_s: physics_vector(values.vector(orbit.velocity)),
             };
-            TwoBodyOrbit::from_state(&start, gm_m3_s2, state.orbit_since_s + epoch_minus_time_s)
+            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, state.orbit_since_s + epoch_minus_time_s)
                 .map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
         }
         Some(OrbitSource::Elements) | None => {
-            let elements = Elements {
-                semi_major_axis_m: values.real(orbit.semi_major_axis),
-                eccentricity: values.real(orbit.eccentricity),
-                inclination_rad: values.real(orbit.inclination),
-                ascending_node_rad: values.real(orbit.ascending_node),
-                periapsis_argument_rad: values.real(orbit.periapsis_argument),
-                true_anomaly_rad: values.real(orbit.true_anomaly),
-            };
-            let frame = match values.choice(orbit.frame) {
-                Some(OrbitFrame::MercuryEquator) => Frame::MercuryEquator,
-                Some(OrbitFrame::Eme2000) => Frame::Eme2000,
-                Some(OrbitFrame::Ecliptic) => Frame::EclipticJ2000,
-                Some(OrbitFrame::Paper004Mci) | None => Frame::Paper004Mci,
-            };
-            let epoch_s = values.real(variables.initial.epoch);
-            plant::orbit_from_elements(elements, frame, gm_m3_s2, epoch_s)
+            let epoch_s = values.real(variables.start.epoch);
+            plant::orbit_from_elements(center.elements(), center.frame(), &data, data.gm_m3_s2, epoch_s)
                 .map_err(|error| Failure::new(format!("orbit elements: {error}")))
         }
     }
 }
 
-fn motion(variables: &PlantVariables, values: &Values, center: plant::OrbitCenter, gm_m3_s2: f64) -> Motion {
+fn motion(variables: &PlantVariables, values: &Values, center: &BodyData) -> Motion {
     let orbit = &variables.orbit;
-    if !matches!(values.choice(orbit.model), Some(OrbitModel::Disturbed)) {
+    if !matches!(values.choice(orbit.dynamics), Some(OrbitDynamics::Disturbed)) {
         return Motion::TwoBody;
     }
-    let planet = &variables.planet;
-    let (gravity, radius_m) = match center {
-        plant::OrbitCenter::Sun => (Gravity::point_mass(gm_m3_s2), constants::RADIUS_SUN_M),
-        plant::OrbitCenter::Mercury => {
-            let (right_ascension_rad, declination_rad) =
-                (values.real(planet.pole_right_ascension), values.real(planet.pole_declination));
-            let flattening = Flattening {
-                j2: values.real(planet.j2),
-                reference_radius_m: values.real(planet.j2_radius),
-                pole: frames::direction(right_ascension_rad, declination_rad),
-            };
-            let gravity = Gravity {
-                mu_m3_s2: gm_m3_s2,
-                flattening: (flattening.j2 != 0.0).then_some(flattening),
-                tide_mu_m3_s2: values.boolean(orbit.sun_tide).then_some(constants::GM_SUN_M3_S2),
-            };
-            (gravity, values.real(planet.radius))
-        }
+    let flattening = Flattening::of(center);
+    let tide = center.body.is_planet() && values.boolean(orbit.sun_tide);
+    let gravity = Gravity {
+        mu_m3_s2: center.gm_m3_s2,
+        flattening: (flattening.j2 != 0.0).then_some(flattening),
+        tide_mu_m3_s2: tide.then_some(constants::GM_SUN_M3_S2),
     };
     let feedback = values.boolean(orbit.radiation_feedback);
-    Motion::Disturbed { gravity, cell_s: values.real(orbit.step), radius_m, feedback }
+    Motion::Disturbed { gravity, cell_s: values.real(orbit.step), radius_m: center.radius_m, feedback }
 }
 
-fn ephemeris(variables: &PlantVariables, values: &Values) -> Result<plant::EphemerisSource, Failure> {
+fn ephemeris(
+    center: &Center<'_>,
+    variables: &PlantVariables,
+    values: &Values,
+    state: &PlantState,
+) -> Result<plant::EphemerisSource, Failure> {
     let ephemeris = &variables.ephemeris;
     Ok(match values.choice(ephemeris.source) {
-        Some(EphemerisSource::Inputs) => plant::EphemerisSource::Given {
-            sun_m: physics_vector(values.vector(variables.sun.position)),
-            earth_m: physics_vector(values.vector(variables.earth.position)),
-        },
-        Some(EphemerisSource::KeplerAsPrinted) => {
-            let elements = Elements {
-                semi_major_axis_m: values.real(ephemeris.semi_major_axis),
-                eccentricity: values.real(ephemeris.eccentricity),
-                inclination_rad: values.real(ephemeris.inclination),
-                ascending_node_rad: values.real(ephemeris.ascending_node),
-                periapsis_argument_rad: values.real(ephemeris.periapsis_argument),
-                true_anomaly_rad: values.real(ephemeris.true_anomaly),
-            };
-            let planet = KeplerPlanet::new(elements, values.real(variables.initial.epoch))
+        Some(EphemerisSource::Inputs) => {
+            let sun_m = physics_vector(values.vector(variables.sun.position));
+            let at_the_planet = center.body.is_planet() && sun_m == physics_vector([0.0; 3]);
+            if at_the_planet && !state.waiting {
+                return Err(Failure::new(
+                    "sun.position is not set: found (0, 0, 0) m, allowed: the Sun's position from the orbit's centre, which \
+                     ephemeris.source = inputs asks for",
+                ));
+            }
+            let earth_m = physics_vector(values.vector(variables.earth.position));
+            plant::EphemerisSource::Given { sun_m, earth_m }
+        }
+        Some(EphemerisSource::Kepler) => {
+            let planet = KeplerPlanet::new(center.ellipse(), values.real(variables.start.epoch))
                 .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))?;
             plant::EphemerisSource::Kepler(planet)
         }
@@ -256,14 +237,14 @@ fn attitude(
     variables: &PlantVariables,
     values: &Values,
     state: &PlantState,
-    center: plant::OrbitCenter,
+    center: Body,
     orbit: &TwoBodyOrbit,
 ) -> Result<plant::AttitudeSource, Failure> {
     match values.choice(variables.attitude.source) {
         Some(AttitudeSource::Commanded) => Ok(plant::AttitudeSource::Commanded(state.command)),
         Some(AttitudeSource::Guided) | None => {
             let guided = &variables.guided;
-            let planet = center == plant::OrbitCenter::Mercury;
+            let planet = center.is_planet();
             let [start_s, end_s] = [guided.downlink_start, guided.downlink_end].map(|time| values.real(time));
             if values.integer(guided.downlink_every) != 0 && start_s > end_s {
                 return Err(Failure::new(format!(
@@ -281,7 +262,7 @@ fn attitude(
                 },
                 science: match values.choice(guided.science_rule) {
                     Some(ScienceRule::Nadir) => guidance::ScienceRule::Nadir,
-                    Some(ScienceRule::Paper004) => guidance::ScienceRule::PlanetOrbit,
+                    Some(ScienceRule::FixedToSunLine) => guidance::ScienceRule::PlanetOrbit,
                     Some(ScienceRule::Scaled) | None => {
                         guidance::ScienceRule::Scaled { gain: values.real(guided.science_gain) }
                     }
@@ -312,11 +293,11 @@ fn settings(variables: &PlantVariables, values: &Values) -> Settings {
         },
         policy: DumpPolicy {
             threshold_body_n_m_s: physics_vector(values.vector(dump.threshold)),
-            reinitialise: match values.choice(dump.reinit) {
-                Some(DumpReinit::Target) => {
+            reinitialise: match values.choice(dump.reinit_to) {
+                Some(DumpReinitTo::Target) => {
                     Reinitialise::Target { momentum_body_n_m_s: physics_vector(values.vector(dump.target)) }
                 }
-                Some(DumpReinit::Opposite) | None => {
+                Some(DumpReinitTo::Opposite) | None => {
                     Reinitialise::Opposite { fraction: values.real(dump.reinit_fraction) }
                 }
             },

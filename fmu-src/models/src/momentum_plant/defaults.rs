@@ -1,21 +1,23 @@
 //! Start values that are computed or come from the spacecraft.
 
-use physics::constants;
-use physics::environment::{frames, orbit::Elements, paper004, sun, time};
+use physics::bodies::{Body, BodyData};
+use physics::environment::{ephemeris, orbit::Elements, paper004, sun, time};
 use physics::spacecraft::{self, SunKeepIn};
 
-use super::choices::{PanelControl, PanelTilt, SunshadeModel};
+use super::choices::{PanelControl, PanelTilt, SunshadeShape};
 use super::setup::PlantSetup;
 
 /// 2009-04-06 00:00 TDB: orbit insertion in paper 000's plan, in s past J2000 TDB.
 pub(super) const EPOCH_TDB_S: f64 = time::MOMENTUM_STUDY_START_S;
+pub(super) const VALID_EPOCH_S: f64 = ephemeris::VALID_EPOCH_S;
 pub(super) const SOLAR_FLUX_W_M2: f64 = sun::SOLAR_FLUX_PAPER_000_W_M2;
-pub(super) const MERCURY_GM_M3_S2: f64 = constants::GM_MERCURY_M3_S2;
-pub(super) const MERCURY_RADIUS_M: f64 = constants::RADIUS_MERCURY_M;
-pub(super) const MERCURY_J2: f64 = constants::J2_MERCURY;
-pub(super) const MERCURY_J2_RADIUS_M: f64 = constants::J2_REFERENCE_RADIUS_MERCURY_M;
-pub(super) const MERCURY_POLE_RIGHT_ASCENSION_RAD: f64 = frames::MERCURY_POLE_RIGHT_ASCENSION_RAD;
-pub(super) const MERCURY_POLE_DECLINATION_RAD: f64 = frames::MERCURY_POLE_DECLINATION_RAD;
+/// The body that the other defaults are of.
+pub(super) const MERCURY: &BodyData = Body::Mercury.data();
+/// Elements of the default orbit: paper 004's Table 3, referred to Mercury's equator.
+pub(super) const ECCENTRICITY: f64 = paper004::MESSENGER_AS_PRINTED.eccentricity;
+pub(super) const INCLINATION_RAD: f64 = paper004::MESSENGER_AS_PRINTED.inclination_rad;
+pub(super) const ASCENDING_NODE_RAD: f64 = paper004::MESSENGER_AS_PRINTED.ascending_node_rad;
+pub(super) const PERIAPSIS_ARGUMENT_RAD: f64 = paper004::MESSENGER_AS_PRINTED.periapsis_argument_rad;
 /// Mercury's orbit as paper 004 prints it.
 pub(super) const PRINTED: Elements = paper004::MERCURY_AS_PRINTED;
 
@@ -23,7 +25,7 @@ pub(super) const PRINTED: Elements = paper004::MERCURY_AS_PRINTED;
 pub(super) fn semi_major_axis_m() -> f64 {
     let mean_motion_rad_s = core::f64::consts::TAU / 43_200.0;
     // Start values enter the GUID: no digit may hang on the machine's own library of functions.
-    libm::cbrt(MERCURY_GM_M3_S2 / (mean_motion_rad_s * mean_motion_rad_s))
+    libm::cbrt(MERCURY.gm_m3_s2 / (mean_motion_rad_s * mean_motion_rad_s))
 }
 
 /// Inertia by rows.
@@ -32,15 +34,15 @@ pub(super) fn inertia_kg_m2(setup: &PlantSetup) -> [[f64; 3]; 3] {
 }
 
 /// The shade model the spacecraft file asks for.
-pub(super) fn sunshade_model(setup: &PlantSetup) -> SunshadeModel {
+pub(super) fn sunshade_shape(setup: &PlantSetup) -> SunshadeShape {
     shade_of(&setup.spacecraft)
 }
 
 /// The shade model a spacecraft file asks for.
-pub(crate) fn shade_of(spacecraft: &spacecraft::Spacecraft) -> SunshadeModel {
+pub(crate) fn shade_of(spacecraft: &spacecraft::Spacecraft) -> SunshadeShape {
     match spacecraft.sunshade.as_ref().map(|shade| shade.model) {
-        Some(spacecraft::SunshadeModel::Cylinder) => SunshadeModel::Cylinder,
-        Some(spacecraft::SunshadeModel::Plates) | None => SunshadeModel::Plates,
+        Some(spacecraft::SunshadeModel::Cylinder) => SunshadeShape::Cylinder,
+        Some(spacecraft::SunshadeModel::Plates) | None => SunshadeShape::Plates,
     }
 }
 

@@ -1,22 +1,26 @@
-//! `MomentumPlant`: a three-axis spacecraft near Mercury or the Sun, its disturbance torques by source and the
+//! `MomentumPlant`: a three-axis spacecraft about a planet or the Sun, its disturbance torques by source and the
 //! momentum they add up to.
 
+mod center;
 pub(crate) mod choices;
 mod configure;
 pub(crate) mod defaults;
+mod dependencies;
 mod outputs;
 mod setup;
 mod state;
 mod variables;
 
-use fmi_export::{About, Context, Failure, Model, Real, SetupError, Source, Step, Values};
+use fmi_export::{
+    About, Context, Dependencies, Failure, Model, Real, SetupError, Source, StartValue, Step, Values,
+};
 use physics::constants::RADIUS_SUN_M;
 use physics::momentum::{Accumulator, Event, Flight, Totals};
-use physics::plant::{Course, ExternalLoad, Plant, PlantError, Snapshot};
+use physics::plant::{Cost, Course, ExternalLoad, Plant, PlantError, Snapshot};
 
 use choices::OrbitSource;
 pub use setup::PlantSetup;
-use state::{Changes, PlantState};
+use state::{Changes, PlantState, unset_places};
 use variables::PlantVariables;
 
 /// The momentum plant.
@@ -26,7 +30,7 @@ type Plan<'a> = Context<'a, MomentumPlant>;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 3;
+    const STATE_VERSION: u32 = 4;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
@@ -40,11 +44,15 @@ impl Model for MomentumPlant {
         PlantSetup::from_toml(file, text)
     }
 
+    fn start_values(setup: &PlantSetup) -> Vec<StartValue> {
+        crate::start_values::start_values(&setup.spacecraft.start)
+    }
+
     fn about(setup: &PlantSetup) -> About {
         About {
             description: format!(
                 "{}: solar-radiation torque, planet light, thermal recoil, gravity gradient, system momentum and thruster \
-                 dumps of a three-axis spacecraft near Mercury or the Sun",
+                 dumps of a three-axis spacecraft about a planet or the Sun",
                 setup.spacecraft.name
             ),
             start_time_s: 0.0,
@@ -55,34 +63,17 @@ impl Model for MomentumPlant {
         }
     }
 
+    fn dependencies(setup: &PlantSetup, variables: &PlantVariables) -> Dependencies {
+        dependencies::table(setup, variables)
+    }
+
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<PlantState, Failure> {
         let mut state = PlantState::new(context, values, start_s)?;
-        let configuration = configure::configuration(context, values, &state)?;
-        let load = external(context, values);
-        let craft = context.setup.craft(configuration.sunshade)?;
-        state.course = Course::new(&configuration, start_s).map_err(ended)?;
-        state.light = configure::light(context, values, &configuration)?;
-        let (course, ephemeris) = (&mut state.course, &mut state.ephemeris);
-        let mut plant = Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), |_| load);
-        plant.prepare(start_s).map_err(ended)?;
-        let totals = Totals {
-            momentum_inertial_n_m_s: plant.snapshot(start_s).frame.inertial_from_body
-                * physics_vector(values.vector(context.variables.initial.momentum)),
-            torque_integral_body_n_m_s: physics_vector(values.vector(context.variables.initial.momentum)),
-            ..Totals::default()
-        };
-        state.accumulator = Accumulator::new(start_s, totals);
-        let (accumulator, spacing) = (&mut state.accumulator, &mut state.spacing);
-        accumulator
-            .advance(&mut plant, &configuration.momentum, start_s, |event| spacing.dumped(context, event))
-            .map_err(ended)?;
-        let snapshot = plant.snapshot(start_s);
-        flyable(&snapshot, start_s)?;
-        outputs::write_plates(context, values, &mut state, &configuration, start_s)?;
-        let totals = state.accumulator.totals(start_s);
-        outputs::write_calculated(context, values, &configuration);
-        outputs::write(context, values, &state, &configuration, &snapshot, &totals, start_s);
-        state.configuration = Some(configuration);
+        if state.waiting {
+            wait(context, values, &mut state, start_s)?;
+        } else {
+            begin(context, values, &mut state, start_s)?;
+        }
         Ok(state)
     }
 
@@ -92,31 +83,42 @@ impl Model for MomentumPlant {
         state: &mut PlantState,
         step: &Step<'_>,
     ) -> Result<(), Failure> {
-        let mut changes = Changes::default();
-        if step.changed {
-            changes = state.inputs_changed(context, values, step.start_s)?;
+        let mut changed = step.changed;
+        let changes =
+            if changed { state.inputs_changed(context, values, step.start_s)? } else { Changes::default() };
+        if state.waiting && unset_places(context, values).is_empty() {
+            state.waiting = false;
+            begin(context, values, state, step.start_s)?;
+            changed = false;
+        }
+        state.say_unset(context, values);
+        if state.waiting {
+            return wait(context, values, state, step.end_s);
+        }
+        if changed {
             state.accumulator.cut(step.start_s);
         }
         let configuration = match state.configuration.take() {
-            Some(configuration) if !step.changed => configuration,
+            Some(configuration) if !changed => configuration,
             previous => {
                 let configuration = configure::refreshed(context, values, state, previous)?;
                 outputs::write_calculated(context, values, &configuration);
                 configuration
             }
         };
-        if step.changed {
+        if changed {
             state.course.cut(&configuration, step.start_s, changes.light);
-        }
-        if changes.orbit && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
-        {
-            state.course.move_to(&configuration, step.start_s).map_err(ended)?;
+            if changes.orbit
+                && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
+            {
+                state.course.move_to(&configuration, step.start_s).map_err(ended)?;
+            }
         }
         let load = |time_s| ExternalLoad {
-            force_body_n: physics_vector(step.input_vector(values, context.variables.force.external, time_s)),
+            force_body_n: physics_vector(step.input_vector(values, context.variables.force.applied, time_s)),
             torque_body_n_m: physics_vector(step.input_vector(
                 values,
-                context.variables.torque.external,
+                context.variables.torque.applied,
                 time_s,
             )),
         };
@@ -124,8 +126,10 @@ impl Model for MomentumPlant {
         if state.light.is_none() {
             state.light = configure::light(context, values, &configuration)?;
         }
+        let limit = context.variables.solver.work.units(values);
         let (course, ephemeris) = (&mut state.course, &mut state.ephemeris);
-        let mut plant = Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), load);
+        let mut plant =
+            Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), load, limit);
         let (accumulator, spacing) = (&mut state.accumulator, &mut state.spacing);
         if state.request.rises(values.boolean(context.variables.dump.request)) {
             let target = physics_vector(values.vector(context.variables.dump.target));
@@ -136,12 +140,20 @@ impl Model for MomentumPlant {
             .advance(&mut plant, &configuration.momentum, step.end_s, |event| spacing.dumped(context, event))
             .map_err(ended)?;
         let snapshot = plant.snapshot(step.end_s);
-        flyable(&snapshot, step.end_s)?;
+        flyable(&snapshot, &state.accumulator.totals(step.end_s), step.end_s)?;
         outputs::write_plates(context, values, state, &configuration, step.end_s)?;
         let totals = state.accumulator.totals(step.end_s);
         outputs::write(context, values, state, &configuration, &snapshot, &totals, step.end_s);
         state.configuration = Some(configuration);
         Ok(())
+    }
+
+    fn tolerance(variables: &PlantVariables) -> Option<Real> {
+        Some(variables.solver.tolerance)
+    }
+
+    fn check_state(_setup: &PlantSetup, state: &PlantState) -> Result<(), Failure> {
+        state.check()
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
@@ -167,23 +179,112 @@ impl Model for MomentumPlant {
     }
 }
 
+/// The flight begins at `time_s`: everything it needs is known.
+fn begin(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    time_s: f64,
+) -> Result<(), Failure> {
+    let configuration = configure::configuration(context, values, state)?;
+    let load = applied(context, values);
+    let craft = context.setup.craft(configuration.sunshade)?;
+    let limit = context.variables.solver.work.units(values);
+    state.course = Course::new(&configuration, time_s).map_err(ended)?;
+    state.light = configure::light(context, values, &configuration)?;
+    let (course, ephemeris) = (&mut state.course, &mut state.ephemeris);
+    let mut plant =
+        Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), |_| load, limit);
+    plant.prepare(time_s).map_err(ended)?;
+    let totals = start_totals(context, values, &plant.snapshot(time_s));
+    state.accumulator = Accumulator::new(time_s, totals);
+    let (accumulator, spacing) = (&mut state.accumulator, &mut state.spacing);
+    accumulator
+        .advance(&mut plant, &configuration.momentum, time_s, |event| spacing.dumped(context, event))
+        .map_err(ended)?;
+    let snapshot = plant.snapshot(time_s);
+    flyable(&snapshot, &state.accumulator.totals(time_s), time_s)?;
+    outputs::write_plates(context, values, state, &configuration, time_s)?;
+    let totals = state.accumulator.totals(time_s);
+    outputs::write_calculated(context, values, &configuration);
+    outputs::write(context, values, state, &configuration, &snapshot, &totals, time_s);
+    state.configuration = Some(configuration);
+    Ok(())
+}
+
+/// At `time_s` the flight still waits for inputs: the attitude is held as commanded, and nothing acts.
+fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s: f64) -> Result<(), Failure> {
+    let configuration = configure::configuration(context, values, state)?;
+    let snapshot = Snapshot::nowhere(state.command.frame_at(time_s));
+    let totals = start_totals(context, values, &snapshot);
+    state.accumulator = Accumulator::new(time_s, totals);
+    outputs::write_plates(context, values, state, &configuration, time_s)?;
+    outputs::write_calculated(context, values, &configuration);
+    outputs::write(context, values, state, &configuration, &snapshot, &totals, time_s);
+    Ok(())
+}
+
+/// What the flight starts with: start.momentum in the body frame.
+fn start_totals(context: &Plan<'_>, values: &Values, snapshot: &Snapshot) -> Totals {
+    let momentum_body_n_m_s = physics_vector(values.vector(context.variables.start.momentum));
+    Totals {
+        momentum_inertial_n_m_s: snapshot.instant.frame.inertial_from_body * momentum_body_n_m_s,
+        torque_integral_body_n_m_s: momentum_body_n_m_s,
+        ..Totals::default()
+    }
+}
+
 fn ended(error: PlantError) -> Failure {
-    let hint = match error {
+    let hint = match &error {
         PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
-        PlantError::Dumps(_) => "; see dump.threshold, dump.reinit and torque.external",
+        PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
+        PlantError::Work(exceeded) => {
+            let most = match exceeded.most {
+                Cost::Cell => {
+                    "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
+                }
+                Cost::Refinement => {
+                    "internal steps shortened for solver.tolerance, which is small for this torque and attitude rate"
+                }
+                Cost::Search => {
+                    "searches for changes of attitude, light and eclipse: see orbit.*, guided.* and command.rate"
+                }
+                Cost::Dump => {
+                    "dumps: dump.threshold is low for this torque; see torque.applied and spacecraft.centerOfMass"
+                }
+                Cost::Light => {
+                    "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
+                }
+                Cost::Orbit => "integrating the orbit in steps of orbit.step",
+                Cost::Ephemeris => {
+                    "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"
+                }
+            };
+            return Failure::new(format!(
+                "{error} (solver.workLimit = {}); most went into {most}. Take a shorter step or raise solver.workLimit",
+                exceeded.limit
+            ));
+        }
         _ => "",
     };
     Failure::new(format!("{error}{hint}"))
 }
 
 /// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
-fn flyable(snapshot: &Snapshot, time_s: f64) -> Result<(), Failure> {
-    let numbers = snapshot.torque_body_n_m() + snapshot.force_body_n();
-    let outside_the_sun = snapshot.geometry.to_sun.position_m.norm() > RADIUS_SUN_M;
-    if outside_the_sun && snapshot.lit_fraction.is_finite() && numbers.iter().all(|x| x.is_finite()) {
+fn flyable(snapshot: &Snapshot, totals: &Totals, time_s: f64) -> Result<(), Failure> {
+    if !totals.is_finite() {
+        return Err(Failure::new(format!(
+            "at {time_s} s momentum.inertial, momentum.body or deltaV is no finite number; see start.momentum, torque.applied, \
+             force.applied, spacecraft.mass and spacecraft.centerOfMass"
+        )));
+    }
+    let (instant, total) = (&snapshot.instant, snapshot.loads.total());
+    let numbers = total.torque_body_n_m + total.force_body_n;
+    let outside_the_sun = instant.sun_distance_m > RADIUS_SUN_M;
+    if outside_the_sun && instant.lit_fraction.is_finite() && numbers.iter().all(|x| x.is_finite()) {
         return Ok(());
     }
-    let spacecraft = snapshot.geometry.spacecraft.position_m;
+    let spacecraft = instant.geometry.spacecraft.position_m;
     Err(Failure::new(format!(
         "at {time_s} s the spacecraft at {:?} m about the orbit's centre is inside the planet or the Sun, or its position \
          is no number; see orbit.*, sun.position and planet.radius",
@@ -191,10 +292,10 @@ fn flyable(snapshot: &Snapshot, time_s: f64) -> Result<(), Failure> {
     )))
 }
 
-fn external(context: &Plan<'_>, values: &Values) -> ExternalLoad {
+fn applied(context: &Plan<'_>, values: &Values) -> ExternalLoad {
     ExternalLoad {
-        force_body_n: physics_vector(values.vector(context.variables.force.external)),
-        torque_body_n_m: physics_vector(values.vector(context.variables.torque.external)),
+        force_body_n: physics_vector(values.vector(context.variables.force.applied)),
+        torque_body_n_m: physics_vector(values.vector(context.variables.torque.applied)),
     }
 }
 

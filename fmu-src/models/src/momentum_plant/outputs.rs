@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
 use physics::momentum::{Convention, Totals};
 use physics::plant::{Configuration, ExternalLoad, PanelSetting, Plant, Snapshot};
-use physics::radiation::{TorquePolynomial, polynomial_valid};
+use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
 use super::state::PlantState;
 use super::{Plan, ended};
@@ -21,45 +21,52 @@ pub fn write(
     time_s: f64,
 ) {
     let variables = context.variables;
-    let rotation = &snapshot.frame.inertial_from_body;
-    let rate_body_rad_s = snapshot.frame.rate_body_rad_s;
+    let Snapshot { instant, loads } = snapshot;
+    let rotation = &instant.frame.inertial_from_body;
     values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
-    values.set_vector(variables.attitude.rate, rate_body_rad_s.into());
+    values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
 
-    values.set_vector(variables.torque.solar, snapshot.solar.torque_body_n_m.into());
-    values.set_vector(variables.torque.albedo, snapshot.albedo.torque_body_n_m.into());
-    values.set_vector(variables.torque.infrared, snapshot.infrared.torque_body_n_m.into());
-    values.set_vector(variables.torque.thermal, snapshot.thermal.torque_body_n_m.into());
-    values.set_vector(variables.torque.gravity_gradient, snapshot.gravity_gradient_body_n_m.into());
-    values.set_vector(variables.torque.total, snapshot.torque_body_n_m().into());
-    let force_inertial_n = rotation * snapshot.force_body_n();
-    values.set_vector(variables.force.solar, snapshot.solar.force_body_n.into());
-    values.set_vector(variables.force.albedo, snapshot.albedo.force_body_n.into());
-    values.set_vector(variables.force.infrared, snapshot.infrared.force_body_n.into());
-    values.set_vector(variables.force.thermal, snapshot.thermal.force_body_n.into());
-    values.set_vector(variables.force.total, snapshot.force_body_n().into());
+    let total = loads.total();
+    for effect in Effect::ALL {
+        if let Some(torque) = variables.torque.of(effect) {
+            values.set_vector(torque, loads[effect].torque_body_n_m.into());
+        }
+        if let Some(force) = variables.force.of(effect) {
+            values.set_vector(force, loads[effect].force_body_n.into());
+        }
+    }
+    values.set_vector(variables.torque.total, total.torque_body_n_m.into());
+    values.set_vector(variables.force.total, total.force_body_n.into());
+    let force_inertial_n = rotation * total.force_body_n;
     values.set_vector(variables.force.inertial, force_inertial_n.into());
     values.set_vector(variables.acceleration, (force_inertial_n / configuration.mass_kg).into());
     values.set_vector(variables.delta_v, totals.delta_v_inertial_m_s.into());
 
-    let sun = SunAngles::of(&snapshot.sun_body);
-    values.set_vector(variables.sun.direction, snapshot.sun_body.into());
+    let sun = SunAngles::of(&instant.sun_body);
+    let planet_body_m = instant.planet_body_m.unwrap_or_default();
+    values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());
+    values.set_vector(variables.planet.position_body, planet_body_m.into());
+    values.set_vector(variables.sun.direction, instant.sun_body.into());
     values.set_real(variables.sun.azimuth, sun.azimuth_rad);
     values.set_real(variables.sun.elevation, sun.elevation_rad);
-    values.set_real(variables.sun.lit_fraction, snapshot.lit_fraction);
-    values.set_real(variables.sun.distance, snapshot.geometry.to_sun.position_m.norm());
-    let earth = SunAngles::of(&snapshot.earth_body);
+    values.set_real(variables.sun.lit_fraction, instant.lit_fraction);
+    values.set_real(variables.sun.distance, instant.sun_distance_m);
+    let earth = SunAngles::of(&instant.earth_body());
     values.set_real(variables.earth.azimuth, earth.azimuth_rad);
     values.set_real(variables.earth.elevation, earth.elevation_rad);
     let (azimuth_limit_rad, elevation_limit_rad) =
         (values.real(variables.keep_in.azimuth), values.real(variables.keep_in.elevation));
     values.set_real(variables.keep_in.margin, sun.keep_in_margin_rad(azimuth_limit_rad, elevation_limit_rad));
 
-    let spacecraft = &snapshot.geometry.spacecraft;
+    let spacecraft = &instant.geometry.spacecraft;
     values.set_vector(variables.position, spacecraft.position_m.into());
     values.set_vector(variables.velocity, spacecraft.velocity_m_s.into());
-    values.set_vector(variables.heliocentric.position, (-snapshot.geometry.to_sun.position_m).into());
-    let since_s = state.course.trajectory.time_since_periapsis_s(configuration, time_s);
+    values.set_vector(variables.heliocentric.position, (-instant.geometry.to_sun.position_m).into());
+    let since_s = if state.waiting {
+        0.0
+    } else {
+        state.course.trajectory.time_since_periapsis_s(configuration, time_s)
+    };
     values.set_real(variables.orbit.time_since_periapsis, since_s);
     values.set_real(variables.mass, configuration.mass_kg);
     values.set_vector(variables.center_of_mass, configuration.center_of_mass_body_m.into());
@@ -69,11 +76,11 @@ pub fn write(
         .spacecraft
         .sunshade
         .as_ref()
-        .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &snapshot.sun_body));
+        .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &instant.sun_body));
     values.set_boolean(variables.sunshade.polynomial_valid, valid);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
     for (panel, (body, setting)) in variables.panel.iter().zip(panels) {
-        values.set_real(panel.angle_actual, setting.angle_rad(body, &snapshot.sun_body).unwrap_or(0.0));
+        values.set_real(panel.angle_actual, setting.angle_rad(body, &instant.sun_body).unwrap_or(0.0));
     }
 
     values.set_vector(
@@ -96,12 +103,19 @@ pub fn write_plates(
     if context.variables.plate.is_empty() {
         return Ok(());
     }
+    if state.waiting {
+        for plate in &context.variables.plate {
+            values.set_real(plate.temperature, 0.0);
+            values.set_vector(plate.force, [0.0; 3]);
+        }
+        return Ok(());
+    }
     let left_out = |panel: usize| configuration.panels.get(panel) == Some(&PanelSetting::Disabled);
     let faces = context.variables.plate.iter().zip(&context.setup.reported_faces);
     let mut flown = faces.filter(|(_, face)| !face.panel.is_some_and(left_out)).map(|(plate, _)| plate);
     let craft = context.setup.craft(configuration.sunshade)?;
     let (course, ephemeris, light) = (&mut state.course, &mut state.ephemeris, state.light.as_mut());
-    Plant::new(craft, configuration, course, ephemeris, light, |_| ExternalLoad::default())
+    Plant::new(craft, configuration, course, ephemeris, light, |_| ExternalLoad::default(), u32::MAX)
         .faces(time_s, |temperature_k, force_body_n| {
             if let Some(plate) = flown.next() {
                 values.set_real(plate.temperature, temperature_k);
@@ -135,8 +149,9 @@ fn write_wheels(
     snapshot: &Snapshot,
 ) {
     let Some(array) = &context.setup.wheel_array else { return };
-    let system = totals.momentum_body_n_m_s(Convention::Inertial, &snapshot.frame.inertial_from_body);
-    let wheels_body_n_m_s = system - configuration.inertia_body_kg_m2 * snapshot.frame.rate_body_rad_s;
+    let frame = &snapshot.instant.frame;
+    let system = totals.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
+    let wheels_body_n_m_s = system - configuration.inertia_body_kg_m2 * frame.rate_body_rad_s;
     for (number, variables) in context.variables.wheel.iter().enumerate() {
         let momentum_n_m_s = array.momentum_n_m_s(number, &wheels_body_n_m_s);
         values.set_real(variables.momentum, momentum_n_m_s);
@@ -161,6 +176,9 @@ fn write_dumps(context: &Plan<'_>, values: &mut Values, state: &PlantState) {
 
 /// First derivative of what the plant integrates, from the rates at the same time.
 pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, output: Real) -> Option<f64> {
+    if state.waiting {
+        return None;
+    }
     let variables = context.variables;
     let convention = state.configuration.as_ref()?.momentum.convention;
     let within =

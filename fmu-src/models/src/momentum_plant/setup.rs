@@ -1,10 +1,11 @@
 //! The plant's immutable setup: the spacecraft and what is computed from it once.
 
 use fmi_export::{Failure, SetupError};
+use nalgebra::Vector3;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
 use physics::plant::Craft;
-use physics::radiation::SolarModel;
+use physics::radiation::{SolarModel, TorquePolynomial};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
@@ -66,10 +67,34 @@ impl PlantSetup {
                 SunshadeModel::Cylinder => ("cylinder", "plates"),
             };
             Failure::new(format!(
-                "sunshade.model: found {asked}, allowed: {other}, as which alone the spacecraft.toml of {} describes \
+                "sunshade.shape: found {asked}, allowed: {other}, as which alone the spacecraft.toml of {} describes \
                  the shade",
                 self.spacecraft.name
             ))
         })
+    }
+
+    /// Whether a coefficient of the shade's torque polynomial follows the centre of mass along `axis`, in any shape; it
+    /// is linear in it.
+    pub fn moves_coefficient(&self, axis: usize, row: usize, column: usize) -> bool {
+        let [at_origin, aside] = [Vector3::zeros(), Vector3::ith(axis, 1.0)].map(|at| self.polynomials(&at));
+        at_origin.iter().zip(&aside).any(|(one, other)| one.differs(other, row, column))
+    }
+
+    /// Whether a coefficient differs between the shade's shapes, the centre of mass anywhere.
+    pub fn shapes_differ(&self, row: usize, column: usize) -> bool {
+        let places = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+        let differ = |pair: &[TorquePolynomial]| pair[0].differs(&pair[1], row, column);
+        places.iter().any(|at| self.polynomials(at).windows(2).any(differ))
+    }
+
+    /// In the shapes the file describes.
+    fn polynomials(&self, center_of_mass_body_m: &Vector3<f64>) -> Vec<TorquePolynomial> {
+        let shapes = [SunshadeModel::Plates, SunshadeModel::Cylinder];
+        let shade = self.spacecraft.sunshade.iter();
+        let found = shade.flat_map(|shade| {
+            shapes.map(|shape| TorquePolynomial::of_sunshade(shade, shape, center_of_mass_body_m).ok())
+        });
+        found.flatten().collect()
     }
 }

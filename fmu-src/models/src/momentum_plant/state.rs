@@ -1,13 +1,13 @@
 //! What the plant remembers between steps.
 
-use fmi_export::{Failure, Values};
+use fmi_export::{Enumeration, Failure, Values};
 use physics::attitude::Attitude;
 use physics::environment::ephemeris::Ephemeris;
 use physics::momentum::{Accumulator, Event, Totals};
 use physics::plant::{Command, Configuration, Course, LightModel};
 use serde::{Deserialize, Serialize};
 
-use super::choices::{AttitudeSource, CommandKind};
+use super::choices::{AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource};
 use super::{Plan, log_dump, physics_vector};
 
 /// State of one plant.
@@ -19,9 +19,15 @@ pub struct PlantState {
     pub course: Course,
     /// Momentum, delta-v and dumps.
     pub accumulator: Accumulator,
+    /// Whether the flight waits for inputs that are not set yet: nothing acts, and the attitude is held.
+    pub waiting: bool,
+    /// Whether it was said which inputs are not set yet.
+    said_unset: bool,
     /// The command in effect and the inputs it came from.
     pub command: Command,
     command_inputs: CommandInputs,
+    /// Whether the present command.error was turned out.
+    turned_out: bool,
     /// When the orbit's position and velocity inputs last changed, in s.
     pub orbit_since_s: f64,
     orbit_inputs: [[f64; 3]; 2],
@@ -80,6 +86,12 @@ pub struct Spacing {
 }
 
 impl Spacing {
+    /// Whether its numbers can come from a flight.
+    fn is_sound(&self) -> bool {
+        self.last_s.is_none_or(f64::is_finite)
+            && self.closest_s.is_none_or(|gap_s| (0.0..=1e100).contains(&gap_s))
+    }
+
     /// Counts a dump and reports it.
     pub fn dumped(&mut self, context: &Plan<'_>, event: &Event) {
         log_dump(context, event);
@@ -91,17 +103,40 @@ impl Spacing {
 }
 
 impl PlantState {
+    /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
+    pub fn check(&self) -> Result<(), Failure> {
+        let finite = |x: &f64| x.is_finite();
+        let CommandInputs { q, rate, error, .. } = &self.command_inputs;
+        let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
+        let times = [&self.start_s, &self.orbit_since_s];
+        let parts = [
+            ("the times and inputs", inputs.chain(&self.light_inputs).chain(times).all(finite)),
+            ("the command", self.command.is_sound()),
+            ("the momentum and dumps", self.accumulator.is_sound() && self.spacing.is_sound()),
+            ("the orbit, light and heat", self.course.is_sound()),
+        ];
+        match parts.iter().find(|(_, is_sound)| !is_sound) {
+            None => Ok(()),
+            Some((part, _)) => Err(Failure::new(format!(
+                "{part} in the saved state hold numbers that no flight has (not finite, beyond 1e100, or no rotation)"
+            ))),
+        }
+    }
+
     /// At the start, before anything is accumulated.
     pub fn new(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<Self, Failure> {
-        let q = values.vector(context.variables.initial.q);
+        let q = values.vector(context.variables.start.q);
         let attitude =
-            Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("initial.q: {error}")))?;
+            Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
         let rate_body_rad_s = physics_vector([0.0; 3]);
         let mut state = Self {
             start_s,
             course: Course::default(),
             accumulator: Accumulator::new(start_s, Totals::default()),
+            waiting: !unset_places(context, values).is_empty(),
+            said_unset: false,
             command: Command { attitude, rate_body_rad_s, since_s: start_s },
+            turned_out: false,
             command_inputs: CommandInputs::read(context, values),
             orbit_since_s: start_s,
             orbit_inputs: orbit_inputs(context, values),
@@ -126,9 +161,13 @@ impl PlantState {
         time_s: f64,
     ) -> Result<Changes, Failure> {
         let inputs = CommandInputs::read(context, values);
-        let commanded = is_commanded(context, values) && inputs != self.command_inputs;
+        let (now, before) = (inputs.given(self.turned_out), self.command_inputs.given(self.turned_out));
+        let commanded = is_commanded(context, values) && now != before;
+        if inputs.kind != self.command_inputs.kind {
+            self.turned_out = false;
+        }
+        self.command_inputs = inputs;
         if commanded {
-            self.command_inputs = inputs;
             self.take_command(context, values, time_s)?;
         }
         let orbit = orbit_inputs(context, values);
@@ -151,14 +190,78 @@ impl PlantState {
             Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
         };
         let held = self.command.attitude_at(time_s);
-        let attitude = match values.choice(context.variables.command.kind) {
-            Some(CommandKind::ErrorQuaternion) => held.then(&quaternion("command.error", error)?),
-            Some(CommandKind::RateOnly) => held,
-            Some(CommandKind::Attitude) | None => quaternion("command.q", q)?,
+        let (attitude, rate) = match values.choice(context.variables.command.kind) {
+            Some(CommandKind::None) => (held, [0.0; 3]),
+            Some(CommandKind::RateOnly) => (held, rate),
+            Some(CommandKind::ErrorQuaternion) if self.turned_out => (held, rate),
+            Some(CommandKind::ErrorQuaternion) if is_zero(&error) => (held, [0.0; 3]),
+            Some(CommandKind::ErrorQuaternion) => {
+                self.turned_out = true;
+                (held.then(&quaternion("command.error", error)?.inverse()), rate)
+            }
+            Some(CommandKind::Attitude) | None if is_zero(&q) => (held, [0.0; 3]),
+            Some(CommandKind::Attitude) | None => (quaternion("command.q", q)?, rate),
         };
         self.command = Command { attitude, rate_body_rad_s: physics_vector(rate), since_s: time_s };
         Ok(())
     }
+
+    /// Says once which inputs are not set yet, if any.
+    pub fn say_unset(&mut self, context: &Plan<'_>, values: &Values) {
+        if self.said_unset {
+            return;
+        }
+        let mut unset = unset_places(context, values);
+        let is_earth_given =
+            matches!(values.choice(context.variables.ephemeris.source), Some(EphemerisSource::Inputs));
+        if is_earth_given && is_zero(&values.vector(context.variables.earth.position)) {
+            unset.push("earth.position");
+        }
+        if is_commanded(context, values) {
+            let CommandInputs { q, error, .. } = &self.command_inputs;
+            match values.choice(context.variables.command.kind) {
+                Some(CommandKind::None) => unset.push("command.kind"),
+                Some(CommandKind::Attitude) if is_zero(q) => unset.push("command.q"),
+                Some(CommandKind::ErrorQuaternion) if !self.turned_out && is_zero(error) => {
+                    unset.push("command.error");
+                }
+                _ => {}
+            }
+        }
+        if unset.is_empty() {
+            return;
+        }
+        self.said_unset = true;
+        let until = if self.waiting {
+            "the attitude is held and nothing acts until then"
+        } else {
+            "without a command the attitude is held, without the Earth it stands at the orbit's centre"
+        };
+        context.log.warning(&format!(
+            "inputs that are all zero count as not set yet: {}; {until}",
+            unset.join(", ")
+        ));
+    }
+}
+
+fn is_zero(vector: &[f64]) -> bool {
+    vector.iter().all(|x| *x == 0.0)
+}
+
+/// The inputs without which there is no flight and that are not set yet.
+pub fn unset_places(context: &Plan<'_>, values: &Values) -> Vec<&'static str> {
+    let variables = context.variables;
+    let orbit_given = matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
+    let sun_given = matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs));
+    // About the Sun, the Sun is at zero.
+    let planet = !matches!(values.choice(variables.orbit.center), Some(OrbitCenter::Sun));
+    let places = [
+        (orbit_given, variables.orbit.position, "orbit.position"),
+        (orbit_given, variables.orbit.velocity, "orbit.velocity"),
+        (sun_given && planet, variables.sun.position, "sun.position"),
+    ];
+    let unset = places.iter().filter(|(given, place, _)| *given && is_zero(&values.vector(*place)));
+    unset.map(|(_, _, name)| *name).collect()
 }
 
 /// Whether the attitude follows the inputs `command.*`.
@@ -170,10 +273,22 @@ impl CommandInputs {
     fn read(context: &Plan<'_>, values: &Values) -> Self {
         let command = &context.variables.command;
         Self {
-            kind: values.choice(command.kind).map_or(0, fmi_export::Enumeration::value),
+            kind: values.choice(command.kind).map_or(0, Enumeration::value),
             q: values.vector(command.q),
             rate: values.vector(command.rate),
             error: values.vector(command.error),
+        }
+    }
+
+    /// With everything that the kind of command does not give left out; an error that was turned out gives no more.
+    fn given(self, turned_out: bool) -> Self {
+        let (no_q, no_rate) = ([0.0; 4], [0.0; 3]);
+        match CommandKind::from_value(self.kind) {
+            Some(CommandKind::None) => Self { q: no_q, rate: no_rate, error: no_q, ..self },
+            Some(CommandKind::RateOnly) => Self { q: no_q, error: no_q, ..self },
+            Some(CommandKind::ErrorQuaternion) if turned_out => Self { q: no_q, error: no_q, ..self },
+            Some(CommandKind::ErrorQuaternion) => Self { q: no_q, ..self },
+            Some(CommandKind::Attitude) | None => Self { error: no_q, ..self },
         }
     }
 }

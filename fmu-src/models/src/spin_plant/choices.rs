@@ -12,7 +12,7 @@ pub enum BurnPlan {
     /// Two equal halves, the second delayed until its nutation cancels the first's.
     Split = 3,
     /// None: thrusters fire by their inputs only.
-    External = 4,
+    Commanded = 4,
 }
 
 /// What pulses are timed by.

@@ -2,12 +2,20 @@
 //! sequencing and sensors.
 
 mod choices;
+mod dependencies;
 mod outputs;
 mod read;
 mod variables;
 
-use fmi_export::{About, Context, Failure, Model, Real, SetupError, Source, Step, Values};
-use physics::spin::{plant::Plant, spinner::Spinner};
+use fmi_export::{
+    About, Context, Dependencies, Failure, Model, Real, SetupError, Source, StartValue, Step, Values,
+};
+use nalgebra::Vector3;
+use physics::numerics::spacing::spacing;
+use physics::spin::{
+    plant::{Directions, Plant},
+    spinner::Spinner,
+};
 
 use variables::SpinVariables;
 
@@ -16,7 +24,7 @@ pub struct SpinPlant;
 
 impl Model for SpinPlant {
     const NAME: &'static str = "SpinPlant";
-    const STATE_VERSION: u32 = 1;
+    const STATE_VERSION: u32 = 2;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/ace.toml");
     const SOURCES: &'static [Source] = crate::sources::SPIN_PLANT;
@@ -28,6 +36,10 @@ impl Model for SpinPlant {
 
     fn parse_setup(file: &str, text: &str) -> Result<Spinner, SetupError> {
         Spinner::parse(file, text).map_err(|error| SetupError(error.to_string()))
+    }
+
+    fn start_values(setup: &Spinner) -> Vec<StartValue> {
+        crate::start_values::start_values(&setup.start)
     }
 
     fn about(setup: &Spinner) -> About {
@@ -45,6 +57,10 @@ impl Model for SpinPlant {
         }
     }
 
+    fn dependencies(setup: &Spinner, variables: &SpinVariables) -> Dependencies {
+        dependencies::table(setup, variables)
+    }
+
     fn initialize(
         context: &Context<'_, Self>,
         values: &mut Values,
@@ -56,6 +72,7 @@ impl Model for SpinPlant {
         let plant = Plant::start(context.setup, &start, directions, commands, start_time_s)
             .map_err(|error| Failure::new(error.to_string()))?;
         warn_of_burn(context, &plant);
+        warn_of_unknown(context, values, None, &directions);
         outputs::write_calculated(context, values, &plant);
         outputs::write(context, values, &plant);
         Ok(plant)
@@ -72,13 +89,15 @@ impl Model for SpinPlant {
             commands.torque = read::torque(context, values, step)?;
             // Directions that move within the step are taken where it ends: they are read, not integrated.
             let at_end = |handle| step.input_vector(values, handle, step.end_s);
-            if let Some(name) = cut_pulse(context, &commands, step.end_s - step.start_s) {
+            if let Some(name) = cut_pulse(context, &commands, step) {
                 context.log.warning(&format!(
                     "a pulse of thruster {name} reaches beyond the step from {} to {} s and is cut there",
                     step.start_s, step.end_s
                 ));
             }
-            plant.command(commands, read::directions(context, values, at_end)?);
+            let directions = read::directions(context, values, at_end)?;
+            warn_of_unknown(context, values, Some(&plant.directions_at(step.start_s)), &directions);
+            plant.command(commands, directions);
         }
         let (fired, log) = (plant.sequencer().map_or(0, |s| s.fired()), context.log);
         let had_propellant = !plant.is_dry();
@@ -108,6 +127,13 @@ impl Model for SpinPlant {
         ))
     }
 
+    fn check_time(state: &Plant, time_s: f64) -> Result<(), Failure> {
+        if state.time_s() == time_s {
+            return Ok(());
+        }
+        Err(Failure::new(format!("the state is one of {} s, not of {time_s} s", state.time_s())))
+    }
+
     fn output_derivative(
         context: &Context<'_, Self>,
         _values: &Values,
@@ -126,7 +152,7 @@ const SUN_CLEARANCE: f64 = 4.0;
 fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
     let (log, seen) = (context.log, plant.predictions());
     if plant.is_dry() {
-        log.warning("there is no propellant (propellant.initial): no thruster fires");
+        log.warning("there is no propellant (propellant.loaded): no thruster fires");
     }
     if let Some(apart_rad) =
         plant.target_apart_rad().filter(|apart| seen.manoeuvre_rad > apart + seen.manoeuvre_per_pulse_rad)
@@ -149,15 +175,46 @@ fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
     }
 }
 
+/// Directions that became 0: masters send that before the first exchange.
+fn warn_of_unknown(
+    context: &Context<'_, SpinPlant>,
+    values: &Values,
+    before: Option<&Directions>,
+    now: &Directions,
+) {
+    let from_inputs = read::takes_directions(context, values);
+    let became_unknown = |before: Option<&Vector3<f64>>, now: &Vector3<f64>| {
+        *now == Vector3::zeros() && before.is_none_or(|before| *before != Vector3::zeros())
+    };
+    let found = [
+        ("sun.direction", from_inputs, before.map(|it| &it.sun_inertial), &now.sun_inertial),
+        ("earth.direction", from_inputs, before.map(|it| &it.earth_inertial), &now.earth_inertial),
+        ("star.direction", true, before.map(|it| &it.star_inertial), &now.star_inertial),
+    ];
+    let names: Vec<&str> = found
+        .into_iter()
+        .filter(|(_, used, before, now)| *used && became_unknown(*before, now))
+        .map(|(name, ..)| name)
+        .collect();
+    if !names.is_empty() {
+        context
+            .log
+            .warning(&format!("{} is 0: nothing is seen there until it has a direction", names.join(", ")));
+    }
+}
+
 /// Name of a thruster whose commanded pulse does not end within the step.
 fn cut_pulse<'a>(
     context: &'a Context<'_, SpinPlant>,
     commands: &physics::spin::plant::Commands,
-    length_s: f64,
+    step: &Step<'_>,
 ) -> Option<&'a str> {
-    let late = commands.pulses.iter().position(|pulse| {
-        // Rounding of times is no cut.
-        pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s * (1.0 + 1e-9) + 1e-9
-    })?;
+    let length_s = step.end_s - step.start_s;
+    // Rounding of times is no cut.
+    let rounding_s = 1e-9 * length_s + 8.0 * spacing(step.start_s.abs().max(step.end_s.abs()));
+    let late = commands
+        .pulses
+        .iter()
+        .position(|pulse| pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s + rounding_s)?;
     context.setup.thrusters.get(late).map(|thruster| thruster.name.as_str())
 }

@@ -19,9 +19,8 @@ pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) 
     values.set_real(v.nutation.ratio, seen.nutation_ratio);
     values.set_real(v.nutation.kick, seen.kick_rad);
     values.set_real(v.nutation.envelope, seen.envelope_rad);
-    values.set_real(v.nutation.envelope_printed, seen.printed_envelope_rad);
     values.set_real(v.star_tracker.observation_time, seen.observation_time_s);
-    values.set_real(v.star_tracker.observation_time_eq20, seen.observation_time_eq20_s);
+    values.set_real(v.star_tracker.observation_time_nominal, seen.observation_time_eq20_s);
 }
 
 /// Writes what changes from step to step.
@@ -60,8 +59,8 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_boolean(v.burn.active, seen.burn_active);
     values.set_boolean(v.burn.done, seen.burn_done);
     values.set_real(v.burn.next_edge, seen.next_edge_s);
-    values.set_vector(v.inertia_now.current, seen.inertia_kg_m2);
-    values.set_real(v.inertia_now.ratio, seen.inertia_ratio);
+    values.set_vector(v.mass_properties.inertia, seen.inertia_kg_m2);
+    values.set_real(v.inertia_ratio, seen.inertia_ratio);
     for (k, thruster) in v.thruster.iter().enumerate() {
         values.set_boolean(thruster.active, seen.thrusters_on >> k & 1 == 1);
     }
@@ -113,4 +112,5 @@ pub fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64
         .or_else(|| of(v.propellant.used, rates.flow_kg_s))
         .or_else(|| of(v.propellant.left, -rates.flow_kg_s))
         .or_else(|| of(v.mass, -rates.flow_kg_s))
+        .filter(|rate| rate.is_finite())
 }

@@ -27,11 +27,11 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
             Some(MassSource::Propellant) => plant::MassSource::Propellant,
             Some(MassSource::Fixed) | None => plant::MassSource::Fixed,
         },
-        propellant_kg: values.real(v.propellant.initial),
+        propellant_kg: values.real(v.propellant.loaded),
         spin_rate_rad_s: values.real(v.spin.initial_rate),
-        attitude: values.vector(v.initial.q),
-        nutation_rad: values.real(v.initial.nutation),
-        nutation_phase_rad: values.real(v.initial.nutation_phase),
+        attitude: values.vector(v.start.q),
+        nutation_rad: values.real(v.start.nutation),
+        nutation_phase_rad: values.real(v.start.nutation_phase),
         damper_time_constant_s: values.real(v.damper.time_constant),
         burn: burn(context, values),
         l1: match values.choice(v.geometry.source) {
@@ -54,6 +54,7 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
         },
         nominal_rate_rad_s: values.real(v.limit.spin_rate),
         seed: i64::from(values.integer(v.seed)) as u64,
+        work_limit: v.solver.units(values),
     }
 }
 
@@ -65,7 +66,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
             Shape::Tapered { order: u32::try_from(values.integer(v.taper_order)).unwrap_or(0) }
         }
         Some(BurnPlan::Split) => Shape::Split,
-        Some(BurnPlan::External) | None => return None,
+        Some(BurnPlan::Commanded) | None => return None,
     };
     Some(BurnRequest {
         shape,
@@ -98,12 +99,12 @@ pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
     let resolution_s = values.real(v.pulse.resolution);
     let rounded = |handle: Real| {
         let time_s = values.real(handle).max(0.0);
-        if resolution_s > 0.0 { (time_s / resolution_s).round() * resolution_s } else { time_s }
+        let steps = time_s / resolution_s;
+        // So many steps that doubles do not count them are as fine as no rounding.
+        if resolution_s > 0.0 && steps < 1e15 { steps.round() * resolution_s } else { time_s }
     };
-    let mut commands = Commands {
-        torque: BodyTorque::constant(values.vector(v.torque.external).into()),
-        ..Commands::none()
-    };
+    let mut commands =
+        Commands { torque: BodyTorque::constant(values.vector(v.torque.applied).into()), ..Commands::none() };
     for (k, (thruster, pulse)) in v.thruster.iter().zip(&mut commands.pulses).enumerate() {
         if values.boolean(thruster.fire) {
             commands.fire |= 1 << k;
@@ -116,7 +117,7 @@ pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
 
 /// The outside torque of a step whose input derivatives make it a polynomial in time.
 pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<BodyTorque, Failure> {
-    let handle = context.variables.torque.external;
+    let handle = context.variables.torque.applied;
     let mut torque = BodyTorque::constant(values.vector(handle).into());
     for &(reference, order, derivative) in step.input_derivatives {
         for axis in 0..3 {
@@ -124,7 +125,7 @@ pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<Bo
                 let k = order as usize;
                 if k >= TORQUE_TERMS {
                     return Err(Failure::new(format!(
-                        "torque.external[{}]: a derivative of order {order} was given; orders 1 to {} are used",
+                        "torque.applied[{}]: a derivative of order {order} was given; orders 1 to {} are used",
                         axis + 1,
                         TORQUE_TERMS - 1
                     )));
@@ -138,10 +139,15 @@ pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<Bo
     Ok(torque)
 }
 
-/// Where Sun, Earth and star stand, as unit vectors; Sun and Earth as 0 where the L1 orbit has them.
+/// Whether Sun and Earth come from the inputs.
+pub fn takes_directions(context: &Plan<'_>, values: &Values) -> bool {
+    values.choice(context.variables.geometry.source) != Some(GeometrySource::L1Orbit)
+}
+
+/// Where Sun, Earth and star stand, as unit vectors; 0 where the input is, and Sun and Earth where the L1 orbit has them.
 ///
 /// # Errors
-/// A vector that is used and has no direction.
+/// A vector that is used, and so short or long that rounding takes its direction.
 pub fn directions(
     context: &Plan<'_>,
     values: &Values,
@@ -156,9 +162,12 @@ pub fn directions(
         if (1e-100..=1e100).contains(&norm) {
             return Ok(direction / norm);
         }
-        Err(Failure::new(format!("{name} is {given:?}; allowed is a vector of length 1e-100 to 1e100")))
+        if given == [0.0; 3] {
+            return Ok(Vector3::zeros());
+        }
+        Err(Failure::new(format!("{name} is {given:?}; allowed is 0 or a vector of length 1e-100 to 1e100")))
     };
-    let from_inputs = values.choice(v.geometry.source) != Some(GeometrySource::L1Orbit);
+    let from_inputs = takes_directions(context, values);
     let unless_orbit = |name, handle| if from_inputs { unit(name, handle) } else { Ok(Vector3::zeros()) };
     Ok(Directions {
         sun_inertial: unless_orbit("sun.direction", v.sun.direction)?,

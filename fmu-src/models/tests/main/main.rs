@@ -1,6 +1,7 @@
 //! The models through the functions a master calls.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;
 mod pilot;
@@ -9,5 +10,10 @@ mod plant_commands;
 mod plant_cuts;
 mod plant_light;
 mod plant_refusals;
+mod plant_rounding;
 mod plant_slopes;
+mod plant_tolerance;
+mod plant_unset;
+mod plant_work;
 mod spin_plant;
+mod start_values;

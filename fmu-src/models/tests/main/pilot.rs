@@ -1,18 +1,24 @@
 //! Drives a model by its trait, with variables by name.
 
 use fmi_export::model::Log;
-use fmi_export::model_description::{Causality, Variability, VariableKind};
-use fmi_export::{Context, Declare, Failure, Model, Step, Values, Variables};
+use std::cell::RefCell;
+
+use fmi_export::model_description::{Causality, SimpleTypeKind, Variability, VariableKind};
+use fmi_export::{BaseType, Context, Declare, Failure, Model, Step, Values, Variables};
 use physics::numerics::stretches::next_multiple_s;
 
-struct Silent;
+/// Keeps warnings.
+#[derive(Default)]
+struct Heard(RefCell<Vec<String>>);
 
-impl Log for Silent {
+impl Log for Heard {
     fn events_enabled(&self) -> bool {
         false
     }
     fn event(&self, _time_s: f64, _message: &str) {}
-    fn warning(&self, _message: &str) {}
+    fn warning(&self, message: &str) {
+        self.0.borrow_mut().push(message.to_owned());
+    }
 }
 
 /// A model with everything that does not change in flight.
@@ -21,6 +27,7 @@ pub struct Hangar<M: Model> {
     handles: M::Variables,
     names: Vec<Named>,
     start: Values,
+    heard: Heard,
 }
 
 struct Named {
@@ -29,6 +36,9 @@ struct Named {
     reference: usize,
     output: bool,
     varies: bool,
+    /// Whether the master may set it, and within which limits.
+    given: Option<(f64, f64)>,
+    input: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,19 +61,69 @@ impl<M: Model> Hangar<M> {
         let mut scope = Declare::new();
         let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
         let table = scope.finish();
-        let names = table.variables.iter().map(|variable| Named {
-            name: variable.name.clone(),
-            kind: match variable.kind {
-                VariableKind::Real { .. } => Kind::Real,
-                VariableKind::Boolean { .. } => Kind::Boolean,
-                VariableKind::String { .. } => Kind::Text,
-                _ => Kind::Integer,
-            },
-            reference: variable.value_reference as usize,
-            output: variable.causality == Causality::Output,
-            varies: variable.variability == Variability::Continuous,
+        let names = table.variables.iter().map(|variable| {
+            let (kind, base) = match variable.kind {
+                VariableKind::Real { .. } => (Kind::Real, BaseType::Real),
+                VariableKind::Boolean { .. } => (Kind::Boolean, BaseType::Boolean),
+                VariableKind::String { .. } => (Kind::Text, BaseType::String),
+                _ => (Kind::Integer, BaseType::Integer),
+            };
+            let items = |name: &str| {
+                let found = table.types.iter().find(|it| it.name == name).map(|it| &it.kind);
+                let Some(SimpleTypeKind::Enumeration { items, .. }) = found else { panic!("no type {name}") };
+                (
+                    items.iter().map(|it| it.value).min().unwrap(),
+                    items.iter().map(|it| it.value).max().unwrap(),
+                )
+            };
+            let limits = match &variable.kind {
+                VariableKind::Real { attributes, .. } => {
+                    (attributes.min.unwrap_or(f64::MIN), attributes.max.unwrap_or(f64::MAX))
+                }
+                VariableKind::Integer { min, max, .. } => {
+                    (f64::from(min.unwrap_or(i32::MIN)), f64::from(max.unwrap_or(i32::MAX)))
+                }
+                VariableKind::Enumeration { declared_type, .. } => {
+                    let (least, most) = items(declared_type);
+                    (f64::from(least), f64::from(most))
+                }
+                _ => (0.0, 1.0),
+            };
+            let given =
+                kind != Kind::Text && matches!(variable.causality, Causality::Input | Causality::Parameter);
+            Named {
+                given: given.then_some(limits),
+                input: variable.causality == Causality::Input,
+                name: variable.name.clone(),
+                kind,
+                reference: (variable.value_reference - base.first_reference()) as usize,
+                output: variable.causality == Causality::Output,
+                varies: variable.variability == Variability::Continuous,
+            }
         });
-        Self { names: names.collect(), setup, handles, start: table.start }
+        let names = names.collect();
+        Self { names, setup, handles, start: table.start, heard: Heard::default() }
+    }
+
+    /// What a master may set, with its limits and whether it is a whole number.
+    pub fn given(&self) -> Vec<(&str, (f64, f64), bool)> {
+        let given = |it: &Named| it.given.is_some();
+        let shown = |it: &'_ Named| (it.given.unwrap_or_default(), it.kind != Kind::Real);
+        self.names
+            .iter()
+            .filter(|it| given(it))
+            .map(|it| (it.name.as_str(), shown(it).0, shown(it).1))
+            .collect()
+    }
+
+    /// All inputs.
+    pub fn inputs(&self) -> Vec<&str> {
+        self.names.iter().filter(|it| it.input && it.kind != Kind::Text).map(|it| it.name.as_str()).collect()
+    }
+
+    /// The warnings of all flights so far.
+    pub fn warnings(&self) -> Vec<String> {
+        self.heard.0.borrow().clone()
     }
 
     fn find(&self, name: &str, kind: Kind) -> usize {
@@ -74,7 +134,7 @@ impl<M: Model> Hangar<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, log: &Silent }
+        Context { setup: &self.setup, variables: &self.handles, log: &self.heard }
     }
 
     /// A flight from `start_s` with these start values.
@@ -84,7 +144,7 @@ impl<M: Model> Hangar<M> {
             self.set(&mut values, name, *value);
         }
         let state = M::initialize(&self.context(), &mut values, start_s)?;
-        Ok(Pilot { hangar: self, values, state, time_s: start_s, changed: false })
+        Ok(Pilot { hangar: self, values, state, time_s: start_s, before: None })
     }
 
     fn set(&self, values: &mut Values, name: &str, value: f64) {
@@ -102,20 +162,20 @@ impl<M: Model> Hangar<M> {
 }
 
 /// The value tables, reached through their serialised form: no author of a model can write them by reference.
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Tables {
-    reals: Vec<f64>,
-    integers: Vec<i32>,
-    booleans: Vec<bool>,
-    strings: Vec<String>,
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
+pub struct Tables {
+    pub reals: Vec<f64>,
+    pub integers: Vec<i32>,
+    pub booleans: Vec<bool>,
+    pub strings: Vec<String>,
 }
 
 impl Tables {
-    fn of(values: &Values) -> Self {
+    pub fn of(values: &Values) -> Self {
         postcard::from_bytes(&postcard::to_stdvec(values).unwrap()).unwrap()
     }
 
-    fn back(&self) -> Values {
+    pub fn back(&self) -> Values {
         postcard::from_bytes(&postcard::to_stdvec(self).unwrap()).unwrap()
     }
 }
@@ -126,7 +186,8 @@ pub struct Pilot<'a, M: Model> {
     values: Values,
     state: M::State,
     time_s: f64,
-    changed: bool,
+    /// Once something was set: the values as the last step left them. What is set back is no change.
+    before: Option<Values>,
 }
 
 impl<M: Model> Pilot<'_, M> {
@@ -137,10 +198,11 @@ impl<M: Model> Pilot<'_, M> {
 
     /// One step.
     pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
-        let step = Step { start_s: self.time_s, end_s, changed: self.changed, input_derivatives: &[] };
+        let changed = self.before.as_ref().is_some_and(|before| *before != self.values);
+        let step = Step { start_s: self.time_s, end_s, changed, input_derivatives: &[] };
         M::step(&self.hangar.context(), &mut self.values, &mut self.state, &step)?;
         self.time_s = end_s;
-        self.changed = false;
+        self.before = None;
         Ok(())
     }
 
@@ -154,8 +216,8 @@ impl<M: Model> Pilot<'_, M> {
 
     /// Sets an input or tunable.
     pub fn set(&mut self, name: &str, value: f64) {
+        self.before.get_or_insert_with(|| self.values.clone());
         self.hangar.set(&mut self.values, name, value);
-        self.changed = true;
     }
 
     /// A Real.
@@ -180,11 +242,19 @@ impl<M: Model> Pilot<'_, M> {
         reals.map(|it| (it.name.clone(), tables.reals[it.reference].to_bits())).collect()
     }
 
+    /// The first output that is no finite number.
+    pub fn not_finite(&self) -> Option<String> {
+        let tables = Tables::of(&self.values);
+        let outputs = self.hangar.names.iter().filter(|it| it.kind == Kind::Real && it.output);
+        let bad = outputs.into_iter().find(|it| !tables.reals[it.reference].is_finite());
+        bad.map(|it| format!("{} = {}", it.name, tables.reals[it.reference]))
+    }
+
     /// Another flight that knows nothing but what is serialised.
     pub fn restored(&self) -> Self {
         let bytes = postcard::to_stdvec(&(&self.values, &self.state)).unwrap();
         let (values, state) = postcard::from_bytes(&bytes).unwrap();
-        Self { hangar: self.hangar, values, state, time_s: self.time_s, changed: self.changed }
+        Self { hangar: self.hangar, values, state, time_s: self.time_s, before: self.before.clone() }
     }
 
     /// The state's bytes.
@@ -202,7 +272,7 @@ impl<M: Model> Pilot<'_, M> {
             values: self.values.clone(),
             state,
             time_s: self.time_s,
-            changed: false,
+            before: None,
         })
     }
 }

@@ -25,7 +25,7 @@ fn light_follows_what_is_set_on_the_way_at_once() {
     let mut plant = plants.fly(0.0, &sets).unwrap();
     let mut center_m = [0.1, 0.05, -0.2];
     let check = |plant: &Pilot<'_, MomentumPlant>, center_m: [f64; 3], what: &str| {
-        let center = [1, 2, 3].map(|i| format!("centerOfMass[{i}]"));
+        let center = [1, 2, 3].map(|i| format!("spacecraft.centerOfMass[{i}]"));
         let center: Vec<(&str, f64)> = center.iter().map(String::as_str).zip(center_m).collect();
         let model = memoryless(&models, plant, &[&[flux], center.as_slice()].concat());
         for source in ["solar", "albedo", "infrared", "thermal"] {
@@ -68,7 +68,7 @@ fn an_orbit_given_on_the_way_begins_when_it_was_given() {
     ];
     for model in [1.0, 2.0] {
         let disturbed = [
-            ("orbit.model", model),
+            ("orbit.dynamics", model),
             ("orbit.sunTide", 0.0),
             ("planet.j2", 0.0),
             ("orbit.radiationFeedback", 0.0),
@@ -108,7 +108,7 @@ fn after_a_minute(sets: &[(&str, f64)]) -> Vector3<f64> {
 /// Where a disturbed orbit begins and where it is after a minute.
 fn a_minute(sets: &[(&str, f64)]) -> [Vector3<f64>; 2] {
     let hangar = Hangar::<MomentumPlant>::shipped();
-    let still = [("orbit.model", 2.0), ("orbit.radiationFeedback", 0.0)];
+    let still = [("orbit.dynamics", 2.0), ("orbit.radiationFeedback", 0.0)];
     let mut flight = hangar.fly(0.0, &[GIVEN_SUN, &still, sets].concat()).unwrap();
     let start = flight.vector("position");
     flight.step_to(60.0).unwrap();

@@ -9,7 +9,7 @@ const DAY_S: f64 = 86_400.0;
 
 /// Everything on, and dumps often.
 const ALL: &[(&str, f64)] = &[
-    ("orbit.model", 2.0),
+    ("orbit.dynamics", 2.0),
     ("guided.slewRate", 3e-3),
     ("guided.downlinkEvery", 1.0),
     ("dump.threshold[1]", 0.1),
@@ -67,8 +67,17 @@ fn setting_what_was_set_changes_nothing_and_a_new_value_does() {
     let mut held = hangar.fly(0.0, &sets()).unwrap();
     let mut pushed = hangar.fly(0.0, &sets()).unwrap();
     held.fly_to(5_000.0, 500.0).unwrap();
-    pushed.fly_to(5_000.0, 500.0).unwrap();
-    pushed.set("force.external[1]", 1.0);
+    while pushed.time_s() < 5_000.0 {
+        let end_s = pushed.time_s() + 250.0;
+        // To another value and back, and to the same value.
+        pushed.set("torque.applied[2]", 0.1);
+        pushed.set("torque.applied[2]", 0.0);
+        pushed.set("force.applied[1]", 0.0);
+        pushed.set("spacecraft.centerOfMass[3]", held.real("spacecraft.centerOfMass[3]"));
+        pushed.step_to(end_s).unwrap();
+    }
+    assert_same(&held, &pushed);
+    pushed.set("force.applied[1]", 1.0);
     held.fly_to(10_000.0, 500.0).unwrap();
     pushed.fly_to(10_000.0, 500.0).unwrap();
     // 1 N on half a ton for 5000 s, about Mercury: the same order as the free motion 1/2 a t^2.

@@ -71,7 +71,7 @@ pub const SHADOWED: &[(&str, f64)] =
 
 /// Everything else that divides a flight into pieces.
 const BUSY: &[(&str, f64)] = &[
-    ("orbit.model", 2.0),
+    ("orbit.dynamics", 2.0),
     ("guided.slewRate", 3e-3),
     ("guided.downlinkEvery", 1.0),
     ("dump.threshold[1]", 0.02),
@@ -144,8 +144,8 @@ pub fn memoryless<'a>(
     let mut put = |name: &str, vector: Vector3<f64>| {
         all.extend((0..3).map(|i| (format!("{name}[{}]", i + 1), vector[i])));
     };
-    put("sun.position", to_body * -plant.vector("heliocentric.position"));
-    put("planet.position", to_body * -position_m);
+    put("sun.positionBody", to_body * -plant.vector("heliocentric.position"));
+    put("planet.positionBody", to_body * -position_m);
     all.extend(
         (1..=2).map(|k| (format!("panel[{k}].angle"), plant.real(&format!("panel[{k}].angleActual")))),
     );
@@ -256,7 +256,7 @@ fn a_torque_from_outside_leaves_light_and_heat_alone() {
     let mut relay = hangar.fly(0.0, &sets).unwrap();
     for step in 1..=600 {
         for flight in [&mut pushed, &mut relay] {
-            flight.set("torque.external[2]", 1e-7 * f64::from(step));
+            flight.set("torque.applied[2]", 1e-7 * f64::from(step));
         }
         // Whether a cell goes on must not depend on what is not saved.
         relay = relay.restored();
@@ -347,10 +347,16 @@ fn states_torn_at_random_are_refused_or_flown_on() {
                 continue;
             };
             flown += 1;
-            failed += i32::from(other.step_to(5_060.0).is_err());
+            let outcome = other.step_to(5_060.0);
+            failed += i32::from(outcome.is_err());
+            assert!(
+                outcome.is_err() || other.not_finite().is_none(),
+                "{:?} at byte {at}",
+                other.not_finite()
+            );
         }
     }
-    assert!(refused > 20 && flown > 500 && failed > 5, "{refused} {flown} {failed}");
+    assert!(refused + failed > 100 && flown > 500, "{refused} {flown} {failed}");
 }
 
 #[test]

@@ -63,10 +63,10 @@ fn output_derivatives_are_the_slopes_of_the_outputs() {
         plant.choose("momentum.convention", convention);
         plant.set("command.q", [0.5, -0.1, 0.7, 0.5]);
         plant.set("command.rate", [1e-3, -2e-3, 5e-4]);
-        plant.set("initial.momentum", [0.5, -1.0, 2.0]);
+        plant.set("start.momentum", [0.5, -1.0, 2.0]);
         plant.set("dump.threshold", [1e6; 3]);
-        plant.set("torque.external", [0.02, -0.01, 0.03]);
-        plant.set("force.external", [0.3, -0.1, 0.2]);
+        plant.set("torque.applied", [0.02, -0.01, 0.03]);
+        plant.set("force.applied", [0.3, -0.1, 0.2]);
         assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
         let from_s = 600.0;
         assert_eq!(plant.fmu.do_step(0.0, from_s), Status::Ok);
@@ -96,7 +96,7 @@ fn the_inertial_force_is_the_bodys_turned_and_moves_the_mass() {
     let mut plant = Flown::new();
     plant.choose("attitude.source", 2);
     plant.set("command.q", [0.5, -0.1, 0.7, 0.5]);
-    plant.set("force.external", [0.3, -0.1, 0.2]);
+    plant.set("force.applied", [0.3, -0.1, 0.2]);
     assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
     assert_eq!(plant.fmu.do_step(0.0, 60.0), Status::Ok);
     let [x, y, z, w] = plant.get("attitude.q");
@@ -117,9 +117,9 @@ fn a_force_with_a_slope_is_integrated() {
     plant.choose("attitude.source", 2);
     let at = plant.names["solar.flux"];
     assert_eq!(plant.fmu.set_real(&[at], &[0.0]), Status::Ok);
-    plant.set("force.external", [0.3, -0.1, 0.2]);
+    plant.set("force.applied", [0.3, -0.1, 0.2]);
     assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
-    let at = plant.at::<3>("force.external");
+    let at = plant.at::<3>("force.applied");
     assert_eq!(plant.fmu.set_input_derivatives(&at, &[1; 3], &[1e-3, 2e-3, -3e-3]), Status::Ok);
     let mut mass_kg = [0.0];
     let mass = plant.names["mass"];

@@ -87,6 +87,16 @@ impl Attitude {
         }
     }
 
+    /// The opposite rotation: from the body frame to the inertial one.
+    pub fn inverse(&self) -> Self {
+        Self { inertial_from_body: self.inertial_from_body.inverse() }
+    }
+
+    /// Whether it is a rotation: every number finite, the norm 1 within rounding.
+    pub fn is_rotation(&self) -> bool {
+        (self.inertial_from_body.coords.norm() - 1.0).abs() < 1e-9
+    }
+
     /// The attitude after the rotation `by` (from this body frame to the new one).
     pub fn then(&self, by: &Self) -> Self {
         Self { inertial_from_body: self.inertial_from_body * by.inertial_from_body }

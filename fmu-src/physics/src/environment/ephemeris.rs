@@ -3,13 +3,14 @@
 //!
 //! One evaluation of VSOP87 sums thousands of cosines (0.1 to 0.2 ms). [`Ephemeris`] therefore keeps Chebyshev
 //! segments with edges at whole multiples of their length past J2000. A segment is a pure function of its number:
-//! what was asked before never changes a bit. Mercury and Venus are fitted in two layers: 12 evaluations of the
+//! what was asked before never changes a bit. All planets but the Earth are fitted in two layers: 12 evaluations of the
 //! osculating elements, which vary slowly, cover 32 days; positions computed from them fill 8 days at a time. The
-//! Earth, which carries the Moon's monthly swing, is fitted directly, 13 evaluations for 32 days.
+//! Earth, which carries the Moon's monthly swing, is fitted directly, 13 evaluations for 32 days. The Sun stands still.
 //!
-//! Error of the fit anywhere between 1900 and 2100 (tested): Mercury below 100 m, Venus below 10 m, Earth below 5 km
-//! (3e-8 rad as a direction). VSOP87 itself is good to about 1 km for Mercury, a few for Venus and the Earth in that
-//! time: so far apart are its own variants in elements and in rectangular coordinates (0.25 and 2.1 km).
+//! Error of the fit anywhere between 1900 and 2100 (tested): Mercury below 100 m, Venus below 10 m, Mars and Jupiter
+//! below 100 m, Earth below 5 km (3e-8 rad as a direction). VSOP87 itself is good to about 1 km for Mercury, a few for
+//! Venus and the Earth, tens for Mars and hundreds for Jupiter in that time: so far apart are its own variants in elements
+//! and in rectangular coordinates.
 //!
 //! Two neighbouring segments of each layer are held, so that looking back and forth over an edge costs no refill.
 
@@ -19,6 +20,7 @@ use nalgebra::{Matrix3, SVector, Vector3};
 
 use super::{State, orbit::kepler::eccentric_anomaly_rad, time::julian_date};
 use crate::{
+    bodies::Body,
     constants::{ASTRONOMICAL_UNIT_M, DAY_S},
     numerics::chebyshev::Segment,
 };
@@ -37,37 +39,29 @@ const SHORT_S: f64 = 8.0 * DAY_S;
 /// Epochs VSOP87 is made for: 4000 years around J2000, s.
 pub const VALID_EPOCH_S: f64 = 4000.0 * 365.25 * DAY_S;
 
-/// A planet with an ephemeris.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Body {
-    /// Mercury.
-    Mercury,
-    /// Venus.
-    Venus,
-    /// The Earth itself, not the Earth-Moon barycentre.
-    Earth,
-}
-
 /// Planet positions, a cache over VSOP87 of fixed size: looking up never allocates, and the same epoch always gives
 /// the same bits. It is no state: skip it when serialising and start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct Ephemeris {
     mercury: TwoLayers,
     venus: TwoLayers,
+    mars: TwoLayers,
+    jupiter: TwoLayers,
     earth: Slots<3, EARTH_TERMS>,
 }
 
 impl Ephemeris {
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB, geometric (no light time).
     ///
-    /// The velocity is the derivative of the position, within 0.01 m/s (Mercury, Venus) or 0.5 m/s (Earth). Beyond
+    /// The velocity is the derivative of the position, within 0.01 m/s, or 0.5 m/s for the Earth. Beyond
     /// [`VALID_EPOCH_S`] the series loses its meaning; an epoch that is not finite gives NaN.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> State {
         let (position_m, velocity_m_s) = match body {
-            Body::Mercury => {
-                self.mercury.position_and_velocity(epoch_s, vsop87::mercury, MERCURY_MEAN_MOTION_RAD_S)
-            }
-            Body::Venus => self.venus.position_and_velocity(epoch_s, vsop87::venus, VENUS_MEAN_MOTION_RAD_S),
+            Body::Sun => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
+            Body::Mercury => self.mercury.state(epoch_s, vsop87::mercury, 26_087.903_141_574_2),
+            Body::Venus => self.venus.state(epoch_s, vsop87::venus, 10_213.285_546_211),
+            Body::Mars => self.mars.state(epoch_s, vsop87::mars, 3_340.612_434_14),
+            Body::Jupiter => self.jupiter.state(epoch_s, vsop87::jupiter, 529.690_965_09),
             Body::Earth => {
                 let position = |epoch_s| from_rectangular(vsop87::vsop87a::earth(julian_date(epoch_s)));
                 self.earth.segment(epoch_s, LONG_S, position).value_and_derivative(epoch_s)
@@ -76,22 +70,24 @@ impl Ephemeris {
         State { position_m, velocity_m_s }
     }
 
+    /// How often VSOP87 itself was evaluated so far, which takes some 100 to 200 microseconds each time.
+    pub fn evaluations(&self) -> u64 {
+        let elements = self.mercury.elements.fits + self.venus.elements.fits;
+        ELEMENT_TERMS as u64 * elements + EARTH_TERMS as u64 * self.earth.fits
+    }
+
     /// The position alone, see [`Ephemeris::state`].
     pub fn position_m(&mut self, body: Body, epoch_s: f64) -> Vector3<f64> {
         self.state(body, epoch_s).position_m
     }
 }
 
-/// Mean motion of Mercury in VSOP87, rad/s: 26087.9031415742 rad in 1000 Julian years. Only the slow remainder of
-/// the longitude is fitted; any value near gives the same positions.
-const MERCURY_MEAN_MOTION_RAD_S: f64 = 26_087.903_141_574_2 / (365_250.0 * DAY_S);
-/// Mean motion of Venus in VSOP87, rad/s: 10213.2855462110 rad in 1000 Julian years.
-const VENUS_MEAN_MOTION_RAD_S: f64 = 10_213.285_546_211 / (365_250.0 * DAY_S);
-
 /// Two segments, one for even and one for odd numbers.
 #[derive(Clone, Debug, Default)]
 struct Slots<const D: usize, const N: usize> {
     held: [Option<(i64, Segment<D, N>)>; 2],
+    /// How many were fitted so far.
+    fits: u64,
 }
 
 impl<const D: usize, const N: usize> Slots<D, N> {
@@ -106,7 +102,9 @@ impl<const D: usize, const N: usize> Slots<D, N> {
         if slot.as_ref().is_some_and(|(held, _)| *held != number) {
             *slot = None;
         }
+        let fits = &mut self.fits;
         let (_, segment) = slot.get_or_insert_with(|| {
+            *fits += 1;
             let start_s = number as f64 * length_s;
             (number, Segment::fit(start_s, start_s + length_s, function))
         });
@@ -122,12 +120,15 @@ struct TwoLayers {
 }
 
 impl TwoLayers {
-    fn position_and_velocity(
+    /// Position and velocity at `epoch_s`; `mean_motion` is VSOP87's, in rad per 1000 Julian years. Only the slow
+    /// remainder of the longitude is fitted: any value near gives the same positions.
+    fn state(
         &mut self,
         epoch_s: f64,
         vsop87_elements: fn(f64) -> vsop87::VSOP87Elements,
-        mean_motion_rad_s: f64,
+        mean_motion: f64,
     ) -> (Vector3<f64>, Vector3<f64>) {
+        let mean_motion_rad_s = mean_motion / (365_250.0 * DAY_S);
         let elements = &mut self.elements;
         let segment = self.position.segment(epoch_s, SHORT_S, |node_s| {
             // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
@@ -232,10 +233,17 @@ mod tests {
             (Body::Mercury, -36_525.0, -0.389_724_693_1, -0.150_224_219_9),
             (Body::Venus, 0.0, -0.718_302_279_7, -0.032_654_601_7),
             (Body::Earth, 0.0, -0.177_135_458_6, 0.967_241_623_7),
+            (Body::Mars, 0.0, 1.390_715_926_4, -0.013_415_704_3),
+            (Body::Jupiter, 0.0, 4.001_174_026_8, 2.938_581_007_7),
         ] {
             let position = ephemeris.position_m(body, day * DAY_S);
             let ecliptic = eme2000_from_vsop87().transpose() * position / ASTRONOMICAL_UNIT_M;
-            let tolerance = if body == Body::Mercury { 2e-9 } else { 3e-8 };
+            let tolerance = match body {
+                Body::Mercury => 2e-9,
+                Body::Mars => 1e-7,
+                Body::Jupiter => 1e-6,
+                _ => 3e-8,
+            };
             assert!((ecliptic.x - x).abs() < tolerance, "{body:?} {ecliptic}");
             assert!((ecliptic.y - y).abs() < tolerance, "{body:?} {ecliptic}");
         }
@@ -247,17 +255,25 @@ mod tests {
         let elements = |body, jd| match body {
             Body::Mercury => Some(vsop87::mercury(jd)),
             Body::Venus => Some(vsop87::venus(jd)),
-            Body::Earth => None,
+            Body::Mars => Some(vsop87::mars(jd)),
+            Body::Jupiter => Some(vsop87::jupiter(jd)),
+            Body::Sun | Body::Earth => None,
         };
         let rectangular = |body, jd| match body {
             Body::Mercury => vsop87::vsop87a::mercury(jd),
             Body::Venus => vsop87::vsop87a::venus(jd),
-            Body::Earth => vsop87::vsop87a::earth(jd),
+            Body::Mars => vsop87::vsop87a::mars(jd),
+            Body::Jupiter => vsop87::vsop87a::jupiter(jd),
+            Body::Sun | Body::Earth => vsop87::vsop87a::earth(jd),
         };
         let mut ephemeris = Ephemeris::default();
-        for (body, fit_m, apart_m) in
-            [(Body::Mercury, 100.0, 300.0), (Body::Venus, 10.0, 2500.0), (Body::Earth, 5000.0, 5000.0)]
-        {
+        for (body, fit_m, apart_m) in [
+            (Body::Mercury, 100.0, 300.0),
+            (Body::Venus, 10.0, 2500.0),
+            (Body::Mars, 100.0, 30_000.0),
+            (Body::Jupiter, 100.0, 300_000.0),
+            (Body::Earth, 5000.0, 5000.0),
+        ] {
             for epoch_s in scattered(200) {
                 let found = ephemeris.position_m(body, epoch_s);
                 let jd = julian_date(epoch_s);
@@ -350,7 +366,7 @@ mod tests {
         let epochs: Vec<f64> = (0..40).map(|i| f64::from(i * 7919 % 40) * 5.3 * DAY_S - 1e8).collect();
         let mut used = Ephemeris::default();
         for &epoch_s in &epochs {
-            for body in [Body::Mercury, Body::Venus, Body::Earth] {
+            for body in Body::ALL {
                 assert_eq!(used.state(body, epoch_s), Ephemeris::default().state(body, epoch_s));
             }
         }

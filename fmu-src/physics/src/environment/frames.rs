@@ -5,50 +5,43 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::bodies::BodyData;
+
 /// Obliquity of the ecliptic at J2000, rad: 84381.448 arc seconds (IAU 1976, SPICE's ECLIPJ2000).
 pub const OBLIQUITY_J2000_RAD: f64 = 84_381.448 / 3600.0 * core::f64::consts::PI / 180.0;
-/// Right ascension of Mercury's north pole at J2000, rad (281.0103 deg, IAU working group 2015).
-pub const MERCURY_POLE_RIGHT_ASCENSION_RAD: f64 = 281.010_3 * core::f64::consts::PI / 180.0;
-/// Declination of Mercury's north pole at J2000, rad (61.4155 deg, IAU working group 2015).
-pub const MERCURY_POLE_DECLINATION_RAD: f64 = 61.415_5 * core::f64::consts::PI / 180.0;
-/// Ascending node of Mercury's orbit on the ecliptic, rad (48.33 deg, paper 004 Table 4).
-pub const PAPER_004_MERCURY_NODE_RAD: f64 = 48.33 * core::f64::consts::PI / 180.0;
-/// Inclination of Mercury's orbit to the ecliptic, rad (7.0 deg, paper 004 Table 4).
-pub const PAPER_004_MERCURY_INCLINATION_RAD: f64 = 7.0 * core::f64::consts::PI / 180.0;
-
 /// The frame in which an orbit's elements are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Frame {
-    /// Paper 004's MCI: x to the ascending node of Mercury's orbit on the ecliptic, z normal to that orbit, with the
-    /// node and inclination of its Table 4.
-    Paper004Mci,
-    /// x to the ascending node of Mercury's equator on the EME2000 equator, z to Mercury's north pole (IAU 2015, at
-    /// J2000; it moves 0.03 deg a century).
-    MercuryEquator,
+    /// x to the ascending node of the body's orbit on the ecliptic, z normal to that orbit: paper 004's MCI for Mercury. For
+    /// the Sun, which has no orbit, the ecliptic.
+    PlanetOrbit,
+    /// x to the ascending node of the body's equator on the EME2000 equator, z to its north pole at J2000 (that of Mercury
+    /// moves 0.03 deg a century).
+    PlanetEquator,
     /// Mean equator and equinox of J2000.
     Eme2000,
-    /// Mean ecliptic and equinox of J2000; paper 004's HCI has these axes.
-    EclipticJ2000,
+    /// Mean ecliptic and equinox of J2000 (SPICE's ECLIPJ2000); paper 004's HCI has these axes.
+    Ecliptic,
 }
 
 impl Frame {
-    /// Components in this frame to components in EME2000.
-    pub fn dcm_eme2000_from_frame(self) -> Matrix3<f64> {
+    /// Components in this frame, which may be the body's own, to components in EME2000.
+    pub fn dcm_eme2000_from_frame(self, body: &BodyData) -> Matrix3<f64> {
         match self {
-            Self::Paper004Mci => {
-                Self::EclipticJ2000.dcm_eme2000_from_frame()
-                    * dcm_reference_from_node_frame(
-                        PAPER_004_MERCURY_NODE_RAD,
-                        PAPER_004_MERCURY_INCLINATION_RAD,
-                    )
+            Self::PlanetOrbit => {
+                dcm_eme2000_from_ecliptic()
+                    * dcm_reference_from_node_frame(body.orbit_node_rad, body.orbit_inclination_rad)
             }
-            Self::MercuryEquator => {
-                dcm_from_pole(MERCURY_POLE_RIGHT_ASCENSION_RAD, MERCURY_POLE_DECLINATION_RAD)
-            }
+            Self::PlanetEquator => dcm_from_pole(body.pole_right_ascension_rad, body.pole_declination_rad),
             Self::Eme2000 => Matrix3::identity(),
-            Self::EclipticJ2000 => rotation_x(OBLIQUITY_J2000_RAD),
+            Self::Ecliptic => dcm_eme2000_from_ecliptic(),
         }
     }
+}
+
+/// Components in the mean ecliptic and equinox of J2000 to components in EME2000.
+pub fn dcm_eme2000_from_ecliptic() -> Matrix3<f64> {
+    rotation_x(OBLIQUITY_J2000_RAD)
 }
 
 /// From a frame with x at a plane's ascending node and z along its normal to the reference frame of node and
@@ -86,22 +79,25 @@ mod tests {
     //! Every frame is a proper rotation, and its axes point where astronomy says.
 
     use super::*;
+    use crate::bodies::Body;
 
-    const ALL: [Frame; 4] = [Frame::Paper004Mci, Frame::MercuryEquator, Frame::Eme2000, Frame::EclipticJ2000];
+    const ALL: [Frame; 4] = [Frame::PlanetOrbit, Frame::PlanetEquator, Frame::Eme2000, Frame::Ecliptic];
 
     #[test]
     fn proper_rotations() {
         for frame in ALL {
-            let dcm = frame.dcm_eme2000_from_frame();
-            assert!((dcm * dcm.transpose() - Matrix3::identity()).norm() < 1e-14, "{frame:?}");
-            assert!((dcm.determinant() - 1.0).abs() < 1e-14, "{frame:?}");
+            for body in Body::ALL {
+                let dcm = frame.dcm_eme2000_from_frame(body.data());
+                assert!((dcm * dcm.transpose() - Matrix3::identity()).norm() < 1e-14, "{frame:?} {body:?}");
+                assert!((dcm.determinant() - 1.0).abs() < 1e-14, "{frame:?} {body:?}");
+            }
         }
     }
 
     #[test]
     fn ecliptic_pole_stands_in_draco() {
         // North ecliptic pole of J2000: right ascension 18 h 0 m 0 s, declination 66 deg 33 min 38.55 s.
-        let pole = Frame::EclipticJ2000.dcm_eme2000_from_frame() * Vector3::z();
+        let pole = dcm_eme2000_from_ecliptic() * Vector3::z();
         let expected =
             direction(270.0_f64.to_radians(), (66.0 + 33.0 / 60.0 + 38.552 / 3600.0_f64).to_radians());
         assert!((pole - expected).norm() < 1e-9);
@@ -110,23 +106,24 @@ mod tests {
     #[test]
     fn mercury_turns_upright_on_its_orbit() {
         // Obliquity 0.034 deg (2.04 arc minutes, Margot et al. 2012), though pole and orbit come from different sources.
-        let pole = Frame::MercuryEquator.dcm_eme2000_from_frame() * Vector3::z();
-        let expected = direction(MERCURY_POLE_RIGHT_ASCENSION_RAD, MERCURY_POLE_DECLINATION_RAD);
-        assert!((pole - expected).norm() < 1e-14);
-        let orbit_normal = Frame::Paper004Mci.dcm_eme2000_from_frame() * Vector3::z();
+        let mercury = Body::Mercury.data();
+        let pole = Frame::PlanetEquator.dcm_eme2000_from_frame(mercury) * Vector3::z();
+        assert!((pole - mercury.pole()).norm() < 1e-14);
+        let orbit_normal = Frame::PlanetOrbit.dcm_eme2000_from_frame(mercury) * Vector3::z();
         let obliquity_deg = pole.angle(&orbit_normal).to_degrees();
         assert!((0.02..0.05).contains(&obliquity_deg), "{obliquity_deg}");
     }
 
     #[test]
     fn node_axes_lie_in_both_planes() {
-        let mci = Frame::Paper004Mci.dcm_eme2000_from_frame();
-        let ecliptic_normal = Frame::EclipticJ2000.dcm_eme2000_from_frame() * Vector3::z();
-        assert!((mci * Vector3::x()).dot(&ecliptic_normal).abs() < 1e-15);
+        let mercury = Body::Mercury.data();
+        let orbit = Frame::PlanetOrbit.dcm_eme2000_from_frame(mercury);
+        let ecliptic_normal = dcm_eme2000_from_ecliptic() * Vector3::z();
+        assert!((orbit * Vector3::x()).dot(&ecliptic_normal).abs() < 1e-15);
         // Ascending: moving on from the node (along y) leads north of the ecliptic.
-        assert!((mci * Vector3::y()).dot(&ecliptic_normal) > 0.0);
-        assert!((ecliptic_normal.angle(&(mci * Vector3::z())).to_degrees() - 7.0).abs() < 1e-12);
-        let equator = Frame::MercuryEquator.dcm_eme2000_from_frame();
+        assert!((orbit * Vector3::y()).dot(&ecliptic_normal) > 0.0);
+        assert!((ecliptic_normal.angle(&(orbit * Vector3::z())).to_degrees() - 7.0).abs() < 1e-12);
+        let equator = Frame::PlanetEquator.dcm_eme2000_from_frame(mercury);
         assert!((equator * Vector3::x()).z.abs() < 1e-15 && (equator * Vector3::y()).z > 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Where everything is and what light falls there: time, ephemerides, orbits, eclipse, planet surface.
+//! Where everything is and what light falls there: time, ephemerides, orbits, eclipse.
 
 pub mod eclipse;
 pub mod ephemeris;
@@ -6,7 +6,6 @@ pub mod frames;
 pub mod orbit;
 pub mod paper004;
 pub mod sun;
-pub mod surface;
 pub mod time;
 
 use nalgebra::Vector3;

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{
     State,
-    frames::{Frame, dcm_reference_from_node_frame, rotation_z},
+    frames::{dcm_eme2000_from_ecliptic, dcm_reference_from_node_frame, rotation_z},
     orbit::{Elements, OrbitError, TwoBodyOrbit},
 };
 use crate::constants::GM_SUN_M3_S2;
@@ -102,11 +102,11 @@ impl Frames {
 
     /// Components in EME2000 to components in SC: the attitude the paper gives its spacecraft.
     pub fn dcm_sc_from_eme2000(&self) -> Matrix3<f64> {
-        self.dcm_sc_from_hci() * Frame::EclipticJ2000.dcm_eme2000_from_frame().transpose()
+        self.dcm_sc_from_hci() * dcm_eme2000_from_ecliptic().transpose()
     }
 }
 
-/// A planet on an undisturbed ellipse about the Sun given in HCI: `ephemeris.source` keplerAsPrinted, or any planet
+/// A planet on an undisturbed ellipse about the Sun given in HCI: `ephemeris.source` kepler, or any planet
 /// by its elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KeplerPlanet {
@@ -122,7 +122,7 @@ impl KeplerPlanet {
     pub fn new(elements: Elements, epoch_s: f64) -> Result<Self, OrbitError> {
         Ok(Self {
             orbit_hci: TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, epoch_s)?,
-            dcm_eme2000_from_hci: Frame::EclipticJ2000.dcm_eme2000_from_frame(),
+            dcm_eme2000_from_hci: dcm_eme2000_from_ecliptic(),
         })
     }
 
@@ -159,7 +159,9 @@ mod tests {
     //! The paper's frames point where its text says they do, in every test case of its Table 6.
 
     use super::*;
+    use crate::bodies::Body;
     use crate::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2};
+    use crate::environment::frames::Frame;
 
     fn case(true_anomaly_deg: f64) -> (State, Frames) {
         let planet = KeplerPlanet::mercury_as_printed(true_anomaly_deg.to_radians(), 0.0).unwrap();
@@ -202,8 +204,8 @@ mod tests {
     fn frames_agree_with_the_inertial_mci() {
         // With Table 4's node and inclination MCI is the frame an orbit may be given in.
         let (_, frames) = case(189.0);
-        let eme2000_from_hci = Frame::EclipticJ2000.dcm_eme2000_from_frame();
-        let mci = Frame::Paper004Mci.dcm_eme2000_from_frame();
+        let eme2000_from_hci = dcm_eme2000_from_ecliptic();
+        let mci = Frame::PlanetOrbit.dcm_eme2000_from_frame(Body::Mercury.data());
         assert!((eme2000_from_hci * frames.dcm_hci_from_mci - mci).norm() < 1e-14);
     }
 
@@ -242,7 +244,7 @@ mod tests {
         );
         // The same planet in EME2000.
         let (hci, eme2000) = (planet.state_hci(1e6), planet.state(1e6));
-        let back = Frame::EclipticJ2000.dcm_eme2000_from_frame().transpose() * eme2000.position_m;
+        let back = dcm_eme2000_from_ecliptic().transpose() * eme2000.position_m;
         assert!((back - hci.position_m).norm() < 1e-4);
     }
 

@@ -33,32 +33,22 @@ pub enum ScienceRule {
     PlanetOrbit,
 }
 
-/// A wanted attitude, and which branch of the law it came from: the attitude is smooth while the branch stays.
+/// A commanded attitude, and where its law changes form.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wanted {
+pub struct AttitudeCommand {
     /// Body frame and rate.
     pub frame: MovingFrame,
-    /// Branch number.
-    pub branch: u8,
+    /// Functions of the geometry alone at whose roots the law takes another form; infinite where there is none. Between two
+    /// roots the attitude is smooth.
+    pub margins: [f64; 2],
 }
 
-/// Which law an attitude came from; part of the branch number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PointingLaw {
-    /// Sun to -Y, Z toward the planet, pitched by the science rule.
-    Science,
-    /// Sun to -Y, Earth in an antenna quadrant of the XY plane.
-    Downlink,
-}
-
-const CLIPPED_LOW: u8 = 1;
-const CLIPPED_HIGH: u8 = 2;
-const EARTH_BEHIND: u8 = 1;
-const DEGENERATE: u8 = 4;
+/// Margins of a law that has one form only.
+const NO_MARGINS: [f64; 2] = [f64::INFINITY; 2];
 
 /// Science attitude: -Y toward the Sun, +Z on the planet's side of it, then pitched about X until the Sun stands
 /// at the elevation of `rule`, within +-`elevation_limit_rad`.
-pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64) -> Wanted {
+pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64) -> AttitudeCommand {
     let gain = match rule {
         ScienceRule::Scaled { gain } => gain,
         ScienceRule::Nadir => 1.0,
@@ -71,58 +61,60 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
     };
     let elevation_rad = gain * (angle_rad - core::f64::consts::FRAC_PI_2);
     let base = MovingFrame::from_yz(&opposite(&lines.sun), &side);
-    let (elevation_rad, rate_rad_s, branch) = if elevation_rad > elevation_limit_rad {
-        (elevation_limit_rad, 0.0, CLIPPED_HIGH)
-    } else if elevation_rad < -elevation_limit_rad {
-        (-elevation_limit_rad, 0.0, CLIPPED_LOW)
+    let margins = [elevation_limit_rad - elevation_rad, elevation_limit_rad + elevation_rad];
+    let (elevation_rad, rate_rad_s) = if margins[0] < 0.0 {
+        (elevation_limit_rad, 0.0)
+    } else if margins[1] < 0.0 {
+        (-elevation_limit_rad, 0.0)
     } else {
-        (elevation_rad, gain * angle_rate_rad_s, 0)
+        (elevation_rad, gain * angle_rate_rad_s)
     };
     // A positive pitch lifts the Sun toward +Z, which is negative elevation.
-    Wanted { frame: base.pitched(-elevation_rad, -rate_rad_s), branch }
+    AttitudeCommand { frame: base.pitched(-elevation_rad, -rate_rad_s), margins }
 }
 
 /// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].
-fn planet_orbit(lines: &LinesOfSight) -> Wanted {
+fn planet_orbit(lines: &LinesOfSight) -> AttitudeCommand {
     let frame = lines.sun_from_planet.as_ref().and_then(|sun| {
         let toward = MovingUnit::of(sun.position_m, sun.velocity_m_s)?;
         // The normal stands still as long as the Sun alone moves the planet.
         let north = MovingUnit::of(sun.position_m.cross(&sun.velocity_m_s), Vector3::zeros())?;
         Some(MovingFrame::from_yz(&opposite(&toward), &opposite(&north)))
     });
-    frame.map_or_else(|| sun_pointing(lines), |frame| Wanted { frame, branch: 0 })
+    frame.map_or_else(|| sun_pointing(lines), |frame| AttitudeCommand { frame, margins: NO_MARGINS })
 }
 
 /// Default downlink attitude (eq 18): -Y toward the Sun, the Earth in the -X,-Y quadrant of the XY plane while it
 /// is less than 90 deg from the Sun, in the +X,+Y quadrant otherwise.
-pub fn downlink(lines: &LinesOfSight) -> Wanted {
+pub fn downlink(lines: &LinesOfSight) -> AttitudeCommand {
     let cosine = lines.sun.direction.dot(&lines.earth.direction);
     let (sun, earth) = (&lines.sun, &lines.earth);
-    let (normal, normal_rate, branch) = if cosine > 0.0 {
+    let (normal, normal_rate) = if cosine > 0.0 {
         (
             earth.direction.cross(&sun.direction),
             earth.rate_1_s.cross(&sun.direction) + earth.direction.cross(&sun.rate_1_s),
-            0,
         )
     } else {
         (
             sun.direction.cross(&earth.direction),
             sun.rate_1_s.cross(&earth.direction) + sun.direction.cross(&earth.rate_1_s),
-            EARTH_BEHIND,
         )
     };
     if normal.norm() < 1e-9 {
         return sun_pointing(lines);
     }
     match MovingUnit::of(normal, normal_rate) {
-        Some(z) => Wanted { frame: MovingFrame::from_yz(&opposite(sun), &z), branch },
+        Some(z) => AttitudeCommand {
+            frame: MovingFrame::from_yz(&opposite(sun), &z),
+            margins: [cosine, f64::INFINITY],
+        },
         None => sun_pointing(lines),
     }
 }
 
 /// Fallback with nothing but the Sun: -Y toward it, +Z toward the north of EME2000 as far as possible (toward the
 /// equinox where the Sun stands at the pole).
-pub fn sun_pointing(lines: &LinesOfSight) -> Wanted {
+pub fn sun_pointing(lines: &LinesOfSight) -> AttitudeCommand {
     let y = opposite(&lines.sun);
     let toward = |direction| {
         let fixed = MovingUnit { direction, rate_1_s: Vector3::zeros() };
@@ -130,7 +122,7 @@ pub fn sun_pointing(lines: &LinesOfSight) -> Wanted {
     };
     let side = toward(Vector3::z()).or_else(|| toward(Vector3::x()));
     let z = side.map_or(lines.sun, |(side, _, _)| side);
-    Wanted { frame: MovingFrame::from_yz(&y, &z), branch: DEGENERATE }
+    AttitudeCommand { frame: MovingFrame::from_yz(&y, &z), margins: NO_MARGINS }
 }
 
 fn opposite(unit: &MovingUnit) -> MovingUnit {
@@ -165,7 +157,7 @@ mod tests {
         })
     }
 
-    fn in_body(wanted: &Wanted, unit: &MovingUnit) -> Vector3<f64> {
+    fn in_body(wanted: &AttitudeCommand, unit: &MovingUnit) -> Vector3<f64> {
         wanted.frame.inertial_from_body.inverse() * unit.direction
     }
 
@@ -180,7 +172,7 @@ mod tests {
             assert!(sun.elevation_rad.abs() <= LIMIT_RAD + 1e-12);
             assert!(planet.z > 0.0, "the instruments are on the planet's side");
             assert_relative_eq!(planet.x, 0.0, epsilon = 1e-12);
-            if wanted.branch == 0 {
+            if wanted.margins.iter().all(|margin| *margin >= 0.0) {
                 free += 1;
                 assert_relative_eq!(planet.z, 1.0, epsilon = 1e-12);
             }
@@ -229,7 +221,7 @@ mod tests {
 
     #[test]
     fn every_law_gives_a_proper_rotation_even_when_degenerate() {
-        let mut all: Vec<Wanted> = Vec::new();
+        let mut all: Vec<AttitudeCommand> = Vec::new();
         for lines in many() {
             all.push(science(&lines, ScienceRule::Nadir, LIMIT_RAD));
             all.push(downlink(&lines));

@@ -2,7 +2,7 @@
 
 use crate::attitude::{MovingFrame, rotation_vector};
 
-use super::attitudes::{LinesOfSight, ScienceRule, Wanted, downlink, science};
+use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, science};
 use super::schedule::{Activity, Schedule, Window};
 
 /// The guidance law of the orbital phase.
@@ -23,12 +23,15 @@ pub struct Guided {
 pub struct GuidedAttitude {
     /// Body frame and rate.
     pub frame: MovingFrame,
-    /// What the spacecraft is doing.
-    pub activity: Activity,
+    /// What the spacecraft is doing, and since when.
+    pub window: Window,
     /// Whether it is turning from one attitude to the other.
     pub slewing: bool,
-    /// Smooth while this number stays the same.
-    pub branch: u8,
+    /// See [`AttitudeCommand::margins`].
+    pub margins: [f64; 2],
+    /// When window or slew ends, in the schedule's time scale; infinite where nothing ends. Until then the attitude is
+    /// smooth between two roots of the margins.
+    pub until_s: f64,
 }
 
 impl Guided {
@@ -44,12 +47,13 @@ impl Guided {
         time_s: f64,
         mut lines_at: impl FnMut(f64) -> LinesOfSight,
     ) -> GuidedAttitude {
-        let target = self.wanted(window.activity, &lines_at(time_s));
+        let target = self.command(window.activity, &lines_at(time_s));
         let held = GuidedAttitude {
             frame: target.frame,
-            activity: window.activity,
+            window,
             slewing: false,
-            branch: target.branch | if window.activity == Activity::Downlink { 8 } else { 0 },
+            margins: target.margins,
+            until_s: window.until_s,
         };
         if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
             return held;
@@ -59,8 +63,8 @@ impl Guided {
             Activity::Downlink => Activity::Science,
         };
         let lines_then = lines_at(window.since_s);
-        let from = self.wanted(before, &lines_then).frame;
-        let to = self.wanted(window.activity, &lines_then).frame;
+        let from = self.command(before, &lines_then).frame;
+        let to = self.command(window.activity, &lines_then).frame;
         // The rotation that leads back from the new attitude to the old one, shrinking to nothing.
         let back_body_rad = rotation_vector(&to.inertial_from_body, &from.inertial_from_body);
         let duration_s = back_body_rad.norm() / self.slew_rate_rad_s;
@@ -72,12 +76,12 @@ impl Guided {
         GuidedAttitude {
             frame: target.frame.offset(&back_body_rad, left, -1.0 / duration_s),
             slewing: true,
-            branch: held.branch | 16,
+            until_s: held.until_s.min(window.since_s + duration_s),
             ..held
         }
     }
 
-    fn wanted(&self, activity: Activity, lines: &LinesOfSight) -> Wanted {
+    fn command(&self, activity: Activity, lines: &LinesOfSight) -> AttitudeCommand {
         match activity {
             Activity::Science => science(lines, self.science, self.elevation_limit_rad),
             Activity::Downlink => downlink(lines),

@@ -27,13 +27,15 @@ pub struct Schedule {
     pub every: u32,
 }
 
-/// The activity at a time and when it began.
+/// The activity at a time, when it began and when it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// What is being done.
     pub activity: Activity,
     /// Since when, in the schedule's time scale; minus infinity where it never changes.
     pub since_s: f64,
+    /// Until when, as far as it is known; infinite where it never changes or depends on a periapsis to come.
+    pub until_s: f64,
 }
 
 impl Schedule {
@@ -42,7 +44,7 @@ impl Schedule {
         let cycle_s = f64::from(self.every) * self.period_s;
         let length_s = (self.downlink_end_s - self.downlink_start_s).min(cycle_s);
         if self.every == 0 || !cycle_s.is_finite() || length_s.is_nan() || length_s <= 0.0 {
-            return Window { activity: Activity::Science, since_s: f64::NEG_INFINITY };
+            return Window::NEVER;
         }
         let first_start_s = self.periapsis_s + self.downlink_start_s;
         let start_of = |cycle: f64| first_start_s + cycle * cycle_s;
@@ -53,31 +55,37 @@ impl Schedule {
         } else if time_s >= start_of(cycle + 1.0) {
             cycle += 1.0;
         }
-        Window::of(start_of(cycle), length_s, time_s)
+        Window::of(start_of(cycle), length_s, start_of(cycle + 1.0), time_s)
     }
 
     /// The same for periapses that were met instead of computed: every `every`-th one, the latest first. A window is
     /// as long as asked for; the next one ends it. Before the first window all is science.
     pub fn window_after(&self, periapses_s: &[f64], time_s: f64) -> Window {
         let length_s = self.downlink_end_s - self.downlink_start_s;
-        let never = Window { activity: Activity::Science, since_s: f64::NEG_INFINITY };
         if self.every == 0 || length_s.is_nan() || length_s <= 0.0 {
-            return never;
+            return Window::NEVER;
         }
-        let starts_s = periapses_s.iter().map(|at_s| at_s + self.downlink_start_s);
-        let last_s = starts_s.filter(|start_s| *start_s <= time_s).reduce(f64::max);
-        last_s.map_or(never, |start_s| Window::of(start_s, length_s, time_s))
+        let starts_s = || periapses_s.iter().map(|at_s| at_s + self.downlink_start_s);
+        let last_s = starts_s().filter(|start_s| *start_s <= time_s).reduce(f64::max);
+        let next_s = starts_s().filter(|start_s| *start_s > time_s).fold(f64::INFINITY, f64::min);
+        last_s.map_or(Window { until_s: next_s, ..Window::NEVER }, |start_s| {
+            Window::of(start_s, length_s, next_s, time_s)
+        })
     }
 }
 
 impl Window {
-    /// The window at `time_s` when the last downlink began at `start_s`.
-    fn of(start_s: f64, length_s: f64, time_s: f64) -> Self {
+    /// Science without end.
+    const NEVER: Self =
+        Self { activity: Activity::Science, since_s: f64::NEG_INFINITY, until_s: f64::INFINITY };
+
+    /// The window at `time_s` when the last downlink began at `start_s` and the next one begins at `next_s`.
+    fn of(start_s: f64, length_s: f64, next_s: f64, time_s: f64) -> Self {
         let end_s = start_s + length_s;
         if time_s < end_s {
-            Self { activity: Activity::Downlink, since_s: start_s }
+            Self { activity: Activity::Downlink, since_s: start_s, until_s: end_s.min(next_s) }
         } else {
-            Self { activity: Activity::Science, since_s: end_s }
+            Self { activity: Activity::Science, since_s: end_s, until_s: next_s }
         }
     }
 }
@@ -110,11 +118,12 @@ mod tests {
     #[test]
     fn edges_belong_to_what_follows() {
         let window = paper().window(2.0 * HOUR_S);
-        assert_eq!(window, Window { activity: Activity::Downlink, since_s: 2.0 * HOUR_S });
+        let end = |window: Window| (window.activity, window.since_s, window.until_s);
+        assert_eq!(end(window), (Activity::Downlink, 2.0 * HOUR_S, 10.0 * HOUR_S));
         let window = paper().window(10.0 * HOUR_S);
-        assert_eq!(window, Window { activity: Activity::Science, since_s: 10.0 * HOUR_S });
+        assert_eq!(end(window), (Activity::Science, 10.0 * HOUR_S, 26.0 * HOUR_S));
         let window = paper().window(2.0 * HOUR_S - 1e-6);
-        assert_eq!(window, Window { activity: Activity::Science, since_s: -14.0 * HOUR_S });
+        assert_eq!(end(window), (Activity::Science, -14.0 * HOUR_S, 2.0 * HOUR_S));
     }
 
     #[test]
@@ -123,10 +132,15 @@ mod tests {
             let time_s = f64::from(minute) * 60.0 + 30.0;
             let last = (time_s / 86_400.0).floor();
             let met_s = [0.0, 1.0, 2.0].map(|back| (last - back) * 86_400.0);
-            assert_eq!(paper().window_after(&met_s, time_s), paper().window(time_s));
+            let (met, computed) = (paper().window_after(&met_s, time_s), paper().window(time_s));
+            assert_eq!((met.activity, met.since_s), (computed.activity, computed.since_s));
+            // The next window belongs to a periapsis that has not been met.
+            let known = met.activity == Activity::Downlink || time_s < met_s[0] + 2.0 * HOUR_S;
+            assert!(!known || met.until_s == computed.until_s, "{met:?} {computed:?}");
         }
         let before = paper().window_after(&[50_000.0], 50_000.0);
-        assert_eq!(before, Window { activity: Activity::Science, since_s: f64::NEG_INFINITY });
+        assert_eq!((before.activity, before.since_s), (Activity::Science, f64::NEG_INFINITY));
+        assert_eq!(before.until_s, 50_000.0 + 2.0 * HOUR_S);
     }
 
     #[test]

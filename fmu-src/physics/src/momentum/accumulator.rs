@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::cell::{Cell, Flight, Sample, Totals};
+use super::cell::{Cell, Effort, Flight, Sample, Totals};
 use super::dump::DumpPolicy;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// No thruster dumps this often within [`CROWD_S`].
 const MOST_IN_CROWD: u32 = 1_000;
@@ -88,6 +89,20 @@ impl Accumulator {
         Self { cell: Cell::point(time_s, totals), dumps: Dumps::default() }
     }
 
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let event = |event: &Event| {
+            let numbers =
+                event.before_body_n_m_s.iter().chain(&event.after_body_n_m_s).chain([&event.time_s]);
+            numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+        };
+        let Dumps { count, last, crowd } = &self.dumps;
+        self.cell.is_sound()
+            && *count >= 0
+            && last.as_ref().is_none_or(event)
+            && crowd.0.abs() <= GREATEST_IN_STATE
+    }
+
     /// Dumps so far: those at or before the time last advanced to.
     pub fn dumps(&self) -> &Dumps {
         &self.dumps
@@ -142,6 +157,7 @@ impl Accumulator {
             let first = flight.sample(start_s);
             let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
             if settings.policy.exceeded(&momentum) {
+                flight.spend(Effort::Dump, start_s)?;
                 let event = self.dump(settings.convention, start_s, totals, &first, |before| {
                     settings.policy.after(before)
                 });
@@ -149,7 +165,7 @@ impl Accumulator {
                 self.dumps.check()?;
                 totals = self.cell.totals(start_s);
             }
-            self.cell = Cell::build(flight, settings, start_s, horizon_s, totals, &first, longest_s);
+            self.cell = Cell::build(flight, settings, start_s, horizon_s, totals, &first, longest_s)?;
         }
         Ok(())
     }
@@ -197,7 +213,7 @@ fn edge_tolerance_s(time_s: f64) -> f64 {
 mod tests {
     //! Against torques whose integrals and threshold crossings are known in closed form.
     use super::*;
-    use crate::momentum::Reinitialise;
+    use crate::momentum::{EventValues, Reinitialise};
     use approx::assert_relative_eq;
     use nalgebra::Rotation3;
 
@@ -219,8 +235,12 @@ mod tests {
                 inertial_from_body: Rotation3::from_axis_angle(&Vector3::x_axis(), 1e-3 * time_s),
                 torque_body_n_m: Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 1e-6),
                 acceleration_inertial_m_s2: Vector3::new(if time_s < 1000.0 { 1e-7 } else { 2e-7 }, 0.0, 0.0),
-                branch: u32::from(time_s >= 1000.0),
+                events: self.events(time_s),
             }
+        }
+
+        fn events(&mut self, time_s: f64) -> EventValues {
+            EventValues::new(time_s - 1000.0, f64::INFINITY, f64::INFINITY, f64::INFINITY)
         }
     }
 

@@ -3,8 +3,10 @@
 use nalgebra::{Rotation3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::chebyshev::Segment;
-use crate::numerics::stretches::{first_change_s, next_multiple_s};
+use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::numerics::events::first_event;
+use crate::numerics::spacing::spacing;
+use crate::numerics::stretches::next_multiple_s;
 
 use super::accumulator::TooManyDumps;
 use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
@@ -14,10 +16,17 @@ use super::{Convention, Settings};
 const RATES: usize = 9;
 /// Chebyshev nodes a cell.
 const NODES: usize = 8;
+/// An event this soon after the start of a cell is the one that it starts with, in s: an orbit computed anew moves it.
+const EVENT_GAP_S: f64 = 1e-4;
 /// No cell is halved below this, in s.
 const SHORTEST_S: f64 = 1e-3;
 /// Terms of a series this much below its largest are rounding; halving the cell does not make them smaller.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The first time after `start_s` at which an event is another than the one there.
+pub fn after_event_s(start_s: f64) -> f64 {
+    start_s + EVENT_GAP_S.max(4.0 * spacing(start_s))
+}
 
 /// What a flight gives at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,8 +37,25 @@ pub struct Sample {
     pub torque_body_n_m: Vector3<f64>,
     /// Acceleration by non-gravitational forces, inertial frame, in m/s2.
     pub acceleration_inertial_m_s2: Vector3<f64>,
-    /// The sample is a smooth function of time while this number stays the same.
-    pub branch: u32,
+    /// Event functions: between two of their roots the sample is a smooth function of time. Infinite where there is nothing
+    /// to watch.
+    pub events: EventValues,
+}
+
+/// Values of the event functions of a flight.
+pub type EventValues = SVector<f64, 4>;
+
+/// What accumulating costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// A cell as long as the grid and the flight let it be.
+    Cell,
+    /// A cell tried at a shorter length, because the tolerance asks for it.
+    Refinement,
+    /// A search for the time at which something changes abruptly.
+    Search,
+    /// A dump.
+    Dump,
 }
 
 /// Anything that has an attitude and disturbances at any time.
@@ -37,8 +63,8 @@ pub trait Flight {
     /// Why a flight cannot go on.
     type Failure: From<TooManyDumps>;
 
-    /// Makes the flight ready for samples from `start_s` on, and tells up to where: a cell that starts there ends at
-    /// that time or before. Called with rising times, and again with the same one.
+    /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to the next change whose time is
+    /// known: a cell that starts there ends at that time or before. Called with rising times, and again with the same one.
     ///
     /// # Errors
     /// Whatever ends a flight.
@@ -46,6 +72,17 @@ pub trait Flight {
 
     /// Sample at `time_s`; a pure function of time within what was prepared.
     fn sample(&mut self, time_s: f64) -> Sample;
+
+    /// The event functions of the sample alone.
+    fn events(&mut self, time_s: f64) -> EventValues;
+
+    /// Counts what is about to be done, the flight having come to `time_s`.
+    ///
+    /// # Errors
+    /// More was spent than may be.
+    fn spend(&mut self, _effort: Effort, _time_s: f64) -> Result<(), Self::Failure> {
+        Ok(())
+    }
 }
 
 /// What is accumulated over time.
@@ -70,6 +107,11 @@ impl Totals {
             Convention::Inertial => inertial_from_body.inverse() * self.momentum_inertial_n_m_s,
             Convention::BodyIntegral => self.torque_integral_body_n_m_s,
         }
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        self.to_vector().iter().all(|x| x.is_finite())
     }
 
     fn to_vector(self) -> SVector<f64, RATES> {
@@ -107,50 +149,63 @@ impl Cell {
         Self { start_s: time_s, end_s: time_s, at_start: totals, next_longest_s: f64::INFINITY, totals: None }
     }
 
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let totals = self.at_start.to_vector();
+        let numbers = totals.iter().chain([&self.start_s, &self.end_s]);
+        numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+            && self.next_longest_s > 0.0
+            && self.totals.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
+    }
+
     /// The same, expecting that the tolerance allows the next cell this length, in s.
     pub fn expecting(self, next_longest_s: f64) -> Self {
         Self { next_longest_s, ..self }
     }
 
     /// Builds the cell that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
-    /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, where the branch changes, where
-    /// the last Chebyshev terms of a total would exceed the tolerance, or where momentum exceeds a dump threshold.
+    /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev
+    /// terms of a total would exceed the tolerance, or where momentum exceeds a dump threshold.
     ///
     /// `longest_s` is the length that the cell before expects the tolerance to allow: trying more would be work for
     /// nothing.
-    pub fn build(
-        flight: &mut impl Flight,
+    ///
+    /// # Errors
+    /// More work than the flight may take.
+    pub fn build<F: Flight>(
+        flight: &mut F,
         settings: &Settings,
         start_s: f64,
         horizon_s: f64,
         at_start: Totals,
         first: &Sample,
         longest_s: f64,
-    ) -> Self {
+    ) -> Result<Self, F::Failure> {
+        flight.spend(Effort::Cell, start_s)?;
         // Never without length, whatever a restored state expects.
         let limit_s = next_multiple_s(start_s, settings.grid_s)
             .min(start_s + longest_s)
             .min(horizon_s)
             .max(start_s.next_up());
         let mut end_s = limit_s;
-        if flight.sample(limit_s).branch != first.branch {
-            end_s = first_change_s(start_s, limit_s, |at_s| flight.sample(at_s).branch == first.branch);
-        }
+        let mut watched = false;
         let mut samples = [*first; NODES];
         let mut shortened = false;
         let (nodes, totals, growth) = loop {
             let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
-            // Nodes fall in time: the earliest change is the last one met.
-            let mut changed_s = None;
             for (sample, &time_s) in samples.iter_mut().zip(&nodes) {
                 *sample = flight.sample(time_s);
-                if sample.branch != first.branch && time_s > start_s && time_s < end_s {
-                    changed_s = Some(time_s);
-                }
             }
-            if let Some(time_s) = changed_s {
-                end_s = first_change_s(start_s, time_s, |at_s| flight.sample(at_s).branch == first.branch);
-                continue;
+            // A shorter cell has no event that a longer one has not.
+            if !core::mem::replace(&mut watched, true) {
+                let values = samples.map(|sample| sample.events);
+                let after_s = after_event_s(start_s);
+                let event_s = first_event(after_s, start_s, end_s, &values, |at_s| flight.events(at_s));
+                if let Some(event_s) = event_s {
+                    flight.spend(Effort::Search, start_s)?;
+                    end_s = event_s;
+                    continue;
+                }
             }
             let rates = samples.map(|s| {
                 let torque_inertial_n_m = s.inertial_from_body * s.torque_body_n_m;
@@ -174,6 +229,7 @@ impl Cell {
             }
             end_s = shorter_s;
             shortened = true;
+            flight.spend(Effort::Refinement, start_s)?;
         };
         let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
         let next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
@@ -181,7 +237,7 @@ impl Cell {
         if let Some(dump_s) = cell.first_excess_s(settings, &nodes, &samples) {
             cell.end_s = dump_s;
         }
-        cell
+        Ok(cell)
     }
 
     /// Start, in s.

@@ -1,7 +1,7 @@
 //! What the torques add up to: system momentum, delta-v, thruster dumps.
 //!
 //! A stretch of flight is cut into *cells* on which everything is smooth: a cell ends at the next multiple of the
-//! grid step, where the attitude law changes branch, or where a thruster dump falls. Inside a cell the totals are a
+//! grid step, at an event (the attitude law changes form, an edge of the shadow), or where a thruster dump falls. Inside a cell the totals are a
 //! polynomial in time, so any communication point merely evaluates it, and how a master cuts its steps cannot
 //! change a bit.
 
@@ -11,6 +11,6 @@ mod dump;
 mod wheels;
 
 pub use accumulator::{Accumulator, Convention, Dumps, Event, Settings, TooManyDumps};
-pub use cell::{Flight, Sample, Totals};
+pub use cell::{Effort, EventValues, Flight, Sample, Totals, after_event_s};
 pub use dump::{DumpPolicy, Reinitialise};
 pub use wheels::WheelArray;

@@ -20,7 +20,26 @@ pub struct Segment<const D: usize, const N: usize> {
     coefficients: SMatrix<f64, D, N>,
 }
 
+/// Greatest magnitude of a number in a state that was saved: far beyond any quantity, and its square is finite.
+pub const GREATEST_IN_STATE: f64 = 1e100;
+
 impl<const D: usize, const N: usize> Segment<D, N> {
+    /// Whether `from`..`to` lies inside, up to rounding: there no value exceeds the sum of the coefficients.
+    pub fn spans(&self, from: f64, to: f64) -> bool {
+        let rounding = 1e-9 * self.half_length + 16.0 * f64::EPSILON * from.abs().max(to.abs());
+        from >= self.start() - rounding && to <= self.end() + rounding
+    }
+
+    /// Whether it can come from a flight: an interval of finite times and coefficients within
+    /// [`GREATEST_IN_STATE`]. Bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        sound(&self.center)
+            && self.half_length >= 0.0
+            && sound(&self.half_length)
+            && self.coefficients.iter().all(sound)
+    }
+
     /// The abscissae at which [`Segment::from_samples`] wants the function, on `[start, end]`, in falling order.
     pub fn nodes(start: f64, end: f64) -> [f64; N] {
         let (center, half_length) = center_and_half_length(start, end);

@@ -1,10 +1,11 @@
 //! When a smooth function of time changes sign: eclipse edges, thresholds, limits, located without missing short ones.
 
-use nalgebra::Vector1;
+use nalgebra::{SVector, Vector1};
 
 use super::{
     chebyshev::Segment,
     roots::{RootError, Roots},
+    stretches::first_change_s,
 };
 
 /// Coefficients of one fit.
@@ -71,6 +72,65 @@ pub fn sign_changes<const R: usize>(
     Ok(found)
 }
 
+/// How much a fit through a few nodes may miss, in its last two coefficients.
+const MISSED: f64 = 4.0;
+/// Roots are located to this part of the interval before their last bit is found.
+const LOCATED: f64 = 1e-10;
+
+/// The first number in `(after, to)` at which any of `K` functions has changed its sign: an event, to the last bit.
+///
+/// `samples` are the functions at the nodes of [`Segment::nodes`] of `from` and `to`, which usually are known already: where
+/// the polynomial through them stays away from zero by more than it can miss, nothing is evaluated. Elsewhere
+/// [`sign_changes`] looks for roots of the function itself, so that a dip between two nodes is not overlooked. A function
+/// that is not finite is not watched. `after` lies a little behind `from`, for an interval may begin at an event.
+pub fn first_event<const K: usize, const N: usize>(
+    after: f64,
+    from: f64,
+    to: f64,
+    samples: &[SVector<f64, K>; N],
+    mut values: impl FnMut(f64) -> SVector<f64, K>,
+) -> Option<f64> {
+    let fitted = Segment::<K, N>::from_samples(from, to, samples);
+    let mut first: Option<f64> = None;
+    for k in 0..K {
+        let terms = fitted.coefficients().row(k);
+        if !terms.iter().all(|term| term.is_finite()) {
+            continue;
+        }
+        let swing: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
+        let missed = MISSED * (terms[N - 1].abs() + terms[N - 2].abs());
+        if terms[0].abs() > swing + missed {
+            continue;
+        }
+        let mut function = |at: f64| values(at)[k];
+        let Ok(roots) = sign_changes::<8>(from, to, &mut function) else { continue };
+        let limit = first.unwrap_or(to);
+        first = roots
+            .iter()
+            .filter(|&root| root > after && root < limit)
+            .find_map(|root| change_near(root, from.max(after), to, &mut function))
+            .or(first);
+    }
+    first
+}
+
+/// The number at which `function` has changed its sign next to a root located roughly; `None` where it touches zero only.
+fn change_near(root: f64, from: f64, to: f64, mut function: impl FnMut(f64) -> f64) -> Option<f64> {
+    let mut reach = (LOCATED * (to - from)).max(8.0 * f64::EPSILON * root.abs());
+    while reach < to - from {
+        let (before, behind) = ((root - reach).max(from), (root + reach).min(to));
+        let positive = function(before) > 0.0;
+        if (function(behind) > 0.0) != positive {
+            return Some(first_change_s(before, behind, |at| (function(at) > 0.0) == positive));
+        }
+        if reach > 1e3 * LOCATED * (to - from) {
+            return None;
+        }
+        reach *= 16.0;
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
     //! Sign changes are found where they were built in, and short dips are not overlooked.
@@ -109,6 +169,37 @@ mod tests {
         assert!((kink[0] - 0.29).abs() < 1e-6 && (kink[1] - 0.31).abs() < 1e-6);
         let jump = sign_changes::<4>(0.0, 1.0, |t: f64| if t < 0.7 { 1.0 } else { -1.0 }).unwrap();
         assert!(!jump.is_empty() && jump.iter().all(|t| (t - 0.7).abs() < 1e-6));
+    }
+
+    /// The first event of sin and of a dip of a thousandth of the interval, whose nodes do not see it.
+    #[test]
+    fn the_first_event_is_found_between_the_nodes_and_to_the_last_bit() {
+        let (from, to) = (0.1, 1.1);
+        for center in [0.35, 0.611, 0.87] {
+            let values = |t: f64| {
+                SVector::from([
+                    (t - 3.0).sin(),
+                    2.0 * (2.0 * (t - center)).sin().powi(2) - 2e-6,
+                    f64::INFINITY,
+                ])
+            };
+            let samples = Segment::<3, 8>::nodes(from, to).map(values);
+            assert!(samples.iter().all(|sample| sample[1] > 0.0), "the nodes see the dip");
+            let edge = first_event(from + 1e-6, from, to, &samples, values).unwrap();
+            assert!((edge - (center - 0.5e-3)).abs() < 1e-7, "{edge}");
+            assert!(values(edge)[1] <= 0.0 && values(edge.next_down())[1] > 0.0);
+            // From within the dip on the next event is its end.
+            let samples = Segment::<3, 8>::nodes(edge, to).map(values);
+            let end = first_event(edge + 1e-6, edge, to, &samples, values).unwrap();
+            assert!((end - (center + 0.5e-3)).abs() < 1e-7, "{end}");
+        }
+    }
+
+    #[test]
+    fn without_an_event_only_the_samples_are_used() {
+        let samples = Segment::<1, 8>::nodes(0.0, 1.0).map(|t| Vector1::new(2.0 + t.sin()));
+        let found = first_event(0.0, 0.0, 1.0, &samples, |_| panic!("evaluated"));
+        assert_eq!(found, None);
     }
 
     #[test]

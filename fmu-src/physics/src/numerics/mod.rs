@@ -6,4 +6,6 @@ pub mod events;
 pub mod quadrature;
 pub mod roots;
 pub mod scalar;
+pub mod spacing;
 pub mod stretches;
+pub mod work;

@@ -3,7 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::Attitude;
+use crate::attitude::{Attitude, MovingFrame};
+use crate::bodies::{Body, BodyData};
 use crate::environment::State;
 use crate::environment::eclipse::Shadow;
 use crate::environment::frames::Frame;
@@ -12,6 +13,7 @@ use crate::environment::paper004::KeplerPlanet;
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::Guided;
 use crate::momentum::Settings;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::spacecraft::{Panel, SunshadeModel};
 
 use super::light::LightEffects;
@@ -37,19 +39,24 @@ pub struct Command {
 }
 
 impl Command {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let numbers = self.rate_body_rad_s.iter().chain([&self.since_s]);
+        self.attitude.is_rotation() && numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+    }
+
+    /// Body frame and rate at `time_s`.
+    pub fn frame_at(&self, time_s: f64) -> MovingFrame {
+        MovingFrame {
+            inertial_from_body: self.attitude_at(time_s).inertial_from_body(),
+            rate_body_rad_s: self.rate_body_rad_s,
+        }
+    }
+
     /// The attitude at `time_s`.
     pub fn attitude_at(&self, time_s: f64) -> Attitude {
         self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
     }
-}
-
-/// What the spacecraft flies around.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OrbitCenter {
-    /// Mercury.
-    Mercury,
-    /// The Sun.
-    Sun,
 }
 
 /// Where Sun and Earth stand.
@@ -140,17 +147,18 @@ impl PanelSetting {
     }
 }
 
-/// Two-body orbit, in EME2000, of `elements` given in `frame`.
+/// Two-body orbit about `center`, in EME2000, of `elements` given in `frame`.
 ///
 /// # Errors
 /// Elements that are no orbit.
 pub fn orbit_from_elements(
     elements: Elements,
     frame: Frame,
+    center: &BodyData,
     gm_m3_s2: f64,
     epoch_s: f64,
 ) -> Result<TwoBodyOrbit, OrbitError> {
-    let to_eme2000 = frame.dcm_eme2000_from_frame();
+    let to_eme2000 = frame.dcm_eme2000_from_frame(center);
     let state = elements.state(gm_m3_s2)?;
     let state =
         State { position_m: to_eme2000 * state.position_m, velocity_m_s: to_eme2000 * state.velocity_m_s };
@@ -163,7 +171,7 @@ pub struct Configuration {
     /// Epoch (s past J2000 TDB) minus time, in s.
     pub epoch_minus_time_s: f64,
     /// Central body.
-    pub center: OrbitCenter,
+    pub center: Body,
     /// Orbit about it, in EME2000, by epoch; of an integrated orbit the one it starts on.
     pub orbit: TwoBodyOrbit,
     /// What moves the spacecraft along or off that orbit.

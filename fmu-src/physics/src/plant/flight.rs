@@ -3,20 +3,17 @@
 use nalgebra::Vector3;
 
 use crate::attitude::{MovingFrame, gravity_gradient_n_m};
-use crate::environment::State;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
-use crate::momentum::{Flight, Sample};
-use crate::radiation::{Beam, ForceTorque, SolarModel};
+use crate::momentum::{Effort, EventValues, Flight, Sample};
+use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
 use crate::spacecraft::Panel;
 
-use super::configuration::{AttitudeSource, Configuration};
-use super::geometry::Geometry;
-use super::light::{LightModel, Loads};
+use super::configuration::Configuration;
+use super::kinematics::Instant;
+use super::light::LightModel;
 use super::stretch::{Course, PlantError};
-
-/// The attitude law's branch numbers stay below this bit.
-const SHADOW_SHIFT: u32 = 8;
+use super::work::{Cost, Work};
 
 /// Force and torque from outside, body frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,50 +27,16 @@ pub struct ExternalLoad {
 /// Everything about one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snapshot {
-    /// Where everything is.
-    pub geometry: Geometry,
-    /// Body frame and rate.
-    pub frame: MovingFrame,
-    /// Unit vector to the Sun, body frame.
-    pub sun_body: Vector3<f64>,
-    /// Unit vector to the Earth, body frame.
-    pub earth_body: Vector3<f64>,
-    /// Visible part of the Sun's disc, 0 to 1.
-    pub lit_fraction: f64,
-    /// Direct sunlight.
-    pub solar: ForceTorque<f64>,
-    /// Sunlight reflected by the planet.
-    pub albedo: ForceTorque<f64>,
-    /// Infrared light of the planet.
-    pub infrared: ForceTorque<f64>,
-    /// Recoil of the heat the spacecraft radiates.
-    pub thermal: ForceTorque<f64>,
-    /// Torque by the planet's gravity gradient, body frame, in N m.
-    pub gravity_gradient_body_n_m: Vector3<f64>,
-    /// From outside.
-    pub external: ExternalLoad,
-    /// Branch of the attitude law.
-    pub branch: u32,
+    /// Where everything is and how the body stands.
+    pub instant: Instant,
+    /// What acts on it.
+    pub loads: Loads,
 }
 
 impl Snapshot {
-    /// Sum of all torques, body frame, in N m.
-    pub fn torque_body_n_m(&self) -> Vector3<f64> {
-        self.solar.torque_body_n_m
-            + self.gravity_gradient_body_n_m
-            + self.external.torque_body_n_m
-            + self.albedo.torque_body_n_m
-            + self.infrared.torque_body_n_m
-            + self.thermal.torque_body_n_m
-    }
-
-    /// Sum of all forces but gravity, body frame, in N.
-    pub fn force_body_n(&self) -> Vector3<f64> {
-        self.solar.force_body_n
-            + self.external.force_body_n
-            + self.albedo.force_body_n
-            + self.infrared.force_body_n
-            + self.thermal.force_body_n
+    /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
+    pub fn nowhere(frame: MovingFrame) -> Self {
+        Self { instant: Instant::nowhere(frame), loads: Loads::zero() }
     }
 }
 
@@ -96,11 +59,16 @@ pub struct Plant<'a, L> {
     pub(super) ephemeris: &'a mut Ephemeris,
     pub(super) light: Option<&'a mut LightModel>,
     external: L,
+    work: Work,
 }
 
 impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
+    /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
+    const SAMPLE_UNITS: u32 = 3;
+
     /// `course` belongs to this configuration, and so does `light`, without which direct sunlight is all there is;
-    /// `external` gives the load from outside at any time.
+    /// `external` gives the load from outside at any time. At most `work_limit` units of work are done, of about a
+    /// microsecond each.
     pub fn new(
         craft: Craft<'a>,
         configuration: &'a Configuration,
@@ -108,46 +76,31 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         ephemeris: &'a mut Ephemeris,
         light: Option<&'a mut LightModel>,
         external: L,
+        work_limit: u32,
     ) -> Self {
-        Self { craft, configuration, course, ephemeris, light, external }
+        let work = Work::new(work_limit, ephemeris.evaluations());
+        Self { craft, configuration, course, ephemeris, light, external, work }
+    }
+
+    /// Counts work, the flight having come to `time_s`.
+    pub(super) fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
+        Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
     /// Everything at `time_s`, which the course must have reached ([`Flight::prepare`]).
     pub fn snapshot(&mut self, time_s: f64) -> Snapshot {
-        let configuration = self.configuration;
-        let geometry = self.geometry(time_s);
-        let (frame, branch) = self.attitude(time_s, &geometry);
-        let to_body = frame.inertial_from_body.inverse();
-        let sun_distance_m = geometry.to_sun.position_m.norm();
-        let sun_body = to_body * direction(&geometry.to_sun.position_m);
-        let (lit_fraction, shadow_branch) = self.lit_fraction(&geometry);
-        let pressure_pa = configuration.light.pressure_pa(sun_distance_m);
-        let gravity_gradient_body_n_m = match &geometry.to_planet {
-            Some(to_planet) => gravity_gradient_n_m(
-                configuration.gravity_gradient_m3_s2,
-                &configuration.inertia_body_kg_m2,
-                &(to_body * to_planet.position_m),
-            ),
-            None => Vector3::zeros(),
-        };
-        let Loads { shadowed_solar, albedo, infrared, thermal } = self.loads(time_s);
-        let solar = shadowed_solar.unwrap_or_else(|| {
-            self.sunlight(&Beam { source_body: sun_body, pressure_pa: pressure_pa * lit_fraction })
-        });
-        Snapshot {
-            geometry,
-            frame,
-            sun_body,
-            earth_body: to_body * direction(&geometry.to_earth.position_m),
-            solar,
-            albedo,
-            infrared,
-            thermal,
-            lit_fraction,
-            gravity_gradient_body_n_m,
-            external: (self.external)(time_s),
-            branch: branch | shadow_branch << SHADOW_SHIFT,
+        let instant = self.instant(time_s);
+        let mut loads = self.radiation(time_s, &instant);
+        if let Some(planet_body_m) = &instant.planet_body_m {
+            loads[Effect::GravityGradient].torque_body_n_m = gravity_gradient_n_m(
+                self.configuration.gravity_gradient_m3_s2,
+                &self.configuration.inertia_body_kg_m2,
+                planet_body_m,
+            );
         }
+        let ExternalLoad { force_body_n, torque_body_n_m } = (self.external)(time_s);
+        loads[Effect::Applied] = ForceTorque { force_body_n, torque_body_n_m };
+        Snapshot { instant, loads }
     }
 
     /// Time since the last periapsis, in s.
@@ -155,14 +108,25 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         self.course.trajectory.time_since_periapsis_s(self.configuration, time_s)
     }
 
-    fn loads(&self, time_s: f64) -> Loads {
-        match (&self.course.light, &self.light) {
-            (Some(cell), Some(light)) if self.configuration.light_and_heat.any() => {
-                let shadowed = self.configuration.light_and_heat.shadowing && light.model.can_shadow();
-                cell.loads(time_s, shadowed)
-            }
-            _ => Loads::none(),
+    /// Light and heat: slow effects from their segment, plain sunlight in closed form.
+    fn radiation(&self, time_s: f64, instant: &Instant) -> Loads {
+        let effects = &self.configuration.light_and_heat;
+        let mut loads = Loads::zero();
+        let mut shadowed = false;
+        if let (Some(cell), Some(light)) = (&self.course.light, &self.light)
+            && effects.any()
+        {
+            shadowed = effects.shadowing && light.model.can_shadow();
+            cell.loads(time_s, &mut loads);
         }
+        if !shadowed {
+            let pressure_pa = self.configuration.light.pressure_pa(instant.sun_distance_m);
+            loads[Effect::Solar] = self.sunlight(&Beam {
+                source_body: instant.sun_body,
+                pressure_pa: pressure_pa * instant.lit_fraction,
+            });
+        }
+        loads
     }
 
     fn sunlight(&self, beam: &Beam<f64>) -> ForceTorque<f64> {
@@ -177,65 +141,6 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         }
         sum
     }
-
-    /// Smooth while this number stays the same.
-    pub(super) fn branch(&mut self, time_s: f64) -> u32 {
-        let geometry = self.geometry(time_s);
-        let (_, shadow_branch) = self.lit_fraction(&geometry);
-        self.attitude(time_s, &geometry).1 | shadow_branch << SHADOW_SHIFT
-    }
-
-    /// Visible part of the Sun, and which part of the shadow this is: outside, penumbra, inside.
-    pub(super) fn lit_fraction(&self, geometry: &Geometry) -> (f64, u32) {
-        if geometry.to_planet.is_none() {
-            return (1.0, 0);
-        }
-        let spacecraft_m = geometry.spacecraft.position_m;
-        let sun_m = spacecraft_m + geometry.to_sun.position_m;
-        let shadow = &self.configuration.shadow;
-        let gaps_rad = shadow.gaps_rad(&spacecraft_m, &sun_m).unwrap_or([f64::NAN; 2]);
-        if gaps_rad[0] > 0.0 {
-            return (1.0, 0);
-        }
-        let inside = u32::from(gaps_rad[1] <= 0.0);
-        (shadow.lit_fraction(&spacecraft_m, &sun_m).unwrap_or(f64::NAN), 1 + inside)
-    }
-
-    /// Where everything is at `time_s`.
-    pub(super) fn geometry(&mut self, time_s: f64) -> Geometry {
-        let spacecraft: State = self.course.trajectory.state_at(self.configuration, time_s);
-        Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
-    }
-
-    /// Body frame and rate, and which branch of the law they come from.
-    pub(super) fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> (MovingFrame, u32) {
-        match &self.configuration.attitude {
-            AttitudeSource::Guided(guided) => {
-                let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-                let trajectory = &self.course.trajectory;
-                let epoch_s = time_s + configuration.epoch_minus_time_s;
-                let window = trajectory
-                    .window(configuration, time_s)
-                    .unwrap_or_else(|| guided.schedule.window(epoch_s));
-                let guided = guided.within(window, epoch_s, |at_epoch_s| {
-                    if at_epoch_s == epoch_s {
-                        return geometry.lines_of_sight();
-                    }
-                    let at_s = at_epoch_s - configuration.epoch_minus_time_s;
-                    let spacecraft = trajectory.state_at_window_start(configuration, at_s);
-                    Geometry::at(configuration, ephemeris, at_s, spacecraft).lines_of_sight()
-                });
-                (guided.frame, u32::from(guided.branch))
-            }
-            AttitudeSource::Commanded(command) => {
-                let frame = MovingFrame {
-                    inertial_from_body: command.attitude_at(time_s).inertial_from_body(),
-                    rate_body_rad_s: command.rate_body_rad_s,
-                };
-                (frame, 0)
-            }
-        }
-    }
 }
 
 impl<L: Fn(f64) -> ExternalLoad> Flight for Plant<'_, L> {
@@ -246,17 +151,29 @@ impl<L: Fn(f64) -> ExternalLoad> Flight for Plant<'_, L> {
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {
-        let snapshot = self.snapshot(time_s);
+        let Snapshot { instant, loads } = self.snapshot(time_s);
+        let total = loads.total();
+        let inertial_from_body = instant.frame.inertial_from_body;
         Sample {
-            inertial_from_body: snapshot.frame.inertial_from_body,
-            torque_body_n_m: snapshot.torque_body_n_m(),
-            acceleration_inertial_m_s2: snapshot.frame.inertial_from_body * snapshot.force_body_n()
-                / self.configuration.mass_kg,
-            branch: snapshot.branch,
+            inertial_from_body,
+            torque_body_n_m: total.torque_body_n_m,
+            acceleration_inertial_m_s2: inertial_from_body * total.force_body_n / self.configuration.mass_kg,
+            events: instant.events,
         }
     }
-}
 
-fn direction(vector: &Vector3<f64>) -> Vector3<f64> {
-    vector / vector.norm()
+    fn events(&mut self, time_s: f64) -> EventValues {
+        self.instant(time_s).events
+    }
+
+    fn spend(&mut self, effort: Effort, time_s: f64) -> Result<(), PlantError> {
+        let samples = match effort {
+            Effort::Cell | Effort::Refinement => 10,
+            Effort::Search => 60,
+            // With the cell that it begins.
+            Effort::Dump => 16,
+        };
+        let faces = self.craft.solar.face_count() as u32;
+        self.spend_units(effort.into(), samples * (Self::SAMPLE_UNITS + faces / 50), time_s)
+    }
 }

@@ -3,11 +3,12 @@
 use nalgebra::Vector3;
 
 use crate::attitude::MovingUnit;
+use crate::bodies::Body;
 use crate::environment::State;
-use crate::environment::ephemeris::{Body, Ephemeris};
+use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::LinesOfSight;
 
-use super::configuration::{Configuration, EphemerisSource, OrbitCenter};
+use super::configuration::{Configuration, EphemerisSource};
 
 /// Positions and velocities in EME2000.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +33,7 @@ impl Geometry {
     ) -> Self {
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let (sun, earth) = sun_and_earth(configuration, ephemeris, epoch_s);
-        let planet = configuration.center == OrbitCenter::Mercury;
+        let planet = configuration.center.is_planet();
         Self {
             spacecraft,
             to_sun: difference(&sun, &spacecraft),
@@ -68,16 +69,16 @@ pub(super) fn sun_and_earth(
         EphemerisSource::Kepler(planet) => Some(planet),
     };
     let earth = ephemeris.state(Body::Earth, epoch_s);
-    match configuration.center {
-        OrbitCenter::Sun => (fixed(Vector3::zeros()), earth),
-        OrbitCenter::Mercury => {
-            let center = match planet {
-                Some(planet) => planet.state(epoch_s),
-                None => ephemeris.state(Body::Mercury, epoch_s),
-            };
-            (difference(&fixed(Vector3::zeros()), &center), difference(&earth, &center))
-        }
+    if configuration.center == Body::Sun {
+        return (fixed(Vector3::zeros()), earth);
     }
+    let center = match planet {
+        Some(planet) => planet.state(epoch_s),
+        None => ephemeris.state(configuration.center, epoch_s),
+    };
+    // About the Earth there is one Earth, on whatever orbit.
+    let earth = if configuration.center == Body::Earth { center } else { earth };
+    (difference(&fixed(Vector3::zeros()), &center), difference(&earth, &center))
 }
 
 fn fixed(position_m: Vector3<f64>) -> State {

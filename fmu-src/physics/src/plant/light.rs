@@ -2,16 +2,15 @@
 
 use nalgebra::Vector3;
 
+use crate::bodies::surface::PlanetSurface;
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::surface::PlanetSurface;
-use crate::radiation::ForceTorque;
 use crate::radiation::disturbance::{
     self, Disturbance, DisturbanceModel, GeometryError, ModelError, Options, PlanetGeometry,
     PlanetLightMethod, Recoil, Workspace,
 };
 use crate::spacecraft::Spacecraft;
 
-use super::configuration::{Configuration, OrbitCenter, PanelSetting};
+use super::configuration::{Configuration, PanelSetting};
 use super::flight::{ExternalLoad, Plant};
 use super::light_cell::NODES;
 use super::stored_heat::HeatRule;
@@ -47,31 +46,6 @@ impl LightEffects {
     /// Whether there is anything beyond direct sunlight.
     pub fn any(&self) -> bool {
         self.planet_light || self.recoil || self.shadowing
-    }
-}
-
-/// Force and torque about the centre of mass of everything a [`super::LightCell`] holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Loads {
-    /// Direct sunlight with the shadows of the spacecraft's own surfaces, where those count.
-    pub shadowed_solar: Option<ForceTorque<f64>>,
-    /// Sunlight reflected by the planet.
-    pub albedo: ForceTorque<f64>,
-    /// Infrared light of the planet.
-    pub infrared: ForceTorque<f64>,
-    /// Recoil of the heat the spacecraft radiates.
-    pub thermal: ForceTorque<f64>,
-}
-
-impl Loads {
-    /// No loads.
-    pub fn none() -> Self {
-        Self {
-            shadowed_solar: None,
-            albedo: ForceTorque::zero(),
-            infrared: ForceTorque::zero(),
-            thermal: ForceTorque::zero(),
-        }
     }
 }
 
@@ -123,7 +97,7 @@ impl LightModel {
         let mut flown = spacecraft.clone();
         flown.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
         let effects = &configuration.light_and_heat;
-        let over_planet = effects.planet_light && configuration.center == OrbitCenter::Mercury;
+        let over_planet = effects.planet_light && configuration.center.is_planet();
         let options = Options {
             planet: over_planet.then_some(*planet),
             planet_light: PlanetLightMethod::Rings(quadrature_nodes),
@@ -138,6 +112,12 @@ impl LightModel {
     /// Number of faces: those of plates, sunshade and the panels that take part, in this order.
     pub fn face_count(&self) -> usize {
         self.model.face_count()
+    }
+
+    /// About how many microseconds a cell of light and heat takes.
+    pub(super) fn cell_units(&self, stores: bool) -> u32 {
+        let heat = if stores { self.face_count() as u32 } else { 0 };
+        NODES as u32 * self.model.evaluation_units() + heat
     }
 }
 
@@ -191,22 +171,16 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// Turns everything at `time_s` into the body frame for `moment`.
     pub(super) fn look(&mut self, time_s: f64, light_panels: &[usize], moment: &mut Moment) {
         let configuration = self.configuration;
-        let geometry = self.geometry(time_s);
-        let (frame, _) = self.attitude(time_s, &geometry);
-        let to_body = frame.inertial_from_body.inverse();
-        let sun_body_m = to_body * geometry.to_sun.position_m;
-        let sun_distance_m = sun_body_m.norm();
+        let instant = self.instant(time_s);
         let sight = &mut moment.sight;
-        sight.sun_direction_body = sun_body_m / sun_distance_m;
+        sight.sun_direction_body = instant.sun_body;
         let flux_w_m2 = |distance_m: f64| configuration.light.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
-        sight.sun_flux_w_m2 = flux_w_m2(sun_distance_m);
+        sight.sun_flux_w_m2 = flux_w_m2(instant.sun_distance_m);
         // Inside the planet there is no fraction; what is wrong there is the place.
-        let lit_fraction = self.lit_fraction(&geometry).0;
-        sight.lit_fraction = if lit_fraction.is_nan() { 0.0 } else { lit_fraction };
+        sight.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };
         sight.center_of_mass_body_m = configuration.center_of_mass_body_m;
-        sight.planet = geometry.to_planet.map(|to_planet| {
-            let position_body_m = to_body * to_planet.position_m;
-            let sun_from_planet_body_m = sun_body_m - position_body_m;
+        sight.planet = instant.planet_body_m.map(|position_body_m| {
+            let sun_from_planet_body_m = instant.sun_position_body_m() - position_body_m;
             let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
             PlanetGeometry {
                 position_body_m,

@@ -4,19 +4,20 @@
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::chebyshev::Segment;
+use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 use crate::numerics::stretches::next_multiple_s;
-use crate::radiation::ForceTorque;
 use crate::radiation::disturbance::{Disturbance, FaceState, GeometryError};
+use crate::radiation::{Effect, ForceTorque, Loads};
 
 use super::flight::{ExternalLoad, Plant};
-use super::light::{LightEffects, LightModel, Loads};
+use super::light::{LightEffects, LightModel};
 use super::stretch::PlantError;
+use super::work::Cost;
 
 /// Chebyshev nodes a cell.
 pub(super) const NODES: usize = 6;
-/// Force and torque of solar, albedo, infrared, thermal.
-const ROWS: usize = 24;
+/// Force and torque of every effect of light and heat.
+const ROWS: usize = 6 * Effect::RADIATION.len();
 /// No cell is shortened below this, in s: kinks where a face turns dark end here.
 const SHORTEST_S: f64 = 1.0;
 /// Torque is resolved as if the largest force had at least this arm, in m: on a symmetric body there is none.
@@ -52,20 +53,42 @@ impl LightCell {
         }
     }
 
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let hot = |kelvin: &f64| (0.0..=HOTTEST_K).contains(kelvin);
+        let ordered = self.loads.is_none() || (self.start_s.abs().max(self.end_s.abs()) <= GREATEST_IN_STATE);
+        ordered
+            && !self.start_s.is_nan()
+            && !self.end_s.is_nan()
+            && self.next_longest_s > 0.0
+            && self
+                .loads
+                .as_ref()
+                .is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s.max(self.start_s)))
+            && self.temperatures_k.iter().all(|it| {
+                let most_k: f64 = it.coefficients().iter().map(|c| c.abs()).sum();
+                it.is_sound()
+                    && it.spans(self.start_s, self.end_s.max(self.start_s))
+                    && most_k <= 10.0 * HOTTEST_K
+            })
+            && self.end_k.iter().all(hot)
+    }
+
     /// Whether it has come to `time_s` and no cell further; so in every flight, not in every sequence of bytes.
     pub fn covers(&self, time_s: f64) -> bool {
         self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
     }
 
     /// Force and torque at `time_s`.
-    pub(super) fn loads(&self, time_s: f64, shadowed: bool) -> Loads {
-        let Some(series) = &self.loads else { return Loads::none() };
+    pub(super) fn loads(&self, time_s: f64, loads: &mut Loads) {
+        let Some(series) = &self.loads else { return };
         let values = series.value(time_s);
-        let at = |row: usize| ForceTorque {
-            force_body_n: Vector3::new(values[row], values[row + 1], values[row + 2]),
-            torque_body_n_m: Vector3::new(values[row + 3], values[row + 4], values[row + 5]),
-        };
-        Loads { shadowed_solar: shadowed.then(|| at(0)), albedo: at(6), infrared: at(12), thermal: at(18) }
+        for (index, effect) in Effect::RADIATION.into_iter().enumerate() {
+            loads[effect] = ForceTorque {
+                force_body_n: values.fixed_rows::<3>(6 * index).into_owned(),
+                torque_body_n_m: values.fixed_rows::<3>(6 * index + 3).into_owned(),
+            };
+        }
     }
 
     /// Temperatures in K of the faces at `time_s`; leaves `temperatures_k` alone where no heat is stored.
@@ -137,8 +160,12 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let mut end_s = self.smooth_until(start_s, limit_s);
         let mut shortened = false;
         let (series, growth) = loop {
+            self.spend_units(Cost::Light, light.cell_units(stores), start_s)?;
             let length_s = end_s - start_s;
-            let shorter_s = match self.light_between(light, stores, &cell.end_k, start_s, end_s) {
+            let lit = self.light_between(light, stores, &cell.end_k, start_s, end_s);
+            let shadows: usize = light.moments.iter().map(|moment| moment.workspace.shadows_cut()).sum();
+            self.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
+            let shorter_s = match lit {
                 Ok(series) => {
                     let unresolved = unresolved(&series, &effects);
                     let growth = 0.9 * (effects.tolerance / unresolved).powf(1.0 / NODES as f64);

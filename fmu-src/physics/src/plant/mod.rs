@@ -7,19 +7,23 @@
 mod configuration;
 mod flight;
 mod geometry;
+mod kinematics;
 mod light;
 mod light_cell;
 mod stored_heat;
 mod stretch;
 mod trajectory;
+mod work;
 
 pub use configuration::{
-    AttitudeSource, Command, Configuration, EphemerisSource, Motion, OrbitCenter, PanelSetting, SunLight,
+    AttitudeSource, Command, Configuration, EphemerisSource, Motion, PanelSetting, SunLight,
     orbit_from_elements,
 };
 pub use flight::{Craft, ExternalLoad, Plant, Snapshot};
 pub use geometry::Geometry;
-pub use light::{LightEffects, LightModel, Loads};
+pub use kinematics::{Instant, Regime};
+pub use light::{LightEffects, LightModel};
 pub use light_cell::LightCell;
 pub use stretch::{Course, PlantError};
 pub use trajectory::Trajectory;
+pub use work::{Cost, Work, WorkExceeded};

@@ -11,19 +11,16 @@ use thiserror::Error;
 use crate::environment::orbit::FlightError;
 use crate::momentum::{Flight, TooManyDumps};
 use crate::numerics::chebyshev::Segment;
-use crate::numerics::stretches::first_change_s;
 use crate::radiation::disturbance::GeometryError;
 
 use super::configuration::{Configuration, Motion};
 use super::flight::{ExternalLoad, Plant};
 use super::light_cell::LightCell;
 use super::trajectory::Trajectory;
+use super::work::{Cost, WorkExceeded};
 
 /// Nodes at which the acceleration of a stretch is taken.
 const NODES: usize = 8;
-
-/// Light and heat move the edge of a shadow by less than this within one cell, in s.
-const MOVED_S: f64 = 1e-4;
 
 /// Why a flight ends.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -60,9 +57,12 @@ pub enum PlantError {
     /// Dumps without end.
     #[error(transparent)]
     Dumps(#[from] TooManyDumps),
+    /// More work than a step may take.
+    #[error(transparent)]
+    Work(#[from] WorkExceeded),
     /// An orbit that goes no further: restored bytes that belong to another kind of motion.
     #[error(
-        "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.model"
+        "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.dynamics"
     )]
     Stuck {
         /// Where it should go on, in s.
@@ -83,6 +83,11 @@ pub struct Course {
 }
 
 impl Course {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.trajectory.is_sound() && self.light.as_ref().is_none_or(LightCell::is_sound)
+    }
+
     /// At the start of a flight.
     ///
     /// # Errors
@@ -118,9 +123,17 @@ impl Course {
 impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// Makes sure that `start_s` lies in the stretch at hand, and tells where that ends.
     pub(super) fn reach(&mut self, start_s: f64) -> Result<f64, PlantError> {
+        let known_s = self.orbit_and_light(start_s)?;
+        let instant = self.instant(start_s);
+        Ok(self.attitude_until_s(start_s, &instant, known_s))
+    }
+
+    fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
         if self.course.trajectory.end_s() > start_s {
             return self.light_up(start_s, self.course.trajectory.end_s());
         }
+        // Two integrations of some 40 evaluations, and the search for changes in between.
+        self.spend_units(Cost::Orbit, 60, start_s)?;
         self.course.trajectory.leave(self.configuration, start_s);
         let before = self.course.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
@@ -150,21 +163,5 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let (configuration, method) = (self.configuration, self.craft.orbit_method);
         let trajectory = &mut self.course.trajectory;
         Ok(trajectory.advance(configuration, self.ephemeris, method, limit_s, extra_m_s2)?)
-    }
-
-    /// The latest time up to `limit_s` until which the branch just after `start_s` lasts.
-    pub(super) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
-        // The edge this stretch starts at was found on an orbit that has been computed anew since.
-        let start_s = (start_s + MOVED_S).min(limit_s);
-        let branch = self.branch(start_s);
-        // From the end back: the earliest change is the last one met.
-        let mut changed_s = None;
-        for at_s in core::iter::once(limit_s).chain(Segment::<3, NODES>::nodes(start_s, limit_s)) {
-            if self.branch(at_s) != branch {
-                changed_s = Some(at_s);
-            }
-        }
-        let Some(changed_s) = changed_s else { return limit_s };
-        first_change_s(start_s, changed_s, |at_s| self.branch(at_s) == branch)
     }
 }

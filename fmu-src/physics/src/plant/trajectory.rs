@@ -7,13 +7,17 @@ use crate::environment::State;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{DisturbedOrbit, FlightError, OrbitMethod};
 use crate::guidance::Window;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::roots;
+use crate::numerics::spacing::spacing;
 
 use super::configuration::{AttitudeSource, Configuration, Motion};
 use super::geometry;
 
 /// Two passages closer together than this part of a revolution are one, found twice.
 const SAME_PASSAGE: f64 = 1e-3;
+/// Two beginnings of a window closer together than this part of a revolution are one, computed twice.
+const SAME_WINDOW: f64 = 1e-7;
 /// Passages kept for the schedule: one may lie ahead of the time at hand, one may be too recent for its window.
 const KEPT: usize = 3;
 
@@ -39,6 +43,12 @@ struct Periapses {
     scheduled_s: [f64; KEPT],
 }
 
+/// Whether two times at which a window begins are one.
+fn is_same_window(configuration: &Configuration, since_s: f64, time_s: f64) -> bool {
+    let rounding_s = 8.0 * spacing(time_s.abs().max((time_s + configuration.epoch_minus_time_s).abs()));
+    (since_s - time_s).abs() <= SAME_WINDOW * configuration.orbit.period_s() + rounding_s
+}
+
 impl Trajectory {
     /// At the start of a flight or where position and velocity are given anew.
     ///
@@ -55,6 +65,19 @@ impl Trajectory {
             periapses: Periapses::before(configuration, epoch_s),
             window_start: None,
         })
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let state = |state: &State| state.position_m.iter().chain(&state.velocity_m_s).all(sound);
+        let Periapses { last_s, number, scheduled_s } = &self.periapses;
+        self.orbit.as_ref().is_none_or(DisturbedOrbit::is_sound)
+            && last_s.iter().all(sound)
+            && number.unsigned_abs() < 1 << 60
+            // Passages that never were lie before all time.
+            && scheduled_s.iter().all(|at_s| sound(at_s) || *at_s == f64::NEG_INFINITY)
+            && self.window_start.as_ref().is_none_or(|(since_s, at)| sound(since_s) && state(at))
     }
 
     /// Whether it has come to `time_s` and no cell further; so in every flight, not in every sequence of bytes.
@@ -103,7 +126,7 @@ impl Trajectory {
     pub(super) fn state_at_window_start(&self, configuration: &Configuration, time_s: f64) -> State {
         match (&self.orbit, &self.window_start) {
             (Some(orbit), _) if time_s >= orbit.start_s() => orbit.state_at(time_s),
-            (Some(_), Some((since_s, state))) if (since_s - time_s).abs() < 1e-3 => *state,
+            (Some(_), Some((since_s, state))) if is_same_window(configuration, *since_s, time_s) => *state,
             // Before the flight began the spacecraft was on its two-body orbit.
             _ => configuration.orbit.state_at(time_s + configuration.epoch_minus_time_s),
         }

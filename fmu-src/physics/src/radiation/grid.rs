@@ -11,8 +11,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::flat_plate::ReceivedLight;
 use super::planet_light::PlanetLight;
 use super::ring::PlanetView;
+use crate::bodies::surface::PlanetSurface;
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::surface::PlanetSurface;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::spacecraft::PlanetMap;
 
@@ -62,6 +62,11 @@ pub enum GridError {
 }
 
 impl PlanetGrid {
+    /// Number of cells.
+    pub fn cell_count(&self) -> usize {
+        self.cells.len()
+    }
+
     /// A grid of `resolution` belts of latitude and twice as many of longitude (n_res of the paper).
     ///
     /// # Errors
@@ -117,7 +122,7 @@ impl PlanetGrid {
     /// `normal`, `solar_flux_w_m2` is the Sun's at the planet. A map of the grid's own goes before `surface`.
     pub fn receive<T: Scalar>(
         &self,
-        surface: &PlanetSurface,
+        surface: &PlanetSurface<T>,
         solar_flux_w_m2: T,
         view: &PlanetView<T>,
         planet_axes: &Matrix3<T>,

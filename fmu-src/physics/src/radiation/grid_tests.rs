@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
 use super::ring::PlanetView;
+use crate::bodies::surface::{MERCURY, PlanetSurface};
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
-use crate::environment::surface::{MERCURY, PlanetSurface};
 use crate::numerics::scalar::{Dual64, constant_vector};
 use crate::spacecraft::{PlanetCell, PlanetMap};
 
@@ -74,9 +74,11 @@ fn slopes_of_cells_are_those_of_small_differences() {
         let planet_m =
             constant_vector::<Dual64>(&planet_m) + Vector3::new(seed * 0.3, seed * 0.2, seed * -0.5);
         let sun = constant_vector::<Dual64>(&sun) + Vector3::new(seed * -0.1, seed * 0.4, seed * 0.2);
-        let view = PlanetView::new(&planet_m, &sun, 1.0).unwrap();
+        let view = PlanetView::new(&planet_m, &sun, Dual64::from_re(1.0)).unwrap();
         let axes = sun_fixed_axes(&view.sun, &constant_vector(&Vector3::new(0.1, 0.1, 0.9))).unwrap();
-        grid.receive(&PLANET, seed + FLUX_W_M2, &view, &axes, &constant_vector(&-normal)).albedo.vector_pa
+        grid.receive(&PLANET.constant(), seed + FLUX_W_M2, &view, &axes, &constant_vector(&-normal))
+            .albedo
+            .vector_pa
     };
     let exact = moved(Dual64::new(0.0, 1.0)).map(|x| x.eps);
     let [ahead, behind] = [1e-5, -1e-5].map(|h| moved(Dual64::new(h, 0.0)).map(|x| x.re));

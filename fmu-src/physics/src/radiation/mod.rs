@@ -6,6 +6,7 @@
 
 pub mod cylinder;
 pub mod disturbance;
+pub mod effect;
 pub mod flat_plate;
 pub mod force_torque;
 pub mod grid;
@@ -25,6 +26,7 @@ mod polynomial_tests;
 #[cfg(test)]
 mod solar_tests;
 
+pub use effect::{Effect, Loads};
 pub use flat_plate::Beam;
 pub use force_torque::ForceTorque;
 pub use planet_light::PlanetLight;

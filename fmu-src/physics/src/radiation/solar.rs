@@ -81,6 +81,15 @@ impl SolarModel {
         Self { body: FaceSet::new(&spacecraft.plates), sunshade, panels }
     }
 
+    /// Number of faces: those of plates, shade and panels, rear faces by themselves.
+    pub fn face_count(&self) -> usize {
+        let shade = match &self.sunshade {
+            Shade::Plates(faces) => faces.0.len(),
+            _ => 1,
+        };
+        self.body.0.len() + shade + 2 * self.panels.len()
+    }
+
     /// Number of panels, hence of angles [`SolarModel::total`] takes.
     pub fn panel_count(&self) -> usize {
         self.panels.len()

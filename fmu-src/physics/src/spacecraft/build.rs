@@ -15,6 +15,7 @@ use super::error::SpacecraftError;
 use super::mass::{MassProperties, check_inertia};
 use super::panel::{Panel, PanelControl};
 use super::planet_map::{HOTTEST_K, MOST_BELTS, PlanetCell, PlanetMap};
+use super::start::start_entries;
 use super::surface::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
 use super::wheels::Wheel;
 use super::{Spacecraft, SunKeepIn};
@@ -57,6 +58,7 @@ impl Builder<'_> {
         if !surfaces.iter().any(|(key, is_given)| *is_given || self.check.is_stand_in(&root.key(key))) {
             self.check.push(&root, "no surface", "at least one of `plates`, `sunshade`, `panels`");
         }
+        self.distinct_names(description);
         let keep_in = root.key("sun_keep_in");
         let threshold = root.key("momentum").key("dump_threshold_n_m_s");
         Spacecraft {
@@ -78,6 +80,7 @@ impl Builder<'_> {
                 .planet_map
                 .as_ref()
                 .and_then(|map| self.planet_map(&root.key("planet_map"), map)),
+            start: start_entries(&mut self.check, description.start.as_ref()),
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
                 azimuth_rad: self.check.angle(&keep_in.key("azimuth_deg"), limits.azimuth_deg, 0.0, 180.0),
                 elevation_rad: self.check.angle(
@@ -87,6 +90,42 @@ impl Builder<'_> {
                     90.0,
                 ),
             }),
+        }
+    }
+
+    /// Two plates, the shade's among them, two panels or two wheels with one name could not be told apart.
+    fn distinct_names(&mut self, description: &Description) {
+        let root = Place::root();
+        let plate = |plate: &PlateDescription| plate.name.clone();
+        let mut plates = named(&root.key("plates"), description.plates.as_deref(), "plate", plate);
+        if let Some(shade) = &description.sunshade {
+            plates.extend(named(
+                &root.key("sunshade").key("plates"),
+                shade.plates.as_deref(),
+                "plate",
+                plate,
+            ));
+        }
+        let panels =
+            named(&root.key("panels"), description.panels.as_deref(), "panel", |panel| panel.name.clone());
+        let wheels =
+            named(&root.key("wheels"), description.wheels.as_deref(), "wheel", |wheel| wheel.name.clone());
+        for list in [plates, panels, wheels] {
+            let mut known: BTreeMap<String, (Place, bool)> = BTreeMap::new();
+            for (at, name, is_given) in list {
+                match known.get(&name) {
+                    // A plate and one of the shade that nobody named are both called by their number.
+                    Some((_, false)) if !is_given => {}
+                    Some((other, _)) => {
+                        let unnamed = if is_given { "" } else { " as what has no name is called" };
+                        let found = format!("`{name}`{unnamed}, the name of {other} too");
+                        self.check.report(&at.key("name"), found, "a name of its own");
+                    }
+                    None => {
+                        known.insert(name, (at, is_given));
+                    }
+                }
+            }
         }
     }
 
@@ -298,4 +337,20 @@ impl Builder<'_> {
 
 fn name_or_number(name: Option<&str>, kind: &str, index: usize) -> String {
     name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
+}
+
+/// Where each item stands, what it is called, and whether the file says so.
+fn named<D>(
+    at: &Place,
+    items: Option<&[D]>,
+    kind: &str,
+    name: impl Fn(&D) -> Option<String>,
+) -> Vec<(Place, String, bool)> {
+    let items = items.unwrap_or_default().iter().enumerate();
+    items
+        .map(|(i, item)| {
+            let given = name(item);
+            (at.item(i), name_or_number(given.as_deref(), kind, i), given.is_some())
+        })
+        .collect()
 }

@@ -1,6 +1,7 @@
 //! Checks of single values: each reports a problem and hands the value on, so that one run finds every problem.
 
 use core::fmt::Display;
+use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -20,13 +21,15 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 pub(crate) struct Checker<'d> {
     document: &'d Document<'d>,
     problems: Vec<Problem>,
-    stand_ins: Vec<Place>,
+    reported: BTreeSet<Place>,
+    stand_ins: BTreeSet<Place>,
 }
 
 impl<'d> Checker<'d> {
     /// Goes on with what the reading of the document found.
     pub fn new(document: &'d Document<'d>, findings: Findings) -> Self {
-        let mut checker = Self { document, problems: Vec::new(), stand_ins: findings.stand_ins };
+        let stand_ins = findings.stand_ins.into_iter().collect();
+        let mut checker = Self { document, problems: Vec::new(), reported: BTreeSet::new(), stand_ins };
         for (at, found, allowed) in findings.problems {
             checker.push(&at, found, allowed);
         }
@@ -46,7 +49,7 @@ impl<'d> Checker<'d> {
 
     /// Reports at one place what several values of a table come to together, unless one of them was not written.
     pub fn report_across(&mut self, table: &Place, at: &Place, found: impl Display, allowed: impl Display) {
-        if !self.stand_ins.iter().any(|stand_in| stand_in.is_in(table)) && !self.is_stand_in(at) {
+        if !has_inside(&self.stand_ins, table) && !self.is_stand_in(at) {
             self.push(at, found, allowed);
         }
     }
@@ -58,13 +61,19 @@ impl<'d> Checker<'d> {
         }
     }
 
+    /// The line, from 1, of a place.
+    pub fn line(&self, at: &Place) -> usize {
+        self.document.line(at)
+    }
+
     /// Whether nobody wrote what is at this place.
     pub fn is_stand_in(&self, at: &Place) -> bool {
-        self.stand_ins.iter().any(|stand_in| at.is_in(stand_in))
+        !self.stand_ins.is_empty() && at.around().any(|place| self.stand_ins.contains(&place))
     }
 
     /// Reports one problem whatever else was found.
     pub fn push(&mut self, at: &Place, found: impl Display, allowed: impl Display) {
+        self.reported.insert(at.clone());
         self.problems.push(Problem {
             line: Some(self.document.line(at)),
             key: at.to_string(),
@@ -75,9 +84,7 @@ impl<'d> Checker<'d> {
 
     /// Whether something was reported at this place or inside of it.
     pub fn has_reported(&self, at: &Place) -> bool {
-        let key = at.to_string();
-        let is_inside = |rest: &str| rest.is_empty() || rest.starts_with(['.', '[']);
-        self.problems.iter().any(|problem| problem.key.strip_prefix(&key).is_some_and(is_inside))
+        has_inside(&self.reported, at)
     }
 
     /// A number, not NaN, infinite or beyond all measure.
@@ -212,6 +219,11 @@ impl<'d> Checker<'d> {
         let y = (y - x * x.dot(&y)).normalize();
         Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()])
     }
+}
+
+/// Whether one of the places is this one or inside of it.
+fn has_inside(places: &BTreeSet<Place>, at: &Place) -> bool {
+    places.range(at..).next().is_some_and(|place| place.is_in(at))
 }
 
 /// A number without a row of zeros.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::panel::PanelControl;
+use super::start::StartTable;
 use super::surface::SunshadeModel;
 
 /// A spacecraft: what light falls on, what it weighs, what stores its momentum.
@@ -33,9 +34,10 @@ pub(crate) struct Description {
     pub momentum: Option<MomentumDescription>,
     pub sun_keep_in: Option<SunKeepInDescription>,
     pub planet_map: Option<PlanetMapDescription>,
+    pub start: Option<StartTable>,
 }
 
-/// The planet's surface cell by cell, for `radiation.method` map of DisturbanceTorque. Each key has n rows, belts of
+/// The planet's surface cell by cell, for `planetLight.method` map of DisturbanceTorque. Each key has n rows, belts of
 /// latitude from south to north, of 2 n cells each, from midnight over morning, noon and evening.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

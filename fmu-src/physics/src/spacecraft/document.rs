@@ -11,10 +11,12 @@ use super::error::{Problem, SpacecraftError};
 use super::reader::{Findings, Reader};
 
 /// A key with the tables and lists around it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+///
+/// Places inside of another one follow it in their order, before all others.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place(Vec<Segment>);
 
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Segment {
     Key(String),
     Item(usize),
@@ -49,6 +51,11 @@ impl Place {
         self.0.starts_with(&other.0)
     }
 
+    /// The places around this one, the whole file first, and this one.
+    pub fn around(&self) -> impl Iterator<Item = Self> {
+        (0..=self.0.len()).map(|depth| Self(self.0[..depth].to_vec()))
+    }
+
     fn with(&self, segment: Segment) -> Self {
         let mut segments = self.0.clone();
         segments.push(segment);
@@ -60,8 +67,11 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, segment) in self.0.iter().enumerate() {
             match segment {
-                Segment::Key(key) if i > 0 => write!(f, ".{key}")?,
-                Segment::Key(key) => write!(f, "{key}")?,
+                Segment::Key(key) => {
+                    f.write_str(if i > 0 { "." } else { "" })?;
+                    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+                    if key.chars().all(is_bare) { write!(f, "{key}")? } else { write!(f, "{key:?}")? }
+                }
                 Segment::Item(index) => write!(f, "[{}]", index + 1)?,
             }
         }
@@ -72,7 +82,8 @@ impl fmt::Display for Place {
 /// A parsed text with its file name.
 pub(crate) struct Document<'t> {
     file: &'t str,
-    text: &'t str,
+    // Offsets of line ends, counted once: a file may have a fault on every line.
+    line_ends: Vec<usize>,
     root: Spanned<DeValue<'t>>,
 }
 
@@ -82,7 +93,8 @@ impl<'t> Document<'t> {
         match DeTable::parse(text) {
             Ok(root) => {
                 let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
-                Ok(Self { file, text, root })
+                let line_ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at);
+                Ok(Self { file, line_ends: line_ends.collect(), root })
             }
             Err(error) => Err(SpacecraftError {
                 file: file.to_owned(),
@@ -122,7 +134,7 @@ impl<'t> Document<'t> {
         for segment in &place.0 {
             let next = match segment {
                 Segment::Key(key) => table
-                    .and_then(|table| table.iter().find(|(found, _)| found.get_ref() == key))
+                    .and_then(|table| table.get_key_value(key.as_str()))
                     .map(|(found, value)| (found.span().start, value)),
                 Segment::Item(index) => value
                     .and_then(DeValue::as_array)
@@ -134,7 +146,7 @@ impl<'t> Document<'t> {
             value = Some(next_value.get_ref());
             table = next_value.get_ref().as_table();
         }
-        line_of(self.text, start)
+        self.line_ends.partition_point(|end| *end < start) + 1
     }
 }
 

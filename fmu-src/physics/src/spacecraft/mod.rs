@@ -20,6 +20,7 @@ mod polygon;
 mod reader;
 #[cfg(feature = "schema")]
 mod schema;
+mod start;
 mod surface;
 mod thermal;
 mod wheels;
@@ -39,6 +40,8 @@ pub use planet_map::{PlanetCell, PlanetMap, PlanetMapError};
 pub use polygon::{Polygon, PolygonError};
 #[cfg(feature = "schema")]
 pub use schema::schema;
+pub use start::{StartEntry, StartValue};
+pub(crate) use start::{StartTable, start_entries};
 pub use surface::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
 pub use thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
@@ -74,6 +77,9 @@ pub struct Spacecraft {
     pub per_plate_outputs: bool,
     /// The planet it flies about, cell by cell.
     pub planet_map: Option<PlanetMap>,
+    /// Start values of the models' variables, handed on as they were written.
+    #[serde(skip)]
+    pub start: Vec<StartEntry>,
 }
 
 /// The Sun keep-in zone: azimuth from -Y toward +X in the XY plane, elevation from that plane toward -Z.

@@ -4,7 +4,7 @@
 use core::cell::RefCell;
 
 use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
-use serde::de::{Deserializer, Error as _, IntoDeserializer, Visitor};
+use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
@@ -68,12 +68,12 @@ impl<'r> Reader<'r> {
     fn fields(&self, keys: &'static [&'static str]) -> Vec<(&'r str, Self)> {
         let table = self.given(DeValue::as_table, "a table");
         let value = |key: &str| table.and_then(|table| get(table, key));
+        let absent: Vec<&str> = keys.iter().copied().filter(|known| value(known).is_none()).collect();
         let mut misspelt = Vec::new();
         for key in table.into_iter().flat_map(DeTable::keys).map(|key| key.get_ref()) {
             if keys.contains(&key.as_ref()) {
                 continue;
             }
-            let absent: Vec<&str> = keys.iter().copied().filter(|known| value(known).is_none()).collect();
             let meant = nearest(key, &absent);
             let found = format!("the unknown key `{key}`{}", hint(meant));
             self.note((self.place.key(key), found, keys.join(", ")));
@@ -99,7 +99,7 @@ impl<'r> Reader<'r> {
 
 /// The value of a key.
 pub(super) fn get<'r>(table: &'r DeTable<'r>, key: &str) -> Option<&'r DeValue<'r>> {
-    table.iter().find(|(found, _)| found.get_ref() == key).map(|(_, value)| value.get_ref())
+    table.get(key).map(|value| value.get_ref())
 }
 
 fn real(value: &DeValue<'_>) -> Option<f64> {
@@ -130,8 +130,20 @@ fn hint(meant: Option<&str>) -> String {
 impl<'de> Deserializer<'de> for Reader<'_> {
     type Error = Error;
 
-    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Error> {
-        Err(Error::custom(format!("{}: a type that no file has", self.place)))
+    /// Of values whose type nobody demands.
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.value {
+            Some(DeValue::String(_)) => self.deserialize_string(visitor),
+            Some(DeValue::Integer(_)) => self.deserialize_i64(visitor),
+            Some(DeValue::Float(_)) => self.deserialize_f64(visitor),
+            Some(DeValue::Array(_)) => self.deserialize_seq(visitor),
+            Some(DeValue::Table(_)) => self.deserialize_map(visitor),
+            Some(DeValue::Boolean(_)) => self.deserialize_bool(visitor),
+            Some(DeValue::Datetime(_)) | None => {
+                self.given(|_| None::<()>, "a number, a string, true or false, a list");
+                visitor.visit_bool(false)
+            }
+        }
     }
 
     fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {

@@ -165,6 +165,31 @@ fn every_rule_has_its_message() {
 }
 
 #[test]
+fn two_of_a_kind_with_one_name_are_refused_by_both_places() {
+    let plate = "[[plates]]\narea_m2 = 1.0\ncenter_m = [0, 0, 0]\nnormal = [0, 0, 1]\noptics = \"white\"\n";
+    let panel = "[[panels]]\narea_m2 = 3.0\ncenter_m = [2.0, 0.0, 0.0]\noptics = \"white\"\n";
+    let wheel = "[[wheels]]\naxis = [1.0, 0.0, 0.0]\ncapacity_n_m_s = 4.0\n";
+    for (list, item) in [("plates", plate), ("panels", panel), ("wheels", wheel)] {
+        let named = |name: &str| format!("{item}name = \"{name}\"\n");
+        let told = problems(&format!("{SMALL}{}{}{}", named("a"), named("b"), named("a")));
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert_eq!(told[0].key, format!("{list}[4].name"));
+        assert_eq!(told[0].found, format!("`a`, the name of {list}[2] too"));
+        // The first has no name and is called by its number.
+        let number = format!("{} 1", list.trim_end_matches('s'));
+        let told = problems(&format!("{SMALL}{}", named(&number)));
+        assert_eq!(told[0].found, format!("`{number}`, the name of {list}[1] too"));
+    }
+    let shade = format!("[sunshade]\nmodel = \"plates\"\n{}", plate.replace("plates", "sunshade.plates"));
+    assert!(Spacecraft::from_toml("small.toml", &format!("{SMALL}{shade}")).is_ok());
+    let told = problems(&format!("{SMALL}{plate}name = \"a\"\n{shade}name = \"a\"\n"));
+    assert_eq!(
+        (told[0].key.as_str(), told[0].found.as_str()),
+        ("sunshade.plates[1].name", "`a`, the name of plates[2] too")
+    );
+}
+
+#[test]
 fn all_bad_values_are_reported_at_once() {
     let text = SMALL.replace("area_m2 = ", "area_m2 = -").replace("mass_kg = 100", "mass_kg = inf");
     assert_eq!(problems(&text).len(), 3);
@@ -415,4 +440,75 @@ fn emissivity_and_infrared_absorptivity_stand_for_themselves() {
     assert_relative_eq!(optics.diffuse / optics.specular, 2.5, epsilon = 1e-12);
     let plain = Spacecraft::from_toml("small.toml", SMALL).unwrap().plates[0].thermal;
     assert_relative_eq!(plain.front.emission.emissivity, 0.3, epsilon = 1e-15);
+}
+
+#[test]
+fn start_values_are_handed_on_with_their_lines() {
+    let lines = SMALL.lines().count();
+    let text = format!(
+        "{SMALL}[start]\n\"a.b[1]\" = 1\nc = [1.5, \"2 cm\", [true]]\n[start.Plant]\n\"a.b\" = \"x\"\n"
+    );
+    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    let entry = |key: &str, line: usize, model: Option<&str>, name: &str, value: StartValue| StartEntry {
+        key: key.to_owned(),
+        line: lines + line,
+        model: model.map(str::to_owned),
+        name: name.to_owned(),
+        value,
+    };
+    let list = StartValue::List(vec![
+        StartValue::Real(1.5),
+        StartValue::Text("2 cm".to_owned()),
+        StartValue::List(vec![StartValue::Boolean(true)]),
+    ]);
+    assert_eq!(
+        craft.start,
+        [
+            entry("start.Plant.\"a.b\"", 5, Some("Plant"), "a.b", StartValue::Text("x".to_owned())),
+            entry("start.\"a.b[1]\"", 2, None, "a.b[1]", StartValue::Integer(1)),
+            entry("start.c", 3, None, "c", list),
+        ]
+    );
+    // What the spacecraft is made of is the same: start values are of the models.
+    let plain = Spacecraft::from_toml("small.toml", SMALL).unwrap();
+    assert_eq!(Spacecraft { start: Vec::new(), ..craft }, plain);
+}
+
+#[test]
+fn what_is_no_start_value_of_anything_is_told() {
+    for (lines, key, found) in [
+        ("[start]\na = 2011-04-06", "start.a", "the time 2011-04-06"),
+        ("[start]\na = 99999999999999999999", "start.a", "integer `99999999999999999999`"),
+        ("[start]\na = [1, {b = 2}]", "start.a[2]", "a table"),
+        ("[start.Plant]\na.b = 2", "start.Plant.a", "a table"),
+    ] {
+        let told = problem("[[wheels]]", &format!("{lines}\n[[wheels]]"));
+        assert_eq!((told.key.as_str(), told.found.as_str()), (key, found), "{told:?}");
+    }
+    let wrong = problem("name = \"Small\"", "name = \"Small\"\nstart = 1");
+    assert_eq!((wrong.found.as_str(), wrong.allowed.as_str()), ("integer `1`", "a table"));
+}
+
+#[test]
+fn a_thousand_faults_take_a_thousand_times_as_long_as_one() {
+    let unknown_keys =
+        |count: usize| (0..count).map(|k| format!("key_{k} = 1\n")).collect::<String>() + SMALL;
+    let bad_wheels = |count: usize| {
+        let wheel = "[[wheels]]\naxis = [1.0, 1.0, 0.0]\ncapacity_n_m_s = \"x\"\n";
+        SMALL.to_owned() + &wheel.repeat(count)
+    };
+    let seconds = |text: &str, count: usize| {
+        // The least of some, for the machine has other things to do.
+        let once = || {
+            let began = std::time::Instant::now();
+            assert!(problems(text).len() >= count);
+            began.elapsed().as_secs_f64()
+        };
+        (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
+    };
+    for file in [&unknown_keys as &dyn Fn(usize) -> String, &bad_wheels] {
+        let (few, many) = (seconds(&file(1_000), 1_000), seconds(&file(10_000), 10_000));
+        // Ten times, with room for caches; each pair compared once would make a hundred.
+        assert!(many < 40.0 * few, "{few} s for 1000, {many} s for 10000");
+    }
 }

@@ -233,10 +233,18 @@ impl Burn {
             return Err(BurnError::Limit {
                 what: "its propellant",
                 found: format!("{needed_kg:.6} kg"),
-                limit: format!("propellant.initial = {} kg", outset.propellant_kg),
+                limit: format!("propellant.loaded = {} kg", outset.propellant_kg),
             });
         }
         Ok(burn)
+    }
+
+    /// Whether the vectors of a decoded burn can be some.
+    pub fn is_sound(&self) -> bool {
+        let torques = [self.torque_body_n_m, self.opposite_torque_body_n_m];
+        let norm = self.target_inertial.norm();
+        torques.iter().all(|torque| torque.norm_squared().is_finite())
+            && (norm == 0.0 || (norm - 1.0).abs() < 1e-6)
     }
 
     /// Propellant of all its pulses, in kg.

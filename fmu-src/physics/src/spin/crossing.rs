@@ -2,7 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::motion::{Motion, RigidState};
+use super::{
+    motion::{Motion, RigidState},
+    work::{Cost, Work},
+};
+use crate::numerics::spacing::spacing;
 
 /// About which axis the angle is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +33,21 @@ const TURNS_SEARCHED: f64 = 2.5;
 
 /// A body that is past a direction by no more than this has just reached it: cells meet to rounding only.
 const ROUNDING_RAD: f64 = 1e-12;
+/// The search on the closed form has converged at this angle.
+const CONVERGED_RAD: f64 = 1e-9;
 /// A body slower than this is no spinner: nothing is searched for.
 const SLOWEST_RAD_S: f64 = 1e-4;
+
+/// To what a time on a motion is known, in s: by the spacing of doubles at that time and at its distance from the anchor.
+fn rounding_s(motion: &Motion, time_s: f64) -> f64 {
+    spacing(time_s.abs().max((time_s - motion.anchor_s()).abs()))
+}
+
+/// How far a body of spin rate `rate_rad_s` may seem to be off a direction for that: precession and the turn about its own
+/// axis are each at most about twice as fast as the spin.
+fn phase_rounding_rad(motion: &Motion, rate_rad_s: f64, time_s: f64) -> f64 {
+    8.0 * rate_rad_s * rounding_s(motion, time_s)
+}
 
 impl Crossing {
     /// Angle about the pole by which the body still has to turn, -pi..pi, in rad.
@@ -49,14 +66,16 @@ impl Crossing {
 
     /// First crossing at or after `from_s`, a time within the motion's present cell or after it; `None` if the body
     /// does not bring the direction round within 2 1/2 turns.
-    pub fn next_s(&self, motion: &Motion, from_s: f64) -> Option<f64> {
+    pub fn next_s(&self, motion: &Motion, from_s: f64, work: &mut Work) -> Option<f64> {
+        work.spend(Cost::Crossing);
         let inertia = motion.inertia();
         if motion.cell_end_s().is_infinite() {
             let state = motion.at(from_s);
             return self.on_closed_form(motion, from_s, &state, state.rate_rad_s(inertia).z);
         }
         let mut cell = motion.clone();
-        while cell.cell_end_s() < from_s && !cell.runs_away() {
+        while cell.cell_end_s() < from_s && !cell.runs_away() && !work.is_exhausted() {
+            work.spend_cell(cell.damper());
             cell.next_cell();
         }
         let rate = cell.at(from_s).rate_rad_s(inertia).z;
@@ -67,24 +86,30 @@ impl Crossing {
         let mut start_s = from_s;
         loop {
             let end_s = cell.cell_end_s();
-            if let Some(time_s) = self.within(&cell, start_s, end_s) {
+            if let Some(time_s) = self.within(&cell, start_s, end_s, rate) {
                 return Some(time_s);
             }
-            if end_s > give_up_s || cell.runs_away() {
+            if end_s > give_up_s || cell.runs_away() || work.is_exhausted() {
                 return None;
             }
             start_s = end_s;
+            work.spend_cell(cell.damper());
             cell.next_cell();
         }
     }
 
     /// First crossing at or after `from_s` on the closed form, or within the present cell; `None` if there is none.
-    pub fn here_s(&self, motion: &Motion, from_s: f64) -> Option<f64> {
+    pub fn here_s(&self, motion: &Motion, from_s: f64, work: &mut Work) -> Option<f64> {
         let end_s = motion.cell_end_s();
         if end_s.is_infinite() {
-            return self.next_s(motion, from_s);
+            return self.next_s(motion, from_s, work);
         }
-        (from_s < end_s).then(|| self.within(motion, from_s, end_s)).flatten()
+        if from_s >= end_s {
+            return None;
+        }
+        work.spend(Cost::Crossing);
+        let rate = motion.at(from_s).rate_rad_s(motion.inertia()).z.abs();
+        self.within(motion, from_s, end_s, rate)
     }
 
     /// Secant iteration from the guess of a uniform turn.
@@ -94,7 +119,7 @@ impl Crossing {
         }
         let turn = 2.0 * core::f64::consts::PI;
         let mut ahead = self.ahead_rad(state);
-        if ahead < -ROUNDING_RAD {
+        if ahead < -(ROUNDING_RAD + phase_rounding_rad(motion, rate, from_s)) {
             ahead += turn;
         }
         let (mut last_s, mut last_ahead) = (from_s, ahead);
@@ -108,33 +133,39 @@ impl Crossing {
             let step_s = if slope < -0.2 * rate { -ahead / slope } else { ahead / rate };
             (last_s, last_ahead) = (time_s, ahead);
             time_s += step_s;
-            if step_s.abs() <= 1e-15 * time_s.abs().max(turn / rate) {
+            if step_s.abs() <= 4.0 * rounding_s(motion, time_s).max(spacing(turn / rate)) {
                 break;
             }
         }
-        let converged = ahead.abs() < 1e-9 && time_s - from_s < TURNS_SEARCHED * turn / rate;
-        (converged && time_s >= from_s - 1e-9 * turn / rate).then_some(time_s)
+        let reached_rad = CONVERGED_RAD + phase_rounding_rad(motion, rate, time_s);
+        let converged = ahead.abs() < reached_rad && time_s - from_s < TURNS_SEARCHED * turn / rate;
+        (converged && time_s >= from_s - reached_rad / rate).then_some(time_s)
     }
 
     /// The crossing between two times of one cell, by bisection sharpened with secants.
-    fn within(&self, cell: &Motion, start_s: f64, end_s: f64) -> Option<f64> {
+    fn within(&self, cell: &Motion, start_s: f64, end_s: f64, rate: f64) -> Option<f64> {
         let (mut low_s, mut high_s) = (start_s, end_s);
         let mut low = self.ahead_rad(&cell.at(low_s));
         let mut high = self.ahead_rad(&cell.at(high_s));
         // From ahead to behind, not through the far side where the angle wraps.
-        if !(low >= -ROUNDING_RAD && high < 0.0 && low - high < core::f64::consts::PI) {
+        let before = -(ROUNDING_RAD + phase_rounding_rad(cell, rate, start_s));
+        if !(low >= before && high < 0.0 && low - high < core::f64::consts::PI) {
             return None;
         }
         if low <= 0.0 {
             return Some(low_s);
         }
+        let step_s = spacing(low_s.abs().max(high_s.abs()));
         for round in 0..80 {
-            let secant_s = low_s + (high_s - low_s) * (low / (low - high));
             let middle_s = 0.5 * (low_s + high_s);
-            let time_s = if round % 3 == 2 { middle_s } else { secant_s };
-            if time_s <= low_s || time_s >= high_s {
+            if middle_s <= low_s || middle_s >= high_s {
                 break;
             }
+            // Never the end itself: a crossing next to it is found by the double before it.
+            let secant_s = low_s + (high_s - low_s) * (low / (low - high));
+            let inside_s = secant_s.max(low_s + step_s).min(high_s - step_s);
+            let time_s =
+                if round % 3 == 2 || inside_s <= low_s || inside_s >= high_s { middle_s } else { inside_s };
             let ahead = self.ahead_rad(&cell.at(time_s));
             if ahead >= 0.0 {
                 (low_s, low) = (time_s, ahead);

@@ -17,6 +17,9 @@ use serde::{Deserialize, Serialize};
 
 use super::inertia::Inertia;
 
+/// Least 1/e time of a damper, in s.
+pub const SHORTEST_TIME_CONSTANT_S: f64 = 1.0;
+
 /// A nutation damper on a given body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Damper {
@@ -36,6 +39,11 @@ impl Damper {
     #[must_use]
     pub fn on(&self, inertia: &Inertia) -> Self {
         Self { grows: !inertia.spins_about_major_axis(), ..*self }
+    }
+
+    /// Whether a decoded damper can be one.
+    pub fn is_sound(&self) -> bool {
+        (0.0..=SHORTEST_TIME_CONSTANT_S.recip()).contains(&self.rate_1_s)
     }
 
     /// Whether there is one.

@@ -98,20 +98,23 @@ const FEWEST: u32 = 8;
 /// Most intervals for any train; more only while the samples of a sweep follow fewer than [`MOST_PULSES`] in all.
 const MOST: u32 = 400;
 const MOST_PULSES: f64 = 4e6;
+/// Fewer, whatever the train, so that no sweep follows more than so many pulses.
+const MOST_FOLLOWED: f64 = 6e7;
 /// A maximum between samples is looked for where it could exceed the greatest so far by this share.
 const WORTH_LOOKING: f64 = 1e-5;
 
 impl Range {
     /// Worst final and peak nutation over the range, within 1e-3 of what any finer scan finds, and the least and
-    /// greatest move. Trains of more than three thousand pulses are sampled more coarsely.
+    /// greatest move. Trains of more than three thousand pulses are sampled more coarsely, those of more than 150 thousand more coarsely still.
     pub fn worst(&self, flight: &Flight, train: &Train) -> Worst {
         let turns = train.turns(train.count().saturating_sub(1)) + 1.0;
-        let most = (MOST_PULSES / f64::from(train.count().max(1))) as u32;
+        let count = f64::from(train.count().max(1));
+        let most = ((MOST_PULSES / count) as u32).max(MOST.min((MOST_FOLLOWED / count) as u32));
         let samples = |half_width: f64, per_turn: f64| {
             if half_width == 0.0 {
                 return 1;
             }
-            ((2.0 * half_width * turns * per_turn).ceil() as u32).clamp(FEWEST, most.max(MOST)) + 1
+            ((2.0 * half_width * turns * per_turn).ceil() as u32).clamp(FEWEST, most.max(FEWEST)) + 1
         };
         let ratios = samples(self.ratio, FINE);
         let rate = self.rate_rad_s / flight.spin.rate_rad_s;

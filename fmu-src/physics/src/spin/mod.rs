@@ -19,6 +19,7 @@ pub mod spinner;
 pub mod tracker;
 pub mod train;
 pub mod watch;
+pub mod work;
 
 #[cfg(test)]
 mod tests;

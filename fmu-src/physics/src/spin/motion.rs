@@ -10,11 +10,14 @@ use super::{
     rotation::Quaternion,
     series::{BodyTorque, Cell},
 };
+use crate::numerics::spacing::spacing;
 
 /// A body faster than this is not followed.
 const GREATEST_RATE_RAD_S: f64 = 1e4;
 /// Nor is one that needs shorter cells.
 const SHORTEST_CELL_S: f64 = 1e-5;
+/// Nor one that turns by more than this from one double to the next.
+const GREATEST_TURN_RAD: f64 = 0.05;
 
 /// Why a motion cannot be followed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -22,7 +25,7 @@ pub enum Runaway {
     /// The rate, or a number that is none.
     #[error(
         "at {time_s} s the body turns at up to {rate_rad_s:e} rad/s; allowed is up to {GREATEST_RATE_RAD_S:e} rad/s: look \
-         at torque.external and at what fires"
+         at torque.applied and at what fires"
     )]
     TooFast {
         /// When, in s.
@@ -33,7 +36,7 @@ pub enum Runaway {
     /// The torque.
     #[error(
         "at {time_s} s a torque with a component of {torque_n_m:e} N m changes the motion within less than \
-         {SHORTEST_CELL_S:e} s; allowed is what keeps the body below {GREATEST_RATE_RAD_S:e} rad/s: look at torque.external \
+         {SHORTEST_CELL_S:e} s; allowed is what keeps the body below {GREATEST_RATE_RAD_S:e} rad/s: look at torque.applied \
          and its derivatives"
     )]
     TooSudden {
@@ -41,6 +44,19 @@ pub enum Runaway {
         time_s: f64,
         /// Greatest component of the torque, in N m.
         torque_n_m: f64,
+    },
+    /// The clock.
+    #[error(
+        "at {time_s} s neighbouring double-precision times are {spacing_s:e} s apart, too far for a motion that changes within \
+         {change_s:e} s: start the flight nearer to time 0"
+    )]
+    TooLate {
+        /// When, in s.
+        time_s: f64,
+        /// From it to the next double, in s.
+        spacing_s: f64,
+        /// Time in which the motion changes, in s.
+        change_s: f64,
     },
 }
 
@@ -146,15 +162,29 @@ impl Motion {
         self.check().is_err() || Inertia::new(self.inertia.principal_kg_m2()).is_err()
     }
 
+    /// Whether a decoded motion can be one: finite, and its path that of its anchor.
+    pub fn is_sound(&self) -> bool {
+        let path = match &self.path {
+            // What it is made of says all of it.
+            Path::Coast(coast) => {
+                *coast == Coast::new(&self.inertia, &self.damper, self.attitude, &self.momentum_inertial)
+            }
+            Path::Cell(cell) => cell.is_sound(),
+        };
+        let unit = Quaternion::from_components(self.attitude.0).is_some();
+        path && unit && self.torque.is_sound() && self.damper.is_sound() && !self.runs_away()
+    }
+
     /// Whether the motion can be followed from the anchor on.
     ///
     /// # Errors
     /// The body turns too fast there, is not finite, or its torque leaves it a cell too short.
     pub fn check(&self) -> Result<(), Runaway> {
         self.check_rate(self.anchor_s, &self.momentum_inertial, &self.attitude)?;
+        let Path::Cell(cell) = &self.path else { return Ok(()) };
         // Written so that a NaN is refused.
-        if self.cell_end_s() - self.anchor_s >= SHORTEST_CELL_S {
-            return Ok(());
+        if cell.length_s() >= SHORTEST_CELL_S {
+            return check_clock(self.anchor_s, cell.length_s());
         }
         let torque_n_m = self.torque.at(self.anchor_s).amax();
         Err(Runaway::TooSudden { time_s: self.anchor_s, torque_n_m })
@@ -179,7 +209,7 @@ impl Motion {
         let finite = attitude.0.iter().all(|x| x.is_finite());
         let rate_rad_s = if finite { momentum_inertial.norm() / least_kg_m2 } else { f64::NAN };
         if rate_rad_s <= GREATEST_RATE_RAD_S {
-            return Ok(());
+            return check_clock(time_s, rate_rad_s.recip());
         }
         Err(Runaway::TooFast { time_s, rate_rad_s })
     }
@@ -248,4 +278,14 @@ impl Motion {
             momentum_body: attitude.body_from_inertial(&momentum_inertial),
         }
     }
+}
+
+/// Whether doubles near `time_s` lie close enough for a motion that changes within `change_s`.
+fn check_clock(time_s: f64, change_s: f64) -> Result<(), Runaway> {
+    let spacing_s = spacing(time_s);
+    // Written so that a NaN is refused.
+    if spacing_s <= GREATEST_TURN_RAD * change_s {
+        return Ok(());
+    }
+    Err(Runaway::TooLate { time_s, spacing_s, change_s })
 }

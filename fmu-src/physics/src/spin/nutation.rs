@@ -76,17 +76,6 @@ pub fn exact_envelope_rad(kick_rad: f64, phase_rad: f64) -> f64 {
     kick_rad / (0.5 * phase_rad).sin().abs()
 }
 
-/// Eq 9 (once per half turn) and eq 10 (otherwise) as printed, for comparison only: eq 9 lacks a factor 1/2 inside the
-/// root, eq 10 has -1/12 where +1/4 belongs. 0 where the printed root is negative.
-pub fn printed_envelope_rad(kick_rad: f64, ratio: f64, turns_per_pulse: f64) -> f64 {
-    let square = if turns_per_pulse == 0.5 {
-        2.0 * (1.0 + (2.0 * PI * ratio - 3.0 * PI))
-    } else {
-        1.0 - (2.0 * PI * ratio - 3.0 * PI).powi(2) / 12.0
-    };
-    kick_rad * square.max(0.0).sqrt()
-}
-
 /// Bound on the final nutation of a train whose ends rise and fall by the binomial weights of `order`, whatever its
 /// length: q |2 cos(phi/2)|^m / |sin(phi/2)|, with q the one-unit kick.
 pub fn tapered_bound_rad(unit_kick_rad: f64, phase_rad: f64, order: u32) -> f64 {
@@ -125,6 +114,11 @@ impl LinearNutation {
             x * sine + y * cosine + scale * (tx * sine_half + ty * cosine_half),
         ];
         self.time_s = to_s;
+    }
+
+    /// Whether a decoded sum can be one.
+    pub fn is_sound(&self) -> bool {
+        self.time_s.is_finite() && self.across.iter().all(|x| x.abs() <= 1e100)
     }
 
     /// Nutation angle, in rad: the theory's sum is the tangent.

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::{
     motion::RigidState,
-    nutation::{exact_envelope_rad, period_variation_s, printed_envelope_rad},
+    nutation::{exact_envelope_rad, period_variation_s},
     plant::{Plant, StarSample},
     rotation::angle_between_rad,
     sequencer::{Phase, Sequencer},
@@ -111,8 +111,6 @@ pub struct Predictions {
     pub manoeuvre_rad: f64,
     /// Largest nutation of a uniform train of such pulses, in rad.
     pub envelope_rad: f64,
-    /// Eq 9 or 10 as printed, in rad.
-    pub printed_envelope_rad: f64,
     /// From the first edge to the last, in s.
     pub duration_s: f64,
     /// Pulses of the burn.
@@ -133,16 +131,19 @@ impl Plant {
         let nutation_rad = state.nutation_rad();
         let spin_axis_inertial = state.attitude.spin_axis_inertial();
         let directions = self.directions_at(time_s);
-        let sun_angle_rad = angle_between_rad(&spin_axis_inertial, &directions.sun_inertial);
-        let nominal_period_s = 2.0 * PI / rate_rad_s.z.abs();
+        let sun_angle_rad = angle_to_rad(&spin_axis_inertial, &directions.sun_inertial);
+        let nominal_period_s = finite(2.0 * PI / rate_rad_s.z.abs());
         let sun = self.sun_watch();
         let period_s = sun.period_s().unwrap_or(nominal_period_s);
-        let period_change_s = match (sun.period_s(), sun.period_before_s()) {
-            (Some(last), Some(before)) => last - before,
-            _ => 0.0,
+        let (period_change_s, share) = match (sun.period_s(), sun.period_before_s()) {
+            (Some(last), Some(before)) => (last - before, (last - before) / before),
+            _ => (0.0, 0.0),
         };
         let sectors = f64::from(spinner.sun_sensor.sectors);
-        let variation_s = period_variation_s(nutation_rad, rate_rad_s.z, sun_angle_rad).abs();
+        // Without a Sun there is no period of its crossings.
+        let sun_known = directions.sun_inertial != Vector3::zeros();
+        let variation_s =
+            if sun_known { period_variation_s(nutation_rad, rate_rad_s.z, sun_angle_rad).abs() } else { 0.0 };
         let (mask, sequencer) = (self.thrusters_on(), self.sequencer());
         let thrust = spinner.thrust(mask);
         let next_edge_s = match sequencer.map(Sequencer::phase) {
@@ -168,14 +169,14 @@ impl Plant {
             ),
             period_s,
             period_change_s,
-            sector_error: sectors * period_change_s / (period_s - period_change_s),
+            sector_error: sectors * share,
             // A NaN (no nutation, Sun on the axis) counts as no variation.
             period_variation_s: if variation_s.is_nan() { 0.0 } else { variation_s.min(nominal_period_s) },
             sun_inertial: directions.sun_inertial,
             earth_inertial: directions.earth_inertial,
             sun_angle_rad,
             sun_angle_measured_rad: self.sun_sample_rad(),
-            earth_angle_rad: angle_between_rad(&-spin_axis_inertial, &directions.earth_inertial),
+            earth_angle_rad: angle_to_rad(&-spin_axis_inertial, &directions.earth_inertial),
             declination_rad: spin_axis_inertial.dot(&directions.star_inertial).clamp(-1.0, 1.0).asin(),
             sample: self.sample(),
             estimate: self.estimator().estimate(spinner.star_tracker.noise_deg.to_radians()),
@@ -204,7 +205,6 @@ impl Plant {
             kick_rad: 0.0,
             manoeuvre_rad: 0.0,
             envelope_rad: 0.0,
-            printed_envelope_rad: 0.0,
             duration_s: 0.0,
             count: 0,
             observation_time_eq20_s: finite(observation_time_eq20_s(spin.rate_rad_s, spin.ratio)),
@@ -219,13 +219,16 @@ impl Plant {
             seen.kick_rad = spin.nutation_kick_rad(torque, widest_s);
             seen.manoeuvre_rad = train.manoeuvre_rad(&spin, torque);
             seen.envelope_rad = finite(exact_envelope_rad(seen.kick_rad, phase));
-            seen.printed_envelope_rad =
-                printed_envelope_rad(seen.manoeuvre_per_pulse_rad, spin.ratio, train.turns_per_pulse());
             seen.duration_s = train.duration_s(spin.period_s());
             seen.count = train.count();
         }
         seen
     }
+}
+
+/// Angle from an axis to a direction in rad; 0 where the direction is 0 and so not known.
+fn angle_to_rad(axis: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
+    if *direction == Vector3::zeros() { 0.0 } else { angle_between_rad(axis, direction) }
 }
 
 /// Infinity as the greatest number: masters and XML have no infinity.

@@ -10,6 +10,7 @@ use super::{
     crossing::{Crossing, Pole},
     forecast::Timing,
     motion::Motion,
+    work::Work,
 };
 
 /// Slowest and fastest spin that burns are timed for.
@@ -92,14 +93,17 @@ impl Sequencer {
     /// Whether the numbers of a decoded state belong together.
     pub fn is_sound(&self) -> bool {
         let edges = match self.phase {
-            Phase::Waiting { on_s, off_s } => on_s.is_finite() && off_s >= on_s,
+            Phase::Waiting { on_s, off_s } => on_s.is_finite() && off_s.is_finite() && off_s >= on_s,
             Phase::Firing { off_s } => off_s.is_finite(),
             Phase::Later { at_s } => at_s.is_finite(),
             Phase::Idle | Phase::Done => true,
         };
+        let times = [self.burn.start_s, self.first_centre_s, self.last_centre_s, self.sensor_azimuth_rad];
+        let finite = times.iter().chain(&self.sun_crossing_s).all(|x| x.is_finite()) && self.burn.is_sound();
         let (rate, count) = (self.burn.assumed_rate_rad_s, self.burn.train.count());
         let left = matches!(self.phase, Phase::Done) == (self.fired >= count);
         edges
+            && finite
             && left
             && self.fired <= count
             && self.burn.train.is_sound()
@@ -159,7 +163,7 @@ impl Sequencer {
     }
 
     /// Times the next pulse on the motion from `now_s` on, where it may have changed.
-    pub fn schedule(&mut self, motion: &Motion, now_s: f64, sun_inertial: &Vector3<f64>) {
+    pub fn schedule(&mut self, motion: &Motion, now_s: f64, sun_inertial: &Vector3<f64>, work: &mut Work) {
         if matches!(self.phase, Phase::Firing { .. } | Phase::Done) {
             return;
         }
@@ -186,7 +190,7 @@ impl Sequencer {
         } else if far {
             None
         } else {
-            self.exact_phase(motion, earliest_s)
+            self.exact_phase(motion, earliest_s, work)
         };
         let exact = self.burn.points() && !clocked && self.burn.timing != Timing::SunCrossing;
         self.phase = match centre_s {
@@ -212,13 +216,13 @@ impl Sequencer {
     }
 
     /// A Sun pulse at `time_s`: the pulse that waits for it is timed anew, unless it would be late.
-    pub fn sun_pulse(&mut self, motion: &Motion, time_s: f64, sun_inertial: &Vector3<f64>) {
+    pub fn sun_pulse(&mut self, motion: &Motion, time_s: f64, sun_inertial: &Vector3<f64>, work: &mut Work) {
         if self.burn.timing != Timing::SunCrossing {
             return;
         }
         let (before, phase) = (self.sun_crossing_s, self.phase);
         self.sun_crossing_s = Some(time_s);
-        self.schedule(motion, time_s, sun_inertial);
+        self.schedule(motion, time_s, sun_inertial, work);
         if let (Phase::Waiting { on_s, .. }, Phase::Waiting { on_s: old_s, .. }, Some(_)) =
             (self.phase, phase, before)
             && on_s > old_s + 0.25 * self.burn.assumed_period_s()
@@ -235,11 +239,11 @@ impl Sequencer {
             && self.burn.timing != Timing::SunCrossing
     }
 
-    fn exact_phase(&self, motion: &Motion, earliest_s: f64) -> Option<f64> {
+    fn exact_phase(&self, motion: &Motion, earliest_s: f64, work: &mut Work) -> Option<f64> {
         let (_, torque) = self.burn.actuator(self.fired);
         let across = Vector3::new(torque.x, torque.y, 0.0);
         let crossing = Crossing { body: across, inertial: self.burn.target_inertial, pole: Pole::Momentum };
-        crossing.next_s(motion, earliest_s)
+        crossing.next_s(motion, earliest_s, work)
     }
 
     /// The last Sun crossing plus the delay that the ground computes from the directions and the assumed rate.

@@ -52,6 +52,11 @@ impl BodyTorque {
         Self { origin_s: 0.0, coefficients_n_m }
     }
 
+    /// Whether a decoded torque can be one.
+    pub fn is_sound(&self) -> bool {
+        self.origin_s.is_finite() && self.coefficients_n_m.iter().flatten().all(|c| c.is_finite())
+    }
+
     /// Whether it vanishes at all times.
     pub fn is_zero(&self) -> bool {
         self.coefficients_n_m.iter().flatten().all(|&c| c == 0.0)
@@ -161,6 +166,14 @@ impl Cell {
     fn is_finite(&self) -> bool {
         let order = usize::from(self.order).min(ORDER);
         self.momentum_body.iter().chain(&self.attitude).all(|coefficients| coefficients[order].is_finite())
+    }
+
+    /// Whether a decoded cell can be one.
+    pub fn is_sound(&self) -> bool {
+        let mut coefficients = self.momentum_body.iter().chain(&self.attitude).flatten();
+        usize::from(self.order) <= ORDER
+            && (0.0..=LONGEST_S).contains(&self.length_s)
+            && coefficients.all(|c| c.is_finite())
     }
 
     /// How long the cell holds, in s; 0 where it does not at all.

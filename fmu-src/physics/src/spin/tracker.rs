@@ -66,6 +66,12 @@ impl NutationEstimator {
         self.count += 1;
     }
 
+    /// Whether decoded sums can be some: no term is greater than a declination with noise of 30 rad.
+    pub fn is_sound(&self) -> bool {
+        let most = f64::from(self.count) * 30.0;
+        self.sums.iter().chain(&self.right).all(|sum| sum.abs() <= most)
+    }
+
     /// Samples so far.
     pub fn count(&self) -> u32 {
         self.count

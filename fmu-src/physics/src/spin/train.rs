@@ -217,7 +217,9 @@ impl Train {
         (1..=MOST_PULSES).contains(&self.count)
             && (1..=200).contains(&self.half_turns_per_pulse)
             && self.order <= MOST_ORDER
+            && self.second_half.first <= self.count
             && self.second_half.half_turns <= 200 * MOST_PULSES + 400
+            && self.second_half.offset_turns.abs() <= 1.0
             && self.widths_s.iter().all(|w| w.is_finite() && *w > 0.0)
     }
 
@@ -283,8 +285,15 @@ impl Train {
     /// How far the train moves the momentum toward its target, in rad: each pulse by eq 3 times the cosine of how far it is
     /// off the exact direction. The halves of a split train are off to either side alike.
     pub fn manoeuvre_rad(&self, spin: &Spin, torque_n_m: f64) -> f64 {
-        let toward = |k| (TAU * self.offset_turns(k)).cos();
-        (0..self.count).map(|k| toward(k) * spin.manoeuvre_rad(torque_n_m, self.width_s(k))).sum()
+        let one =
+            |k: u32| (TAU * self.offset_turns(k)).cos() * spin.manoeuvre_rad(torque_n_m, self.width_s(k));
+        // What does not rise or fall is alike within each half.
+        let (rise, fall) =
+            (self.order.min(self.count), self.count.saturating_sub(self.order).max(self.order));
+        let middle = self.second_half.first.clamp(rise, fall.min(self.count));
+        let alike = |from: u32, to: u32| if from < to { f64::from(to - from) * one(from) } else { 0.0 };
+        let ends = (0..rise).chain(fall..self.count).map(one).sum::<f64>();
+        ends + alike(rise, middle) + alike(middle, fall.min(self.count))
     }
 
     /// Sum of the widths, in s.

@@ -4,10 +4,15 @@ use core::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::{crossing::Crossing, motion::Motion};
+use super::{crossing::Crossing, motion::Motion, work::Work};
 
 /// Half a turn of a slower body is not waited for.
 const SLOWEST_RAD_S: f64 = 1e-4;
+
+/// Between these lies every time between two crossings in a state that is one: what is divided by it stays finite.
+const SHORTEST_PERIOD_S: f64 = 1e-12;
+/// See [`SHORTEST_PERIOD_S`].
+const LONGEST_PERIOD_S: f64 = 1e100;
 
 /// Crossings of one direction, one after the other.
 ///
@@ -29,6 +34,17 @@ impl Watch {
     /// Watches from `start_s` on.
     pub fn new(start_s: f64) -> Self {
         Self { search_from_s: start_s, ..Self::default() }
+    }
+
+    /// Whether a decoded watch can be one.
+    pub fn is_sound(&self) -> bool {
+        let times = [self.last_s, Some(self.search_from_s), self.next_s.flatten()];
+        let periods = [self.period_s, self.period_before_s];
+        times.iter().flatten().all(|at_s| at_s.abs() <= LONGEST_PERIOD_S)
+            && periods
+                .iter()
+                .flatten()
+                .all(|&period_s| (SHORTEST_PERIOD_S..=LONGEST_PERIOD_S).contains(&period_s))
     }
 
     /// The last crossing, in s.
@@ -64,6 +80,7 @@ impl Watch {
         motion: &Motion,
         crossing: impl FnOnce() -> Crossing,
         until_s: f64,
+        work: &mut Work,
     ) -> Option<f64> {
         if until_s < self.search_from_s {
             return None;
@@ -71,7 +88,7 @@ impl Watch {
         let next_s = match self.next_s {
             Some(next_s) => next_s,
             None => {
-                let found = crossing().here_s(motion, self.search_from_s);
+                let found = crossing().here_s(motion, self.search_from_s, work);
                 self.next_s = Some(found);
                 found
             }

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod module_order;
+mod planet_nodes;
 mod plant_flight;
 mod plant_orbit;
+mod plant_shadow;
 #[cfg(feature = "schema")]
 mod schema_file;

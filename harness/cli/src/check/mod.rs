@@ -8,15 +8,17 @@ mod probes;
 mod spacecraft;
 mod still;
 
-use std::process::ExitCode;
+use std::{process::ExitCode, time::Instant};
 
 use loader::Fmu;
 
 use crate::{
     app::Outcome,
     args::{Check, Probe},
+    child::Link,
     output,
 };
+use probes::Trial;
 
 /// What a check found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -98,9 +100,9 @@ impl Section {
 /// Checks an FMU or a spacecraft and prints the report.
 pub fn run(arguments: &Check) -> Outcome {
     if arguments.subject.extension().is_some_and(|extension| extension == "toml") {
-        return match (arguments.still, &arguments.only) {
+        return match (arguments.is_static, &arguments.only) {
             (false, None) => spacecraft::run(arguments),
-            (true, _) => Err("--still is for an FMU: a spacecraft is only read".into()),
+            (true, _) => Err("--static is for an FMU: a spacecraft is only read".into()),
             (false, Some(_)) => Err("--only is for an FMU: a spacecraft has no probes".into()),
         };
     }
@@ -129,15 +131,18 @@ pub fn run(arguments: &Check) -> Outcome {
     };
     sections.push(Section { title: "archive".to_owned(), findings: still::archive(&fmu) });
     sections.push(Section { title: "modelDescription.xml".to_owned(), findings: still::description(&fmu) });
-    let runnable = !arguments.still && fmu.co_simulation().is_ok();
+    let runnable = !arguments.is_static && fmu.co_simulation().is_ok();
     if runnable {
-        let loads = child::run(&fmu, "library", arguments.patience);
+        let loads = child::run(&fmu, "library", arguments.timeout);
         // A library that loads leaves something to try, whatever it lacks.
         let usable = loads.first().is_some_and(|finding| finding.verdict == Verdict::Good);
         sections.push(Section { title: "library".to_owned(), findings: loads });
         if usable {
             for probe in probes::ALL.iter().filter(|probe| probe.name != "library").filter(is_wanted) {
-                let findings = child::run(&fmu, probe.name, arguments.patience);
+                let mut findings = child::run(&fmu, probe.name, arguments.timeout);
+                for trial in probes::trials().filter(|trial| trial.probe == probe.name) {
+                    findings.extend(try_out(&fmu, trial, arguments.timeout));
+                }
                 sections.push(Section { title: format!("{}: {}", probe.name, probe.title), findings });
             }
         }
@@ -145,17 +150,37 @@ pub fn run(arguments: &Check) -> Outcome {
     report(arguments, &sections)
 }
 
-/// Runs one probe in this process and prints its findings for the parent.
+/// Longest wait for the answer to a call that makes no sense.
+const SENSELESS_PATIENCE_S: f64 = 5.0;
+
+/// Runs a trial; what an FMU that is lost in it leaves behind names the call.
+fn try_out(fmu: &Fmu, trial: &Trial, patience_s: f64) -> Vec<Finding> {
+    let patience_s = if trial.senseless { patience_s.min(SENSELESS_PATIENCE_S) } else { patience_s };
+    let began = Instant::now();
+    let mut findings = child::run(fmu, &trial.name(), patience_s);
+    let hung = began.elapsed().as_secs_f64() >= patience_s;
+    for finding in findings.iter_mut().filter(|finding| finding.verdict == Verdict::Bad) {
+        finding.text = format!("{}, {}: {}", trial.call, trial.what, finding.text);
+        if trial.disputed || hung && trial.senseless {
+            finding.verdict = Verdict::Note;
+        }
+    }
+    findings
+}
+
+/// Runs one probe or trial in this process and sends its findings to the parent.
 pub fn run_probe(arguments: &Probe) -> Outcome {
+    let mut link = Link::attach().map_err(|error| format!("`heliotorque check` starts this: {error}"))?;
     let fmu = Fmu::open(&arguments.fmu)?;
-    let Some(probe) = probes::ALL.iter().find(|probe| probe.name == arguments.name) else {
+    let outcome = if let Some(probe) = probes::ALL.iter().find(|probe| probe.name == arguments.name) {
+        (probe.run)(&fmu)
+    } else if let Some(trial) = probes::trials().find(|trial| trial.name() == arguments.name) {
+        (trial.run)(&fmu, trial)
+    } else {
         return Err(format!("there is no probe {:?}", arguments.name).into());
     };
-    let findings = (probe.run)(&fmu).unwrap_or_else(|error| vec![Finding::bad(output::chain(&error))]);
-    for finding in findings {
-        output::print(&child::encode(&finding))?;
-    }
-    output::print(child::FINISHED)?;
+    let findings = outcome.unwrap_or_else(|error| vec![Finding::bad(output::chain(&error))]);
+    child::report(&mut link, &findings)?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -23,21 +23,31 @@ pub fn run(arguments: &Check) -> Outcome {
     let binary = template.binary()?;
     let own = source::model_of(&template, &binary).ok();
     let mut refusals = Vec::new();
+    let mut taken = None;
     for model in binary.models()?.into_iter().filter(|model| model.setup_file.is_some()) {
         match binary.describe(&model.model, Some(&file), Some(&text)) {
-            // Each model takes its own kind of file; one that takes this one is enough.
-            Ok(described) => {
-                let description = model_description::parse(described.xml.as_bytes())?.description;
-                let variables = description.variables.len();
-                let model = &described.model;
-                output::print(&format!(
-                    "{file}: ok for {model}: {}; the FMU will have {variables} variables",
-                    contents(&text)
-                ))?;
-                return Ok(ExitCode::SUCCESS);
-            }
+            Ok(described) => taken = taken.or(Some(described)),
             Err(reason) => refusals.push((model, reason)),
         }
+    }
+    // A model that takes the rest of the file is one that its start values are for.
+    let rest = without_start_values(&text);
+    let of_start = |model: &Described| {
+        rest.as_ref().is_some_and(|rest| binary.describe(&model.model, None, Some(rest)).is_ok())
+    };
+    if let Some((model, problems)) = refusals.iter().find(|(model, _)| of_start(model)) {
+        return refused(&file, model, problems);
+    }
+    // Each model takes its own kind of file; one that takes this one is enough.
+    if let Some(described) = taken {
+        let description = model_description::parse(described.xml.as_bytes())?.description;
+        let variables = description.variables.len();
+        let model = &described.model;
+        output::print(&format!(
+            "{file}: ok for {model}: {}; the FMU will have {variables} variables",
+            contents(&text)
+        ))?;
+        return Ok(ExitCode::SUCCESS);
     }
     // The kinds of file are far apart: what the other models miss in it would bury what is wrong.
     let is_own = |model: &Described| Some(&model.model) == own.as_ref();
@@ -49,14 +59,26 @@ pub fn run(arguments: &Check) -> Outcome {
         |model: &Described| binary.describe(&model.model, None, Some(&fittest.0.default_setup)).is_ok();
     let judge = refusals.iter().find(|(model, _)| is_own(model) && takes_the_same(model));
     let (model, problems) = judge.unwrap_or(fittest);
+    refused(&file, model, problems)
+}
+
+/// Tells the problems that a model finds in the file.
+fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
     output::print(problems)?;
-    let count = problems.lines().filter(|line| line.starts_with(&file)).count().max(1);
+    let count = problems.lines().filter(|line| line.starts_with(file)).count().max(1);
     let plural = if count == 1 { "problem" } else { "problems" };
     let model = &model.model;
     output::note(&format!(
         "{file}: {count} {plural}, judged as a file of {model}, which cannot be packed with it"
     ));
     Ok(ExitCode::FAILURE)
+}
+
+/// The file without its start values, if it has any.
+fn without_start_values(text: &str) -> Option<String> {
+    let mut file: Table = text.parse().ok()?;
+    file.remove("start")?;
+    Some(file.to_string())
 }
 
 /// How many keys two files have in common, tables inside of tables left out.

@@ -1,6 +1,7 @@
 //! `heliotorque info --coefficients`: what an FMU computes from its parameters, before any step.
 
 mod spacecraft;
+mod wheels;
 
 use loader::{Error, Fmu, Instance, InstanceOptions, Times, Value};
 use model_description::{Causality, ScalarVariable, Variability};

@@ -79,7 +79,8 @@ fn navigation(page: &mut String, description: &Description, sources: &[(String, 
     if !sources.is_empty() {
         page.push_str("<a href=\"#sources\">Sources</a>");
     }
-    page.push_str("<a href=\"#stepping\">Stepping</a><a href=\"#calls\">Calls</a></nav>\n");
+    page.push_str("<a href=\"#stepping\">Stepping</a><a href=\"#calls\">Calls</a>");
+    page.push_str("<a href=\"licenses/license.txt\">Licences</a></nav>\n");
 }
 
 fn facts(page: &mut String, description: &Description) {

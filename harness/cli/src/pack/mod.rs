@@ -7,10 +7,10 @@ mod documentation;
 mod per_plate;
 mod picture;
 pub mod source;
+mod start;
 mod writer;
 
 use std::{
-    fs,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -18,7 +18,9 @@ use std::{
 use loader::{Binary, Described};
 use model_description::Description;
 
-use crate::{app::Outcome, args::Pack, destination::Destination, output};
+use files::Destination;
+
+use crate::{app::Outcome, args::Pack, output};
 use source::Source;
 use writer::Entries;
 
@@ -52,6 +54,14 @@ pub fn run(arguments: &Pack) -> Outcome {
         })?;
     let mut description = model_description::parse(described.xml.as_bytes())?.description;
     let mut setup = spacecraft.unwrap_or(described.default_setup);
+    if !arguments.set.is_empty() {
+        if described.setup_file.is_none() {
+            return Err(format!("--set: {model} reads no file that start values could stand in").into());
+        }
+        setup = start::with_start_values(&setup, &model, &description, &arguments.set)?;
+        let again = source.binary().describe(&model, file.as_deref(), Some(&setup))?;
+        description = model_description::parse(again.xml.as_bytes())?.description;
+    }
     if arguments.per_plate {
         // After the user's own text was read as it stands, so that errors tell its lines.
         setup = per_plate::asking(&setup)?;
@@ -79,14 +89,22 @@ pub fn run(arguments: &Pack) -> Outcome {
     if source.is_at(&path) {
         return Err(format!("{} is the template itself: see --name and --output", path.display()).into());
     }
-    Destination::open(&path, "--output")?.fill(|file| file.write_all(&bytes))?;
-    output::print(&format!(
+    let inputs: Vec<&Path> = [source.path()].into_iter().chain(arguments.spacecraft.as_deref()).collect();
+    let destination = Destination::open(&path, "--output", &inputs)?;
+    let is_stdout = destination.is_stdout();
+    destination.fill(|file| file.write_all(&bytes))?;
+    let packed = format!(
         "{}: {identifier}, {} variables, GUID {}, {} kB",
         path.display(),
         description.variables.len(),
         description.guid,
         bytes.len().div_ceil(1000)
-    ))?;
+    );
+    if is_stdout {
+        output::note(&packed)
+    } else {
+        output::print(&packed)?
+    }
     Ok(ExitCode::SUCCESS)
 }
 
@@ -106,7 +124,7 @@ fn rename(description: &mut Description, identifier: &str) -> Result<(), String>
 
 /// Reads a TOML file; the error names the line that is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, String> {
-    let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let bytes = files::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();

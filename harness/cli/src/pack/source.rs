@@ -8,11 +8,14 @@ use super::writer::Entries;
 use crate::args::Pack;
 
 /// The licences of this project and of the crates it links, for FMUs packed from its own library.
-const LICENSES: [(&str, &[u8]); 3] = [
-    ("licenses/LICENSE-APACHE.txt", include_bytes!("../../../../LICENSE-APACHE")),
-    ("licenses/LICENSE-MIT.txt", include_bytes!("../../../../LICENSE-MIT")),
-    ("licenses/THIRD-PARTY.txt", include_bytes!("../../../../fmu-src/component/THIRD-PARTY.txt")),
+const LICENSES: [(&str, &[u8]); 4] = [
+    ("license.txt", include_bytes!("license.txt")),
+    ("LICENSE-APACHE.txt", include_bytes!("../../../../LICENSE-APACHE")),
+    ("LICENSE-MIT.txt", include_bytes!("../../../../LICENSE-MIT")),
+    ("THIRD-PARTY.txt", include_bytes!("../../../../fmu-src/component/THIRD-PARTY.txt")),
 ];
+/// Where FMI 2.0.5 keeps them (2.3); `license.txt` there is the entry.
+const FOLDER: &str = "documentation/licenses";
 
 /// A shared library, or an FMU that has one for each of its platforms.
 pub struct Source {
@@ -34,7 +37,19 @@ impl Source {
         };
         // A bare file name would be looked for where the system keeps its libraries.
         let path = std::path::absolute(path)?;
+        if let Some(found) = fs::metadata(&path).ok().as_ref().and_then(files::kind) {
+            let path = path.display();
+            return Err(format!("{path}: found {found}, allowed: a regular file: see --library").into());
+        }
         Ok(Self { binary: Arc::new(Binary::load(&path)?), from: From::Library(path) })
+    }
+
+    /// The library or template.
+    pub fn path(&self) -> &Path {
+        match &self.from {
+            From::Library(path) => path,
+            From::Template(fmu) => fmu.source(),
+        }
     }
 
     /// Whether this file is the template.
@@ -67,12 +82,11 @@ impl Source {
     ) -> Result<(), Box<dyn std::error::Error>> {
         match &self.from {
             From::Library(path) => {
-                let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-                // Importers look under FMI 2.0's name of the platform or under FMI 3.0's.
-                for platform in loader::platform_folders() {
-                    let file = format!("binaries/{platform}/{identifier}{}", std::env::consts::DLL_SUFFIX);
-                    entries.add(&file, bytes.clone())?;
-                }
+                let bytes = files::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+                let platform =
+                    loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
+                let file = format!("binaries/{platform}/{identifier}{}", std::env::consts::DLL_SUFFIX);
+                entries.add(&file, bytes)?;
             }
             From::Template(fmu) => {
                 let old = &fmu.co_simulation()?.model_identifier;
@@ -93,13 +107,13 @@ impl Source {
     pub fn add_licenses(&self, entries: &mut Entries) -> Result<(), Box<dyn std::error::Error>> {
         match &self.from {
             From::Library(_) => {
-                for (path, bytes) in LICENSES {
-                    entries.add(path, bytes.to_vec())?;
+                for (name, bytes) in LICENSES {
+                    entries.add(&format!("{FOLDER}/{name}"), bytes.to_vec())?;
                 }
             }
             From::Template(fmu) => {
-                for (path, bytes) in files_below(&fmu.folder().join("licenses"))? {
-                    entries.add(&format!("licenses/{path}"), bytes)?;
+                for (name, bytes) in files_below(&fmu.folder().join(FOLDER))? {
+                    entries.add(&format!("{FOLDER}/{name}"), bytes)?;
                 }
             }
         }
@@ -123,7 +137,8 @@ pub fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
         let setup = model
             .setup_file
             .as_ref()
-            .and_then(|file| fs::read_to_string(fmu.folder().join("resources").join(file)).ok());
+            .and_then(|file| files::read(&fmu.folder().join("resources").join(file)).ok())
+            .and_then(|bytes| String::from_utf8(bytes).ok());
         let described = binary.describe(&model.model, None, setup.as_deref());
         described
             .ok()
@@ -161,7 +176,7 @@ fn collect(folder: &Path, prefix: &str, files: &mut Vec<(String, Vec<u8>)>) -> R
         if path.is_dir() {
             collect(&path, &format!("{name}/"), files)?;
         } else {
-            files.push((name, fs::read(&path).map_err(|error| failed(&path, error))?));
+            files.push((name, ::files::read(&path).map_err(|error| failed(&path, error))?));
         }
     }
     Ok(())

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod checks;
+mod files;
+mod hostile;
 mod packs;
 mod plans;
 mod runs;
@@ -49,9 +51,12 @@ pub fn library() -> Option<PathBuf> {
     built("HELIOTORQUE_LIBRARY")
 }
 
-fn built(variable: &str) -> Option<PathBuf> {
+/// What `cargo xtask test` has built and names in `variable`; in CI it must be there.
+#[track_caller]
+pub fn built(variable: &str) -> Option<PathBuf> {
     let path = std::env::var_os(variable).map(PathBuf::from);
     if path.is_none() {
+        assert!(std::env::var_os("CI").is_none(), "{variable} is not set");
         eprintln!("skipped: {variable} is not set: run `cargo xtask test`");
     }
     path

@@ -2,7 +2,7 @@
 
 use std::{fs, io::Read, path::Path};
 
-use crate::{library, packed, probe_library, run, shown};
+use crate::{built, library, packed, probe_library, run, shown};
 
 const ACE: &str = "../../fmu-src/resources/ace.toml";
 
@@ -35,21 +35,41 @@ fn the_same_input_gives_the_same_archive() {
     for wanted in [
         "modelDescription.xml",
         "documentation/index.html",
-        "licenses/LICENSE-MIT.txt",
-        "licenses/THIRD-PARTY.txt",
+        "documentation/licenses/license.txt",
+        "documentation/licenses/LICENSE-APACHE.txt",
+        "documentation/licenses/LICENSE-MIT.txt",
+        "documentation/licenses/THIRD-PARTY.txt",
     ] {
         assert!(names.iter().any(|name| name == wanted), "{wanted} is missing of {names:?}");
     }
-    let libraries = names.iter().filter(|name| name.starts_with("binaries/") && name.contains("/AllTypes."));
-    assert_eq!(libraries.count(), loader::platform_folders().len());
+    // One library, under FMI 2.0's name of the platform.
+    let libraries: Vec<_> = names.iter().filter(|name| name.starts_with("binaries/")).collect();
+    let platform = loader::platform_folders()[0];
+    assert_eq!(libraries, [&format!("binaries/{platform}/AllTypes{}", std::env::consts::DLL_SUFFIX)]);
+}
+
+#[test]
+fn the_page_and_the_licences_lead_to_files_that_are_there() {
+    let Some((_room, path)) = packed("AllTypes") else { return };
+    let all = entries(&path);
+    let text = |wanted: &str| {
+        let (_, bytes) = all.iter().find(|(name, _)| name == wanted).expect(wanted);
+        String::from_utf8(bytes.clone()).unwrap()
+    };
+    let page = text("documentation/index.html");
+    let links: Vec<&str> = page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    let files: Vec<&&str> = links.iter().filter(|link| !link.starts_with('#')).collect();
+    assert_eq!(files, [&"licenses/license.txt"]);
+    let entry = text("documentation/licenses/license.txt");
+    let others = all.iter().filter_map(|(name, _)| name.strip_prefix("documentation/licenses/"));
+    for other in others.filter(|name| *name != "license.txt") {
+        assert!(entry.contains(other), "license.txt does not lead to {other}");
+    }
 }
 
 #[test]
 fn every_shipped_fmu_shows_a_picture() {
-    let Some(dist) = std::env::var_os("HELIOTORQUE_DIST") else {
-        eprintln!("skipped: HELIOTORQUE_DIST is not set: run `cargo xtask test`");
-        return;
-    };
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
     for name in ["MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
         let all = entries(&Path::new(&dist).join(format!("{name}.fmu")));
         let picture = all.iter().find(|(entry, _)| entry == "model.png");
@@ -87,7 +107,8 @@ fn a_template_gives_a_new_fmu_under_its_own_name() {
     run(&["pack", "--template", shown(&template), "--name", "Mine", "--output", shown(&mine)], 0);
     let names: Vec<String> = entries(&mine).into_iter().map(|(name, _)| name).collect();
     assert!(names.iter().any(|name| name.ends_with(&format!("/Mine{}", std::env::consts::DLL_SUFFIX))));
-    assert!(names.iter().any(|name| name == "licenses/LICENSE-MIT.txt"));
+    let licences = names.iter().filter(|name| name.starts_with("documentation/licenses/"));
+    assert_eq!(licences.count(), 4, "{names:?}");
     assert!(run(&["info", shown(&mine)], 0).contains("Mine"));
     run(&["run", shown(&mine), "--quiet"], 0);
 
@@ -213,4 +234,101 @@ fn models_without_outputs_of_single_plates_refuse_them() {
         run(&[&arguments[..], &["--model", "DisturbanceTorque", "--spacecraft", shown(&toml)]].concat(), 1);
     assert!(text.contains("odd.toml:2: wings"), "{text}");
     assert!(!output.exists());
+}
+
+#[test]
+fn start_values_are_packed_and_flown() {
+    let Some(library) = library() else { return };
+    let room = tempfile::tempdir().unwrap();
+    let toml = room.path().join("mine.toml");
+    let body = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
+    fs::write(&toml, format!("{body}\n[start]\n# as flown\n\"dump.threshold\" = [4, 4, 4] # all\n")).unwrap();
+    let pack = |name: &str, more: &[&str]| {
+        let fmu = room.path().join(format!("{name}.fmu"));
+        let mut arguments = vec!["pack", "--library", shown(&library), "--model", "MomentumPlant"];
+        arguments.extend(["--spacecraft", shown(&toml), "--output", shown(&fmu)]);
+        arguments.extend(more);
+        run(&arguments, 0);
+        fmu
+    };
+    let set = [
+        "--set",
+        "dump.threshold[2]=5",
+        "--set",
+        "panel[1].sunOffset=10deg",
+        "--set",
+        "orbit.frame=ecliptic",
+    ];
+    let fmu = pack("Set", &set);
+    let file = |fmu: &Path, name: &str| {
+        let bytes = entries(fmu).into_iter().find(|(entry, _)| entry == name).unwrap().1;
+        String::from_utf8(bytes).unwrap()
+    };
+    let packed = file(&fmu, "resources/spacecraft.toml");
+    let added =
+        "\"dump.threshold[2]\" = 5.0\n\"panel[1].sunOffset\" = \"10deg\"\n\"orbit.frame\" = \"ecliptic\"\n";
+    let table = "[start]\n# as flown\n\"dump.threshold\" = [4, 4, 4] # all\n";
+    assert_eq!(packed, format!("{body}\n{table}{added}"));
+    let xml = model_description::parse(file(&fmu, "modelDescription.xml").as_bytes()).unwrap().description;
+    let start = |name: &str| {
+        let variable = xml.variables.iter().find(|variable| variable.name == name).unwrap();
+        match &variable.kind {
+            model_description::VariableKind::Real { start, .. } => start.unwrap(),
+            model_description::VariableKind::Enumeration { start, .. } => f64::from(start.unwrap()),
+            _ => f64::NAN,
+        }
+    };
+    assert_eq!([1, 2, 3].map(|i| start(&format!("dump.threshold[{i}]"))), [4.0, 5.0, 4.0]);
+    assert_eq!(
+        (start("panel[1].sunOffset"), start("orbit.frame")),
+        (10.0 / (180.0 / std::f64::consts::PI), 4.0)
+    );
+
+    // It flies as the unset one does when it is told the same.
+    let fly = |fmu: &Path, more: &[&str]| {
+        let csv = room.path().join("flight.csv");
+        let mut arguments = vec!["run", shown(fmu), "--stop", "20d", "--quiet", "--output", shown(&csv)];
+        arguments.extend(more);
+        run(&arguments, 0);
+        fs::read_to_string(&csv).unwrap()
+    };
+    let plain = pack("Plain", &[]);
+    assert_eq!(fly(&fmu, &[]), fly(&plain, &set));
+    assert_ne!(fly(&fmu, &[]), fly(&plain, &[]));
+    run(&["check", shown(&fmu)], 0);
+}
+
+#[test]
+fn start_values_that_nothing_takes_are_refused() {
+    let Some(library) = library() else { return };
+    let room = tempfile::tempdir().unwrap();
+    let output = room.path().join("x.fmu");
+    let pack = |model: &str, more: &[&str]| {
+        let arguments = ["pack", "--library", shown(&library), "--model", model, "--output", shown(&output)];
+        let text = run(&[&arguments[..], more].concat(), 1);
+        assert!(!output.exists());
+        text
+    };
+    let text = pack("MomentumPlant", &["--set", "orbit.center=pluto"]);
+    assert!(text.contains("--set orbit.center=pluto: ") && text.contains("mercury (1), sun (2)"), "{text}");
+    let text = pack("MomentumPlant", &["--set", "orbit.step=1h"]);
+    assert!(text.contains("orbit.step: found 1h, allowed: a number from 1 to 1800 s"), "{text}");
+    let text = pack("MomentumPlant", &["--set", "orbit.centre=sun"]);
+    assert!(text.contains("near it: orbit.center"), "{text}");
+    let text = pack("MomentumPlant", &["--set", "torque.total=1,2,3"]);
+    assert!(text.contains("found the output torque.total[1], allowed: a parameter or an input"), "{text}");
+    let toml = room.path().join("mine.toml");
+    let body = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
+    fs::write(&toml, format!("{body}\n[start]\n\"orbit.centre\" = \"sun\"\n")).unwrap();
+    let line = body.lines().count() + 3;
+    let text = pack("MomentumPlant", &["--spacecraft", shown(&toml)]);
+    assert!(
+        text.contains(&format!("mine.toml:{line}: start.\"orbit.centre\": found the unknown name")),
+        "{text}"
+    );
+    if let Some(probe) = probe_library() {
+        let arguments = ["pack", "--library", shown(&probe), "--model", "Empty", "--output", shown(&output)];
+        let text = run(&[&arguments[..], &["--set", "a=1"]].concat(), 1);
+        assert!(text.contains("--set: Empty reads no file"), "{text}");
+    }
 }

@@ -31,7 +31,8 @@ fn negative_values_are_values() {
     for (arguments, status) in [
         (["run", "no/such.fmu", "--step", "-5"], 2),
         (["run", "no/such.fmu", "--every", "-1h"], 2),
-        (["check", "no/such.fmu", "--patience", "-2s"], 2),
+        (["check", "no/such.fmu", "--timeout", "-2s"], 2),
+        (["run", "no/such.fmu", "--timeout", "-2s"], 2),
         (["plan", "spin", "--campaign", "-1"], 1),
         (["plan", "spin", "--angle", "-2"], 1),
     ] {
@@ -73,8 +74,8 @@ fn a_check_that_would_check_nothing_is_refused() {
     }
     assert!(run(&["check", "no/such.fmu", "--template", "nonsense"], 1).contains("--template"));
     assert!(run(&["check", "no/such.toml", "--only", "locale"], 1).contains("--only"));
-    assert!(run(&["check", "no/such.toml", "--still"], 1).contains("--still"));
-    run(&["check", "no/such.fmu", "--still", "--only", "locale"], 2);
+    assert!(run(&["check", "no/such.toml", "--static"], 1).contains("--static"));
+    run(&["check", "no/such.fmu", "--static", "--only", "locale"], 2);
 }
 
 #[test]
@@ -104,7 +105,15 @@ fn every_command_and_flag_has_help() {
             assert!(flag.trim().contains("  "), "{command}: {flag}");
         }
     }
-    assert!(!all.contains("probe-in-child"), "a hidden command shows");
+    assert!(!all.contains("-in-child"), "a hidden command shows");
+    // By hand they say who starts them.
+    for (arguments, parent) in
+        [(["run-in-child", "--unpacked-in=.", "x.fmu"], "run"), (["probe-in-child", "x", "flight"], "check")]
+    {
+        let output = crate::heliotorque(&arguments).stdin(std::process::Stdio::null()).output().unwrap();
+        assert!(crate::text(&output).contains(&format!("`heliotorque {parent}` starts this")));
+        assert_eq!(output.status.code(), Some(1));
+    }
     assert!(run(&["study", "list"], 0).contains("momentum/table2"));
     assert!(run(&["schema"], 0).trim_start().starts_with('{'));
 }

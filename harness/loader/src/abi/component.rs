@@ -16,7 +16,7 @@ use super::{
     logger::{CallbackFunctions, FixedLogger, LogBook, Logger, log_message},
     text,
 };
-use crate::{LogMessage, Status, error::Outcome};
+use crate::{LogMessage, Status, calls, error::Outcome};
 
 unsafe extern "C" {
     fn calloc(count: usize, size: usize) -> *mut c_void;
@@ -76,8 +76,11 @@ unsafe impl Send for Component {}
 macro_rules! call {
     ($self:ident.$function:ident($($argument:expr),*)) => {
         match $self.binary.functions.$function {
-            // SAFETY: the handle is alive until drop and the arguments' lengths were checked by the caller.
-            Some(function) => Ok(Status::from(unsafe { function($self.handle, $($argument),*) })),
+            Some(function) => {
+                let _under_way = calls::enter(const { calls::number(stringify!($function)) });
+                // SAFETY: the handle is alive until drop and the arguments' lengths were checked by the caller.
+                Ok(Status::from(unsafe { function($self.handle, $($argument),*) }))
+            }
             None => Err(Outcome::Missing),
         }
     };
@@ -108,6 +111,7 @@ impl Component {
             step_finished: None,
             component_environment: Arc::as_ptr(&book).cast_mut().cast(),
         }));
+        let under_way = calls::enter(const { calls::number("fmi2Instantiate") });
         // SAFETY: all texts and the struct live during the call; the book outlives the instance.
         let handle = unsafe {
             function(
@@ -120,6 +124,7 @@ impl Component {
                 c_int::from(start.logging),
             )
         };
+        drop(under_way);
         if start.callbacks.scribbled {
             // SAFETY: the struct is ours; from here on nobody may read it as a struct, and we never do.
             unsafe { ptr::write_bytes(callbacks.cast::<u8>(), 0xA5, size_of::<CallbackFunctions>()) };
@@ -179,7 +184,10 @@ impl Component {
     }
 
     pub fn do_step(&mut self, time: f64, step: f64, no_set_state_prior: bool) -> Answer {
-        call!(self.fmi2DoStep(time, step, c_int::from(no_set_state_prior)))
+        let Some(function) = self.binary.functions.fmi2DoStep else { return Err(Outcome::Missing) };
+        let _under_way = calls::enter_with(const { calls::number("fmi2DoStep") }, [time, step]);
+        // SAFETY: the handle is alive until drop.
+        Ok(Status::from(unsafe { function(self.handle, time, step, c_int::from(no_set_state_prior)) }))
     }
 
     pub fn cancel_step(&mut self) -> Answer {
@@ -367,13 +375,18 @@ impl Component {
             ("fmi2SetString", call!(self.fmi2SetString(references, 0, ptr::null()))),
             ("fmi2SetDebugLogging", call!(self.fmi2SetDebugLogging(1, 0, ptr::null()))),
             ("fmi2FreeFMUstate", call!(self.fmi2FreeFMUstate(&raw mut no_state))),
-            ("fmi2FreeFMUstate", call!(self.fmi2FreeFMUstate(ptr::null_mut()))),
         ]
+    }
+
+    /// `fmi2FreeFMUstate` without a place for the state, which many FMUs do not survive.
+    pub fn free_no_state(&mut self) -> Answer {
+        call!(self.fmi2FreeFMUstate(ptr::null_mut()))
     }
 
     /// `fmi2FreeInstance(NULL)`, a no-op by the standard.
     pub fn free_nothing(&self) {
         if let Some(function) = self.binary.functions.fmi2FreeInstance {
+            let _under_way = calls::enter(const { calls::number("fmi2FreeInstance") });
             // SAFETY: NULL is allowed.
             unsafe { function(ptr::null_mut()) };
         }
@@ -414,11 +427,13 @@ impl Drop for Component {
                 if let (false, Some(function)) =
                     (slot.state.is_null(), self.binary.functions.fmi2FreeFMUstate)
                 {
+                    let _under_way = calls::enter(const { calls::number("fmi2FreeFMUstate") });
                     // SAFETY: the state is this instance's and not yet freed.
                     unsafe { function(self.handle, &raw mut slot.state) };
                 }
             }
             if let Some(function) = self.binary.functions.fmi2FreeInstance {
+                let _under_way = calls::enter(const { calls::number("fmi2FreeInstance") });
                 // SAFETY: the handle is alive and never used again.
                 unsafe { function(self.handle) };
             }

@@ -1,7 +1,7 @@
 //! The C interface of FMI 2.0, seen from the importer: the only unsafe code of the harness.
 //!
 //! [`Binary`] is a loaded shared library with its functions bound to their types; [`Component`] is one instance
-//! in it. Both are safe to use from outside this folder: lengths are checked, strings copied, states freed before
+//! in it; [`SharedWords`] is memory shared with another process. All are safe to use from outside this folder: lengths are checked, strings copied, states freed before
 //! their instance, and the library is never unloaded (Rust and C++ libraries leave thread-local destructors
 //! behind that would jump into unmapped memory).
 #![allow(unsafe_code, reason = "this folder is the boundary to the FMU's C interface")]
@@ -9,18 +9,20 @@
 mod component;
 mod describe;
 mod logger;
+mod shared;
 
 use std::{
     ffi::{CStr, CString, c_char, c_int, c_void},
     path::Path,
 };
 
-use crate::Error;
+use crate::{Error, calls};
 
 pub use component::Callbacks;
 pub(crate) use component::{Answer, Component, Start, StateKey};
 pub use describe::Described;
 use logger::CallbackFunctions;
+pub use shared::SharedWords;
 
 type Handle = *mut c_void;
 
@@ -128,6 +130,7 @@ impl std::fmt::Debug for Binary {
 impl Binary {
     /// Loads the library at `path` with its symbols to itself: every FMU names its functions alike.
     pub fn load(path: &Path) -> Result<Self, Error> {
+        let _under_way = calls::enter(calls::LOADING);
         // SAFETY: loading runs the library's initialisers; an FMU is code its user chose to run.
         let opened = unsafe {
             #[cfg(unix)]

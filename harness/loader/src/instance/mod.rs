@@ -284,6 +284,11 @@ impl Instance {
             .collect()
     }
 
+    /// `fmi2FreeFMUstate` with NULL for the pointer itself. For probing: it kills the process of many an FMU.
+    pub fn probe_free_no_state(&mut self) -> Result<Status, String> {
+        self.component.free_no_state().map_err(|missing| missing.to_string())
+    }
+
     /// One of `fmi2GetStatus`, `fmi2GetIntegerStatus`, `fmi2GetStringStatus` with a status kind. For probing.
     pub fn probe_status(&mut self, function: Function, kind: i32) -> Result<(), Error> {
         self.allow(function)?;
@@ -382,7 +387,8 @@ const LAST_SUCCESSFUL_TIME: i32 = 2;
 /// `fmi2Terminated`.
 const TERMINATED: i32 = 3;
 
-fn last(mut messages: Vec<LogMessage>) -> Vec<LogMessage> {
+/// The messages that an error shows.
+pub(crate) fn last(mut messages: Vec<LogMessage>) -> Vec<LogMessage> {
     messages.split_off(messages.len().saturating_sub(MESSAGES_SHOWN))
 }
 

@@ -29,7 +29,7 @@ fn unpack_in(room: &Path, path: &Path, limits: Limits) -> Result<Vec<String>, St
     let mut beside: Vec<_> = fs::read_dir(room).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     beside.sort();
     assert_eq!(beside, ["a.fmu", "inner"], "something was written beside the folder");
-    outcome.map(|()| {
+    outcome.map(|_| {
         let mut files = Vec::new();
         list(&inner, &inner, &mut files);
         files.sort();

@@ -136,6 +136,7 @@ pub fn folder(description: &Description) -> (tempfile::TempDir, Fmu) {
 pub fn probe_library() -> Option<PathBuf> {
     let path = std::env::var_os("HELIOTORQUE_PROBE_LIBRARY").map(PathBuf::from);
     if path.is_none() {
+        assert!(std::env::var_os("CI").is_none(), "HELIOTORQUE_PROBE_LIBRARY is not set");
         eprintln!("skipped: HELIOTORQUE_PROBE_LIBRARY is not set: run `cargo xtask test`");
     }
     path

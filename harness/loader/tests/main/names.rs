@@ -23,7 +23,7 @@ fn reals_take_units() {
     assert_eq!(value("ship.mass=20 above sea"), Value::Real(520.0));
     assert_eq!(value("ship.mass=2000 cm above sea"), Value::Real(520.0));
     for (text, says) in [
-        ("ship.mass=5km", "it takes m, cm, above sea"),
+        ("ship.mass=5km", "the units m, cm, above sea"),
         ("ship.mass=", "no number"),
         ("ship.mass=nan", "no number"),
         ("ship.mass=inf", "no number"),

@@ -11,6 +11,7 @@ use super::{Firing, Options, Row, Task, evaluate, refly};
 /// The shipped FMU; `None` where `cargo xtask test` does not say where it is.
 fn shipped() -> Option<Fmu> {
     let Some(dist) = std::env::var_os("HELIOTORQUE_DIST") else {
+        assert!(std::env::var_os("CI").is_none(), "HELIOTORQUE_DIST is not set");
         eprintln!("skipped: HELIOTORQUE_DIST is not set: run `cargo xtask test`");
         return None;
     };

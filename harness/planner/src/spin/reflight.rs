@@ -175,9 +175,9 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
     let integer = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
     let mut sets = vec![
         real("spin.initialRate", spin.rate_rad_s),
-        real("initial.nutation", 0.0),
+        real("start.nutation", 0.0),
         real("damper.timeConstant", 0.0),
-        real("propellant.initial", task.propellant_kg),
+        real("propellant.loaded", task.propellant_kg),
         real("pulse.resolution", task.resolution_s),
         real("burn.start", 0.0),
         real("burn.angle", 0.0),
@@ -204,7 +204,7 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
     ] {
         sets.extend((1..).zip(vector).map(|(axis, value)| real(&format!("{name}[{axis}]"), value)));
     }
-    sets.extend((1..).zip([0.0, 0.0, 0.0, 1.0]).map(|(i, value)| real(&format!("initial.q[{i}]"), value)));
+    sets.extend((1..).zip([0.0, 0.0, 0.0, 1.0]).map(|(i, value)| real(&format!("start.q[{i}]"), value)));
     match &task.firing {
         Firing::Group(name) => sets.push(("burn.group".to_owned(), Value::Text(name.clone()))),
         Firing::Thruster { number, opposite } => {

@@ -8,6 +8,15 @@ use crate::{Options, StudyError};
 
 const DAY_S: f64 = 86_400.0;
 const STEP_S: f64 = 600.0;
+/// 2009-04-06, in s past J2000 TDB: the FMU's default `start.epoch`.
+const START_S: f64 = 292_248_000.0;
+
+/// Where the paper's dumps leave a component: at the opposite threshold.
+pub const PAPER_REINIT: f64 = 1.0;
+/// Where the FMU's do by default.
+pub const OWN_REINIT: f64 = 0.9;
+
+const OFFSETS_M: [f64; 3] = [0.0, -0.0254, -0.0508];
 
 /// What the Sun pushes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +59,51 @@ impl Convention {
     }
 }
 
+/// What a flight chooses otherwise than the study does, where the paper prints nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Nothing: the FMU's own start date, orbit frame and panel tilts.
+    Study,
+    /// Start 40 days later.
+    Later,
+    /// Orbital elements referred to Mercury's orbit plane.
+    OrbitPlane,
+    /// Orbital elements referred to the ecliptic.
+    Ecliptic,
+    /// Senses of the panels' tilts off the Sun: whether +X and -X turn right-handed about their axes.
+    Tilts(bool, bool),
+}
+
+impl Choice {
+    /// For tables.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Study => "study's own",
+            Self::Later => "start 40 days later",
+            Self::OrbitPlane => "Mercury's orbit plane",
+            Self::Ecliptic => "ecliptic",
+            Self::Tilts(true, true) => "panel tilts + +",
+            Self::Tilts(true, false) => "panel tilts + -",
+            Self::Tilts(false, true) => "panel tilts - +",
+            Self::Tilts(false, false) => "panel tilts - -",
+        }
+    }
+
+    fn sets(self) -> Vec<(String, Value)> {
+        let option = |name: &str, item| (name.to_owned(), Value::Integer(item));
+        let tilt = |positive| if positive { 1 } else { 2 };
+        match self {
+            Self::Study => Vec::new(),
+            Self::Later => vec![("start.epoch".to_owned(), Value::Real(START_S + 40.0 * DAY_S))],
+            Self::OrbitPlane => vec![option("orbit.frame", 1)],
+            Self::Ecliptic => vec![option("orbit.frame", 4)],
+            Self::Tilts(plus_x, minus_x) => {
+                vec![option("panel[1].tilt", tilt(plus_x)), option("panel[2].tilt", tilt(minus_x))]
+            }
+        }
+    }
+}
+
 /// One flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
@@ -61,18 +115,29 @@ pub struct Case {
     pub convention: Convention,
     /// Z component of the centre of mass, in m.
     pub offset_m: f64,
+    /// Share of the threshold, of opposite sign, at which a dump leaves a component.
+    pub reinit: f64,
+    /// What else differs.
+    pub choice: Choice,
 }
 
 impl Case {
     /// What it is called in files and filters.
     pub fn label(&self) -> String {
         format!(
-            "dumps only, {} N.m.s, {}, {} momentum, Z {}",
+            "dumps only, {} N.m.s, to {}, {}, {} momentum{}, Z {}",
             self.threshold_n_m_s,
+            self.reinit_label(),
             self.shade.label(),
             self.convention.label(),
+            if self.choice == Choice::Study { String::new() } else { format!(", {}", self.choice.label()) },
             self.offset_label()
         )
+    }
+
+    /// Where dumps leave a component, as a share of the opposite threshold.
+    pub fn reinit_label(&self) -> String {
+        format!("{:.1}", self.reinit)
     }
 
     /// The offset as the paper writes it.
@@ -84,16 +149,18 @@ impl Case {
         let mut sets = vec![
             ("solar.fixedPressure".to_owned(), Value::Boolean(true)),
             ("gravityGradient.enabled".to_owned(), Value::Boolean(false)),
-            ("eclipse.model".to_owned(), Value::Integer(4)),
+            ("eclipse.method".to_owned(), Value::Integer(4)),
             ("panel[1].enabled".to_owned(), Value::Boolean(self.shade == Shade::PlatesAndPanels)),
             ("panel[2].enabled".to_owned(), Value::Boolean(self.shade == Shade::PlatesAndPanels)),
-            ("sunshade.model".to_owned(), Value::Integer(if self.shade == Shade::Cylinder { 2 } else { 1 })),
+            ("sunshade.shape".to_owned(), Value::Integer(if self.shade == Shade::Cylinder { 2 } else { 1 })),
             (
                 "momentum.convention".to_owned(),
                 Value::Integer(if self.convention == Convention::BodyIntegral { 2 } else { 1 }),
             ),
             ("spacecraft.centerOfMass[3]".to_owned(), Value::Real(self.offset_m)),
+            ("dump.reinitFraction".to_owned(), Value::Real(self.reinit)),
         ];
+        sets.extend(self.choice.sets());
         sets.extend(
             (1..=3).map(|axis| (format!("dump.threshold[{axis}]"), Value::Real(self.threshold_n_m_s))),
         );
@@ -116,15 +183,26 @@ pub struct Flown {
     pub dumps_d: Vec<f64>,
 }
 
-/// Every case, the paper's first.
+/// Tables 2 and 3: the paper's own dumps first, then the FMU's default ones.
 pub fn all() -> Vec<Case> {
-    let mut cases = Vec::new();
+    let own_rule = [Convention::BodyIntegral, Convention::Inertial];
     let alone: &[Shade] = &[Shade::Cylinder, Shade::Plates];
-    for (threshold_n_m_s, shades) in [(4.0, alone), (7.0, alone), (5.5, &[Shade::PlatesAndPanels])] {
-        for convention in [Convention::BodyIntegral, Convention::Inertial] {
-            for &shade in shades {
-                for offset_m in [0.0, -0.0254, -0.0508] {
-                    cases.push(Case { threshold_n_m_s, shade, convention, offset_m });
+    let with_panels: &[Shade] = &[Shade::PlatesAndPanels];
+    let mut cases = Vec::new();
+    for (reinit, conventions, shades_alone) in
+        [(PAPER_REINIT, &own_rule[..1], &alone[..1]), (OWN_REINIT, &own_rule[..], alone)]
+    {
+        for (threshold_n_m_s, shades) in [(4.0, shades_alone), (7.0, shades_alone), (5.5, with_panels)] {
+            for &convention in conventions {
+                for &shade in shades {
+                    cases.extend(OFFSETS_M.map(|offset_m| Case {
+                        threshold_n_m_s,
+                        shade,
+                        convention,
+                        offset_m,
+                        reinit,
+                        choice: Choice::Study,
+                    }));
                 }
             }
         }
@@ -132,12 +210,43 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-/// Flies every case that `options` leaves, on all cores; the order of results does not depend on theirs.
-pub fn fly_all(study: &'static str, options: &Options) -> Result<Vec<Flown>, StudyError> {
+/// Flights over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
+pub fn open() -> Vec<Case> {
+    let mut cases = Vec::new();
+    let mut extend = |reinit, threshold_n_m_s, shade, choices: &[Choice]| {
+        for &choice in choices {
+            cases.extend(OFFSETS_M.map(|offset_m| Case {
+                threshold_n_m_s,
+                shade,
+                convention: Convention::BodyIntegral,
+                offset_m,
+                reinit,
+                choice,
+            }));
+        }
+    };
+    for reinit in [PAPER_REINIT, OWN_REINIT] {
+        for threshold_n_m_s in [4.0, 7.0] {
+            let choices = [Choice::Study, Choice::Later, Choice::OrbitPlane, Choice::Ecliptic];
+            extend(reinit, threshold_n_m_s, Shade::Cylinder, &choices);
+        }
+        let tilts = [(true, true), (false, false), (true, false), (false, true)];
+        extend(
+            reinit,
+            5.5,
+            Shade::PlatesAndPanels,
+            &tilts.map(|(plus_x, minus_x)| Choice::Tilts(plus_x, minus_x)),
+        );
+    }
+    cases
+}
+
+/// Flies every one of `cases` that `options` leaves, on all cores; the order of results does not depend on theirs.
+pub fn fly_all(study: &'static str, options: &Options, cases: Vec<Case>) -> Result<Vec<Flown>, StudyError> {
     let only = options.only.as_deref().unwrap_or_default();
-    let cases: Vec<Case> = all().into_iter().filter(|case| case.label().contains(only)).collect();
+    let known = cases.iter().map(Case::label).collect::<Vec<_>>().join("\n  ");
+    let cases: Vec<Case> = cases.into_iter().filter(|case| case.label().contains(only)).collect();
     if cases.is_empty() {
-        let known = all().iter().map(Case::label).collect::<Vec<_>>().join("\n  ");
         return Err(StudyError::NothingLeft { study, only: only.to_owned(), known });
     }
     let fmu = options.fmu("MomentumPlant.fmu")?;

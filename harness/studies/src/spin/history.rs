@@ -20,6 +20,8 @@ fn cases() -> Vec<Case> {
         case("axisymmetric, ratio 1.484").ratio(1.484),
         case("triaxial, I1/I2 = 1.44").triaxial(RATIO, 1.44),
         case("triaxial, I1/I2 = 1.50").triaxial(RATIO, 1.50),
+        case("triaxial, I2/I1 = 1.44").triaxial(RATIO, 1.0 / 1.44),
+        case("triaxial, I2/I1 = 1.50").triaxial(RATIO, 1.0 / 1.50),
     ]
 }
 
@@ -103,8 +105,10 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
     }
     report.table(&["body", "paper [deg]", "ours [deg]", "verdict"], &rows);
     report.line(
-        "The final value turns with the ratio (1.483 and 1.484 above): histories and ranges are compared, not one number. A \
-         triaxial body gives the range, so the paper's was most likely one.",
+        "The final value turns with the ratio (1.483 and 1.484 above): histories and ranges are compared, not one number.\n\
+         I1 is about X, I2 about Y. A triaxial body gives the paper's range if its greater transverse inertia is about X, and\n\
+         does not if it is about Y. The paper prints neither axis nor quotient: both are choices, and the range they give is\n\
+         no confirmation.",
     );
     report.csv(options, "figure4.csv", &["case", "time_s", "nutation_deg", "foreseen_deg"], csv)?;
     let chart = Chart {

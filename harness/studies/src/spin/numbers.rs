@@ -178,9 +178,9 @@ fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
     let [x, y, z] = [0, 1, 2].map(|axis| -earth.columns[axis][0]);
     let scale = (2.0 * (1.0 + z)).sqrt();
     let q = [-y / scale, x / scale, 0.0, 0.5 * scale];
-    let aimed = (1..).zip(q).fold(still("deadband", 4.0 * DAY_S), |case, (i, value)| {
-        case.real(&format!("initial.q[{i}]"), value)
-    });
+    let aimed = (1..)
+        .zip(q)
+        .fold(still("deadband", 4.0 * DAY_S), |case, (i, value)| case.real(&format!("start.q[{i}]"), value));
     let flown = aimed.fly(fmu, &["earth.angle"])?;
     let limit_rad = 3.0_f64.to_radians();
     let beyond = flown.columns[0].iter().position(|angle| *angle > limit_rad).filter(|i| *i > 0);
@@ -190,6 +190,15 @@ fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
         let crossing_s = flown.times_s[i - 1] + share * (flown.times_s[i] - flown.times_s[i - 1]);
         2.0 * crossing_s / DAY_S
     }))
+}
+
+/// Envelope by eq 9 (once per half turn) and eq 10 (otherwise) as printed, in rad: eq 9 lacks a factor 1/2 inside the root,
+/// eq 10 has -1/12 where +1/4 belongs.
+fn printed_envelope_rad(per_pulse_rad: f64, ratio: f64, turns_per_pulse: f64) -> f64 {
+    let phase_rad = 2.0 * PI * ratio - 3.0 * PI;
+    let square =
+        if turns_per_pulse == 0.5 { 2.0 * (1.0 + phase_rad) } else { 1.0 - phase_rad.powi(2) / 12.0 };
+    per_pulse_rad * square.sqrt()
 }
 
 /// Section II: envelopes, by eq 9 and 10 as printed and exactly.
@@ -204,8 +213,12 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             .integer("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
             .real("burn.turnsPerPulse", turns)
             .real("burn.pulseWidth", 2.0 * sine.asin() / RATE_RAD_S)
-            .fly(fmu, &["nutation.envelopePrinted", "nutation.envelope"])?;
-        Ok((seen.last(0).to_degrees(), seen.last(1).to_degrees()))
+            .fly(fmu, &["inertiaRatio", "nutation.envelope"])?;
+        let (ratio, exact_rad) = (seen.last(0), seen.last(1));
+        // The FMU's envelope is that of its own pulse: (Gamma / n) / |sin(phi / 2)|.
+        let per_pulse_rad = exact_rad * (PI * ratio * turns).sin().abs();
+        let printed_rad = printed_envelope_rad(per_pulse_rad, ratio, turns);
+        Ok((printed_rad.to_degrees(), exact_rad.to_degrees()))
     };
     let mut rows = Vec::new();
     for (quantity, paper_text, paper, thruster, turns, count) in [
@@ -232,7 +245,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let damped = Case::new("damping", 9.5 * 3600.0, 9.5 * 3600.0)
         .real("damper.timeConstant", 9.5 * 3600.0)
         .integer("burn.plan", 4)
-        .real("initial.nutation", 0.02_f64.to_radians())
+        .real("start.nutation", 0.02_f64.to_radians())
         .fly(fmu, &["nutation.angle"])?;
     let left = damped.last(0) / 0.02_f64.to_radians();
     rows.push(Row::new(
@@ -248,7 +261,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let tracker = Case::new("observation", 1.0, 1.0)
         .integer("starTracker.sampling", 2)
-        .fly(fmu, &["starTracker.observationTimeEq20", "starTracker.observationTime"])?;
+        .fly(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
     let minutes = tracker.last(0) / 60.0;
     // Nutation that 7 ms allow, from eq 1's slope in the FMU at two Sun angles.
     let allowed = |beta_deg: f64| -> Result<f64, StudyError> {
@@ -257,7 +270,7 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         let nutation = 1e-6;
         let seen = Case::new("eq 1", 1e-3, 1e-3)
             .integer("burn.plan", 4)
-            .real("initial.nutation", nutation)
+            .real("start.nutation", nutation)
             .real("sun.direction[1]", 0.0)
             .real("sun.direction[2]", beta.sin())
             .real("sun.direction[3]", beta.cos())

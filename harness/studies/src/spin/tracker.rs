@@ -29,7 +29,7 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
     for (label, number) in SAMPLINGS.iter().filter(|(label, _)| wanted.contains(label)) {
         let case = Case::new(*label, 14_400.0, 0.5)
             .integer("burn.plan", 4)
-            .real("initial.nutation", NUTATION_RAD)
+            .real("start.nutation", NUTATION_RAD)
             .integer("starTracker.sampling", *number);
         let names = [
             "starTracker.declinationTrue",
@@ -140,7 +140,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
                     .integer("burn.plan", 4)
                     .real("spin.initialRate", rate_rpm * PI / 30.0)
                     .integer("starTracker.sampling", number)
-                    .fly(&fmu, &["starTracker.observationTime", "starTracker.observationTimeEq20"])
+                    .fly(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
             };
             let (clock, spins) = (time(2)?, time(1)?);
             Ok(Point {

@@ -106,7 +106,7 @@ impl Fleet {
                 real("ephemeris.trueAnomaly", case.true_anomaly_deg.to_radians()),
                 choice("orbit.frame", 1),
                 real("orbit.semiMajorAxis", 10_175_000.0),
-                choice("eclipse.model", 4),
+                choice("eclipse.method", 4),
             ],
             record: Some(names.iter().filter_map(|name| self.plant.position(name)).collect()),
             ..loader::Options::default()
@@ -187,17 +187,17 @@ impl Felt {
     fn start(fmu: &Fmu, case: &Case) -> Result<Self, loader::Error> {
         let mut instance = fmu.instantiate("felt", &InstanceOptions::default())?;
         let eclipse = if case.planet == Planet::Still { 3 } else { 2 };
-        instance.set("eclipse.model", &Value::Integer(eclipse))?;
+        instance.set("eclipse.method", &Value::Integer(eclipse))?;
         if let Some(belts) = case.belts {
-            instance.set("radiation.method", &Value::Integer(2))?;
-            instance.set("radiation.belts", &Value::Integer(belts))?;
+            instance.set("planetLight.method", &Value::Integer(2))?;
+            instance.set("planetLight.belts", &Value::Integer(belts))?;
         }
         instance.setup_experiment(None, 0.0, None)?;
         instance.enter_initialization_mode()?;
         instance.exit_initialization_mode()?;
         let reference = |name: String| fmu.variable(&name).map(|variable| variable.value_reference);
         let vector = |name: &str| (1..=3).map(|i| format!("{name}[{i}]")).collect::<Vec<_>>();
-        let inputs = ["sun.position", "planet.position"].iter().flat_map(|name| vector(name));
+        let inputs = ["sun.positionBody", "planet.positionBody"].iter().flat_map(|name| vector(name));
         let outputs = EFFECTS.iter().flat_map(|effect| vector(&format!("force.{effect}")));
         Ok(Self {
             inputs: inputs.map(reference).collect::<Result<_, _>>()?,

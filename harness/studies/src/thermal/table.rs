@@ -5,12 +5,8 @@ use super::flight::{EFFECTS, Sample};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
-/// How far the greatest albedo, infrared and recoil may be off the printed values to count as reproduced, by table.
-pub(super) struct Tolerances {
-    pub(super) albedo: fn(u32) -> Option<f64>,
-    pub(super) infrared: fn(u32) -> Option<f64>,
-    pub(super) thermal: fn(u32) -> Option<f64>,
-}
+/// How far the greatest of solar, albedo, infrared and recoil may be off the printed one, relative to it.
+pub(super) type Tolerances = [f64; 4];
 
 /// Greatest and least of an effect; solar and recoil are looked at in the light only.
 fn extremes(samples: &[Sample], effect: usize) -> (f64, f64) {
@@ -46,6 +42,7 @@ pub(super) fn print(
         "paper",
         "ours",
         "difference of the greatest",
+        "difference of the least",
         "verdict",
         "by cells",
         "difference",
@@ -54,13 +51,6 @@ pub(super) fn print(
     for Flown { row, samples, by_cells } in flown {
         let ours = as_printed(samples);
         let cells = by_cells.as_deref().map(as_printed);
-        let case = row.case;
-        let allowed = [
-            Some(0.0015),
-            (tolerances.albedo)(case),
-            (tolerances.infrared)(case),
-            (tolerances.thermal)(case),
-        ];
         for effect in 0..EFFECTS.len() {
             let paper = row.extremes()[effect];
             let digits = if effect == 0 { 3 } else { 2 };
@@ -68,12 +58,13 @@ pub(super) fn print(
             let off = |found: [(f64, f64); 4]| found[effect].0 / paper.0 - 1.0;
             let unit = if effect == 0 { "1e-7 m/s2" } else { "%" };
             rows.push(vec![
-                case.to_string(),
+                row.case.to_string(),
                 format!("{} [{unit}]", EFFECTS[effect]),
                 paper.1.map_or(format!("{:.2}", paper.0), |least| format!("{:.2} / {least:.2}", paper.0)),
                 pair(ours[effect]),
                 percent(off(ours)),
-                verdict(off(ours), allowed[effect]),
+                paper.1.map_or("-".to_owned(), |least| format!("{:+.2} points", ours[effect].1 - least)),
+                verdict(off(ours), tolerances[effect]),
                 cells.map_or("-".to_owned(), |cells| pair(cells[effect])),
                 cells.map_or("-".to_owned(), |cells| percent(off(cells))),
             ]);
@@ -112,10 +103,10 @@ fn percent(off: f64) -> String {
     format!("{:+.1} %", off * 100.0)
 }
 
-fn verdict(off: f64, tolerance: Option<f64>) -> String {
-    match tolerance {
-        Some(tolerance) if off.abs() <= tolerance => format!("within {} %", tolerance * 100.0),
-        Some(tolerance) => format!("off by more than {} %", tolerance * 100.0),
-        None => "-".to_owned(),
+fn verdict(off: f64, tolerance: f64) -> String {
+    if off.abs() <= tolerance {
+        format!("within {} %", tolerance * 100.0)
+    } else {
+        format!("off by more than {} %", tolerance * 100.0)
     }
 }

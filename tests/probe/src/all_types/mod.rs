@@ -1,10 +1,11 @@
 //! The model that has everything: each base type in each role, input and output derivatives, directional
 //! derivatives, groups of run-time length, events. Outputs are inputs, so that what is right is plain to see.
 
+mod dependencies;
 mod setup;
 mod variables;
 
-use fmi_export::{About, Context, Failure, Model, Real, Step, Values};
+use fmi_export::{About, Context, Dependencies, Failure, Model, Real, Step, Values};
 use serde::{Deserialize, Serialize};
 
 pub use setup::{Channel, Setup};
@@ -159,6 +160,10 @@ impl Model for AllTypes {
         }
         let at = context.variables.pairs().position(|(_, to, _)| to == output)?;
         state.feedthroughs.get(at).map(|it| it.gain * it.slope)
+    }
+
+    fn dependencies(_setup: &Setup, variables: &AllTypesVariables) -> Dependencies {
+        dependencies::table(variables)
     }
 
     fn directional_derivative(

@@ -7,6 +7,8 @@ use super::setup::Setup;
 /// A colour; 3 is no item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum Colour {
+    /// Not chosen yet.
+    None = 0,
     /// Like blood.
     Red = 1,
     /// Like grass.

@@ -2,7 +2,7 @@
 
 use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Text, Variables};
 
-use super::super::choices::{PanelControl, PanelTilt, SunshadeModel};
+use super::super::choices::{PanelControl, PanelTilt, SunshadeShape};
 use super::super::defaults;
 use super::super::setup::PlantSetup;
 
@@ -11,13 +11,13 @@ use super::super::setup::PlantSetup;
 #[variables(setup = PlantSetup)]
 pub struct SpacecraftVariables {
     /// Spacecraft mass.
-    #[parameter(tunable, unit = "kg", min = 1e-3, start = setup.spacecraft.mass_properties.mass_kg)]
+    #[parameter(tunable, unit = "kg", min = 1e-3, max = 1e12, start = setup.spacecraft.mass_properties.mass_kg)]
     pub mass: Real,
     /// Inertia about the centre of mass, body frame.
-    #[parameter(unit = "kg.m2", start = defaults::inertia_kg_m2(setup))]
+    #[parameter(unit = "kg.m2", min = -1e15, max = 1e15, start = defaults::inertia_kg_m2(setup))]
     pub inertia: RealMatrix<3, 3>,
     /// Centre of mass in the body frame.
-    #[parameter(tunable, unit = "m", display = "cm", start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
+    #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
     pub center_of_mass: RealVector<3>,
 }
 
@@ -26,8 +26,8 @@ pub struct SpacecraftVariables {
 #[variables(setup = PlantSetup)]
 pub struct SunshadeVariables {
     /// Which model of the shade takes the light.
-    #[parameter(start = defaults::sunshade_model(setup))]
-    pub model: Choice<SunshadeModel>,
+    #[parameter(start = defaults::sunshade_shape(setup))]
+    pub shape: Choice<SunshadeShape>,
     /// Coefficients of paper 000's eq 3 for the shade in use, about the centre of mass, in the shade's frame: rows are
     /// torque components x, y, z; columns the monomials x, y, z, xy, xz, yz, xx, yy, zz of the Sun direction. Torque
     /// is pressure times the polynomial while sunshade.polynomialValid holds.
@@ -67,7 +67,7 @@ pub struct PanelVariables {
 #[variables(setup = PlantSetup)]
 pub struct WheelVariables {
     /// Greatest spin momentum the wheel can hold.
-    #[parameter(unit = "N.m.s", min = 0.0, start = setup.spacecraft.wheels[index].capacity_n_m_s)]
+    #[parameter(unit = "N.m.s", min = 0.0, max = 1e12, start = setup.spacecraft.wheels[index].capacity_n_m_s)]
     pub capacity: Real,
     /// Spin momentum about the wheel's axis; stays 0 unless the wheels' axes span all directions.
     #[output(unit = "N.m.s", nominal = 1.0)]

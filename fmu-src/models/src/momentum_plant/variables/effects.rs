@@ -2,9 +2,12 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
-use super::super::choices::{DumpReinit, MomentumConvention};
+use physics::radiation::Effect;
+
+use super::super::choices::{DumpReinitTo, MomentumConvention};
 use super::super::defaults;
 use super::super::setup::PlantSetup;
+use crate::shared::WorkLimit;
 
 /// Light of the planet.
 #[derive(Variables)]
@@ -55,7 +58,7 @@ pub struct GravityGradientVariables {
 pub struct TorqueVariables {
     /// Torque from outside this model, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
-    pub external: RealVector<3>,
+    pub applied: RealVector<3>,
     /// Direct sunlight on sunshade and panels.
     #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
     pub solar: RealVector<3>,
@@ -82,7 +85,7 @@ pub struct TorqueVariables {
 pub struct ForceVariables {
     /// Force from outside this model, body frame, through the centre of mass.
     #[input(unit = "N", display = "uN", start = [0.0; 3])]
-    pub external: RealVector<3>,
+    pub applied: RealVector<3>,
     /// Direct sunlight on sunshade and panels.
     #[output(unit = "N", display = "uN", nominal = 1e-4)]
     pub solar: RealVector<3>,
@@ -121,6 +124,8 @@ pub struct SolverVariables {
     /// shortened until it holds.
     #[parameter(unit = "1", min = 1e-12, max = 1.0, start = 1e-5)]
     pub disturbance_tolerance: Real,
+    #[group(name = "")]
+    pub work: WorkLimit,
 }
 
 /// System momentum.
@@ -146,8 +151,8 @@ pub struct DumpVariables {
     #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = defaults::dump_threshold_n_m_s(setup))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.
-    #[parameter(start = DumpReinit::Opposite)]
-    pub reinit: Choice<DumpReinit>,
+    #[parameter(start = DumpReinitTo::Opposite)]
+    pub reinit_to: Choice<DumpReinitTo>,
     /// Fraction of the threshold, of opposite sign, after a dump: 1 is paper 000's, which dumps again within minutes
     /// where the drift reverses; 0.9 is robust; 0 dumps to zero.
     #[parameter(tunable, unit = "1", min = 0.0, max = 1.0, start = 0.9)]
@@ -159,7 +164,7 @@ pub struct DumpVariables {
     #[input(unit = "N.m.s", start = [0.0; 3])]
     pub target: RealVector<3>,
     /// Time that must lie between dumps; paper 000's mission asks for five days.
-    #[parameter(unit = "s", display = "d", min = 0.0, start = 432_000.0)]
+    #[parameter(unit = "s", display = "d", min = 0.0, max = 1e12, start = 432_000.0)]
     pub required_spacing: Real,
     /// Largest threshold at which no wheel saturates whatever components stay within it, by their capacities and spin axes
     /// and the distribution of wheel[k].momentum; 0 without wheels in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
@@ -180,4 +185,31 @@ pub struct DumpVariables {
     /// Angular impulse of the last dump, body frame.
     #[output(discrete, unit = "N.m.s")]
     pub impulse: RealVector<3>,
+}
+
+impl TorqueVariables {
+    /// The output of an effect; none for what is applied from outside.
+    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
+        match effect {
+            Effect::Solar => Some(self.solar),
+            Effect::Albedo => Some(self.albedo),
+            Effect::Infrared => Some(self.infrared),
+            Effect::Thermal => Some(self.thermal),
+            Effect::GravityGradient => Some(self.gravity_gradient),
+            Effect::Applied => None,
+        }
+    }
+}
+
+impl ForceVariables {
+    /// The output of an effect; none for what is applied from outside and what exerts no force.
+    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
+        match effect {
+            Effect::Solar => Some(self.solar),
+            Effect::Albedo => Some(self.albedo),
+            Effect::Infrared => Some(self.infrared),
+            Effect::Thermal => Some(self.thermal),
+            Effect::GravityGradient | Effect::Applied => None,
+        }
+    }
 }

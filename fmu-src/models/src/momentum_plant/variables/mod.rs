@@ -14,7 +14,7 @@ use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
-use motion::{AttitudeVariables, CommandVariables, GuidedVariables, InitialVariables, OrbitVariables};
+use motion::{AttitudeVariables, CommandVariables, GuidedVariables, OrbitVariables, StartVariables};
 use surroundings::{
     EarthVariables, EclipseVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables,
     SolarVariables, SunVariables,
@@ -33,7 +33,7 @@ pub struct PlantVariables {
     #[group]
     pub guided: GuidedVariables,
     #[group]
-    pub initial: InitialVariables,
+    pub start: StartVariables,
     #[group]
     pub orbit: OrbitVariables,
     #[group]

@@ -3,7 +3,7 @@
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::super::choices::{
-    AttitudeSource, CommandKind, OrbitCenter, OrbitFrame, OrbitModel, OrbitSource, ScienceRule,
+    AttitudeSource, CommandKind, OrbitCenter, OrbitDynamics, OrbitFrame, OrbitSource, ScienceRule,
 };
 use super::super::defaults;
 use super::super::setup::PlantSetup;
@@ -27,7 +27,8 @@ pub struct AttitudeVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct CommandVariables {
-    /// What the command gives. A command takes effect when any of its inputs changes, and is propagated from then on.
+    /// What the command gives. A command takes effect when any of the inputs it gives changes, and is propagated from then
+    /// on. The attitude is held without rate while this is none, or while the quaternion it gives is all zero.
     #[input(start = CommandKind::Attitude)]
     pub kind: Choice<CommandKind>,
     /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1.
@@ -36,7 +37,8 @@ pub struct CommandVariables {
     /// Commanded angular rate in body components; the attitude is propagated with it.
     #[input(unit = "rad/s", display = "deg/s", start = [0.0; 3])]
     pub rate: RealVector<3>,
-    /// Error quaternion, scalar last: the rotation from the attitude held to the one commanded.
+    /// Error quaternion, scalar last: from the commanded to the actual body frame, so that A(error) takes the boresight to
+    /// the sensed Sun (paper 001, eq 25). It is turned out once, when command.kind becomes errorQuaternion.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub error: RealVector<4>,
 }
@@ -52,31 +54,31 @@ pub struct GuidedVariables {
     #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.25)]
     pub science_gain: Real,
     /// Begin of downlink after periapsis.
-    #[parameter(unit = "s", display = "h", min = 0.0, start = 7_200.0)]
+    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 7_200.0)]
     pub downlink_start: Real,
     /// End of downlink after periapsis.
-    #[parameter(unit = "s", display = "h", min = 0.0, start = 36_000.0)]
+    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 36_000.0)]
     pub downlink_end: Real,
     /// A downlink after every how many periapses; 0 = never.
     #[parameter(min = 0, max = 1_000, start = 2)]
     pub downlink_every: Integer,
     /// Turn rate between science and downlink attitudes; 0 = at once, as in paper 000.
-    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, start = 0.0)]
+    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = 0.0)]
     pub slew_rate: Real,
 }
 
 /// Where the flight starts.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
-pub struct InitialVariables {
+pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
-    #[parameter(unit = "s", display = "d", start = defaults::EPOCH_TDB_S)]
+    #[parameter(unit = "s", display = "d", min = -defaults::VALID_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
     pub epoch: Real,
     /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
     /// System momentum at the start, body frame.
-    #[parameter(unit = "N.m.s", start = [0.0; 3])]
+    #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub momentum: RealVector<3>,
 }
 
@@ -87,41 +89,43 @@ pub struct OrbitVariables {
     /// What the spacecraft flies around.
     #[parameter(start = OrbitCenter::Mercury)]
     pub center: Choice<OrbitCenter>,
-    /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity.
+    /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity. While one of these two is zero the
+    /// flight waits for it: the attitude is held and nothing acts.
     #[parameter(start = OrbitSource::Elements)]
     pub source: Choice<OrbitSource>,
     /// What moves the spacecraft. On a disturbed orbit downlinks are counted from the periapses it really passes.
-    #[parameter(start = OrbitModel::TwoBody)]
-    pub model: Choice<OrbitModel>,
+    #[parameter(start = OrbitDynamics::TwoBody)]
+    pub dynamics: Choice<OrbitDynamics>,
     /// Whether the Sun's tide acts on a disturbed orbit.
     #[parameter(start = true)]
     pub sun_tide: Boolean,
-    /// Whether light, heat and force.external move the spacecraft on a disturbed orbit.
+    /// Whether light, heat and force.applied move the spacecraft on a disturbed orbit.
     #[parameter(start = true)]
     pub radiation_feedback: Boolean,
     /// Longest integration step of a disturbed orbit; 300 s keep a revolution of the default orbit to 0.1 mm.
     #[parameter(unit = "s", min = 1.0, max = 1_800.0, start = 300.0)]
     pub step: Real,
     /// Frame of the elements.
-    #[parameter(start = OrbitFrame::MercuryEquator)]
+    #[parameter(start = OrbitFrame::PlanetEquator)]
     pub frame: Choice<OrbitFrame>,
-    /// Semi-major axis; the default gives a period of 12 h.
-    #[parameter(unit = "m", display = "km", min = 1.0, start = defaults::semi_major_axis_m())]
+    /// Semi-major axis; the default gives a period of 12 h about Mercury. With another orbit.center, elements left at their
+    /// defaults are those of a circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e13, start = defaults::semi_major_axis_m())]
     pub semi_major_axis: Real,
     /// Eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = 0.74)]
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = defaults::ECCENTRICITY)]
     pub eccentricity: Real,
     /// Inclination.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = 82.52_f64.to_radians())]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::INCLINATION_RAD)]
     pub inclination: Real,
     /// Longitude of the ascending node.
-    #[parameter(unit = "rad", display = "deg", start = 350.17_f64.to_radians())]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::ASCENDING_NODE_RAD)]
     pub ascending_node: Real,
     /// Argument of periapsis.
-    #[parameter(unit = "rad", display = "deg", start = 119.16_f64.to_radians())]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PERIAPSIS_ARGUMENT_RAD)]
     pub periapsis_argument: Real,
     /// True anomaly at the start.
-    #[parameter(unit = "rad", display = "deg", start = 0.0)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = 0.0)]
     pub true_anomaly: Real,
     /// Position about the centre in EME2000 when orbit.source is inputs; the orbit starts anew when it changes.
     #[input(unit = "m", display = "km", start = [0.0; 3])]

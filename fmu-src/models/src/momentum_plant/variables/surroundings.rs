@@ -2,7 +2,7 @@
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
-use super::super::choices::{EclipseModel, EphemerisSource};
+use super::super::choices::{EclipseMethod, EphemerisSource};
 use super::super::defaults;
 use super::super::setup::PlantSetup;
 use crate::shared::SurfaceVariables;
@@ -11,38 +11,42 @@ use crate::shared::SurfaceVariables;
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct PlanetVariables {
-    /// Gravitational parameter of Mercury.
-    #[parameter(unit = "m3/s2", display = "km3/s2", min = 1.0, start = defaults::MERCURY_GM_M3_S2)]
+    /// Gravitational parameter of the orbit's centre. This and all that follows of it is Mercury's by default; with another
+    /// orbit.center what is left at that default is that body's own.
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 1.0, max = 1e20, start = defaults::MERCURY.gm_m3_s2)]
     pub gravitational_parameter: Real,
-    /// Radius of Mercury; a flight below it is refused.
-    #[parameter(unit = "m", display = "km", min = 1.0, start = defaults::MERCURY_RADIUS_M)]
+    /// Radius of the centre; a flight below it is refused.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = defaults::MERCURY.radius_m)]
     pub radius: Real,
-    /// Flattening of Mercury's gravity on a disturbed orbit: second zonal harmonic, unnormalised (HgM005); 0 = none.
-    #[parameter(unit = "1", start = defaults::MERCURY_J2)]
+    /// Flattening of the centre's gravity on a disturbed orbit: second zonal harmonic, unnormalised (HgM005); 0 = none.
+    #[parameter(unit = "1", min = -1.0, max = 1.0, start = defaults::MERCURY.j2)]
     pub j2: Real,
     /// Radius to which planet.j2 refers.
-    #[parameter(unit = "m", display = "km", min = 1.0, start = defaults::MERCURY_J2_RADIUS_M)]
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = defaults::MERCURY.j2_radius_m)]
     pub j2_radius: Real,
-    /// Right ascension of Mercury's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", start = defaults::MERCURY_POLE_RIGHT_ASCENSION_RAD)]
+    /// Right ascension of the centre's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::MERCURY.pole_right_ascension_rad)]
     pub pole_right_ascension: Real,
-    /// Declination of Mercury's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", start = defaults::MERCURY_POLE_DECLINATION_RAD)]
+    /// Declination of the centre's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::MERCURY.pole_declination_rad)]
     pub pole_declination: Real,
     #[group(name = "")]
     pub surface: SurfaceVariables,
+    /// From the spacecraft to the planet's centre, body frame; 0 without a planet, that is with orbit.center sun.
+    #[output(unit = "m", display = "km", nominal = 1e7)]
+    pub position_body: RealVector<3>,
 }
 
-/// Positions of Sun, Mercury and Earth.
+/// Positions of the Sun, the orbit's centre and the Earth.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct EphemerisVariables {
     /// Where the positions of Sun and Earth come from.
     #[parameter(start = EphemerisSource::Vsop87)]
     pub source: Choice<EphemerisSource>,
-    /// Semi-major axis of the planet's orbit about the Sun when source is keplerAsPrinted; elements are in the ecliptic and
+    /// Semi-major axis of the planet's orbit about the Sun when source is kepler; elements are in the ecliptic and
     /// equinox of J2000, paper 004's Table 4 (whose axis is printed a digit short).
-    #[parameter(unit = "m", display = "AU", min = 1e9, start = defaults::PRINTED.semi_major_axis_m)]
+    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = defaults::PRINTED.semi_major_axis_m)]
     pub semi_major_axis: Real,
     /// Its eccentricity.
     #[parameter(unit = "1", min = 0.0, max = 0.99, start = defaults::PRINTED.eccentricity)]
@@ -51,13 +55,13 @@ pub struct EphemerisVariables {
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::PRINTED.inclination_rad)]
     pub inclination: Real,
     /// Longitude of its ascending node.
-    #[parameter(unit = "rad", display = "deg", start = defaults::PRINTED.ascending_node_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PRINTED.ascending_node_rad)]
     pub ascending_node: Real,
     /// Its argument of perihelion; paper 004 uses Mercury's longitude of perihelion, 77.46 deg, in its place.
-    #[parameter(unit = "rad", display = "deg", start = defaults::PRINTED.periapsis_argument_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PRINTED.periapsis_argument_rad)]
     pub periapsis_argument: Real,
-    /// The planet's true anomaly at initial.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
-    #[parameter(unit = "rad", display = "deg", start = defaults::PRINTED.true_anomaly_rad)]
+    /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PRINTED.true_anomaly_rad)]
     pub true_anomaly: Real,
 }
 
@@ -66,13 +70,13 @@ pub struct EphemerisVariables {
 #[variables(setup = PlantSetup)]
 pub struct SolarVariables {
     /// Solar flux at 1 AU; 1353 W/m2 reproduces paper 000's pressure (well-known simulators use 1349 to 1368).
-    #[parameter(unit = "W/m2", min = 0.0, start = defaults::SOLAR_FLUX_W_M2)]
+    #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = defaults::SOLAR_FLUX_W_M2)]
     pub flux: Real,
     /// Whether the pressure is solar.pressure everywhere instead of following the distance from the Sun.
     #[parameter(start = false)]
     pub fixed_pressure: Boolean,
     /// Radiation pressure when it is fixed; the default is paper 000's value at 0.3 AU.
-    #[parameter(unit = "Pa", display = "uPa", min = 0.0, start = 5.0145e-5)]
+    #[parameter(unit = "Pa", display = "uPa", min = 0.0, max = 1.0, start = 5.0145e-5)]
     pub pressure: Real,
 }
 
@@ -81,17 +85,21 @@ pub struct SolarVariables {
 #[variables(setup = PlantSetup)]
 pub struct EclipseVariables {
     /// How the planet's shadow dims the Sun.
-    #[parameter(start = EclipseModel::Discs)]
-    pub model: Choice<EclipseModel>,
+    #[parameter(start = EclipseMethod::Discs)]
+    pub method: Choice<EclipseMethod>,
 }
 
 /// The Sun as seen from the spacecraft.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct SunVariables {
-    /// Sun's position from the orbit's centre in EME2000 when ephemeris.source is inputs.
+    /// Sun's position from the orbit's centre in EME2000 when ephemeris.source is inputs. While it is zero the flight waits
+    /// for it: the attitude is held and nothing acts.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,
+    /// From the spacecraft to the Sun, body frame.
+    #[output(unit = "m", display = "AU", nominal = 1e11)]
+    pub position_body: RealVector<3>,
     /// Unit vector to the Sun, body frame.
     #[output(unit = "1", nominal = 1.0)]
     pub direction: RealVector<3>,

@@ -6,23 +6,15 @@ use fmi_export::{Choice, Integer, Real, RealVector, Variables};
 use super::super::choices::MassSource;
 use physics::spin::spinner::Spinner;
 
-/// Inertia as it is.
-#[derive(Variables)]
-pub struct InertiaVariables {
-    /// I3/IT with IT = sqrt(I1 I2), paper 002 eq 11.
-    #[output(unit = "1", nominal = 1.0)]
-    pub ratio: Real,
-    /// Principal moments now; they follow the propellant if massProperties.source says so.
-    #[output(unit = "kg.m2", nominal = 300.0)]
-    pub current: RealVector<3>,
-}
-
 /// Mass properties.
 #[derive(Variables)]
 pub struct MassVariables {
     /// Where the moments of inertia come from.
     #[parameter(start = MassSource::Fixed)]
     pub source: Choice<MassSource>,
+    /// Principal moments of inertia now; they follow the propellant if massProperties.source says so.
+    #[output(unit = "kg.m2", nominal = 300.0)]
+    pub inertia: RealVector<3>,
 }
 
 /// Propellant.
@@ -37,7 +29,7 @@ pub struct PropellantVariables {
         max = setup.mass_properties.most_propellant_kg(),
         start = setup.mass_properties.initial_propellant_kg
     )]
-    pub initial: Real,
+    pub loaded: Real,
     /// Used since the start.
     #[output(unit = "kg", nominal = 0.01)]
     pub used: Real,
@@ -51,7 +43,7 @@ pub struct PropellantVariables {
 #[variables(setup = Spinner)]
 pub struct SpinRateVariables {
     /// Rate about the third axis at the start.
-    #[parameter(unit = "rad/s", display = "rpm", min = 0.0, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
+    #[parameter(unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
     pub initial_rate: Real,
     /// Rate about the third axis.
     #[output(unit = "rad/s", display = "rpm", nominal = 0.5)]
@@ -76,7 +68,7 @@ pub struct SpinRateVariables {
 
 /// Where the flight starts.
 #[derive(Variables)]
-pub struct InitialVariables {
+pub struct StartVariables {
     /// Attitude quaternion at the start, scalar last, from EME2000 to body.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
@@ -94,7 +86,7 @@ pub struct InitialVariables {
 pub struct DamperVariables {
     /// Time in which the nutation angle falls to 1/e about the axis of greatest inertia, and grows by e about another; 0
     /// = no damper. It conserves angular momentum.
-    #[parameter(unit = "s", display = "h", min = 0.0, start = setup.damper_time_constant_s)]
+    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e12, start = setup.damper_time_constant_s)]
     pub time_constant: Real,
 }
 
@@ -131,9 +123,6 @@ pub struct NutationVariables {
     /// Greatest nutation of a uniform train of such pulses: kick / |sin(phi/2)|.
     #[calculated_parameter(unit = "rad", display = "deg")]
     pub envelope: Real,
-    /// Paper 002 eq 9 (half turns) or eq 10 as printed, for comparison; both are wrong.
-    #[calculated_parameter(unit = "rad", display = "deg")]
-    pub envelope_printed: Real,
 }
 
 /// Angular momentum.

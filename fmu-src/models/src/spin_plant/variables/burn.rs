@@ -1,5 +1,7 @@
 //! Thrusters, pulses and the burn they make.
 
+use core::f64::consts::PI;
+
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
 
 use super::super::choices::{BurnPlan, BurnTiming};
@@ -27,16 +29,16 @@ pub struct BurnVariables {
     #[parameter(start = "")]
     pub group: Text,
     /// Width of a pulse; of the first and last for the tapered plan.
-    #[parameter(unit = "s", display = "ms", min = 0.0, start = 0.032)]
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e6, start = 0.032)]
     pub pulse_width: Real,
     /// Turns from pulse to pulse: 0.5, 1, 1.5 and so on; half turns alternate the two thrusters.
-    #[parameter(unit = "1", start = 1.0)]
+    #[parameter(unit = "1", min = 0.5, max = 100.0, start = 1.0)]
     pub turns_per_pulse: Real,
     /// Number of pulses, used where burn.angle is 0.
-    #[parameter(start = 114)]
+    #[parameter(min = 1, max = 1_000_000, start = 114)]
     pub count: Integer,
     /// How far the momentum shall move, up to where burn.targetDirection stands; 0 = by burn.count.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, start = 0.0)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = PI, start = 0.0)]
     pub angle: Real,
     /// Order of the taper: 1 is 1 2 2 ... 2 1, 2 is 1 3 4 ... 4 3 1.
     #[parameter(min = 1, max = 6, start = 1)]
@@ -51,10 +53,10 @@ pub struct BurnVariables {
     #[parameter(unit = "1", display = "%", min = -0.5, max = 0.5, start = 0.0)]
     pub ratio_error: Real,
     /// Half width of the range of inertia ratios over which burn.maxNutation shall hold.
-    #[parameter(unit = "1", min = 0.0, start = 0.0)]
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.0)]
     pub ratio_uncertainty: Real,
     /// Refuse a plan whose nutation would exceed this at any time; 0 = no limit.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, start = 0.0)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = PI, start = 0.0)]
     pub max_nutation: Real,
     /// Refuse a plan that takes longer; 0 = no limit.
     #[parameter(unit = "s", display = "min", min = 0.0, start = 0.0)]
@@ -68,7 +70,8 @@ pub struct BurnVariables {
     /// Whether its last pulse ended.
     #[output]
     pub done: Boolean,
-    /// Next edge of the burn; -1 without one.
+    /// Next edge of the burn as foreseen from the present motion; -1 while none is timed. Before the first pulse, and always
+    /// with burn.timing 2 and 3, it moves as torques and Sun crossings change what is foreseen.
     #[output(discrete, unit = "s")]
     pub next_edge: Real,
     /// Pulses of the plan.
@@ -123,7 +126,7 @@ pub struct ThrusterVariables {
 pub struct TorqueVariables {
     /// Outside torque, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
-    pub external: RealVector<3>,
+    pub applied: RealVector<3>,
     /// Of the thrusters that are on, body frame.
     #[output(discrete, unit = "N.m", nominal = 1.0)]
     pub thruster: RealVector<3>,

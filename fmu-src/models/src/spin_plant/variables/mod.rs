@@ -9,8 +9,8 @@ use core::f64::consts::PI;
 use fmi_export::{Integer, Real, RealVector, Variables};
 
 use body::{
-    AttitudeVariables, DamperVariables, InertiaVariables, InitialVariables, MassVariables, MomentumVariables,
-    NutationVariables, PropellantVariables, SpinAxisVariables, SpinRateVariables,
+    AttitudeVariables, DamperVariables, MassVariables, MomentumVariables, NutationVariables,
+    PropellantVariables, SpinAxisVariables, SpinRateVariables, StartVariables,
 };
 use burn::{BurnVariables, ForceVariables, PulseVariables, ThrusterVariables, TorqueVariables};
 use observation::{
@@ -18,6 +18,7 @@ use observation::{
     SunSensorVariables, SunVariables,
 };
 
+use crate::shared::WorkLimit;
 use physics::spin::spinner::Spinner;
 
 const RPM_RAD_S: f64 = PI / 30.0;
@@ -28,10 +29,11 @@ const DEG_RAD: f64 = PI / 180.0;
 #[variables(setup = Spinner)]
 pub struct SpinVariables {
     /// Principal moments of inertia about the centre of mass; the third axis is the spin axis.
-    #[parameter(unit = "kg.m2", start = initial_inertia(setup))]
+    #[parameter(unit = "kg.m2", min = 1e-9, max = 1e12, start = initial_inertia(setup))]
     pub inertia: RealVector<3>,
-    #[group(name = "inertia")]
-    pub inertia_now: InertiaVariables,
+    /// I3/IT with IT = sqrt(I1 I2), paper 002 eq 11.
+    #[output(unit = "1", nominal = 1.0)]
+    pub inertia_ratio: Real,
     #[group]
     pub mass_properties: MassVariables,
     #[group]
@@ -39,7 +41,7 @@ pub struct SpinVariables {
     #[group]
     pub spin: SpinRateVariables,
     #[group]
-    pub initial: InitialVariables,
+    pub start: StartVariables,
     #[group]
     pub damper: DamperVariables,
     #[group]
@@ -86,6 +88,8 @@ pub struct SpinVariables {
     /// Seed of all sensor noise; the same seed gives the same draws.
     #[parameter(start = 1)]
     pub seed: Integer,
+    #[group]
+    pub solver: WorkLimit,
 }
 
 /// The moments in force at the start: the setup's table at the initial propellant.

@@ -1,5 +1,7 @@
 //! Sun, Earth and stars, what sees them, and the limits they set.
 
+use core::f64::consts::PI;
+
 use super::{DEG_RAD, RPM_RAD_S};
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
@@ -14,33 +16,33 @@ pub struct GeometryVariables {
     #[parameter(start = GeometrySource::Inputs)]
     pub source: Choice<GeometrySource>,
     /// Rate at which the Earth-Sun line turns in the ecliptic, on the L1 orbit.
-    #[parameter(unit = "rad/s", display = "deg/s", start = setup.l1_orbit.line_rate_rad_s())]
+    #[parameter(unit = "rad/s", display = "deg/s", min = -1e-3, max = 1e-3, start = setup.l1_orbit.line_rate_rad_s())]
     pub line_rate: Real,
     /// Lissajous amplitudes: along the Earth-Sun line, across it in the ecliptic, out of the ecliptic.
-    #[parameter(unit = "m", display = "km", start = setup.l1_orbit.amplitude_m)]
+    #[parameter(unit = "m", display = "km", min = -1e12, max = 1e12, start = setup.l1_orbit.amplitude_m)]
     pub amplitude: RealVector<3>,
     /// Ecliptic longitude of the Earth seen from the Sun at time 0, on the L1 orbit.
-    #[parameter(unit = "rad", display = "deg", start = 0.0)]
+    #[parameter(unit = "rad", display = "deg", min = -1e6, max = 1e6, start = 0.0)]
     pub longitude: Real,
     /// In-plane phase of the Lissajous motion at time 0.
-    #[parameter(unit = "rad", display = "deg", start = 0.0)]
+    #[parameter(unit = "rad", display = "deg", min = -1e6, max = 1e6, start = 0.0)]
     pub in_plane_phase: Real,
     /// Out-of-plane phase of the Lissajous motion at time 0.
-    #[parameter(unit = "rad", display = "deg", start = 0.0)]
+    #[parameter(unit = "rad", display = "deg", min = -1e6, max = 1e6, start = 0.0)]
     pub out_of_plane_phase: Real,
 }
 
 /// The Sun.
 #[derive(Variables)]
 pub struct SunVariables {
-    /// Direction of the Sun in EME2000, of any length but 0; unused on the L1 orbit. The default is 10 deg off the spin axis,
+    /// Direction of the Sun in EME2000, of any length; 0 = not known yet, nothing is seen. Unused on the L1 orbit. The default is 10 deg off the spin axis,
     /// across the way to the default target: a burn timed by the Sun does not run into it.
     #[input(unit = "1", start = [0.0, libm::sin(10.0 * DEG_RAD), libm::cos(10.0 * DEG_RAD)])]
     pub direction: RealVector<3>,
     /// From the spin axis +Z to the Sun.
     #[output(unit = "rad", display = "deg", nominal = 0.1)]
     pub angle: Real,
-    /// Direction of the Sun that is in force, unit vector in EME2000.
+    /// Direction of the Sun that is in force, unit vector in EME2000; 0 where it is not known.
     #[output(unit = "1", nominal = 1.0)]
     pub inertial: RealVector<3>,
 }
@@ -48,13 +50,13 @@ pub struct SunVariables {
 /// The Earth.
 #[derive(Variables)]
 pub struct EarthVariables {
-    /// Direction of the Earth in EME2000, of any length but 0; unused on the L1 orbit.
+    /// Direction of the Earth in EME2000, of any length; 0 = not known yet. Unused on the L1 orbit.
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]
     pub direction: RealVector<3>,
     /// From the antenna -Z to the Earth.
     #[output(unit = "rad", display = "deg", nominal = 0.01)]
     pub angle: Real,
-    /// Direction of the Earth that is in force, unit vector in EME2000.
+    /// Direction of the Earth that is in force, unit vector in EME2000; 0 where it is not known.
     #[output(unit = "1", nominal = 1.0)]
     pub inertial: RealVector<3>,
 }
@@ -62,7 +64,7 @@ pub struct EarthVariables {
 /// The star that the tracker follows.
 #[derive(Variables)]
 pub struct StarVariables {
-    /// Direction of the star in EME2000, of any length but 0.
+    /// Direction of the star in EME2000, of any length; 0 = not known yet, nothing is seen.
     #[input(unit = "1", start = [0.3, 0.95, 0.02])]
     pub direction: RealVector<3>,
 }
@@ -72,13 +74,13 @@ pub struct StarVariables {
 #[variables(setup = Spinner)]
 pub struct LimitVariables {
     /// Greatest Sun angle.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, start = setup.limits.sun_angle_deg * DEG_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.limits.sun_angle_deg * DEG_RAD)]
     pub sun_angle: Real,
     /// Greatest Earth angle.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, start = setup.limits.earth_angle_deg * DEG_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.limits.earth_angle_deg * DEG_RAD)]
     pub earth_angle: Real,
     /// Nominal spin rate; at the start it also sets the star tracker's clock.
-    #[parameter(tunable, unit = "rad/s", display = "rpm", min = 0.0, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
+    #[parameter(tunable, unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
     pub spin_rate: Real,
     /// Allowed either side of the nominal spin rate.
     #[parameter(
@@ -144,7 +146,7 @@ pub struct StarTrackerVariables {
     /// Time to see the full range of declinations with the sampling chosen.
     #[calculated_parameter(unit = "s", display = "min")]
     pub observation_time: Real,
-    /// The same by paper 002 eq 20.
+    /// The same for samples at the nominal rate by the clock, paper 002 eq 20.
     #[calculated_parameter(unit = "s", display = "min")]
-    pub observation_time_eq20: Real,
+    pub observation_time_nominal: Real,
 }

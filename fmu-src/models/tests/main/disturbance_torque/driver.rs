@@ -98,7 +98,7 @@ impl Disturbance {
 
     /// With light of the planet by cells in so many belts.
     pub fn by_cells(mut self, belts: i32) -> Self {
-        let at = [self.at("radiation.method"), self.at("radiation.belts")];
+        let at = [self.at("planetLight.method"), self.at("planetLight.belts")];
         assert_eq!(self.fmu.set_integer(&at, &[2, belts]), Status::Ok);
         self
     }
@@ -206,11 +206,11 @@ impl Dice {
         };
         let mut values = BTreeMap::new();
         for i in 0..3 {
-            values.insert(fmu.at(&format!("sun.position[{}]", i + 1)), sun[i] * 5.8e10);
+            values.insert(fmu.at(&format!("sun.positionBody[{}]", i + 1)), sun[i] * 5.8e10);
             let planet_m = toward_planet[i] * altitude * 2.4394e6;
-            values.insert(fmu.at(&format!("planet.position[{}]", i + 1)), planet_m);
+            values.insert(fmu.at(&format!("planet.positionBody[{}]", i + 1)), planet_m);
             values.insert(fmu.at(&format!("planet.pole[{}]", i + 1)), self.next() - 0.5);
-            values.insert(fmu.at(&format!("centerOfMass[{}]", i + 1)), self.next() - 0.5);
+            values.insert(fmu.at(&format!("spacecraft.centerOfMass[{}]", i + 1)), self.next() - 0.5);
         }
         for k in 1.. {
             match fmu.names.get(&format!("panel[{k}].angle")) {

@@ -26,8 +26,8 @@ fn the_description_is_valid_and_structured() {
 #[test]
 fn a_panel_facing_the_sun_is_pushed_by_the_flat_plate_law() {
     let mut fmu = Disturbance::messenger();
-    fmu.put_vector("sun.position", [0.0, -1.495978707e11, 0.0]);
-    fmu.put_vector("planet.position", [0.0, 0.0, 1e12]);
+    fmu.put_vector("sun.positionBody", [0.0, -1.495978707e11, 0.0]);
+    fmu.put_vector("planet.positionBody", [0.0, 0.0, 1e12]);
     fmu.start();
     assert_eq!(fmu.step(), Status::Ok);
     let pressure = 1365.0 / 299_792_458.0;
@@ -98,10 +98,11 @@ fn refusal(change: impl FnOnce(&mut Disturbance)) -> String {
 
 #[test]
 fn impossible_geometries_are_refused_by_name() {
-    let inside = refusal(|fmu| fmu.put_vector("planet.position", [1e6, 0.0, 0.0]));
-    assert!(inside.contains("planet.position") && inside.contains("radius"), "{inside}");
-    let sunless = refusal(|fmu| fmu.put_vector("sun.position", [0.0; 3]));
-    assert!(sunless.contains("sun.position"), "{sunless}");
+    let inside = refusal(|fmu| fmu.put_vector("planet.positionBody", [1e6, 0.0, 0.0]));
+    assert!(inside.contains("planet.positionBody") && inside.contains("radius"), "{inside}");
+    // The Sun in the planet's centre; all zero would mean that it is not connected yet.
+    let sunless = refusal(|fmu| fmu.put_vector("sun.positionBody", [2e6, 3e6, 9e6]));
+    assert!(sunless.contains("sun.positionBody"), "{sunless}");
     let dark = refusal(|fmu| fmu.put("planet.emissivity", 0.0));
     assert!(dark.contains("emissivity"), "{dark}");
     let sum = refusal(|fmu| fmu.put("planet.diffuseReflectivity", 0.5));
@@ -117,7 +118,7 @@ fn without_a_planet_only_sunlight_is_left() {
     let mut fmu = Disturbance::messenger();
     let present = fmu.at("planet.present");
     assert_eq!(fmu.fmu.set_boolean(&[present], &[0]), Status::Ok);
-    fmu.put_vector("planet.position", [0.0; 3]);
+    fmu.put_vector("planet.positionBody", [0.0; 3]);
     fmu.start();
     assert_eq!(fmu.step(), Status::Ok);
     for name in ["force.albedo", "force.infrared", "torque.gravityGradient"] {

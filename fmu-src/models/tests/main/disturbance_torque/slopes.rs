@@ -128,10 +128,119 @@ fn what_depends_is_declared() {
 }
 
 #[test]
-fn derivatives_by_anything_but_inputs_are_refused() {
+fn derivatives_by_parameters_are_for_initialization_only() {
     let mut fmu = Disturbance::messenger();
     fmu.start();
     let (output, flux) = (fmu.at("force.solar[2]"), fmu.at("solar.flux"));
     let mut result = [0.0];
     assert_eq!(fmu.fmu.get_directional_derivative(&[output], &[flux], &[1.0], &mut result), Status::Error);
+}
+
+/// Weights of the central difference of the eighth order at 1, 2, 3 and 4 steps.
+const EIGHTH: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+
+/// Largest step of the study, relative.
+const FIRST_STEP: f64 = 3e-3;
+
+fn largest_force(fmu: &Disturbance, outputs: &[u32], values: &[f64]) -> f64 {
+    let forces = outputs.iter().zip(values).filter(|(at, _)| fmu.name(**at).starts_with("force."));
+    forces.map(|(_, value)| value.abs()).fold(0.0, f64::max)
+}
+
+/// Slopes along every Real parameter in Initialization Mode, against differences of the eighth order at a row of steps:
+/// the closest of them counts, as rounding takes over where the method's error ends.
+fn check_parameter_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
+    assert_eq!(fmu.fmu.setup_experiment(0.0, None), Status::Ok);
+    assert_eq!(fmu.fmu.enter_initialization_mode(), Status::Ok);
+    let mut dice = Dice(seed);
+    let outputs = fmu.references(Causality::Output);
+    let vectors = fmu.vectors_of(&outputs);
+    let parameters = fmu.references(Causality::Parameter);
+    let defaults = fmu.read(&parameters);
+    let least_inertia = fmu.real("spacecraft.inertia[1,1]");
+    let mut moved = BTreeSet::new();
+    for _ in 0..6 {
+        let (inputs, values) = dice.inputs(&fmu, in_shadow);
+        assert_eq!(fmu.fmu.set_real(&inputs, &values), Status::Ok);
+        for (k, parameter) in parameters.iter().enumerate() {
+            let name = fmu.name(*parameter).to_owned();
+            // An inertia is symmetric; what is above the diagonal is below it.
+            let twin = name.strip_prefix("spacecraft.inertia[").map(|it| {
+                let (row, column) = it.trim_end_matches(']').split_once(',').unwrap();
+                fmu.at(&format!("spacecraft.inertia[{column},{row}]"))
+            });
+            let at: Vec<u32> =
+                [Some(*parameter), twin.filter(|it| it != parameter)].into_iter().flatten().collect();
+            let along = vec![1.0; at.len()];
+            let exact = fmu.slopes(&outputs, &at, &along);
+            let base = fmu.read(&outputs);
+            // Away from limits: absorptivity and reflectivity add up to 1 by default.
+            let centre = match name.as_str() {
+                "planet.radius" => defaults[k] * 0.98,
+                "planet.absorptivity" | "planet.diffuseReflectivity" | "planet.emissivity" => {
+                    defaults[k] * 0.9
+                }
+                _ => defaults[k],
+            };
+            let put = |fmu: &mut Disturbance, value: f64| {
+                let status = fmu.fmu.set_real(&at, &vec![value; at.len()]);
+                assert_eq!(status, Status::Ok, "{name} = {value}");
+            };
+            put(&mut fmu, centre);
+            let (exact, base) = match centre == defaults[k] {
+                true => (exact, base),
+                false => (fmu.slopes(&outputs, &at, &along), fmu.read(&outputs)),
+            };
+            let size = if twin.is_some() { least_inertia } else { centre.abs() };
+            let mut nearest = vec![f64::INFINITY; outputs.len()];
+            for exponent in 0..=5 {
+                let h = size * FIRST_STEP * 0.1_f64.powi(exponent);
+                let mut slopes = vec![0.0; outputs.len()];
+                for (weight, steps) in EIGHTH.iter().zip(1..) {
+                    for sign in [1.0, -1.0] {
+                        put(&mut fmu, centre + sign * f64::from(steps) * h);
+                        for (slope, value) in slopes.iter_mut().zip(fmu.read(&outputs)) {
+                            *slope += sign * weight * value / h;
+                        }
+                    }
+                }
+                for (near, (slope, exact)) in nearest.iter_mut().zip(slopes.iter().zip(&exact)) {
+                    *near = near.min((slope - exact).abs());
+                }
+            }
+            put(&mut fmu, defaults[k]);
+            for i in 0..outputs.len() {
+                let largest = |of: &[f64]| vectors[i].iter().map(|&k| of[k].abs()).fold(0.0, f64::max);
+                // A torque rounds as the forces of its parts do, on arms of a few metres.
+                let of_force =
+                    fmu.name(outputs[i]).contains("orce") || fmu.name(outputs[i]).contains("torque");
+                let rounded = if of_force { largest_force(&fmu, &outputs, &base) } else { base[i].abs() };
+                let allowed = 1e-7 * largest(&exact) + 4.0 * f64::EPSILON * rounded / (size * FIRST_STEP);
+                let (output, off) = (fmu.name(outputs[i]), nearest[i]);
+                assert!(off <= allowed, "{output} by {name}: {off:e} off, allowed {allowed:e}");
+                if exact[i] != 0.0 {
+                    moved.insert(name.clone());
+                }
+            }
+        }
+    }
+    let all: BTreeSet<String> = parameters.iter().map(|it| fmu.name(*it).to_owned()).collect();
+    // An emissivity goes with the night's heat only; every parameter moves something somewhere.
+    assert_eq!(moved, all);
+}
+
+#[test]
+fn slopes_along_parameters_are_those_of_differences() {
+    check_parameter_slopes(Disturbance::messenger(), 11, false);
+    check_parameter_slopes(Disturbance::shadowed(), 12, false);
+}
+
+#[test]
+fn slopes_along_parameters_by_cells_are_those_of_differences() {
+    check_parameter_slopes(Disturbance::messenger().by_cells(6), 13, false);
+}
+
+#[test]
+fn slopes_along_parameters_in_the_penumbra_are_those_of_differences() {
+    check_parameter_slopes(Disturbance::messenger(), 14, true);
 }

@@ -16,9 +16,9 @@ fn the_description_is_valid_and_names_the_contract() {
     for name in [
         "inertia[3]",
         "spin.initialRate",
-        "initial.q[4]",
-        "initial.nutation",
-        "initial.nutationPhase",
+        "start.q[4]",
+        "start.nutation",
+        "start.nutationPhase",
         "burn.start",
         "burn.thruster",
         "burn.oppositeThruster",
@@ -32,7 +32,7 @@ fn the_description_is_valid_and_names_the_contract() {
         "thruster[10].onDelay",
         "thruster[10].onTime",
         "thruster[10].fire",
-        "torque.external[3]",
+        "torque.applied[3]",
         "sun.direction[3]",
         "earth.direction[3]",
         "star.direction[3]",
@@ -50,7 +50,7 @@ fn the_description_is_valid_and_names_the_contract() {
         "earth.angle",
         "burn.pulsesFired",
         "burn.active",
-        "inertia.ratio",
+        "inertiaRatio",
         "propellant.used",
         "force.thruster[3]",
         "deltaV[3]",
@@ -196,8 +196,8 @@ fn a_pulse_beyond_its_step_is_cut_with_a_warning() {
 fn an_outside_torque_with_a_slope_is_integrated() {
     let mut spinner = Spinner::new().set_integer("burn.plan", 4).set("damper.timeConstant", 0.0).start();
     let before = spinner.real("spin.rate");
-    spinner.put("torque.external[3]", 0.5);
-    let reference = spinner.at("torque.external[3]");
+    spinner.put("torque.applied[3]", 0.5);
+    let reference = spinner.at("torque.applied[3]");
     assert_eq!(spinner.fmu.set_input_derivatives(&[reference], &[1], &[0.2]), Status::Ok);
     spinner.to(10.0);
     let after = spinner.real("spin.rate");
@@ -211,12 +211,12 @@ fn an_outside_torque_with_a_slope_is_integrated() {
 fn output_derivatives_are_the_slopes_of_the_outputs() {
     let mut spinner = Spinner::new()
         .set_integer("burn.plan", 4)
-        .set("initial.nutation", 0.05)
+        .set("start.nutation", 0.05)
         .set("inertia[1]", 225.0)
         .set("damper.timeConstant", 300.0)
         .start();
     spinner.fire(2, true);
-    spinner.put("torque.external[1]", 0.3);
+    spinner.put("torque.applied[1]", 0.3);
     spinner.to(7.0);
     let mut state = StatePointer::null();
     assert_eq!(spinner.fmu.get_state(&mut state), Status::Ok);
@@ -271,7 +271,7 @@ fn on_the_l1_orbit_the_earth_leaves_the_antenna_by_the_lines_rate() {
     }
     // The spin axis on the Sun at longitude 0 from the Earth: along -X.
     for (i, q) in [0.0, -0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt()].into_iter().enumerate() {
-        spinner.put(&format!("initial.q[{}]", i + 1), q);
+        spinner.put(&format!("start.q[{}]", i + 1), q);
     }
     let mut spinner = spinner.start();
     assert!(spinner.real("sun.angle") < 1e-7 && spinner.real("earth.angle") < 1e-7);

@@ -1,7 +1,9 @@
 //! SpinPlant through the functions a master calls.
 
 mod driver;
+mod extremes;
 mod flights;
 mod refusals;
 mod torn_states;
+mod unknown_directions;
 mod warnings;

@@ -10,7 +10,7 @@ fn said(spinner: &mut Spinner) -> String {
 
 #[test]
 fn a_tank_that_runs_dry_says_so_once() {
-    let mut spinner = Spinner::new().set("propellant.initial", 0.01).set_integer("burn.plan", 4).start();
+    let mut spinner = Spinner::new().set("propellant.loaded", 0.01).set_integer("burn.plan", 4).start();
     assert_eq!(said(&mut spinner), "");
     spinner.fire(8, true);
     spinner.to(4.0);
@@ -23,13 +23,13 @@ fn a_tank_that_runs_dry_says_so_once() {
     assert!(!spinner.boolean("thruster[8].active"));
     spinner.to(12.0);
     assert_eq!(said(&mut spinner), "");
-    let mut empty = Spinner::new().set("propellant.initial", 0.0).set_integer("burn.plan", 4).start();
+    let mut empty = Spinner::new().set("propellant.loaded", 0.0).set_integer("burn.plan", 4).start();
     assert!(said(&mut empty).contains("no propellant"));
-    let text = Spinner::new().set("propellant.initial", 0.001).refusal();
-    assert!(text.contains("its propellant would be 0.0075") && text.contains("propellant.initial"), "{text}");
+    let text = Spinner::new().set("propellant.loaded", 0.001).refusal();
+    assert!(text.contains("its propellant would be 0.0075") && text.contains("propellant.loaded"), "{text}");
     // The mass properties end at 195 kg.
     let mut full = Spinner::new();
-    let at = full.at("propellant.initial");
+    let at = full.at("propellant.loaded");
     assert_eq!(full.fmu.set_real(&[at], &[195.5]), Status::Discard);
     assert_eq!(full.fmu.set_real(&[at], &[195.0]), Status::Ok);
 }

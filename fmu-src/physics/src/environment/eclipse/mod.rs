@@ -129,6 +129,15 @@ impl Shadow {
         spacecraft_m: &Vector3<T>,
         sun_m: &Vector3<T>,
     ) -> Result<Discs<T>, EclipseError> {
+        self.discs_of(T::constant(self.planet_radius_m), spacecraft_m, sun_m)
+    }
+
+    fn discs_of<T: Scalar>(
+        &self,
+        planet_radius_m: T,
+        spacecraft_m: &Vector3<T>,
+        sun_m: &Vector3<T>,
+    ) -> Result<Discs<T>, EclipseError> {
         let to_sun = sun_m - spacecraft_m;
         let (planet_distance, sun_distance) = (spacecraft_m.norm(), to_sun.norm());
         let (planet_distance_m, sun_distance_m) = (planet_distance.value(), sun_distance.value());
@@ -149,7 +158,7 @@ impl Shadow {
             return Err(EclipseError::InsideSun { distance_m: sun_distance_m, radius_m });
         }
         let planet_radius_rad = if sin_planet < 1.0 {
-            (T::constant(self.planet_radius_m) / planet_distance).asin()
+            (planet_radius_m / planet_distance).asin()
         } else {
             T::constant(FRAC_PI_2)
         };
@@ -173,10 +182,24 @@ impl Shadow {
         spacecraft_m: &Vector3<T>,
         sun_m: &Vector3<T>,
     ) -> Result<T, EclipseError> {
+        self.lit_fraction_of(T::constant(self.planet_radius_m), spacecraft_m, sun_m)
+    }
+
+    /// As [`Shadow::lit_fraction`], with the planet's radius, m, as a number that may depend on the seed; its value is the
+    /// shadow's own.
+    ///
+    /// # Errors
+    /// See [`Shadow::discs`].
+    pub fn lit_fraction_of<T: Scalar>(
+        &self,
+        planet_radius_m: T,
+        spacecraft_m: &Vector3<T>,
+        sun_m: &Vector3<T>,
+    ) -> Result<T, EclipseError> {
         if self.model == ShadowModel::Off {
             return Ok(T::constant(1.0));
         }
-        let discs = self.discs(spacecraft_m, sun_m)?;
+        let discs = self.discs_of(planet_radius_m, spacecraft_m, sun_m)?;
         let all_or_nothing = |gap_rad: f64| T::constant(f64::from(gap_rad >= 0.0));
         Ok(match self.model {
             ShadowModel::DiscOverlap => discs.lit_fraction(),
@@ -186,6 +209,26 @@ impl Shadow {
             }
             ShadowModel::Off => T::constant(1.0),
         })
+    }
+
+    /// The share of sunlight that arrives, and [`Shadow::gaps_rad`], from one look at the discs; NaN where there is none.
+    pub fn fraction_and_gaps(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> (f64, [f64; 2]) {
+        let none = f64::INFINITY;
+        if self.model == ShadowModel::Off {
+            return (1.0, [none; 2]);
+        }
+        let Ok(discs) = self.discs(spacecraft_m, sun_m) else { return (f64::NAN, [f64::NAN; 2]) };
+        let all_or_nothing = |gap_rad: f64| (f64::from(gap_rad >= 0.0), [gap_rad, none]);
+        match self.model {
+            ShadowModel::DiscOverlap => {
+                let outer_rad = discs.outer_gap_rad();
+                let fraction = if outer_rad > 0.0 { 1.0 } else { discs.lit_fraction() };
+                (fraction, [outer_rad, discs.inner_gap_rad()])
+            }
+            ShadowModel::AllOrNothingCone => all_or_nothing(discs.outer_gap_rad()),
+            ShadowModel::AllOrNothingCylinder => all_or_nothing(self.cylinder_gap_rad(spacecraft_m, sun_m)),
+            ShadowModel::Off => (1.0, [none; 2]),
+        }
     }
 
     /// The functions of the geometry whose roots are this model's edges, in rad, positive in full light: outer edge

@@ -7,11 +7,9 @@ use thiserror::Error;
 
 use super::{OrbitError, elements::check_mu};
 use crate::{
-    constants::{GM_MERCURY_M3_S2, GM_SUN_M3_S2, J2_MERCURY, J2_REFERENCE_RADIUS_MERCURY_M},
-    environment::{
-        State,
-        frames::{MERCURY_POLE_DECLINATION_RAD, MERCURY_POLE_RIGHT_ASCENSION_RAD, direction},
-    },
+    bodies::BodyData,
+    constants::GM_SUN_M3_S2,
+    environment::State,
     numerics::collocation::{Cells, Collocation, IntegrationError},
 };
 
@@ -32,13 +30,9 @@ pub struct Flattening {
 }
 
 impl Flattening {
-    /// Mercury's.
-    pub fn mercury() -> Self {
-        Self {
-            j2: J2_MERCURY,
-            reference_radius_m: J2_REFERENCE_RADIUS_MERCURY_M,
-            pole: direction(MERCURY_POLE_RIGHT_ASCENSION_RAD, MERCURY_POLE_DECLINATION_RAD),
-        }
+    /// That of a body.
+    pub fn of(body: &BodyData) -> Self {
+        Self { j2: body.j2, reference_radius_m: body.j2_radius_m, pole: body.pole() }
     }
 }
 
@@ -59,11 +53,11 @@ impl Gravity {
         Self { mu_m3_s2, flattening: None, tide_mu_m3_s2: None }
     }
 
-    /// Mercury with its flattening and the Sun's tide.
-    pub fn mercury() -> Self {
+    /// A planet with its flattening and the Sun's tide.
+    pub fn of(planet: &BodyData) -> Self {
         Self {
-            mu_m3_s2: GM_MERCURY_M3_S2,
-            flattening: Some(Flattening::mercury()),
+            mu_m3_s2: planet.gm_m3_s2,
+            flattening: Some(Flattening::of(planet)),
             tide_mu_m3_s2: Some(GM_SUN_M3_S2),
         }
     }
@@ -162,6 +156,11 @@ impl DisturbedOrbit {
         }
         check_above(state.position_m.norm(), start_s, radius_m)?;
         Ok(Self { cells: Cells::new(cell_s, start_s, start), radius_m })
+    }
+
+    /// Whether it can come from an integration; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.cells.is_sound() && (0.0..1e100).contains(&self.radius_m)
     }
 
     /// How far the integration has come, s.

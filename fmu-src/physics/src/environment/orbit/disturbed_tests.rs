@@ -7,6 +7,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::{
+    bodies::Body,
     constants::{GM_MERCURY_M3_S2 as MU, GM_SUN_M3_S2, RADIUS_MERCURY_M},
     environment::{State, paper004::MESSENGER_AS_PRINTED},
 };
@@ -104,7 +105,7 @@ fn flattening_is_the_gradient_of_its_potential() {
 #[test]
 fn cells_keep_the_jacobi_like_energy_of_flattening() {
     // Point mass and flattening are conservative, and the momentum along the pole is constant.
-    let flattening = Flattening::mercury();
+    let flattening = Flattening::of(Body::Mercury.data());
     let gravity = Gravity { flattening: Some(flattening), ..Gravity::point_mass(MU) };
     let energy = |s: &State| {
         let (d, sin) = (s.position_m.norm(), s.position_m.normalize().dot(&flattening.pole));
@@ -154,8 +155,8 @@ fn a_constant_push_moves_the_orbit_as_it_should() {
 
 #[test]
 fn halving_the_cell_changes_nothing_that_matters() {
-    let (coarse, _) = fly(MESSENGER_AS_PRINTED, 300.0, 864_000.0, &Gravity::mercury());
-    let (fine, orbit) = fly(MESSENGER_AS_PRINTED, 150.0, 864_000.0, &Gravity::mercury());
+    let (coarse, _) = fly(MESSENGER_AS_PRINTED, 300.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
+    let (fine, orbit) = fly(MESSENGER_AS_PRINTED, 150.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
     assert!((coarse.position_m - fine.position_m).norm() < 0.02);
     // The disturbances are no more than they should be: the undisturbed spacecraft is some tens of kilometres away.
     let plain = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, MU, 0.0).unwrap().state_at(864_000.0);
@@ -193,7 +194,7 @@ proptest! {
 
     #[test]
     fn asking_often_changes_no_bit(at in prop::collection::vec(0.0..5000.0f64, 1..20)) {
-        let (expected, _) = fly(MESSENGER_AS_PRINTED, 60.0, 5000.0, &Gravity::mercury());
+        let (expected, _) = fly(MESSENGER_AS_PRINTED, 60.0, 5000.0, &Gravity::of(Body::Mercury.data()));
         let method = OrbitMethod::default();
         let mut at = at;
         at.sort_by(f64::total_cmp);
@@ -202,7 +203,7 @@ proptest! {
         let mut orbit = DisturbedOrbit::new(&start, 0.0, 60.0, RADIUS_MERCURY_M).unwrap();
         for at_s in at {
             while orbit.end_s() < at_s {
-                orbit.advance(&method, &Gravity::mercury(), |_| SUN, |_, _| Vector3::zeros()).unwrap();
+                orbit.advance(&method, &Gravity::of(Body::Mercury.data()), |_| SUN, |_, _| Vector3::zeros()).unwrap();
             }
             orbit.state_at(at_s);
         }
@@ -226,8 +227,8 @@ proptest! {
             }
             orbit.state_at(7200.0).position_m
         };
-        let plain = end(&start, &Gravity::mercury(), SUN);
-        let other = end(&turned, &turned_gravity(Gravity::mercury()), turn * SUN);
+        let plain = end(&start, &Gravity::of(Body::Mercury.data()), SUN);
+        let other = end(&turned, &turned_gravity(Gravity::of(Body::Mercury.data())), turn * SUN);
         prop_assert!((turn * plain - other).norm() < 1e-5);
     }
 }

@@ -68,6 +68,18 @@ pub enum OrbitError {
 }
 
 impl Elements {
+    /// A circle of `radius_m` whose node lies on the first axis.
+    pub const fn circle(radius_m: f64, inclination_rad: f64) -> Self {
+        Self {
+            semi_major_axis_m: radius_m,
+            eccentricity: 0.0,
+            inclination_rad,
+            ascending_node_rad: 0.0,
+            periapsis_argument_rad: 0.0,
+            true_anomaly_rad: 0.0,
+        }
+    }
+
     /// Checks that these elements are an ellipse or a hyperbola with the true anomaly on its branch.
     ///
     /// # Errors

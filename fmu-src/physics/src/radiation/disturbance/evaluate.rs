@@ -6,6 +6,7 @@ use super::faces::{Face, Normal, Surface};
 use super::geometry::{Geometry, GeometryError, Recoil};
 use super::model::DisturbanceModel;
 use super::workspace::{Disturbance, FaceState, Workspace};
+use crate::bodies::surface::PlanetSurface;
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::flat_plate::{Beam, force_per_area_pa};
@@ -28,11 +29,27 @@ impl DisturbanceModel {
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
     ) -> Result<Disturbance<T>, GeometryError> {
+        let surface = self.planet.map(|surface| surface.constant());
+        self.evaluate_on(surface.as_ref(), geometry, recoil, workspace)
+    }
+
+    /// As [`DisturbanceModel::evaluate`] near a planet of this surface, whose properties may depend on the seed; not
+    /// checked.
+    ///
+    /// # Errors
+    /// See [`DisturbanceModel::evaluate`].
+    pub fn evaluate_on<T: Scalar>(
+        &self,
+        surface: Option<&PlanetSurface<T>>,
+        geometry: &Geometry<'_, T>,
+        recoil: Recoil<'_>,
+        workspace: &mut Workspace<T>,
+    ) -> Result<Disturbance<T>, GeometryError> {
         geometry.check(self.panels.len())?;
         self.check_temperatures(recoil)?;
         workspace.prepare(self.faces.normals.len(), self.faces.faces.len());
         self.turn_normals(geometry, workspace);
-        self.light_planet(geometry, workspace)?;
+        self.light_planet(surface, geometry, workspace)?;
         if let Some(scene) = &self.scene {
             let sun = &geometry.sun_direction_body;
             scene.evaluate(sun, geometry.panel_angles_rad, &mut workspace.shadow);
@@ -98,10 +115,11 @@ impl DisturbanceModel {
     /// Planet light for every distinct normal.
     fn light_planet<T: Scalar>(
         &self,
+        surface: Option<&PlanetSurface<T>>,
         geometry: &Geometry<'_, T>,
         workspace: &mut Workspace<T>,
     ) -> Result<(), GeometryError> {
-        let (Some(surface), Some(planet)) = (&self.planet, &geometry.planet) else {
+        let (Some(surface), Some(planet)) = (surface, &geometry.planet) else {
             workspace.lights.fill(PlanetLight::dark());
             return Ok(());
         };

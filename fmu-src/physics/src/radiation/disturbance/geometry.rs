@@ -94,7 +94,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
     /// # Errors
     /// The Sun at no distance from spacecraft or planet, or not finite.
     pub fn at(
-        flux_at_1_au_w_m2: f64,
+        flux_at_1_au_w_m2: T,
         sun_position_body_m: &Vector3<T>,
         planet_position_body_m: Option<&Vector3<T>>,
         lit_fraction: T,
@@ -108,7 +108,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
                 return Err(GeometryError::Sun { distance_m });
             }
             let au_squared = ASTRONOMICAL_UNIT_M * ASTRONOMICAL_UNIT_M;
-            Ok((T::constant(flux_at_1_au_w_m2 * au_squared) / squared, squared.sqrt()))
+            Ok((flux_at_1_au_w_m2 * au_squared / squared, squared.sqrt()))
         };
         let (sun_flux_w_m2, distance_m) = flux(sun_position_body_m)?;
         let planet = match planet_position_body_m {

@@ -4,8 +4,8 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 use super::*;
+use crate::bodies::surface::{DayTemperature, PlanetSurface};
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::surface::{DayTemperature, PlanetSurface};
 use crate::spacecraft::{
     Emission, FaceThermal, MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft, Thermal,
 };

@@ -3,12 +3,12 @@
 use nalgebra::Vector3;
 
 use super::*;
+use crate::bodies::surface::MERCURY;
 use crate::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::orbit::Elements;
 use crate::environment::paper004::{Frames, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use crate::environment::sun::SOLAR_FLUX_PAPER_004_W_M2;
-use crate::environment::surface::MERCURY;
 use crate::radiation::grid::CellLayout;
 use crate::spacecraft::{MESSENGER_THERMAL_TOML, Spacecraft};
 

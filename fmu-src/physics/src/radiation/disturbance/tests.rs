@@ -7,8 +7,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::bodies::surface::{DayTemperature, PlanetSurface};
 use crate::constants::{SPEED_OF_LIGHT_M_S, STEFAN_BOLTZMANN_W_M2_K4};
-use crate::environment::surface::{DayTemperature, PlanetSurface};
 use crate::numerics::scalar::{Dual64, Scalar};
 use crate::radiation::{Beam, ForceTorque, SolarModel};
 use crate::spacecraft::{
@@ -314,7 +314,8 @@ fn along_seed<T: Scalar>(
     let planet_m = moved(planet, [-0.4, 0.6, 0.3], RADIUS_M);
     let angles = [seed * 0.8 + 0.3, seed * -0.5 - 0.2];
     let com = moved(Vector3::new(0.1, -0.2, 0.05), [1.0, -2.0, 0.5], 1.0);
-    let geometry = Geometry::at(1361.0, &sun_m, Some(&planet_m), seed * 0.1 + 0.8, &angles, com).unwrap();
+    let geometry =
+        Geometry::at(T::constant(1361.0), &sun_m, Some(&planet_m), seed * 0.1 + 0.8, &angles, com).unwrap();
     let found = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap();
     [found.solar, found.albedo, found.infrared, found.thermal]
 }

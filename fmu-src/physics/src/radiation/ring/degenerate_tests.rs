@@ -6,8 +6,8 @@ use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::bodies::surface::{DayTemperature, PlanetSurface};
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::surface::{DayTemperature, PlanetSurface};
 use crate::numerics::scalar::{Dual64, Scalar};
 
 const FLUX_W_M2: f64 = 9126.0;
@@ -40,7 +40,7 @@ fn light<T: Scalar>(
     seed: T,
 ) -> [T; 8] {
     let moved = |i: usize| geometry[i].map(T::constant) + by[i].map(|x| seed * x);
-    let view = PlanetView::new(&moved(0), &moved(1), 1.0).unwrap();
+    let view = PlanetView::new(&moved(0), &moved(1), T::constant(1.0)).unwrap();
     let surface = PlanetSurface {
         radius_m: 1.0,
         absorptivity: 0.88,
@@ -50,7 +50,7 @@ fn light<T: Scalar>(
         day_temperature: DayTemperature::Uniform,
     };
     let normal = moved(2);
-    let exitance = surface.exitance(T::constant(FLUX_W_M2));
+    let exitance = surface.constant().exitance(T::constant(FLUX_W_M2));
     let light = rule.receive(&view, &exitance, &(normal / normal.dot(&normal).sqrt()));
     let unit = SPEED_OF_LIGHT_M_S / FLUX_W_M2;
     let (a, i) = (light.albedo, light.infrared);

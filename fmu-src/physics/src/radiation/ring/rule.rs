@@ -6,7 +6,7 @@ use super::arcs::{Arc, Azimuth, EvenMoments, Moments};
 use super::segments::{AT_NADIR, Breaks, FARTHEST_SPLIT, SPLIT_RATIO};
 use super::sums::{Tensors, Weighted};
 use super::view::PlanetView;
-use crate::environment::surface::SurfaceExitance;
+use crate::bodies::surface::SurfaceExitance;
 use crate::numerics::quadrature::gauss_legendre;
 use crate::numerics::scalar::Scalar;
 use crate::radiation::flat_plate::ReceivedLight;
@@ -74,6 +74,11 @@ impl RingRule {
             nodes: positions.iter().zip(&weights).map(on_unit).collect(),
             closest_bend: 10_f64.powf(-1.2 - 0.25 * nodes_per_segment as f64),
         })
+    }
+
+    /// Nodes between two births of arcs.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
     }
 
     /// Light from the planet on the front of a plate of unit `normal`, by kind (paper 004 eqs 33-36, 39-41 in

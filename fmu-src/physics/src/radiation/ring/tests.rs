@@ -7,8 +7,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::bodies::surface::{DayTemperature, PlanetSurface, SurfaceExitance};
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::surface::{DayTemperature, PlanetSurface, SurfaceExitance};
 use crate::numerics::scalar::Dual64;
 use crate::radiation::PlanetLight;
 use crate::radiation::grid::{CellLayout, PlanetGrid};
@@ -267,9 +267,11 @@ fn along_seed<T: crate::numerics::scalar::Scalar>(
     seed: T,
 ) -> PlanetLight<T> {
     let moved = |v: Vector3<f64>, by: [f64; 3]| v.map(T::constant) + Vector3::from(by.map(|x| seed * x));
-    let view = PlanetView::new(&moved(planet, [0.3, -0.5, 0.2]), &moved(sun, [-0.4, 0.1, 0.6]), 1.0).unwrap();
+    let view =
+        PlanetView::new(&moved(planet, [0.3, -0.5, 0.2]), &moved(sun, [-0.4, 0.1, 0.6]), T::constant(1.0))
+            .unwrap();
     let normal = moved(normal, [0.2, 0.3, -0.7]);
-    let exitance = surface(DayTemperature::Uniform).exitance(seed * 900.0 + FLUX_W_M2);
+    let exitance = surface(DayTemperature::Uniform).constant().exitance(seed * 900.0 + FLUX_W_M2);
     RingRule::new(16).unwrap().receive(&view, &exitance, &(normal / normal.dot(&normal).sqrt()))
 }
 

@@ -17,7 +17,7 @@ pub struct PlanetView<T: Scalar> {
     /// Distance of the planet's centre in m.
     pub distance_m: T,
     /// Radius of the planet in m.
-    pub radius_m: f64,
+    pub radius_m: T,
     /// Unit vector from the planet toward the Sun.
     pub sun: Vector3<T>,
     /// The same along east, north, nadir.
@@ -65,12 +65,16 @@ impl<T: Scalar> PlanetView<T> {
     pub fn new(
         planet_m: &Vector3<T>,
         sun_from_planet_m: &Vector3<T>,
-        radius_m: f64,
+        radius_m: T,
     ) -> Result<Self, ViewError> {
         let distance_m = planet_m.dot(planet_m).sqrt();
         let sun_distance_m = sun_from_planet_m.dot(sun_from_planet_m).sqrt();
-        if !(distance_m.value() > radius_m && distance_m.value().is_finite() && radius_m > 0.0) {
-            return Err(ViewError::InsidePlanet { distance_m: distance_m.value(), radius_m });
+        let above = distance_m.value() > radius_m.value() && radius_m.value() > 0.0;
+        if !(above && distance_m.value().is_finite()) {
+            return Err(ViewError::InsidePlanet {
+                distance_m: distance_m.value(),
+                radius_m: radius_m.value(),
+            });
         }
         if !(sun_distance_m.value() > 0.0 && sun_distance_m.value().is_finite()) {
             return Err(ViewError::NoSun { distance_m: sun_distance_m.value() });

@@ -1,4 +1,7 @@
 //! Convex pieces of a plane, cut by straight lines and by one another.
+//!
+//! Every outline here is strictly convex: a corner that turns by less than rounding resolves is dropped
+//! ([`drop_flat_corners`]), for an edge of no length, or one that rounding turned, divides nothing.
 
 use nalgebra::Vector2;
 
@@ -10,18 +13,22 @@ pub(super) struct Pieces<T: Scalar> {
     points: Vec<Vector2<T>>,
     /// End of each piece in `points`.
     ends: Vec<usize>,
+    /// Corners whose triangle has no more than twice this area are dropped, in m2.
+    flat_m2: f64,
 }
 
 impl<T: Scalar> Default for Pieces<T> {
     fn default() -> Self {
-        Self { points: Vec::new(), ends: Vec::new() }
+        Self { points: Vec::new(), ends: Vec::new(), flat_m2: 0.0 }
     }
 }
 
 impl<T: Scalar> Pieces<T> {
-    pub fn clear(&mut self) {
+    /// Removes all pieces; those to come lie within `radius_m` of the origin.
+    pub fn clear(&mut self, radius_m: f64) {
         self.points.clear();
         self.ends.clear();
+        self.flat_m2 = flat_m2(radius_m);
     }
 
     pub fn is_empty(&self) -> bool {
@@ -41,10 +48,9 @@ impl<T: Scalar> Pieces<T> {
     /// Ends the piece under construction, or drops it if it has no area.
     fn close(&mut self) {
         let start = self.ends.last().copied().unwrap_or(0);
-        if self.points.len() >= start + 3 {
+        drop_flat_corners(&mut self.points, start, self.flat_m2);
+        if self.points.len() > start {
             self.ends.push(self.points.len());
-        } else {
-            self.points.truncate(start);
         }
     }
 
@@ -66,7 +72,9 @@ impl<T: Scalar> Pieces<T> {
 
     /// What is left of these pieces outside a convex counter-clockwise `hole`; `left` is overwritten.
     pub fn subtract_into(&self, hole: &[Vector2<T>], scratch: &mut [Vec<Vector2<T>>; 2], left: &mut Self) {
-        left.clear();
+        left.points.clear();
+        left.ends.clear();
+        left.flat_m2 = self.flat_m2;
         for piece in self.iter() {
             if apart(piece, hole) {
                 left.push(piece.iter().copied());
@@ -88,6 +96,45 @@ impl<T: Scalar> Pieces<T> {
             }
         }
     }
+}
+
+/// Twice the area of a triangle, in m2, up to which rounding of coordinates of this size (in m) decides its sign.
+pub(super) fn flat_m2(size_m: f64) -> f64 {
+    64.0 * f64::EPSILON * size_m * size_m
+}
+
+/// Makes the convex counter-clockwise outline from `start` on strictly convex: drops repeated corners, those in line with
+/// their neighbours and those that turn right, up to twice the area `flat_m2` a triangle. Nothing stays of an outline
+/// without area.
+///
+/// What is left turns at every corner by at least 64 times the angle by which rounding can turn its edges.
+pub(super) fn drop_flat_corners<T: Scalar>(points: &mut Vec<Vector2<T>>, start: usize, flat_m2: f64) {
+    let is_flat = |a: &Vector2<T>, b: &Vector2<T>, c: &Vector2<T>| {
+        let [a, b, c] = [a, b, c].map(|p| p.map(T::value));
+        // Written so that a NaN stays and shows.
+        (b - a).perp(&(c - b)) <= flat_m2
+    };
+    let mut end = start;
+    for index in start..points.len() {
+        let point = points[index];
+        while end >= start + 2 && is_flat(&points[end - 2], &points[end - 1], &point) {
+            end -= 1;
+        }
+        points[end] = point;
+        end += 1;
+    }
+    let mut first = start;
+    while end >= first + 3 {
+        if is_flat(&points[end - 2], &points[end - 1], &points[first]) {
+            end -= 1;
+        } else if is_flat(&points[end - 1], &points[first], &points[first + 1]) {
+            first += 1;
+        } else {
+            break;
+        }
+    }
+    points.truncate(if end >= first + 3 { end } else { start });
+    points.drain(start..first.min(points.len()));
 }
 
 #[inline]

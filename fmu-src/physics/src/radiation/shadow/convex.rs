@@ -2,6 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use super::clip::flat_m2;
 use crate::spacecraft::Polygon;
 
 /// A surface's plane with two axes in it, and its convex parts in these axes, counter-clockwise seen from the normal.
@@ -22,7 +23,9 @@ impl FlatParts {
         let east = (edge - normal * normal.dot(&edge)).normalize();
         let north = normal.cross(&east);
         let flat = |v: &Vector3<f64>| Vector2::new((v - origin).dot(&east), (v - origin).dot(&north));
-        let outline: Vec<Vector2<f64>> = polygon.vertices_m().iter().map(flat).collect();
+        let mut outline: Vec<Vector2<f64>> = polygon.vertices_m().iter().map(flat).collect();
+        let size_m = polygon.vertices_m().iter().map(Vector3::norm).fold(0.0, f64::max);
+        drop_vertices_in_line(&mut outline, flat_m2(size_m));
         Self { origin, east, north, normal, parts: convex_parts(&outline) }
     }
 
@@ -35,6 +38,19 @@ impl FlatParts {
 /// Twice the signed area of a triangle.
 fn turn(a: &Vector2<f64>, b: &Vector2<f64>, c: &Vector2<f64>) -> f64 {
     (b - a).perp(&(c - a))
+}
+
+/// Drops vertices whose triangle with their neighbours has no more than twice the area `flat_m2`; three always stay.
+fn drop_vertices_in_line(outline: &mut Vec<Vector2<f64>>, flat_m2: f64) {
+    while outline.len() > 3 {
+        let count = outline.len();
+        let in_line = |i: &usize| {
+            let [a, b, c] = [i + count - 1, *i, i + 1].map(|k| &outline[k % count]);
+            turn(a, b, c).abs() <= flat_m2
+        };
+        let Some(found) = (0..count).find(in_line) else { break };
+        outline.remove(found);
+    }
 }
 
 /// Convex parts of a simple counter-clockwise outline: triangles by cutting off ears, joined while they stay convex.
@@ -142,6 +158,19 @@ mod tests {
     fn an_l_makes_two_parts() {
         let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]].map(Vector2::from);
         assert_eq!(convex_parts(&l).len(), 2);
+    }
+
+    /// A rectangle with vertices along its edges, turned so that rounding bends the edges: one part of four corners.
+    #[test]
+    fn vertices_in_line_do_not_divide_an_outline() {
+        for k in 0..200 {
+            let (sin, cos) = (f64::from(k) * 0.37).sin_cos();
+            let points = [[0.0, 0.0], [0.7, 0.0], [1.0, 0.0], [3.0, 0.0], [3.0, 0.9], [3.0, 1.1], [0.0, 1.1]];
+            let turned = points.map(|[x, y]| Vector3::new(x * cos - y * sin, 5.0, x * sin + y * cos));
+            let flat = FlatParts::new(&Polygon::new(turned.to_vec()).unwrap());
+            assert_eq!(flat.parts.iter().map(Vec::len).collect::<Vec<_>>(), [4], "{k}");
+            assert!((area(&flat.parts[0]) - 3.3).abs() < 1e-14);
+        }
     }
 
     proptest! {

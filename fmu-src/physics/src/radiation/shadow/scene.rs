@@ -2,7 +2,7 @@
 
 use nalgebra::{Unit, Vector2, Vector3};
 
-use super::clip::{Pieces, cross};
+use super::clip::{Pieces, cross, drop_flat_corners, flat_m2};
 use super::convex::FlatParts;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::spacecraft::Polygon;
@@ -36,6 +36,8 @@ pub struct Hinge {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadowScene {
     surfaces: Vec<ShadowSurface>,
+    /// Of the sphere about the body frame's origin that holds everything, in m.
+    size_m: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -133,12 +135,18 @@ impl ShadowScene {
         for (surface, before) in surfaces.iter_mut().zip(before) {
             surface.before = before;
         }
-        Self { surfaces }
+        Self { surfaces, size_m }
     }
 
     /// Whether any surface can shadow another at some direction and some angles.
     pub fn has_pairs(&self) -> bool {
         self.surfaces.iter().any(|surface| surface.before.iter().any(|list| !list.is_empty()))
+    }
+
+    /// What can stand before a side of an outline: for each such surface the panel it is, if one.
+    pub fn before(&self, outline: usize, rear: bool) -> impl Iterator<Item = Option<usize>> + '_ {
+        let before = self.surfaces.get(outline).map_or(&[][..], |surface| &surface.before[usize::from(rear)]);
+        before.iter().map(|&other| self.surfaces[other].hinge.map(|hinge| hinge.panel))
     }
 
     /// Ordered pairs in which the second surface can shadow a side of the first.
@@ -178,7 +186,7 @@ impl ShadowScene {
                 if !touched {
                     touched = true;
                     let [pieces, _] = &mut workspace.pieces;
-                    pieces.clear();
+                    pieces.clear(surface.radius_m);
                     for part in &surface.flat.parts {
                         pieces.push(part.iter().map(|p| p.map(T::constant)));
                     }
@@ -234,6 +242,11 @@ impl ShadowScene {
             }
             if doubled_area < 0.0 {
                 hole.reverse();
+            }
+            let size_m = hole.iter().map(|p| p.map(T::value).amax()).fold(self.size_m, f64::max);
+            drop_flat_corners(hole, 0, flat_m2(size_m));
+            if hole.is_empty() {
+                continue;
             }
             let [lit, left] = pieces;
             lit.subtract_into(hole, scratch, left);

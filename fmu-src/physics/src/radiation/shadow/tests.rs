@@ -10,7 +10,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::numerics::scalar::{Dual64, Scalar};
-use crate::spacecraft::Polygon;
+use crate::spacecraft::{Polygon, Spacecraft, SunshadeModel};
 
 fn outline(points: &[[f64; 3]]) -> Outline {
     let polygon = Polygon::new(points.iter().map(|p| Vector3::from(*p)).collect()).unwrap();
@@ -317,4 +317,119 @@ fn evaluate<T: Scalar>(
     scene.evaluate(&(moved / moved.dot(&moved).sqrt()), &[seed * 0.7 + 0.4], &mut workspace);
     let none = (T::constant(0.0), Vector3::zeros());
     (0..7).map(|i| workspace.lit(i).unwrap_or(none)).collect()
+}
+
+/// Surfaces of the example that people copy from: its bus, shade and panels share corners and edges.
+fn orbiter() -> Vec<Outline> {
+    let text = include_str!("../../../../resources/examples/mercury-orbiter.toml");
+    let craft = Spacecraft::from_toml("mercury-orbiter.toml", text).unwrap();
+    let plates = craft.plates_body(SunshadeModel::Plates);
+    let fixed = plates.iter().map(|plate| Outline {
+        polygon: plate.polygon.clone().unwrap(),
+        hinge: None,
+        two_sided: plate.rear_optics.is_some(),
+    });
+    let turning = craft.panels.iter().enumerate().map(|(index, panel)| Outline {
+        polygon: panel.polygon.clone().unwrap(),
+        hinge: Some(Hinge { panel: index, point_body_m: panel.center_body_m, axis_body: panel.axis_body }),
+        two_sided: panel.rear_optics.is_some(),
+    });
+    fixed.chain(turning).collect()
+}
+
+/// An outline at the panels' angles.
+fn posed(outline: &Outline, angles_rad: &[f64]) -> Polygon {
+    outline.hinge.map_or(outline.polygon.clone(), |hinge| {
+        let turn = Rotation3::from_axis_angle(&Unit::new_normalize(hinge.axis_body), angles_rad[hinge.panel]);
+        outline.polygon.moved(|v| hinge.point_body_m + turn * (v - hinge.point_body_m))
+    })
+}
+
+/// Area of the part of `index` that the Sun lights, seen along the light: everything that stands before it is projected
+/// and subtracted by the library.
+fn lit_along_the_light(polygons: &[Polygon], index: usize, sun: &Vector3<f64>) -> f64 {
+    let across = if sun.x.abs() < 0.7 { Vector3::x() } else { Vector3::y() };
+    let u = sun.cross(&across).normalize();
+    let w = sun.cross(&u);
+    let seen = |points: &[Vector3<f64>]| -> Vec<[f64; 2]> {
+        let mut seen: Vec<_> = points.iter().map(|p| [p.dot(&u), p.dot(&w)]).collect();
+        if doubled_area(&seen) < 0.0 {
+            seen.reverse();
+        }
+        seen
+    };
+    let receiver = &polygons[index];
+    let sunward = receiver.normal() * receiver.normal().dot(sun).signum();
+    let height = |p: &Vector3<f64>| sunward.dot(&(p - receiver.centroid_m()));
+    let shadows: Vec<Vec<[f64; 2]>> = polygons
+        .iter()
+        .enumerate()
+        .filter(|(other, _)| *other != index)
+        .map(|(_, polygon)| {
+            let vertices = polygon.vertices_m();
+            let mut above = Vec::new();
+            for (k, to) in vertices.iter().enumerate() {
+                let from = &vertices[(k + vertices.len() - 1) % vertices.len()];
+                let (before, after) = (height(from), height(to));
+                if before * after < 0.0 {
+                    above.push(from + (to - from) * (before / (before - after)));
+                }
+                if after > 0.0 {
+                    above.push(*to);
+                }
+            }
+            seen(&above)
+        })
+        .filter(|shadow| doubled_area(shadow) > 1e-9)
+        .collect();
+    let left = seen(receiver.vertices_m()).overlay(&shadows, OverlayRule::Difference, FillRule::NonZero);
+    left.iter().flatten().map(|contour| doubled_area(contour) / 2.0).sum()
+}
+
+fn doubled_area(contour: &[[f64; 2]]) -> f64 {
+    (0..contour.len())
+        .map(|i| Vector2::from(contour[i]).perp(&Vector2::from(contour[(i + 1) % contour.len()])))
+        .sum()
+}
+
+#[test]
+fn the_example_orbiter_is_lit_as_a_polygon_library_finds_all_over_the_sphere() {
+    let outlines = orbiter();
+    let scene = ShadowScene::new(outlines.clone());
+    let (mut plain, mut dual) = (ShadowWorkspace::default(), ShadowWorkspace::default());
+    let count = 4000;
+    let mut shadowed = 0;
+    for k in 0..count {
+        // Fibonacci's points, and directions along and between the axes among them.
+        let (z, azimuth) =
+            (1.0 - 2.0 * (f64::from(k) + 0.5) / f64::from(count), f64::from(k) * 2.399_963_229_728_653);
+        let even = Vector3::new((z * 1e3).round(), (azimuth % 3.0).round(), (azimuth % 2.0).round());
+        let sun = match k % 10 {
+            0 if even.norm() > 0.0 => even.normalize(),
+            _ => Vector3::new(azimuth.cos() * (1.0 - z * z).sqrt(), azimuth.sin() * (1.0 - z * z).sqrt(), z),
+        };
+        let angles_rad = [[0.0, 0.0], [0.6, -0.6], [PI, 2.5], [-1.2, 0.3]][k as usize % 4];
+        scene.evaluate(&sun, &angles_rad, &mut plain);
+        let seeded = |value: f64| Dual64::new(value, 0.3);
+        scene.evaluate(&sun.map(seeded), &angles_rad.map(seeded), &mut dual);
+        let polygons: Vec<Polygon> = outlines.iter().map(|outline| posed(outline, &angles_rad)).collect();
+        for (i, polygon) in polygons.iter().enumerate() {
+            let whole = polygon.area_m2();
+            let cos = polygon.normal().dot(&sun);
+            if cos.abs() < 1e-9 || (cos < 0.0 && !outlines[i].two_sided) {
+                continue;
+            }
+            let found = plain.lit(i).map_or(whole, |lit| lit.0);
+            let expected = lit_along_the_light(&polygons, i, &sun);
+            assert!(
+                (found * cos.abs() - expected).abs() < 1e-6,
+                "{i} at {sun:?}: {} {expected}",
+                found * cos.abs()
+            );
+            let with_slopes = dual.lit(i).map_or(whole, |lit| lit.0.value());
+            assert!((with_slopes - found).abs() < 1e-9 * whole, "{i} at {sun:?}: {with_slopes} {found}");
+            shadowed += u32::from(found < 0.999 * whole);
+        }
+    }
+    assert!(shadowed > 3000, "{shadowed}");
 }

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Directions, Plant, Sampling, StarSample, sensing::DIRECTION_STRETCH_S};
+use super::{Directions, Plant, Sampling, StarSample};
 use crate::spin::{
     forecast::Timing, motion::Motion, nutation::Spin, rotation::angle_between_rad, sequencer::Sequencer,
     spinner::Spinner, tracker::NutationEstimator, watch::Watch,
@@ -100,12 +100,13 @@ impl Plant {
     /// without a burn that is timed by the Sun.
     pub fn sun_clearance_rad(&self) -> Option<f64> {
         let burn = self.sequencer().map(Sequencer::burn)?;
-        if !burn.points() || burn.timing != Timing::SunCrossing {
+        let sun = self.directions.sun_inertial;
+        if !burn.points() || burn.timing != Timing::SunCrossing || sun == Vector3::zeros() {
             return None;
         }
         let from = self.initial_momentum_inertial.normalize();
         let toward = (burn.target_inertial - from * from.dot(&burn.target_inertial)).normalize();
-        let (sun, way_rad) = (self.directions.sun_inertial, self.predictions().manoeuvre_rad);
+        let way_rad = self.predictions().manoeuvre_rad;
         let clearance = |line: Vector3<f64>| {
             let nearest = line.dot(&toward).atan2(line.dot(&from)).rem_euclid(2.0 * PI);
             let along = |angle: f64| from * angle.cos() + toward * angle.sin();
@@ -124,39 +125,5 @@ impl Plant {
             directions.earth_inertial = seen.earth_inertial;
         }
         directions
-    }
-
-    /// Whether a decoded state can be flown on: its thrusters exist and its numbers belong together, so that no loop
-    /// over cells, ticks, refreshes or pulses runs away.
-    pub fn fits(&self, spinner: &Spinner) -> bool {
-        let known = (1_u64 << spinner.thrusters.len()) - 1;
-        let masks = [self.mask, self.commands.fire, self.sequencer().map_or(0, |s| s.burn().mask)];
-        let now_s = self.time_s;
-        let cell_holds = self.motion.cell_end_s().is_infinite()
-            || (self.motion.anchor_s() <= now_s + 1.0 && now_s <= self.motion.cell_end_s() + 1.0);
-        let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
-        let ticks = self.clock_period_s > 1e-3
-            && (self.sampling == Sampling::Spins || tick_s > now_s - self.clock_period_s);
-        // A tank that is never empty and has nothing left would be emptied without end.
-        let tank_holds = (0.0..=spinner.mass_properties.most_propellant_kg())
-            .contains(&self.initial_propellant_kg)
-            && (0.0..=self.initial_propellant_kg).contains(&self.used_kg);
-        let refreshes = match self.l1 {
-            None => self.refresh_s == f64::INFINITY,
-            Some(_) => {
-                self.refresh_s == self.refresh_count as f64 * DIRECTION_STRETCH_S
-                    && (self.refresh_s - now_s).abs() <= 2.0 * DIRECTION_STRETCH_S
-            }
-        };
-        masks.iter().all(|&mask| u64::from(mask) & !known == 0)
-            && now_s.is_finite()
-            && (self.mask == 0 || now_s - self.mask_since_s.max(self.delta_v_until_s) < 1e6)
-            && self.directions.are_directions()
-            && cell_holds
-            && !self.motion.runs_away()
-            && tank_holds
-            && ticks
-            && refreshes
-            && self.sequencer().is_none_or(Sequencer::is_sound)
     }
 }

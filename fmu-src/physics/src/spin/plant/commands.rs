@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::spin::{series::BodyTorque, spinner::MOST_THRUSTERS};
 
-/// Directions in inertial space that the sensors look for; unit vectors. On the L1 orbit those of Sun and Earth do not
-/// count.
+/// Directions in inertial space that the sensors look for; unit vectors, or 0 for one that is not known: nothing is seen
+/// there. On the L1 orbit those of Sun and Earth do not count.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Directions {
     /// Sun.
@@ -40,9 +40,11 @@ pub struct Commands {
 }
 
 impl Directions {
-    /// Whether all are unit vectors.
+    /// Whether all are unit vectors, or none.
     pub(super) fn are_directions(&self) -> bool {
-        let unit = |direction: &Vector3<f64>| (direction.norm() - 1.0).abs() < 1e-6;
+        let unit = |direction: &Vector3<f64>| {
+            *direction == Vector3::zeros() || (direction.norm() - 1.0).abs() < 1e-6
+        };
         [&self.sun_inertial, &self.earth_inertial, &self.star_inertial].into_iter().all(unit)
     }
 }

@@ -2,13 +2,21 @@
 
 use nalgebra::Vector3;
 
-use super::{MassSource, Plant};
-use crate::spin::{inertia::Inertia, motion::Runaway, spinner::Spinner, tracker::NutationEstimator};
+use super::{FlightError, MassSource, Plant};
+use crate::spin::{
+    inertia::Inertia,
+    spinner::Spinner,
+    tracker::NutationEstimator,
+    work::{Cost, Work},
+};
 
 /// A turning force is summed over stretches of this much turn.
 const IMPULSE_PANEL_RAD: f64 = 2.0;
 
-/// What the edges of many pulses have lost to rounding by a time, as a share of it.
+/// And over stretches in which the mass falls by this factor, its logarithm.
+const IMPULSE_PANEL_MASS: f64 = 0.25;
+
+/// What the edges of many pulses have lost to rounding by a time, as a share of it and of the time a full tank lasts.
 const EDGE_ROUNDING: f64 = 1e-11;
 
 /// Gauss-Legendre nodes and weights on -1..1 for the impulse of a turning thruster.
@@ -49,14 +57,21 @@ impl Plant {
         if self.mask == 0 {
             return f64::INFINITY;
         }
-        let left_s = (self.initial_propellant_kg - self.used_kg) / spinner.thrust(self.mask).flow_kg_s;
+        let flow_kg_s = spinner.thrust(self.mask).flow_kg_s;
+        let left_s = (self.initial_propellant_kg - self.used_kg) / flow_kg_s;
         // Edges are known to rounding: a pulse that takes the last drop ends by its own.
-        self.mask_since_s + left_s + EDGE_ROUNDING * self.mask_since_s.abs().max(1.0)
+        let late_s = self.mask_since_s.abs() + self.initial_propellant_kg / flow_kg_s;
+        self.mask_since_s + left_s + EDGE_ROUNDING * late_s
     }
 
     /// Empties the tank at `now_s`; the burn ends with the pulse it cut.
-    pub(super) fn run_dry(&mut self, spinner: &Spinner, now_s: f64) -> Result<(), Runaway> {
-        self.reach(spinner, now_s)?;
+    pub(super) fn run_dry(
+        &mut self,
+        spinner: &Spinner,
+        now_s: f64,
+        work: &mut Work,
+    ) -> Result<(), FlightError> {
+        self.reach(spinner, now_s, work)?;
         self.settle_pulse(spinner, now_s);
         self.used_kg = self.initial_propellant_kg;
         if let Some(sequencer) = &mut self.sequencer {
@@ -83,15 +98,19 @@ impl Plant {
         (self.used_kg + more_kg).min(self.initial_propellant_kg)
     }
 
-    pub(super) fn mass_kg(&self, spinner: &Spinner) -> f64 {
-        spinner.mass_properties.dry_mass_kg + (self.initial_propellant_kg - self.used_kg).max(0.0)
+    /// Mass at `time_s`, in kg.
+    pub(super) fn mass_at_kg(&self, spinner: &Spinner, time_s: f64) -> f64 {
+        let left_kg = self.initial_propellant_kg - self.used_at(spinner, time_s);
+        spinner.mass_properties.dry_mass_kg + left_kg.max(0.0)
     }
 
     /// Goes on to the next cell, summing delta-v as the present one is left.
-    pub(super) fn next_cell(&mut self, spinner: &Spinner) -> Result<(), Runaway> {
+    pub(super) fn next_cell(&mut self, spinner: &Spinner, work: &mut Work) -> Result<(), FlightError> {
         self.motion.check()?;
         let end_s = self.motion.cell_end_s();
+        work.spend_cell(self.motion.damper());
         if self.mask != 0 {
+            work.spend(Cost::Impulse);
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, end_s);
             self.delta_v_until_s = end_s;
         }
@@ -102,9 +121,15 @@ impl Plant {
     }
 
     /// Goes on through cells until the present one holds `time_s`.
-    pub(super) fn reach(&mut self, spinner: &Spinner, time_s: f64) -> Result<(), Runaway> {
+    pub(super) fn reach(
+        &mut self,
+        spinner: &Spinner,
+        time_s: f64,
+        work: &mut Work,
+    ) -> Result<(), FlightError> {
         while self.motion.cell_end_s() < time_s {
-            self.next_cell(spinner)?;
+            work.check(self.motion.anchor_s())?;
+            self.next_cell(spinner, work)?;
         }
         if self.mask != 0 && self.motion.cell_end_s().is_infinite() {
             // Thrusters without torque: whole panels of the closed form, counted from when they went on.
@@ -114,6 +139,8 @@ impl Plant {
                 if panel_end_s.is_nan() || panel_end_s > time_s {
                     break;
                 }
+                work.check(self.delta_v_until_s)?;
+                work.spend(Cost::Impulse);
                 self.delta_v_inertial_m_s = self.delta_v_at(spinner, panel_end_s);
                 self.delta_v_until_s = panel_end_s;
             }
@@ -121,19 +148,31 @@ impl Plant {
         Ok(())
     }
 
-    /// Delta-v until `time_s` in the present cell, inertial, in m/s.
+    /// Delta-v until `time_s` in the present cell, inertial, in m/s: the turning force over the mass left at each instant.
     pub(super) fn delta_v_at(&self, spinner: &Spinner, time_s: f64) -> Vector3<f64> {
         if self.mask == 0 {
             return self.delta_v_inertial_m_s;
         }
         let from_s = self.delta_v_until_s.max(self.mask_since_s);
-        let force = spinner.thrust(self.mask).force_body_n;
-        let half_s = 0.5 * (time_s - from_s);
-        let mut impulse = Vector3::zeros();
-        for (node, weight) in NODES {
-            let attitude = self.motion.at(from_s + half_s * (1.0 + node)).attitude;
-            impulse += attitude.inertial_from_body(&force) * weight;
+        let thrust = spinner.thrust(self.mask);
+        let mass_kg = self.mass_at_kg(spinner, from_s);
+        let fall = (mass_kg / self.mass_at_kg(spinner, time_s)).ln();
+        // Panels in which the mass falls by one factor, so that its reciprocal is smooth in each.
+        let panels = (fall / IMPULSE_PANEL_MASS).ceil().max(1.0);
+        let mut delta_v = self.delta_v_inertial_m_s;
+        let mut start_s = from_s;
+        for panel in 1..=panels as u32 {
+            let burnt_kg = -mass_kg * (-fall * f64::from(panel) / panels).exp_m1();
+            let is_last = f64::from(panel) >= panels;
+            let end_s = if is_last { time_s } else { from_s + burnt_kg / thrust.flow_kg_s };
+            let half_s = 0.5 * (end_s - start_s);
+            for (node, weight) in NODES {
+                let at_s = start_s + half_s * (1.0 + node);
+                let force_n = self.motion.at(at_s).attitude.inertial_from_body(&thrust.force_body_n);
+                delta_v += force_n * (weight * half_s / self.mass_at_kg(spinner, at_s));
+            }
+            start_s = end_s;
         }
-        self.delta_v_inertial_m_s + impulse * (half_s / self.mass_kg(spinner))
+        delta_v
     }
 }

@@ -4,13 +4,14 @@ mod access;
 mod commands;
 mod ledger;
 mod sensing;
+mod sound;
 mod start;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 pub use commands::{Commands, Directions, PulseCommand};
-pub use start::{MassSource, Sampling, Start, StartError};
+pub use start::{LEAST_WORK, MOST_WORK, MassSource, Sampling, Start, StartError};
 
 use super::{
     geometry::L1Flight,
@@ -20,10 +21,22 @@ use super::{
     spinner::Spinner,
     tracker::NutationEstimator,
     watch::Watch,
+    work::{Cost, Work, WorkExceeded},
 };
 
-/// A communication point this close to an edge (relative) counts as the edge.
+/// A communication point this close to an edge, as a share of the step's later or earlier end, counts as the edge.
 const SAME_TIME: f64 = 1e-13;
+
+/// Why a flight does not come to the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum FlightError {
+    /// The motion.
+    #[error(transparent)]
+    Runaway(#[from] Runaway),
+    /// The effort.
+    #[error(transparent)]
+    Work(#[from] WorkExceeded),
+}
 
 /// A star tracker sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -77,6 +90,8 @@ pub struct Plant {
     l1: Option<L1Flight>,
     refresh_count: i64,
     refresh_s: f64,
+    /// What a step may cost.
+    work_limit: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,35 +123,43 @@ impl Plant {
     /// Flies to `end_s`. Pulses commanded beyond it are cut there.
     ///
     /// # Errors
-    /// A body that cannot be followed to there; the flight is then of no further use.
-    pub fn advance(&mut self, spinner: &Spinner, end_s: f64) -> Result<(), Runaway> {
+    /// A body that cannot be followed to there, or only with more work than a step may cost; the flight is then of no
+    /// further use.
+    pub fn advance(&mut self, spinner: &Spinner, end_s: f64) -> Result<(), FlightError> {
+        let work = &mut Work::new(self.work_limit);
         let from_s = self.time_s;
-        let near_s = end_s + SAME_TIME * end_s.abs().max(1.0);
-        let mut now_s = from_s;
+        let near_s = end_s + SAME_TIME * end_s.abs().max(from_s.abs());
+        // The last edge, and the last thing of any kind that happened.
+        let (mut now_s, mut reached_s) = (from_s, from_s);
         if self.commanded || self.commands.any_pulse {
-            self.switch(spinner, from_s, now_s, f64::INFINITY)?;
+            self.switch(spinner, from_s, now_s, f64::INFINITY, work)?;
             self.commanded = false;
         }
         self.motion.check()?;
         loop {
+            work.check(reached_s)?;
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
             let command_s = self.commands.edge_after_s(from_s, now_s);
             let dry_s = self.dry_s(spinner).max(now_s);
             let edge_s = plan_s.min(command_s).min(self.refresh_s).min(dry_s);
             let (until_s, cell_end_s) = (edge_s.min(end_s), self.motion.cell_end_s());
             // What is seen may move the plan's edge.
-            if self.observe(spinner, until_s.min(cell_end_s))? {
+            if let Some(seen_s) = self.observe(spinner, until_s.min(cell_end_s), work)? {
+                reached_s = seen_s;
                 continue;
             }
             if cell_end_s < until_s {
-                self.next_cell(spinner)?;
+                self.next_cell(spinner, work)?;
+                reached_s = cell_end_s;
                 continue;
             }
             if edge_s > near_s {
                 break;
             }
-            now_s = edge_s;
+            (now_s, reached_s) = (edge_s, edge_s);
+            work.spend(Cost::Edge);
             if self.refresh_s <= edge_s {
+                work.spend(Cost::Direction);
                 self.refresh_directions();
             }
             let mut hint_s = f64::INFINITY;
@@ -148,14 +171,14 @@ impl Plant {
                 hint_s = sequencer.pass_edge(now_s).map_or(f64::INFINITY, |width_s| 1.001 * width_s);
             }
             if dry_s <= edge_s {
-                self.run_dry(spinner, now_s)?;
+                self.run_dry(spinner, now_s, work)?;
             }
-            self.switch(spinner, from_s, now_s, hint_s)?;
+            self.switch(spinner, from_s, now_s, hint_s, work)?;
             if self.sequencer.as_ref().is_some_and(|s| s.phase() == Phase::Idle) {
-                self.schedule(now_s);
+                self.schedule(now_s, work);
             }
         }
-        self.reach(spinner, end_s)?;
+        self.reach(spinner, end_s, work)?;
         self.motion.check_at(end_s)?;
         self.time_s = end_s;
         Ok(())
@@ -167,7 +190,14 @@ impl Plant {
     }
 
     /// Puts the thrusters and outside torque in force that hold just after `now_s`.
-    fn switch(&mut self, spinner: &Spinner, from_s: f64, now_s: f64, hint_s: f64) -> Result<(), Runaway> {
+    fn switch(
+        &mut self,
+        spinner: &Spinner,
+        from_s: f64,
+        now_s: f64,
+        hint_s: f64,
+        work: &mut Work,
+    ) -> Result<(), FlightError> {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
         let asked = plan | self.commands.mask_after(from_s, now_s);
         let mask = if self.is_dry() { 0 } else { asked };
@@ -176,9 +206,10 @@ impl Plant {
             torque = torque.plus(&spinner.thrust(mask).torque_body_n_m);
         }
         if mask != self.mask || torque != *self.motion.torque() {
-            self.reach(spinner, now_s)?;
+            self.reach(spinner, now_s, work)?;
             self.settle_pulse(spinner, now_s);
             let inertia = self.inertia_now(spinner);
+            work.spend_cell(self.motion.damper());
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s);
             self.motion.check()?;
             self.mask = mask;
@@ -186,18 +217,18 @@ impl Plant {
             self.sun.forget(now_s);
             self.star.forget(now_s);
             if self.sequencer.as_ref().is_some_and(Sequencer::follows_motion) {
-                self.schedule(now_s);
+                self.schedule(now_s, work);
             }
         }
         Ok(())
     }
 
-    fn schedule(&mut self, now_s: f64) {
+    fn schedule(&mut self, now_s: f64, work: &mut Work) {
         if self.is_dry() {
             return;
         }
         if let Some(sequencer) = &mut self.sequencer {
-            sequencer.schedule(&self.motion, now_s, &self.directions.sun_inertial);
+            sequencer.schedule(&self.motion, now_s, &self.directions.sun_inertial, work);
         }
     }
 }

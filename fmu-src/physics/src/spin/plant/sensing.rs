@@ -4,14 +4,16 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Plant, Sampling, StarSample};
+use super::{FlightError, Plant, Sampling, StarSample};
 use crate::spin::{
     crossing::{Crossing, Pole},
-    motion::{RigidState, Runaway},
+    motion::RigidState,
     noise::{Channel, normal},
     rotation::angle_between_rad,
     spinner::Spinner,
     tracker::{picket_of, searched},
+    watch::Watch,
+    work::{Cost, Work},
 };
 
 /// Sun and Earth of the L1 orbit stand still for the sensors over stretches of this length, in s: less than 0.01 deg.
@@ -29,31 +31,43 @@ impl Plant {
         self.refresh_s = self.refresh_count as f64 * DIRECTION_STRETCH_S;
     }
 
-    /// Lets the sensors see the first thing there is to see up to `until_s`; whether there was one.
-    pub(super) fn observe(&mut self, spinner: &Spinner, until_s: f64) -> Result<bool, Runaway> {
+    /// Lets the sensors see the first thing there is to see up to `until_s`; when it was, if there was one.
+    pub(super) fn observe(
+        &mut self,
+        spinner: &Spinner,
+        until_s: f64,
+        work: &mut Work,
+    ) -> Result<Option<f64>, FlightError> {
         let (sun, star) = (self.directions.sun_inertial, self.directions.star_inertial);
         let azimuths = self.sensor_azimuths;
         let look = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
-        let sun_s = self.sun.due_s(&self.motion, look(azimuths.sun, sun), until_s).unwrap_or(f64::INFINITY);
+        let due_s = |watch: &mut Watch, body, inertial: Vector3<f64>, work: &mut Work| {
+            // A direction of 0 is none.
+            let known = inertial != Vector3::zeros();
+            let due_s =
+                known.then(|| watch.due_s(&self.motion, look(body, inertial), until_s, work)).flatten();
+            due_s.unwrap_or(f64::INFINITY)
+        };
+        let sun_s = due_s(&mut self.sun, azimuths.sun, sun, work);
         let star_s = if self.sampling == Sampling::Clock {
             let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
             if tick_s <= until_s { tick_s } else { f64::INFINITY }
         } else {
-            self.star.due_s(&self.motion, look(azimuths.star, star), until_s).unwrap_or(f64::INFINITY)
+            due_s(&mut self.star, azimuths.star, star, work)
         };
         if sun_s.is_infinite() && star_s.is_infinite() {
-            return Ok(false);
+            return Ok(None);
         }
         if sun_s <= star_s {
-            self.see_sun(spinner, sun_s)?;
+            self.see_sun(spinner, sun_s, work)?;
         } else {
-            self.see_star(spinner, star_s)?;
+            self.see_star(spinner, star_s, work)?;
         }
-        Ok(true)
+        Ok(Some(sun_s.min(star_s)))
     }
 
-    pub(super) fn see_sun(&mut self, spinner: &Spinner, time_s: f64) -> Result<(), Runaway> {
-        self.reach(spinner, time_s)?;
+    fn see_sun(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), FlightError> {
+        self.reach(spinner, time_s, work)?;
         let state = self.motion.at(time_s);
         let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), &self.directions.sun_inertial);
         let noise = normal(self.seed, Channel::SunSensor, self.sun.count());
@@ -61,20 +75,22 @@ impl Plant {
         self.sun.pass(time_s, state.rate_rad_s(self.motion.inertia()).z);
         let dry = self.is_dry();
         if let Some(sequencer) = self.sequencer.as_mut().filter(|_| !dry) {
-            sequencer.sun_pulse(&self.motion, time_s, &self.directions.sun_inertial);
+            sequencer.sun_pulse(&self.motion, time_s, &self.directions.sun_inertial, work);
         }
         Ok(())
     }
 
-    pub(super) fn see_star(&mut self, spinner: &Spinner, time_s: f64) -> Result<(), Runaway> {
-        self.reach(spinner, time_s)?;
+    fn see_star(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), FlightError> {
+        self.reach(spinner, time_s, work)?;
         let state = self.motion.at(time_s);
         let tracker = &spinner.star_tracker;
         let declination =
             state.attitude.spin_axis_inertial().dot(&self.directions.star_inertial).clamp(-1.0, 1.0).asin();
-        let visible = declination.abs() <= 0.5 * tracker.field_of_view_deg.to_radians();
+        let visible = self.directions.star_inertial != Vector3::zeros()
+            && declination.abs() <= 0.5 * tracker.field_of_view_deg.to_radians();
         let turn = match self.sampling {
             Sampling::Clock => {
+                work.spend(Cost::ClockSample);
                 self.clock_count = self.clock_count.saturating_add(1);
                 None
             }
@@ -83,7 +99,10 @@ impl Plant {
                 Some(self.star.count().wrapping_sub(1))
             }
         };
-        let seen = turn.is_none_or(|turn| searched(self.star_picket(spinner, &state), turn, tracker.every));
+        // Pickets count from the Sun pulse: without a Sun there are none.
+        let sun_known = self.directions.sun_inertial != Vector3::zeros();
+        let seen = turn
+            .is_none_or(|turn| sun_known && searched(self.star_picket(spinner, &state), turn, tracker.every));
         if !(visible && seen) {
             return Ok(());
         }

@@ -5,10 +5,12 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::{Commands, Directions, Plant, SensorAzimuths, StarSample, sensing::DIRECTION_STRETCH_S};
+use super::{
+    Commands, Directions, Plant, SensorAzimuths, StarSample, sensing::DIRECTION_STRETCH_S, sound::is_moderate,
+};
 use crate::spin::{
     burn::{Burn, BurnError, BurnRequest, Outset},
-    damper::Damper,
+    damper::{Damper, SHORTEST_TIME_CONSTANT_S},
     forecast::Timing,
     geometry::L1Flight,
     inertia::{Inertia, InertiaError},
@@ -20,7 +22,13 @@ use crate::spin::{
     spinner::Spinner,
     tracker::NutationEstimator,
     watch::Watch,
+    work::{Work, WorkExceeded},
 };
+
+/// Least work of a step that may be allowed, in units of about a microsecond.
+pub const LEAST_WORK: u32 = 1000;
+/// Most.
+pub const MOST_WORK: u32 = 1_000_000_000;
 
 /// What the inertia follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -69,6 +77,8 @@ pub struct Start {
     pub nominal_rate_rad_s: f64,
     /// Of all random draws.
     pub seed: u64,
+    /// What a step may cost, [`LEAST_WORK`] to [`MOST_WORK`].
+    pub work_limit: u32,
 }
 
 /// Why a flight cannot start.
@@ -80,6 +90,9 @@ pub enum StartError {
     /// Burn.
     #[error(transparent)]
     Burn(#[from] BurnError),
+    /// Effort.
+    #[error(transparent)]
+    Work(#[from] WorkExceeded),
     /// Another parameter.
     #[error("{name} is {found}; {allowed}")]
     Parameter {
@@ -168,6 +181,7 @@ impl Plant {
             l1: start.l1,
             refresh_count: 0,
             refresh_s: f64::INFINITY,
+            work_limit: start.work_limit,
         };
         if start.l1.is_some() {
             plant.refresh_count = (start_s / DIRECTION_STRETCH_S).floor() as i64;
@@ -176,18 +190,20 @@ impl Plant {
             plant.sun = Watch::new(start_s);
         }
         plant.refuse_blind_timing(start)?;
-        plant.schedule(start_s);
+        let mut work = Work::new(start.work_limit);
+        plant.schedule(start_s, &mut work);
+        work.check(start_s)?;
         plant.command(commands, directions);
         Ok(plant)
     }
 
-    /// Sun pulses need a Sun off the axis.
+    /// Sun pulses need a Sun off the axis; one that is not known yet may still come.
     pub(super) fn refuse_blind_timing(&self, start: &Start) -> Result<(), StartError> {
         let by_sun = start.burn.as_ref().is_some_and(|b| b.timing == Timing::SunCrossing);
         let state = self.motion.at(self.time_s);
         let angle = angle_between_rad(&state.momentum_inertial, &self.directions.sun_inertial);
         let least = start.nutation_rad.max(1e-3);
-        if by_sun && angle.sin() <= least {
+        if by_sun && self.directions.sun_inertial != Vector3::zeros() && angle.sin() <= least {
             return Err(StartError::Parameter {
                 name: "burn.timing",
                 found: format!("Sun crossing with the Sun {:.4} deg off the spin axis", angle.to_degrees()),
@@ -210,39 +226,42 @@ fn check(spinner: &Spinner, start: &Start) -> Result<Quaternion, StartError> {
     }
     let nutation = start.nutation_rad;
     if !(0.0..1.5).contains(&nutation) || !start.nutation_phase_rad.is_finite() {
-        return refuse("initial.nutation", format!("{nutation} rad"), "allowed is 0 to below 1.5 rad");
+        return refuse("start.nutation", format!("{nutation} rad"), "allowed is 0 to below 1.5 rad");
     }
     let tau = start.damper_time_constant_s;
-    if !(tau == 0.0 || (tau.is_finite() && tau >= 1.0)) {
+    if !(tau == 0.0 || (tau.is_finite() && tau >= SHORTEST_TIME_CONSTANT_S)) {
         return refuse("damper.timeConstant", format!("{tau} s"), "allowed is 0 (no damper) or 1 s and more");
     }
-    if !(start.nominal_rate_rad_s.is_finite() && start.nominal_rate_rad_s > 0.0) {
-        return refuse(
-            "limit.spinRate",
-            format!("{} rad/s", start.nominal_rate_rad_s),
-            "it must be positive",
-        );
+    let nominal = start.nominal_rate_rad_s;
+    if !(SLOWEST_RAD_S..=FASTEST_RAD_S).contains(&nominal) {
+        return refuse("limit.spinRate", format!("{nominal} rad/s"), "allowed is 1e-4 to 1e4 rad/s");
+    }
+    if !(LEAST_WORK..=MOST_WORK).contains(&start.work_limit) {
+        let allowed = format!("allowed is {LEAST_WORK} to {MOST_WORK}");
+        return refuse("solver.workLimit", start.work_limit.to_string(), &allowed);
     }
     let most_kg = spinner.mass_properties.most_propellant_kg();
     if !(0.0..=most_kg).contains(&start.propellant_kg) {
         let allowed = format!("allowed is 0 to {most_kg} kg, where the setup's mass properties end");
-        return refuse("propellant.initial", format!("{} kg", start.propellant_kg), &allowed);
+        return refuse("propellant.loaded", format!("{} kg", start.propellant_kg), &allowed);
     }
-    if let Some(L1Flight { orbit, phases }) = start.l1 {
-        let numbers =
-            [phases.longitude_rad, phases.in_plane_rad, phases.out_of_plane_rad, orbit.line_rate_deg_day];
-        let finite = numbers.iter().chain(&orbit.amplitude_m).all(|x| x.is_finite());
-        if !(finite && orbit.amplitude_m[0].abs() < orbit.earth_l1_distance_m) {
-            let found = format!("{:?} m", orbit.amplitude_m);
-            return refuse(
-                "geometry.amplitude",
-                found,
-                "finite, the first below the distance from Earth to L1",
-            );
-        }
+    if let Some(l1) = &start.l1
+        && !orbit_is_sound(l1)
+    {
+        let found = format!("{:?} m", l1.orbit.amplitude_m);
+        return refuse("geometry.amplitude", found, "finite, the first below the distance from Earth to L1");
     }
     match Quaternion::from_components(start.attitude) {
         Some(attitude) => Ok(attitude),
-        None => refuse("initial.q", format!("{:?}", start.attitude), "its norm must be 1 within 1e-3"),
+        None => refuse("start.q", format!("{:?}", start.attitude), "its norm must be 1 within 1e-3"),
     }
+}
+
+/// Whether Sun and Earth of an L1 orbit have a direction at any time.
+pub(super) fn orbit_is_sound(L1Flight { orbit, phases }: &L1Flight) -> bool {
+    let angles = [phases.longitude_rad, phases.in_plane_rad, phases.out_of_plane_rad, orbit.obliquity_deg];
+    let rates = [orbit.line_rate_deg_day, orbit.in_plane_frequency, orbit.out_of_plane_frequency];
+    let distances = [orbit.sun_earth_distance_m, orbit.earth_l1_distance_m];
+    angles.iter().chain(&rates).chain(&distances).chain(&orbit.amplitude_m).all(|&x| is_moderate(x))
+        && orbit.amplitude_m[0].abs() < orbit.earth_l1_distance_m
 }

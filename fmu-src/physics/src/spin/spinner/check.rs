@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::{
     Group, L1Orbit, Limits, MOST_THRUSTERS, MassProperties, Spinner, StarTracker, SunSensor, Thruster,
 };
-use crate::spacecraft::{Checker, Document, Place, SpacecraftError, nearest};
+use crate::spacecraft::{Checker, Document, Place, SpacecraftError, StartTable, nearest, start_entries};
 
 /// Greatest distance, in m: planets and their Lagrange points are nearer to the Sun.
 const GREATEST_DISTANCE_M: f64 = 1e13;
@@ -28,6 +28,7 @@ struct File {
     sun_sensor: SunSensor,
     limits: Limits,
     l1_orbit: L1Orbit,
+    start: Option<StartTable>,
 }
 
 #[derive(Deserialize)]
@@ -80,7 +81,9 @@ impl Builder<'_> {
         self.check.not_negative(&root.key("damper").key("time_constant_s"), raw.damper.time_constant_s);
         let common = root.key("thrusters");
         self.check.positive(&common.key("resolution_s"), raw.thrusters.resolution_s);
-        self.check.positive(&common.key("specific_impulse_s"), raw.thrusters.specific_impulse_s);
+        let impulse_s = raw.thrusters.specific_impulse_s;
+        let allowed = "a number from 1 to 1e8 s";
+        self.check.within(&common.key("specific_impulse_s"), impulse_s, 1.0, 1e8, allowed);
         let exhaust_m_s = raw.thrusters.specific_impulse_s * STANDARD_GRAVITY_M_S2;
         let thrusters = self.thrusters(&root.key("thruster"), raw.thruster, exhaust_m_s);
         let groups = self.groups(&root.key("group"), raw.group.unwrap_or_default(), &thrusters);
@@ -99,6 +102,7 @@ impl Builder<'_> {
             sun_sensor: raw.sun_sensor,
             limits: raw.limits,
             l1_orbit: raw.l1_orbit,
+            start: start_entries(&mut self.check, raw.start.as_ref()),
         }
     }
 
@@ -154,9 +158,11 @@ impl Builder<'_> {
             self.check.report(at, format_args!("a list of {}", entries.len()), allowed);
         }
         let mut thrusters: Vec<Thruster> = Vec::with_capacity(entries.len());
+        let list = at;
         for (i, entry) in entries.into_iter().enumerate() {
-            let at = at.item(i);
-            self.own_name(&at, &entry.name, thrusters.iter().any(|thruster| thruster.name == entry.name));
+            let at = list.item(i);
+            let other = thrusters.iter().position(|thruster| thruster.name == entry.name);
+            self.own_name(&at, &entry.name, other.map(|other| list.item(other)));
             self.check.positive(&at.key("force_n"), entry.force_n);
             let position_m = self.check.vector(&at.key("position_m"), entry.position_m);
             self.check.unit_vector(&at.key("direction"), entry.direction);
@@ -177,10 +183,13 @@ impl Builder<'_> {
         let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
         let thruster_names: Vec<&str> = thrusters.iter().map(|thruster| thruster.name.as_str()).collect();
         let mut groups = Vec::with_capacity(entries.len());
+        let list = at;
         for (i, entry) in entries.iter().enumerate() {
-            let (at, name) = (at.item(i), entry.name.as_str());
-            let is_taken = names.iter().take(i).any(|other| *other == name) || thruster_names.contains(&name);
-            self.own_name(&at, name, is_taken);
+            let (at, name) = (list.item(i), entry.name.as_str());
+            let group = names.iter().take(i).position(|other| *other == name).map(|other| list.item(other));
+            let thruster = thruster_names.iter().position(|other| *other == name);
+            let other = group.or(thruster.map(|other| Place::root().key("thruster").item(other)));
+            self.own_name(&at, name, other);
             let place = at.key("thrusters");
             if entry.thrusters.is_empty() {
                 self.check.report(&place, "an empty list", "at least one name of a thruster");
@@ -199,8 +208,12 @@ impl Builder<'_> {
         groups
     }
 
-    fn own_name(&mut self, at: &Place, name: &str, is_taken: bool) {
-        if name.is_empty() || is_taken {
+    /// Reports a name that is empty or that `other` has too.
+    fn own_name(&mut self, at: &Place, name: &str, other: Option<Place>) {
+        if let Some(other) = other {
+            let found = format!("{name:?}, which is the name of {other} too");
+            self.check.report(&at.key("name"), found, "a name of its own");
+        } else if name.is_empty() {
             self.check.report(&at.key("name"), format_args!("{name:?}"), "a name of its own");
         }
     }
@@ -230,13 +243,17 @@ impl Builder<'_> {
             self.check.report(&at.key("pickets"), tracker.pickets, "a multiple of 4, at least 4");
         }
         self.at_least_one(&at.key("every"), tracker.every);
-        self.check.not_negative(&at.key("noise_deg"), tracker.noise_deg);
+        self.noise(&at.key("noise_deg"), tracker.noise_deg);
     }
 
     fn sun_sensor(&mut self, at: &Place, sensor: &SunSensor) {
         self.check.finite(&at.key("azimuth_deg"), sensor.azimuth_deg);
-        self.check.not_negative(&at.key("noise_deg"), sensor.noise_deg);
+        self.noise(&at.key("noise_deg"), sensor.noise_deg);
         self.at_least_one(&at.key("sectors"), sensor.sectors);
+    }
+
+    fn noise(&mut self, at: &Place, noise_deg: f64) {
+        self.check.within(at, noise_deg, 0.0, 180.0, "a standard deviation from 0 to 180 deg");
     }
 
     fn at_least_one(&mut self, at: &Place, count: u32) {

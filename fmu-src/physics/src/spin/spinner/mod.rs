@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::inertia::{Inertia, InertiaError};
-use crate::spacecraft::SpacecraftError;
+use crate::spacecraft::{SpacecraftError, StartEntry};
 
 mod check;
 
@@ -167,6 +167,9 @@ pub struct Spinner {
     pub limits: Limits,
     /// Orbit.
     pub l1_orbit: L1Orbit,
+    /// Start values of the model's variables, handed on as they were written.
+    #[serde(skip)]
+    pub start: Vec<StartEntry>,
 }
 
 /// Force, torque and flow of a set of thrusters.

@@ -1,12 +1,15 @@
 //! Tests of the spinner against closed forms, invariants and independent methods.
 
 mod flights;
+mod late;
 mod motion;
 mod observation;
 mod refusals;
+mod rocket;
 mod split;
 mod tank;
 mod theory;
+mod work;
 
 use nalgebra::Vector3;
 
@@ -78,5 +81,6 @@ fn paper_start(ratio: f64) -> Start {
         sampling: Sampling::Spins,
         nominal_rate_rad_s: std::f64::consts::PI / 6.0,
         seed: 1,
+        work_limit: 10_000_000,
     }
 }

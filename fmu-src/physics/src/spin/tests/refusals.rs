@@ -129,10 +129,10 @@ fn starts_that_make_no_sense_say_why() {
     assert_names(&refuse(&|s| s.inertia_kg_m2[1] = -2.0), &["inertia[2]", "-2", "positive"]);
     assert_names(&refuse(&|s| s.inertia_kg_m2 = [10.0, 10.0, 30.0]), &["inertia[3]", "triangle"]);
     assert_names(&refuse(&|s| s.spin_rate_rad_s = 0.0), &["spin.initialRate"]);
-    assert_names(&refuse(&|s| s.attitude = [0.0, 0.0, 0.0, 2.0]), &["initial.q", "norm"]);
-    assert_names(&refuse(&|s| s.nutation_rad = 2.0), &["initial.nutation"]);
-    assert_names(&refuse(&|s| s.propellant_kg = -1.0), &["propellant.initial", "-1 kg", "0 to 195 kg"]);
-    assert_names(&refuse(&|s| s.propellant_kg = 195.1), &["propellant.initial", "195.1 kg", "0 to 195 kg"]);
+    assert_names(&refuse(&|s| s.attitude = [0.0, 0.0, 0.0, 2.0]), &["start.q", "norm"]);
+    assert_names(&refuse(&|s| s.nutation_rad = 2.0), &["start.nutation"]);
+    assert_names(&refuse(&|s| s.propellant_kg = -1.0), &["propellant.loaded", "-1 kg", "0 to 195 kg"]);
+    assert_names(&refuse(&|s| s.propellant_kg = 195.1), &["propellant.loaded", "195.1 kg", "0 to 195 kg"]);
     assert_names(
         &refuse(&|s| s.burn = Some(BurnRequest { ratio_error: 0.6, ..request() })),
         &["burn.ratioError", "0.6"],
@@ -287,4 +287,19 @@ fn all_that_is_wrong_with_a_setup_is_told_at_once() {
     // Groups are not judged by thrusters that nobody could read.
     let text = ACE.replace("[[thruster]]", "[[thrustr]]");
     assert!(problems(&text).iter().all(|problem| problem.key == "thrustr"), "{:?}", problems(&text));
+}
+
+#[test]
+fn a_repeated_name_is_refused_by_both_its_places() {
+    let refusal = |from: &str, to: &str| {
+        let text = super::ACE.replacen(from, to, 1);
+        assert_ne!(text, super::ACE);
+        crate::spin::spinner::Spinner::parse("ace.toml", &text).unwrap_err().to_string()
+    };
+    // The fourth thruster takes the first one's name.
+    let text = refusal("name = \"IIA\"", "name = \"IA\"");
+    assert_names(&text, &["thruster[4].name", "\"IA\"", "thruster[1] too", "a name of its own"]);
+    // A group that is called like a thruster.
+    let text = refusal("name = \"spin up\"", "name = \"IA\"");
+    assert_names(&text, &["group[", "\"IA\"", "thruster[1] too"]);
 }

@@ -79,7 +79,7 @@ fn a_burn_is_refused_what_is_not_on_board_and_flown_with_the_last_drop() {
     let refusal = |start: &Start| {
         Plant::start(&spinner, start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
     };
-    for part in ["propellant would be 0.0075", "propellant.initial = 0.0075"] {
+    for part in ["propellant would be 0.0075", "propellant.loaded = 0.0075"] {
         assert!(refusal(&start).contains(part), "{}", refusal(&start));
     }
     start.propellant_kg = needed_kg;
@@ -120,15 +120,16 @@ fn a_lighter_spinner_gains_more_speed() {
     let mut plant = launch(&spinner, &start(97.5), Commands::none());
     let mut expected = 0.0;
     let mut mass_kg = 562.0 + 97.5;
-    // Along the axis, so that nothing turns; the mass is that at the beginning of each firing.
+    // Along the axis, so that nothing turns.
     for firing_number in 0..4 {
         let from_s = 6000.0 * f64::from(firing_number);
         plant.command(firing(&[7, 9]), directions());
         plant.advance(&spinner, from_s + 5000.0).unwrap();
         plant.command(Commands::none(), directions());
         plant.advance(&spinner, from_s + 6000.0).unwrap();
-        expected += 2.0 * 4.448 * 5000.0 / mass_kg;
+        let before_kg = mass_kg;
         mass_kg -= 2.0 * FLOW_KG_S * 5000.0;
+        expected += 220.0 * 9.806_65 * (before_kg / mass_kg).ln();
         assert_relative_eq!(
             plant.outputs(&spinner).delta_v_inertial_m_s.norm(),
             expected,

@@ -5,7 +5,7 @@ use std::{fs, path::Path};
 use loader::{Callbacks, Error, Fmu, InstanceOptions, LogMessage, Resources, Status};
 
 use super::{
-    Finding, Findings,
+    Finding, Findings, Trial,
     bench::{self, STEPS},
     stepping::verdict,
 };
@@ -54,6 +54,28 @@ pub fn nulls(fmu: &Fmu) -> Findings {
         })
         .collect();
     Ok(findings)
+}
+
+/// "If a null pointer is provided, the call is ignored" (2.1.8): the pointer to the state, or the state itself.
+pub const TRIALS: &[Trial] = &[Trial {
+    probe: "nulls",
+    call: "fmi2FreeFMUstate(instance, NULL)",
+    what: "the pointer to the state is NULL",
+    senseless: false,
+    disputed: true,
+    run: free_no_state,
+}];
+
+fn free_no_state(fmu: &Fmu, trial: &Trial) -> Findings {
+    if !fmu.co_simulation()?.can_get_and_set_fmu_state {
+        return Ok(vec![Finding::skipped(format!("{}: states are not claimed", trial.call))]);
+    }
+    let mut instance = bench::ready(fmu, &bench::lawless())?;
+    Ok(vec![match instance.probe_free_no_state() {
+        Ok(Status::Ok | Status::Warning) => Finding::good(format!("{} is ignored (2.1.8)", trial.call)),
+        Ok(status) => Finding::note(format!("{} answers {status}", trial.call)),
+        Err(missing) => Finding::note(format!("{}: {missing}", trial.call)),
+    }])
 }
 
 /// Folders that path handling stumbles over.

@@ -6,6 +6,7 @@ mod host;
 mod library;
 mod state;
 mod stepping;
+mod times;
 mod values;
 
 use loader::{Error, Fmu};
@@ -25,6 +26,34 @@ pub struct Probe {
     pub run: fn(&Fmu) -> Findings,
 }
 
+/// One call that even a good FMU may not come back from, tried in a process of its own.
+pub struct Trial {
+    /// The probe it belongs to.
+    pub probe: &'static str,
+    /// The function it calls.
+    pub call: &'static str,
+    /// What it tries.
+    pub what: &'static str,
+    /// Whether the call is senseless by any reading of the standard: then a hang is worth a note, and a short wait.
+    pub senseless: bool,
+    /// Whether the standard can be read as asking nothing here: then what goes wrong is worth a note.
+    pub disputed: bool,
+    /// Runs it.
+    pub run: fn(&Fmu, &Trial) -> Findings,
+}
+
+impl Trial {
+    /// What the process is told to run.
+    pub fn name(&self) -> String {
+        format!("{}: {}", self.probe, self.what)
+    }
+}
+
+/// Every trial of every probe.
+pub fn trials() -> impl Iterator<Item = &'static Trial> {
+    times::TRIALS.iter().chain(host::TRIALS)
+}
+
 /// Every probe, in the order of the report.
 pub const ALL: &[Probe] = &[
     Probe { name: "library", title: "loads, exports every function", run: library::probe },
@@ -39,7 +68,7 @@ pub const ALL: &[Probe] = &[
         title: "answers every function in every state as FMI 2.0 says",
         run: calls::probe,
     },
-    Probe { name: "times", title: "takes jittered, uneven and refuses wrong times", run: stepping::times },
+    Probe { name: "times", title: "takes jittered, uneven and refuses wrong times", run: times::probe },
     Probe { name: "states", title: "saves, restores, serialises and resets to the bit", run: state::probe },
     Probe {
         name: "derivatives",

@@ -18,21 +18,23 @@ pub enum DayTemperature {
     /// Every place radiates what it absorbs; the fourth power of temperature goes with cos z from the
     /// night's at the terminator to that of local equilibrium below the Sun.
     Cosine,
+    /// The night's temperature everywhere: an atmosphere carries the heat around.
+    Isothermal,
 }
 
 /// Optical and thermal properties of a spherical planet whose surface is everywhere of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PlanetSurface {
+pub struct PlanetSurface<T = f64> {
     /// Radius of the sphere in m.
-    pub radius_m: f64,
+    pub radius_m: T,
     /// Absorbed fraction of sunlight (alpha_pl).
-    pub absorptivity: f64,
+    pub absorptivity: T,
     /// Diffusely reflected fraction of sunlight (gamma_D,pl).
-    pub diffuse_reflectivity: f64,
+    pub diffuse_reflectivity: T,
     /// Infrared emissivity.
-    pub emissivity: f64,
+    pub emissivity: T,
     /// Temperature of the night side in K.
-    pub night_temperature_k: f64,
+    pub night_temperature_k: T,
     /// Distribution of the day side's temperature.
     pub day_temperature: DayTemperature,
 }
@@ -97,9 +99,17 @@ impl PlanetSurface {
         Ok(())
     }
 
-    /// Infrared exitance of the night side in W/m2.
-    pub fn night_exitance_w_m2(&self) -> f64 {
-        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.night_temperature_k.powi(4)
+    /// The same properties, none of which depends on the seed.
+    #[inline]
+    pub fn constant<T: Scalar>(&self) -> PlanetSurface<T> {
+        PlanetSurface {
+            radius_m: T::constant(self.radius_m),
+            absorptivity: T::constant(self.absorptivity),
+            diffuse_reflectivity: T::constant(self.diffuse_reflectivity),
+            emissivity: T::constant(self.emissivity),
+            night_temperature_k: T::constant(self.night_temperature_k),
+            day_temperature: self.day_temperature,
+        }
     }
 
     /// The day side's temperature in K at cos z, `solar_flux_w_m2` being the Sun's at the planet (eq 32).
@@ -111,15 +121,24 @@ impl PlanetSurface {
         }
         (infrared_w_m2 / (self.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).powf(0.25)
     }
+}
+
+impl<T: Scalar> PlanetSurface<T> {
+    /// Infrared exitance of the night side in W/m2.
+    #[inline]
+    pub fn night_exitance_w_m2(&self) -> T {
+        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.night_temperature_k.powi(4)
+    }
 
     /// What leaves the surface while `solar_flux_w_m2` arrives at the planet.
     #[inline]
-    pub fn exitance<T: Scalar>(&self, solar_flux_w_m2: T) -> SurfaceExitance<T> {
-        let night_w_m2 = T::constant(self.night_exitance_w_m2());
+    pub fn exitance(&self, solar_flux_w_m2: T) -> SurfaceExitance<T> {
+        let night_w_m2 = self.night_exitance_w_m2();
         let absorbed_w_m2 = solar_flux_w_m2 * self.absorptivity;
         let (day_constant_w_m2, day_cosine_w_m2) = match self.day_temperature {
             DayTemperature::Uniform => (absorbed_w_m2 * 0.5, T::constant(0.0)),
             DayTemperature::Cosine => (night_w_m2, absorbed_w_m2 - night_w_m2),
+            DayTemperature::Isothermal => (night_w_m2, T::constant(0.0)),
         };
         SurfaceExitance {
             reflected_cosine_w_m2: solar_flux_w_m2 * self.diffuse_reflectivity,

@@ -1,0 +1,89 @@
+//! What each output depends on. There is no memory: at a step the same inputs count as at the start. Nothing acts while the
+//! Sun is at zero.
+
+use fmi_export::{Dependencies, Knowns, knowns};
+
+use super::setup::DisturbanceSetup;
+use super::variables::DisturbanceVariables;
+use crate::shared::{
+    across, can_shadow, has_both_shapes, inertia_about_others, shape_recoils_along, turns_out_of,
+};
+
+/// One row an output.
+pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies {
+    let craft = &setup.spacecraft;
+    let (light, planet, torque, force) = (&v.planet_light, &v.planet, &v.torque, &v.force);
+
+    // Inputs.
+    let places = &knowns![v.sun.position_body, planet.position_body];
+    let panels = &v.panel.iter().map(|panel| panel.angle).collect::<Knowns>();
+    let sunlit = &knowns![places, panels];
+    let planet_lit = &knowns![sunlit, planet.pole];
+
+    // Parameters.
+    let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(craft));
+    let shadows = &knowns![v.shadowing.enabled].only_if(can_shadow(craft));
+    let eclipse = &knowns![planet.present, planet.radius, v.eclipse.method];
+    let by_sun = &knowns![v.solar.flux, eclipse, shadows];
+    let over_planet =
+        &knowns![v.solar.flux, planet.present, planet.radius, light.method, light.belts, light.nodes];
+    let surface = &planet.surface;
+    let reflecting = &knowns![over_planet, surface.diffuse_reflectivity];
+    let radiating = &knowns![
+        over_planet,
+        surface.absorptivity,
+        surface.emissivity,
+        surface.night_temperature,
+        surface.day_temperature,
+    ];
+    let all = &knowns![by_sun, reflecting, radiating];
+
+    let mut table = Dependencies::new();
+    table.output(v.sun.lit_fraction, places, knowns![places, eclipse]);
+    for axis in 0..3 {
+        let panels = v.panel.iter().enumerate().filter(|(k, _)| turns_out_of(craft, *k, axis));
+        let panels = panels.map(|(_, panel)| panel.angle).collect::<Knowns>();
+        let inputs = &knowns![places, planet.pole, panels];
+        let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(craft, axis));
+        table.output(force.thermal.element(axis), inputs, knowns![inputs, all, shape]);
+    }
+    let forces = [
+        (force.solar, sunlit, by_sun),
+        (force.albedo, planet_lit, reflecting),
+        (force.infrared, planet_lit, radiating),
+        (force.total, planet_lit, all),
+    ];
+    for (force, inputs, parameters) in forces {
+        table.output(force, inputs, knowns![inputs, parameters, shade]);
+    }
+    let torques = [
+        (torque.solar, sunlit, by_sun),
+        (torque.albedo, planet_lit, reflecting),
+        (torque.infrared, planet_lit, radiating),
+        (torque.thermal, planet_lit, all),
+        (torque.total, planet_lit, all),
+    ];
+    for (torque, inputs, parameters) in torques {
+        for axis in 0..3 {
+            let inputs = &knowns![inputs, across(v.spacecraft.center_of_mass, axis)];
+            table.output(torque.element(axis), inputs, knowns![inputs, parameters, shade]);
+        }
+    }
+    for axis in 0..3 {
+        let inertia = inertia_about_others(v.spacecraft.inertia, axis);
+        let gradient = &knowns![planet.present, planet.gravitational_parameter, inertia];
+        let at_start = knowns![places, gradient];
+        table.output(torque.gravity_gradient.element(axis), places, at_start);
+        table.output(torque.total.element(axis), knowns![], gradient);
+    }
+    for (plate, face) in v.plate.iter().zip(&setup.reported_faces) {
+        let panels = face.lit_past.iter().filter_map(|&k| v.panel.get(k)).map(|panel| panel.angle);
+        let inputs = &knowns![places, planet.pole, panels.collect::<Knowns>()];
+        let shadows = knowns![v.shadowing.enabled].only_if(face.shadowed);
+        let parameters = &knowns![v.solar.flux, eclipse, reflecting, radiating, shadows, shade];
+        for output in [knowns![plate.temperature], knowns![plate.force]] {
+            table.output(output, inputs, knowns![inputs, parameters]);
+        }
+    }
+    table
+}

@@ -1,0 +1,8 @@
+//! `dependencies` are exact: every input and every exact parameter is changed at many states, and what follows at once
+//! is what the lists of `ModelStructure` say, no more and no less.
+
+mod bench;
+mod craft;
+mod disturbance;
+mod plant;
+mod spin;

@@ -1,0 +1,203 @@
+//! A step answers, whatever legal parameters and however long a step: its work is counted and bounded.
+
+use std::time::{Duration, Instant};
+
+use models::MomentumPlant;
+
+use super::pilot::{Hangar, Pilot};
+
+/// Time this thread spent computing, so that a busy machine does not count; where that is not told, all time.
+fn busy(since: Instant) -> Duration {
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let spent_ns = told.and_then(|text| text.split(' ').next().and_then(|word| word.parse().ok()));
+    spent_ns.map_or(since.elapsed(), Duration::from_nanos)
+}
+
+/// A generator of Knuth's, enough to scatter.
+struct Dice(u64);
+
+impl Dice {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.unit() * count as f64) as usize
+    }
+
+    /// Within limits: an end, or any magnitude.
+    fn within(&mut self, (min, max): (f64, f64), whole: bool) -> f64 {
+        if whole {
+            let span = max.min(1e9) - min.max(-1e9) + 1.0;
+            return match self.below(4) {
+                0 => min,
+                1 => max,
+                _ => (min.max(-1e9) + (self.unit() * span).floor()).min(max),
+            };
+        }
+        match self.below(6) {
+            0 => min.max(-1e30),
+            1 => max.min(1e30),
+            _ => {
+                let sign = if self.unit() < 0.5 { -1.0 } else { 1.0 };
+                (sign * 10_f64.powf(self.unit() * 36.0 - 12.0)).clamp(min, max)
+            }
+        }
+    }
+}
+
+const LIMIT: f64 = 100_000.0;
+/// Of a unit, at most; by default a step then ends within 20 s.
+const LONGEST_UNIT: Duration = Duration::from_nanos(2_000);
+/// Preparing a flight, and the last thing a step did.
+const OTHERWISE: Duration = Duration::from_millis(400);
+
+/// Start values, a step in s, and words of the refusal.
+type Asked<'a> = (&'a [(&'a str, f64)], f64, &'a [&'a str]);
+
+fn asked(sets: &[(&str, f64)], step_s: f64) -> Result<f64, String> {
+    let hangar = Hangar::<MomentumPlant>::shipped();
+    let mut flight = hangar.fly(0.0, sets).map_err(|failure| failure.to_string())?;
+    flight.step_to(step_s).map_err(|failure| failure.to_string())?;
+    Ok(flight.time_s())
+}
+
+#[test]
+fn what_asks_for_too_much_is_named_with_how_far_it_came() {
+    let limit = ("solver.workLimit", LIMIT);
+    let light = [("planetLight.enabled", 1.0), ("thermal.enabled", 1.0)];
+    let cases: &[Asked] = &[
+        (&[limit], 1e12, &["solver.workLimit = 100000", "solver.step"]),
+        (&[limit, ("dump.threshold[1]", 1e-6), ("torque.applied[1]", 1e-6)], 1e9, &["dump.threshold"]),
+        (&[limit, ("solver.step", 1e-3)], 1e6, &["solver.step"]),
+        (&[limit, ("spacecraft.centerOfMass[1]", 1e4)], 1e9, &["dump.threshold", "spacecraft.centerOfMass"]),
+        (&[limit, light[0], light[1], ("solver.disturbanceStep", 1e-3)], 1e6, &["solver.disturbanceStep"]),
+        (&[limit, ("orbit.dynamics", 2.0), ("orbit.step", 1.0)], 1e7, &["orbit.step"]),
+    ];
+    for (sets, step_s, words) in cases {
+        let text = asked(sets, *step_s).unwrap_err();
+        assert!(words.iter().all(|word| text.contains(word)), "{sets:?}: {text}");
+        assert!(text.contains("came to") && text.contains("shorter step"), "{text}");
+    }
+    // Enough for what it is asked for, it comes to the end.
+    assert_eq!(asked(&[limit], 86_400.0), Ok(86_400.0));
+}
+
+#[test]
+fn a_mercury_year_with_every_effect_is_far_within_the_default() {
+    let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
+    let hangar = Hangar::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
+    let everything = [
+        ("planetLight.enabled", 1.0),
+        ("thermal.enabled", 1.0),
+        ("shadowing.enabled", 1.0),
+        ("orbit.dynamics", 2.0),
+        ("guided.slewRate", 1e-3),
+        // Half of the default.
+        ("solver.workLimit", 1e7),
+    ];
+    let mut flight = hangar.fly(0.0, &everything).unwrap();
+    flight.step_to(87.969 * 86_400.0).unwrap();
+    assert_eq!(flight.not_finite(), None);
+}
+
+/// Scattered options, parameters and inputs: how long the answer took, and what it was.
+fn scattered(hangar: &Hangar<MomentumPlant>, seed: u64, limit: f64) -> (Duration, String) {
+    let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    let given = hangar.given();
+    let mut sets: Vec<(&str, f64)> = Vec::new();
+    for (name, limits, whole) in &given {
+        let is_option = *whole && limits.1 - limits.0 < 8.0;
+        let chance = if is_option { 0.3 } else { 0.02 };
+        if dice.unit() < chance {
+            sets.push((name, dice.within(*limits, *whole)));
+        }
+    }
+    sets.retain(|(name, _)| *name != "solver.workLimit");
+    // Guided or commanded; the others are refused.
+    let source = 1.0 + dice.below(2) as f64;
+    sets.extend([("attitude.source", source), ("solver.workLimit", limit)]);
+    let step_s = [1.0, 1e3, 1e6, 1e9, 1e12][dice.below(5)];
+    let now = Instant::now();
+    let before = busy(now);
+    let answer = match hangar.fly(0.0, &sets) {
+        Err(failure) => failure.to_string(),
+        Ok(mut flight) => match flight.step_to(step_s) {
+            Err(failure) => failure.to_string(),
+            Ok(()) => flight.not_finite().unwrap_or_else(|| "finite".to_owned()),
+        },
+    };
+    (busy(now).saturating_sub(before), format!("{step_s:e} s with {sets:?}: {answer}"))
+}
+
+#[test]
+fn any_legal_parameters_get_an_answer() {
+    let hangar = Hangar::<MomentumPlant>::shipped();
+    let trials =
+        std::env::var("HELIOTORQUE_WORK_TRIALS").ok().and_then(|text| text.parse().ok()).unwrap_or(200);
+    let limit =
+        std::env::var("HELIOTORQUE_WORK_LIMIT").ok().and_then(|text| text.parse().ok()).unwrap_or(LIMIT);
+    let (mut flown, mut exhausted, mut worst) = (0, 0, Duration::ZERO);
+    for seed in 1..=trials {
+        let (took, answer) = scattered(&hangar, seed, limit);
+        let allowed = LONGEST_UNIT.mul_f64(limit) + OTHERWISE;
+        assert!(took < allowed, "{took:?} where {allowed:?} is allowed, trial {seed}: {answer}");
+        flown += u32::from(answer.ends_with("finite"));
+        exhausted += u32::from(answer.contains("solver.workLimit ="));
+        worst = worst.max(took);
+    }
+    println!("{trials} trials: {flown} flown, {exhausted} out of work, the longest {worst:?}");
+    assert!(flown > 0 && exhausted > 0);
+}
+
+/// Bytes of a state with some numbers replaced by what no flight has.
+#[test]
+fn forged_states_are_refused_or_fly_on_with_finite_numbers() {
+    let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
+    let hangar = Hangar::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
+    let options = [
+        ("orbit.dynamics", 2.0),
+        ("planetLight.enabled", 1.0),
+        ("thermal.enabled", 1.0),
+        ("solver.workLimit", 2e4),
+    ];
+    let mut flight = hangar.fly(0.0, &options).unwrap();
+    flight.fly_to(40_000.0, 1_000.0).unwrap();
+    let bytes = flight.state_bytes();
+    let strange = [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        1e308,
+        -1e308,
+        1e99,
+        -1e90,
+        1e-300,
+        0.0,
+        -1.0,
+        1e20,
+        4e4,
+    ];
+    let mut dice = Dice(7);
+    let (mut refused, mut flown) = (0, 0);
+    for _ in 0..1500 {
+        let mut forged = bytes.clone();
+        let at = dice.below(bytes.len() - 8);
+        forged[at..at + 8].copy_from_slice(&strange[dice.below(strange.len())].to_le_bytes());
+        let Some(mut other): Option<Pilot<'_, MomentumPlant>> = flight.with_state(&forged) else {
+            refused += 1;
+            continue;
+        };
+        let now = Instant::now();
+        let before = busy(now);
+        let outcome = other.step_to(41_000.0);
+        let took = busy(now).saturating_sub(before);
+        assert!(took < Duration::from_secs(1), "{took:?} for byte {at}");
+        if outcome.is_ok() {
+            assert_eq!(other.not_finite(), None, "byte {at}");
+            flown += 1;
+        }
+    }
+    assert!(refused > 300 && flown > 100, "{refused} {flown}");
+}

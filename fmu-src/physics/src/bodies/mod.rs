@@ -1,0 +1,295 @@
+//! The Sun and the planets as data: gravity, figure, pole, rotation, orbit plane, surface.
+//!
+//! A body is one row of [`BODIES`]; a new one is a new row, and for VSOP87 one line in [`crate::environment::ephemeris`].
+//! Gravitational parameters are DE440's, poles and rotations those of the IAU working group on cartographic coordinates at
+//! J2000 (Archinal et al. 2018; Mars 2009, whose series has no periodic terms), orbit planes the mean ones at J2000 on the
+//! ecliptic (Standish, Keplerian elements for approximate positions, 1800 to 2050). A planet's surface radiates and reflects
+//! by Lambert's law: Bond albedo and effective temperature (NASA planetary fact sheets) are all that is known of a cloudy
+//! one here.
+
+pub mod surface;
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::constants;
+use surface::{DayTemperature, PlanetSurface};
+
+const DEG_RAD: f64 = PI / 180.0;
+
+/// A body a spacecraft can fly around or look at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Body {
+    /// The Sun.
+    Sun,
+    /// Mercury.
+    Mercury,
+    /// Venus.
+    Venus,
+    /// The Earth itself, not the Earth-Moon barycentre.
+    Earth,
+    /// Mars.
+    Mars,
+    /// Jupiter.
+    Jupiter,
+}
+
+/// What is known of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyData {
+    /// The body.
+    pub body: Body,
+    /// Its name.
+    pub name: &'static str,
+    /// Gravitational parameter of the body alone, without moons, in m3/s2.
+    pub gm_m3_s2: f64,
+    /// Mean radius, in m.
+    pub radius_m: f64,
+    /// Second zonal harmonic of its gravity, unnormalised.
+    pub j2: f64,
+    /// Radius to which `j2` refers, in m.
+    pub j2_radius_m: f64,
+    /// Right ascension of the north pole in EME2000 at J2000, in rad.
+    pub pole_right_ascension_rad: f64,
+    /// Declination of the north pole in EME2000 at J2000, in rad.
+    pub pole_declination_rad: f64,
+    /// Angle of the prime meridian from the ascending node of the equator on that of EME2000, at J2000, in rad.
+    pub prime_meridian_rad: f64,
+    /// Sidereal rotation rate about the north pole, in rad/s.
+    pub rotation_rate_rad_s: f64,
+    /// Semi-major axis of its mean orbit about the Sun at J2000, in m; 0 for the Sun, as the five below.
+    pub orbit_semi_major_axis_m: f64,
+    /// Eccentricity of that orbit.
+    pub orbit_eccentricity: f64,
+    /// Longitude of its ascending node on the ecliptic of J2000, in rad.
+    pub orbit_node_rad: f64,
+    /// Its inclination to the ecliptic of J2000, in rad.
+    pub orbit_inclination_rad: f64,
+    /// Longitude of its perihelion, in rad: ascending node plus argument of perihelion.
+    pub orbit_perihelion_longitude_rad: f64,
+    /// Its surface in sunlight; `None` for the Sun.
+    pub surface: Option<PlanetSurface>,
+}
+
+impl Body {
+    /// All bodies.
+    pub const ALL: [Self; 6] =
+        [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter];
+
+    /// What is known of it.
+    pub const fn data(self) -> &'static BodyData {
+        &BODIES[self as usize]
+    }
+
+    /// Whether sunlight falls on it and it casts a shadow.
+    pub const fn is_planet(self) -> bool {
+        !matches!(self, Self::Sun)
+    }
+}
+
+impl BodyData {
+    /// Unit vector to the north pole, in EME2000.
+    pub fn pole(&self) -> Vector3<f64> {
+        let (sin_ra, cos_ra) = self.pole_right_ascension_rad.sin_cos();
+        let (sin_dec, cos_dec) = self.pole_declination_rad.sin_cos();
+        Vector3::new(cos_ra * cos_dec, sin_ra * cos_dec, sin_dec)
+    }
+}
+
+const fn degrees_a_day(rate: f64) -> f64 {
+    rate * DEG_RAD / constants::DAY_S
+}
+
+/// The surface of a body whose clouds or soil are known by Bond albedo and effective temperature alone.
+const fn gray(radius_m: f64, bond_albedo: f64, effective_temperature_k: f64) -> PlanetSurface {
+    PlanetSurface {
+        radius_m,
+        absorptivity: 1.0 - bond_albedo,
+        diffuse_reflectivity: bond_albedo,
+        emissivity: 1.0,
+        night_temperature_k: effective_temperature_k,
+        day_temperature: DayTemperature::Isothermal,
+    }
+}
+
+/// Every body, in the order of [`Body`].
+pub const BODIES: [BodyData; 6] = [
+    BodyData {
+        body: Body::Sun,
+        name: "the Sun",
+        gm_m3_s2: constants::GM_SUN_M3_S2,
+        radius_m: constants::RADIUS_SUN_M,
+        j2: 0.0,
+        j2_radius_m: constants::RADIUS_SUN_M,
+        pole_right_ascension_rad: 286.13 * DEG_RAD,
+        pole_declination_rad: 63.87 * DEG_RAD,
+        prime_meridian_rad: 84.176 * DEG_RAD,
+        rotation_rate_rad_s: degrees_a_day(14.184_4),
+        orbit_semi_major_axis_m: 0.0,
+        orbit_eccentricity: 0.0,
+        orbit_node_rad: 0.0,
+        orbit_inclination_rad: 0.0,
+        orbit_perihelion_longitude_rad: 0.0,
+        surface: None,
+    },
+    BodyData {
+        body: Body::Mercury,
+        name: "Mercury",
+        gm_m3_s2: constants::GM_MERCURY_M3_S2,
+        radius_m: constants::RADIUS_MERCURY_M,
+        j2: constants::J2_MERCURY,
+        j2_radius_m: constants::J2_REFERENCE_RADIUS_MERCURY_M,
+        pole_right_ascension_rad: 281.010_3 * DEG_RAD,
+        pole_declination_rad: 61.415_5 * DEG_RAD,
+        prime_meridian_rad: 329.598_8 * DEG_RAD,
+        rotation_rate_rad_s: degrees_a_day(6.138_510_8),
+        orbit_semi_major_axis_m: 0.387_099_27 * constants::ASTRONOMICAL_UNIT_M,
+        orbit_eccentricity: 0.205_635_93,
+        // Paper 004 Table 4; Standish has 48.3308 and 7.0050 deg.
+        orbit_node_rad: 48.33 * DEG_RAD,
+        orbit_inclination_rad: 7.0 * DEG_RAD,
+        orbit_perihelion_longitude_rad: 77.457_796_28 * DEG_RAD,
+        surface: Some(surface::MERCURY),
+    },
+    BodyData {
+        body: Body::Venus,
+        name: "Venus",
+        gm_m3_s2: constants::GM_VENUS_M3_S2,
+        radius_m: constants::RADIUS_VENUS_M,
+        // Konopliv et al. 1999, MGNP180U.
+        j2: 4.404e-6,
+        j2_radius_m: 6.051e6,
+        pole_right_ascension_rad: 272.76 * DEG_RAD,
+        pole_declination_rad: 67.16 * DEG_RAD,
+        prime_meridian_rad: 160.20 * DEG_RAD,
+        rotation_rate_rad_s: degrees_a_day(-1.481_368_8),
+        orbit_semi_major_axis_m: 0.723_335_66 * constants::ASTRONOMICAL_UNIT_M,
+        orbit_eccentricity: 0.006_776_72,
+        orbit_node_rad: 76.679_842_55 * DEG_RAD,
+        orbit_inclination_rad: 3.394_676_05 * DEG_RAD,
+        orbit_perihelion_longitude_rad: 131.602_467_18 * DEG_RAD,
+        surface: Some(gray(constants::RADIUS_VENUS_M, 0.77, 226.6)),
+    },
+    BodyData {
+        body: Body::Earth,
+        name: "the Earth",
+        gm_m3_s2: constants::GM_EARTH_M3_S2,
+        radius_m: constants::RADIUS_EARTH_M,
+        // EGM2008.
+        j2: 1.082_635_9e-3,
+        j2_radius_m: 6.378_136_3e6,
+        pole_right_ascension_rad: 0.0,
+        pole_declination_rad: 90.0 * DEG_RAD,
+        prime_meridian_rad: 190.147 * DEG_RAD,
+        rotation_rate_rad_s: degrees_a_day(360.985_623_5),
+        orbit_semi_major_axis_m: 1.000_002_61 * constants::ASTRONOMICAL_UNIT_M,
+        orbit_eccentricity: 0.016_711_23,
+        orbit_node_rad: 0.0,
+        orbit_inclination_rad: 0.0,
+        orbit_perihelion_longitude_rad: 102.937_681_93 * DEG_RAD,
+        surface: Some(gray(constants::RADIUS_EARTH_M, 0.294, 254.0)),
+    },
+    BodyData {
+        body: Body::Mars,
+        name: "Mars",
+        gm_m3_s2: constants::GM_MARS_M3_S2,
+        radius_m: constants::RADIUS_MARS_M,
+        // Konopliv et al. 2011, MRO110B.
+        j2: 1.956_6e-3,
+        j2_radius_m: 3.396e6,
+        pole_right_ascension_rad: 317.681_43 * DEG_RAD,
+        pole_declination_rad: 52.886_50 * DEG_RAD,
+        prime_meridian_rad: 176.630 * DEG_RAD,
+        rotation_rate_rad_s: degrees_a_day(350.891_982_26),
+        orbit_semi_major_axis_m: 1.523_710_34 * constants::ASTRONOMICAL_UNIT_M,
+        orbit_eccentricity: 0.093_394_1,
+        orbit_node_rad: 49.559_538_91 * DEG_RAD,
+        orbit_inclination_rad: 1.849_691_42 * DEG_RAD,
+        orbit_perihelion_longitude_rad: -23.943_629_59 * DEG_RAD,
+        surface: Some(gray(constants::RADIUS_MARS_M, 0.25, 209.8)),
+    },
+    BodyData {
+        body: Body::Jupiter,
+        name: "Jupiter",
+        gm_m3_s2: constants::GM_JUPITER_M3_S2,
+        radius_m: constants::RADIUS_JUPITER_M,
+        // Iess et al. 2018.
+        j2: 1.469_657_2e-2,
+        j2_radius_m: 7.149_2e7,
+        pole_right_ascension_rad: 268.056_595 * DEG_RAD,
+        pole_declination_rad: 64.495_303 * DEG_RAD,
+        prime_meridian_rad: 284.95 * DEG_RAD,
+        rotation_rate_rad_s: degrees_a_day(870.536),
+        orbit_semi_major_axis_m: 5.202_887 * constants::ASTRONOMICAL_UNIT_M,
+        orbit_eccentricity: 0.048_386_24,
+        orbit_node_rad: 100.473_909_09 * DEG_RAD,
+        orbit_inclination_rad: 1.304_396_95 * DEG_RAD,
+        orbit_perihelion_longitude_rad: 14.728_479_83 * DEG_RAD,
+        surface: Some(gray(constants::RADIUS_JUPITER_M, 0.343, 109.9)),
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    //! Days, obliquities and surface gravities that every almanac prints follow from the rows.
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn every_body_stands_in_its_row() {
+        for body in Body::ALL {
+            assert_eq!(body.data().body, body);
+            assert_eq!(body.is_planet(), body.data().surface.is_some());
+            if let Some(surface) = body.data().surface {
+                assert_eq!(surface.validate(), Ok(()));
+                assert_eq!(surface.radius_m, body.data().radius_m);
+            }
+        }
+    }
+
+    #[test]
+    fn surface_gravity_and_sidereal_day_are_the_almanacs() {
+        for (body, gravity_m_s2, day_h) in [
+            (Body::Sun, 274.0, 609.12),
+            (Body::Mercury, 3.70, 1407.5),
+            (Body::Venus, 8.87, -5832.4),
+            (Body::Earth, 9.82, 23.9345),
+            (Body::Mars, 3.73, 24.6229),
+            (Body::Jupiter, 25.92, 9.9250),
+        ] {
+            let data = body.data();
+            let gravity = data.gm_m3_s2 / data.radius_m.powi(2);
+            assert_relative_eq!(gravity, gravity_m_s2, max_relative = 2e-3);
+            let day = core::f64::consts::TAU / data.rotation_rate_rad_s / 3600.0;
+            assert_relative_eq!(day, day_h, max_relative = 1e-3);
+        }
+    }
+
+    #[test]
+    fn equators_lean_on_their_orbits_as_the_almanac_says() {
+        let obliquity_j2000_rad = (84_381.448_f64 / 3600.0).to_radians();
+        for (body, obliquity_deg, within_deg) in [
+            (Body::Sun, 7.25, 0.01),
+            (Body::Mercury, 0.034, 0.02),
+            (Body::Venus, 2.64, 0.02),
+            (Body::Earth, 23.44, 0.01),
+            (Body::Mars, 25.19, 0.02),
+            (Body::Jupiter, 3.13, 0.02),
+        ] {
+            let data = body.data();
+            let (sin_node, cos_node) = data.orbit_node_rad.sin_cos();
+            let (sin_i, cos_i) = data.orbit_inclination_rad.sin_cos();
+            let ecliptic = Vector3::new(sin_node * sin_i, -cos_node * sin_i, cos_i);
+            let (sin, cos) = obliquity_j2000_rad.sin_cos();
+            let normal = Vector3::new(
+                ecliptic.x,
+                cos * ecliptic.y - sin * ecliptic.z,
+                sin * ecliptic.y + cos * ecliptic.z,
+            );
+            let found_deg = data.pole().angle(&normal).to_degrees();
+            assert!((found_deg - obliquity_deg).abs() < within_deg, "{body:?}: {found_deg}");
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! One instant of a flight: where everything is, how the body stands, how much of the Sun it sees.
+//!
+//! The one pass of a Sun direction: trajectory and ephemeris give positions in EME2000 ([`Geometry`]), the attitude law turns
+//! their directions into a body frame, the frame turns them into the body, and the planet's disc takes its part of the
+//! Sun's. Momentum, light and outputs all read this.
+
+use nalgebra::{Rotation3, Vector3};
+
+use crate::attitude::MovingFrame;
+use crate::environment::State;
+use crate::guidance::Activity;
+use crate::momentum::{EventValues, after_event_s};
+use crate::numerics::chebyshev::Segment;
+use crate::numerics::events::first_event;
+use crate::numerics::spacing::spacing;
+use crate::numerics::stretches::first_change_s;
+
+use super::configuration::AttitudeSource;
+use super::flight::{ExternalLoad, Plant};
+use super::geometry::Geometry;
+
+/// Nodes at which a span is looked through for events.
+const NODES: usize = 8;
+/// The end of a window or slew, computed in epochs, is this near its number in flight time, in s.
+const EPOCH_ROUNDING_S: f64 = 1e-6;
+
+/// Everything about one time but what acts on the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Where everything is.
+    pub geometry: Geometry,
+    /// Body frame and rate.
+    pub frame: MovingFrame,
+    /// From EME2000 to the body frame.
+    pub to_body: Rotation3<f64>,
+    /// Unit vector to the Sun, body frame.
+    pub sun_body: Vector3<f64>,
+    /// Distance from the Sun's centre, in m.
+    pub sun_distance_m: f64,
+    /// From the spacecraft to the planet's centre, body frame, in m.
+    pub planet_body_m: Option<Vector3<f64>>,
+    /// Visible part of the Sun's disc, 0 to 1.
+    pub lit_fraction: f64,
+    /// Which form the attitude law and the shadow have.
+    pub regime: Regime,
+    /// Outer and inner gap of the shadow, in rad, and the margins of the attitude law; see [`EventValues`].
+    pub events: EventValues,
+    /// Up to when window and slew last, in s of the flight.
+    pub attitude_until_s: f64,
+}
+
+impl Instant {
+    /// Of a spacecraft of which nothing is known but how it stands.
+    pub fn nowhere(frame: MovingFrame) -> Self {
+        let geometry = Geometry {
+            spacecraft: State::default(),
+            to_sun: State::default(),
+            to_planet: None,
+            to_earth: State::default(),
+        };
+        Self {
+            geometry,
+            frame,
+            to_body: frame.inertial_from_body.inverse(),
+            sun_body: Vector3::zeros(),
+            sun_distance_m: 0.0,
+            planet_body_m: None,
+            lit_fraction: 0.0,
+            regime: Regime {
+                window_since_s: f64::NEG_INFINITY,
+                downlink: false,
+                slewing: false,
+                in_shadow: false,
+            },
+            events: EventValues::repeat(f64::INFINITY),
+            attitude_until_s: f64::INFINITY,
+        }
+    }
+
+    /// From the spacecraft to the Sun, body frame, in m.
+    pub fn sun_position_body_m(&self) -> Vector3<f64> {
+        self.sun_body * self.sun_distance_m
+    }
+
+    /// Unit vector to the Earth, body frame; zero where its place is not known.
+    pub fn earth_body(&self) -> Vector3<f64> {
+        let to_earth_m = self.geometry.to_earth.position_m;
+        to_earth_m.try_normalize(0.0).map_or(Vector3::zeros(), |unit| self.to_body * unit)
+    }
+}
+
+/// Which form the attitude law and the shadow have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regime {
+    /// Since when the window of science or downlink lasts, in s past J2000 TDB; minus infinity where there is none.
+    pub window_since_s: f64,
+    /// Whether the window is a downlink.
+    pub downlink: bool,
+    /// Whether the body turns from one attitude to the other.
+    pub slewing: bool,
+    /// Whether the planet hides a part of the Sun.
+    pub in_shadow: bool,
+}
+
+/// Body frame, window and margins of the attitude law.
+struct LawAt {
+    frame: MovingFrame,
+    window_since_s: f64,
+    downlink: bool,
+    slewing: bool,
+    margins: [f64; 2],
+    until_s: f64,
+}
+
+impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
+    /// Everything but the loads at `time_s`.
+    pub(super) fn instant(&mut self, time_s: f64) -> Instant {
+        let geometry = self.geometry(time_s);
+        let law = self.attitude(time_s, &geometry);
+        let (lit_fraction, gaps_rad) = self.light_fraction(&geometry);
+        let to_body = law.frame.inertial_from_body.inverse();
+        let sun_distance_m = geometry.to_sun.position_m.norm();
+        Instant {
+            to_body,
+            sun_body: to_body * (geometry.to_sun.position_m / sun_distance_m),
+            sun_distance_m,
+            planet_body_m: geometry.to_planet.map(|planet| to_body * planet.position_m),
+            geometry,
+            frame: law.frame,
+            lit_fraction,
+            regime: Regime {
+                window_since_s: law.window_since_s,
+                downlink: law.downlink,
+                slewing: law.slewing,
+                in_shadow: gaps_rad[0] <= 0.0,
+            },
+            events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
+            attitude_until_s: law.until_s,
+        }
+    }
+
+    /// Visible part of the Sun's disc and the gaps of the shadow.
+    fn light_fraction(&self, geometry: &Geometry) -> (f64, [f64; 2]) {
+        if geometry.to_planet.is_none() {
+            return (1.0, [f64::INFINITY; 2]);
+        }
+        let spacecraft_m = geometry.spacecraft.position_m;
+        let sun_m = spacecraft_m + geometry.to_sun.position_m;
+        self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
+    }
+
+    /// Where everything is at `time_s`.
+    fn geometry(&mut self, time_s: f64) -> Geometry {
+        let spacecraft = self.course.trajectory.state_at(self.configuration, time_s);
+        Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
+    }
+
+    /// Body frame and rate, and the form of the law they come from.
+    fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> LawAt {
+        match &self.configuration.attitude {
+            AttitudeSource::Guided(guided) => {
+                let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
+                let trajectory = &self.course.trajectory;
+                let epoch_s = time_s + configuration.epoch_minus_time_s;
+                let window = trajectory
+                    .window(configuration, time_s)
+                    .unwrap_or_else(|| guided.schedule.window(epoch_s));
+                let guided = guided.within(window, epoch_s, |at_epoch_s| {
+                    if at_epoch_s == epoch_s {
+                        return geometry.lines_of_sight();
+                    }
+                    let at_s = at_epoch_s - configuration.epoch_minus_time_s;
+                    let spacecraft = trajectory.state_at_window_start(configuration, at_s);
+                    Geometry::at(configuration, ephemeris, at_s, spacecraft).lines_of_sight()
+                });
+                LawAt {
+                    frame: guided.frame,
+                    window_since_s: guided.window.since_s,
+                    downlink: guided.window.activity == Activity::Downlink,
+                    slewing: guided.slewing,
+                    margins: guided.margins,
+                    until_s: guided.until_s - configuration.epoch_minus_time_s,
+                }
+            }
+            AttitudeSource::Commanded(command) => LawAt {
+                frame: command.frame_at(time_s),
+                window_since_s: f64::NEG_INFINITY,
+                downlink: false,
+                slewing: false,
+                margins: [f64::INFINITY; 2],
+                until_s: f64::INFINITY,
+            },
+        }
+    }
+
+    /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.
+    pub(super) fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+        let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
+        let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
+        let (before_s, behind_s) =
+            ((instant.attitude_until_s - rounding_s).max(time_s), instant.attitude_until_s + rounding_s);
+        if before_s >= limit_s || behind_s.is_nan() {
+            return limit_s;
+        }
+        let same = |plant: &mut Self, at_s: f64| {
+            let geometry = plant.geometry(at_s);
+            let law = plant.attitude(at_s, &geometry);
+            let now = (law.window_since_s, law.downlink, law.slewing);
+            now == (instant.regime.window_since_s, instant.regime.downlink, instant.regime.slewing)
+        };
+        if same(self, behind_s) {
+            return limit_s;
+        }
+        first_change_s(before_s, behind_s, |at_s| same(self, at_s)).min(limit_s)
+    }
+
+    /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.
+    pub(super) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+        // The edge this span starts at was found on an orbit that has been computed anew since.
+        let after_s = after_event_s(start_s).min(limit_s);
+        let first = self.instant(after_s);
+        let limit_s = self.attitude_until_s(after_s, &first, limit_s);
+        let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
+        first_event(after_s, start_s, limit_s, &samples, |at_s| self.instant(at_s).events).unwrap_or(limit_s)
+    }
+}

@@ -1,0 +1,110 @@
+//! What a step of the plant may cost, and which settings ask for most of it.
+
+use crate::momentum::Effort;
+use crate::numerics;
+
+/// What work is spent on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cost {
+    /// Cells of momentum as long as their grid.
+    Cell,
+    /// Cells shortened for the tolerance of momentum.
+    Refinement,
+    /// Searches for abrupt changes of attitude, light and shadow.
+    Search,
+    /// Dumps.
+    Dump,
+    /// Cells of light and heat.
+    Light,
+    /// Integrated cells of the orbit.
+    Orbit,
+    /// Planets' positions fitted anew.
+    Ephemeris,
+}
+
+impl Cost {
+    const ALL: [Self; 7] =
+        [Self::Cell, Self::Refinement, Self::Search, Self::Dump, Self::Light, Self::Orbit, Self::Ephemeris];
+}
+
+impl From<Effort> for Cost {
+    fn from(effort: Effort) -> Self {
+        match effort {
+            Effort::Cell => Self::Cell,
+            Effort::Refinement => Self::Refinement,
+            Effort::Search => Self::Search,
+            Effort::Dump => Self::Dump,
+        }
+    }
+}
+
+/// Work of one step, in units of about a microsecond.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Work {
+    spent: numerics::work::Work<{ Cost::ALL.len() }>,
+    /// Evaluations of the theory of the planets counted so far.
+    evaluations: u64,
+}
+
+/// A step that costs more than it may.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the flight came to {reached_s:?} s and then needed more work than the {limit} units a step may take"
+)]
+pub struct WorkExceeded {
+    /// What was allowed.
+    pub limit: u32,
+    /// How far it came, in s.
+    pub reached_s: f64,
+    /// What most of it went into.
+    pub most: Cost,
+}
+
+impl Work {
+    /// One evaluation of VSOP87.
+    const EVALUATION_UNITS: u64 = 200;
+
+    /// Nothing spent of `limit` units; the ephemeris has evaluated its theory this often so far.
+    pub fn new(limit: u32, evaluations: u64) -> Self {
+        Self { spent: numerics::work::Work::new(limit), evaluations }
+    }
+
+    /// Counts `units`, the flight having come to `time_s`, and what the ephemeris has evaluated meanwhile.
+    ///
+    /// # Errors
+    /// More was spent than may be.
+    pub fn spend(
+        &mut self,
+        cost: Cost,
+        units: u32,
+        evaluations: u64,
+        time_s: f64,
+    ) -> Result<(), WorkExceeded> {
+        self.spent.spend(cost as usize, units);
+        let fitted = evaluations.saturating_sub(self.evaluations).saturating_mul(Self::EVALUATION_UNITS);
+        self.evaluations = evaluations;
+        self.spent.spend(Cost::Ephemeris as usize, u32::try_from(fitted).unwrap_or(u32::MAX));
+        if !self.spent.is_exhausted() {
+            return Ok(());
+        }
+        let most = Cost::ALL.get(self.spent.greatest()).copied().unwrap_or(Cost::Cell);
+        Err(WorkExceeded { limit: self.spent.limit(), reached_s: time_s, most })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The error names what took most, the planets' theory among it.
+    use super::*;
+
+    #[test]
+    fn what_took_most_is_named() {
+        let mut work = Work::new(1000, 7);
+        work.spend(Cost::Orbit, 300, 7, 10.0).unwrap();
+        work.spend(Cost::Dump, 500, 7, 20.0).unwrap();
+        let exceeded = work.spend(Cost::Cell, 201, 7, 30.0).unwrap_err();
+        assert_eq!((exceeded.most, exceeded.reached_s, exceeded.limit), (Cost::Dump, 30.0, 1000));
+        let theory = Work::new(1000, 7).spend(Cost::Cell, 1, 13, 5.0).unwrap_err();
+        assert_eq!(theory.most, Cost::Ephemeris);
+    }
+}

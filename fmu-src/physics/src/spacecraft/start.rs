@@ -1,0 +1,174 @@
+//! The table `[start]`: start values by the names of models' variables, which are not known here.
+
+use core::fmt;
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+
+use super::checker::Checker;
+use super::document::Place;
+
+/// A start value of a model's variable, as the file gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartEntry {
+    /// The key with its tables, for messages.
+    pub key: String,
+    /// Line from 1.
+    pub line: usize,
+    /// The table within `[start]` that it stands in: the model that it is for.
+    pub model: Option<String>,
+    /// The variable.
+    pub name: String,
+    /// Its value.
+    pub value: StartValue,
+}
+
+/// A value of any type that a file has.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StartValue {
+    /// A number with a point or an exponent.
+    Real(f64),
+    /// A whole number.
+    Integer(i64),
+    /// True or false.
+    Boolean(bool),
+    /// A string.
+    Text(String),
+    /// A list.
+    List(Vec<Self>),
+}
+
+/// Start values of parameters and inputs of the models: `"name" = value`, or the same in a table with a model's name.
+#[derive(Debug, Default, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct StartTable(BTreeMap<String, Item>);
+
+/// What stands behind a key.
+#[derive(Debug)]
+enum Item {
+    Scalar(StartValue),
+    List(Vec<Item>),
+    Table(BTreeMap<String, Item>),
+}
+
+impl<'de> Deserialize<'de> for Item {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ItemVisitor)
+    }
+}
+
+struct ItemVisitor;
+
+impl<'de> Visitor<'de> for ItemVisitor {
+    type Value = Item;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number, a string, true or false, a list")
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Item, E> {
+        Ok(Item::Scalar(StartValue::Real(value)))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Item, E> {
+        Ok(Item::Scalar(StartValue::Integer(value)))
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Item, E> {
+        Ok(Item::Scalar(StartValue::Boolean(value)))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Item, E> {
+        Ok(Item::Scalar(StartValue::Text(value.to_owned())))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Item, A::Error> {
+        let mut items = Vec::new();
+        while let Some(item) = list.next_element()? {
+            items.push(item);
+        }
+        Ok(Item::List(items))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Item, A::Error> {
+        let mut items = BTreeMap::new();
+        while let Some((key, item)) = table.next_entry()? {
+            items.insert(key, item);
+        }
+        Ok(Item::Table(items))
+    }
+}
+
+/// The entries of the table; what cannot be a start value of any variable is reported.
+pub(crate) fn start_entries(check: &mut Checker<'_>, table: Option<&StartTable>) -> Vec<StartEntry> {
+    let at = Place::root().key("start");
+    let mut entries = Vec::new();
+    for (key, item) in table.into_iter().flat_map(|table| &table.0) {
+        let place = at.key(key);
+        match item {
+            Item::Table(items) => {
+                for (name, item) in items {
+                    push(check, &mut entries, &place.key(name), Some(key), name, item);
+                }
+            }
+            item => push(check, &mut entries, &place, None, key, item),
+        }
+    }
+    entries
+}
+
+fn push(
+    check: &mut Checker<'_>,
+    entries: &mut Vec<StartEntry>,
+    at: &Place,
+    model: Option<&str>,
+    name: &str,
+    item: &Item,
+) {
+    if let Some(value) = value(check, at, item) {
+        let (key, line) = (at.to_string(), check.line(at));
+        entries.push(StartEntry { key, line, model: model.map(str::to_owned), name: name.to_owned(), value });
+    }
+}
+
+fn value(check: &mut Checker<'_>, at: &Place, item: &Item) -> Option<StartValue> {
+    match item {
+        Item::Scalar(value) => Some(value.clone()),
+        Item::List(items) => {
+            let items = items.iter().enumerate();
+            let values: Vec<_> = items.map(|(i, item)| value(check, &at.item(i), item)).collect();
+            values.into_iter().collect::<Option<_>>().map(StartValue::List)
+        }
+        Item::Table(_) => {
+            let allowed = "a number, a string, true or false, a list; the name of a variable stands in quotes as a whole";
+            check.report(at, "a table", allowed);
+            None
+        }
+    }
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for StartTable {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "StartTable".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let scalar = || schemars::json_schema!({ "type": ["number", "string", "boolean"] });
+        let row = schemars::json_schema!({ "type": "array", "items": scalar() });
+        let list = schemars::json_schema!({ "type": "array", "items": { "anyOf": [scalar(), row] } });
+        let by_model = schemars::json_schema!({
+            "description": "For the model of this name alone.",
+            "type": "object",
+            "additionalProperties": { "anyOf": [scalar(), list] }
+        });
+        schemars::json_schema!({
+            "description": "Start values of the models' parameters and inputs by name, in quotes: SI numbers, strings with a \
+                unit (\"10 deg\"), true or false, names of items; a list for a vector under its bare name. A table with a \
+                model's name holds those for this model alone.",
+            "type": "object",
+            "additionalProperties": { "anyOf": [scalar(), list, by_model] }
+        })
+    }
+}

@@ -1,0 +1,114 @@
+//! What a step of the spinner may cost, and which parameter asks for most of it.
+
+use super::damper::Damper;
+use crate::numerics;
+
+/// What work is spent on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cost {
+    /// Cells of the motion.
+    Cell,
+    /// Cells of the motion with a damper, whose gain takes several rounds.
+    DampedCell,
+    /// Crossings of Sun and star.
+    Crossing,
+    /// Samples by the star tracker's clock.
+    ClockSample,
+    /// Edges of pulses.
+    Edge,
+    /// Directions on the L1 orbit.
+    Direction,
+    /// Panels of the impulse of thrusters that turn with the body.
+    Impulse,
+}
+
+const COSTS: usize = 7;
+
+impl Cost {
+    /// Units of about a microsecond, a little more than each takes.
+    fn units(self) -> u32 {
+        match self {
+            Self::Cell => 16,
+            Self::DampedCell => 64,
+            Self::Crossing | Self::Edge | Self::Impulse => 4,
+            Self::ClockSample | Self::Direction => 2,
+        }
+    }
+
+    /// What it is and who asks for it.
+    fn cause(index: usize) -> &'static str {
+        match index {
+            0 | 1 => {
+                "cells of the motion, a few in each turn: asked for by spin.initialRate, by moments of inertia[1] and \
+                 inertia[2] that differ, by a short damper.timeConstant and by torques"
+            }
+            2 => "crossings of Sun and star, one of each in a turn: asked for by spin.initialRate",
+            3 => {
+                "samples of the star tracker, every 8 turns of limit.spinRate: starTracker.sampling 2 (clock) asks for them"
+            }
+            4 => "edges of pulses: asked for by burn.count and the thrusters' inputs",
+            5 => "directions of Sun and Earth: geometry.source 2 (L1 orbit) looks them up every 600 s",
+            _ => {
+                "panels of the turning thrust, a few in each turn: asked for by thruster[k].fire, long pulses and spin.initialRate"
+            }
+        }
+    }
+}
+
+/// Work of one step of the spinner.
+#[derive(Clone, Copy, Debug)]
+pub struct Work(numerics::work::Work<COSTS>);
+
+impl Work {
+    /// Nothing spent of `limit` units.
+    pub fn new(limit: u32) -> Self {
+        Self(numerics::work::Work::new(limit))
+    }
+
+    /// Counts one of these.
+    #[inline]
+    pub fn spend(&mut self, cost: Cost) {
+        self.0.spend(cost as usize, cost.units());
+    }
+
+    /// Counts a cell of a motion with this damper.
+    #[inline]
+    pub fn spend_cell(&mut self, damper: &Damper) {
+        self.spend(if damper.acts() { Cost::DampedCell } else { Cost::Cell });
+    }
+
+    /// Whether more was spent than may be.
+    #[inline]
+    pub fn is_exhausted(&self) -> bool {
+        self.0.is_exhausted()
+    }
+
+    /// Whether a flight that has come to `time_s` may go on.
+    ///
+    /// # Errors
+    /// More was spent than may be.
+    #[inline]
+    pub fn check(&self, time_s: f64) -> Result<(), WorkExceeded> {
+        if self.is_exhausted() { Err(self.exceeded(time_s)) } else { Ok(()) }
+    }
+
+    #[cold]
+    fn exceeded(&self, time_s: f64) -> WorkExceeded {
+        WorkExceeded { limit: self.0.limit(), time_s, cause: Cost::cause(self.0.greatest()) }
+    }
+}
+
+/// A step that costs more than it may.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the step came to {time_s} s and then needed more work than solver.workLimit = {limit} allows; most went into {cause}. \
+     Take shorter steps or raise solver.workLimit"
+)]
+pub struct WorkExceeded {
+    /// What was allowed.
+    pub limit: u32,
+    /// How far it came, in s.
+    pub time_s: f64,
+    /// What most of it went into.
+    pub cause: &'static str,
+}

@@ -1,0 +1,310 @@
+//! The memory that parent and child share: a header, the mark of calls, and a ring of words with frames.
+//!
+//! A frame is its kind and length, the token that the parent gave, and the payload. The parent checks all three, for
+//! the FMU lives in the child's memory and may write anywhere.
+
+use std::{
+    hash::{BuildHasher, Hasher, RandomState},
+    io,
+    sync::atomic::{AtomicU64, Ordering},
+    time::Duration,
+};
+
+use loader::{CallMark, MARK_WORDS, SharedWords};
+
+use super::system;
+
+/// The parent's token, its process, the child's limits (0: none), whether it shall end.
+const TOKEN: usize = 0;
+const PARENT: usize = 1;
+const MEMORY: usize = 2;
+const FILES: usize = 3;
+const CANCEL: usize = 8;
+/// The mark of calls.
+const MARK: usize = 16;
+/// Words sent and words taken; far apart, so that the two processes do not wait for one cache line.
+const HEAD: usize = 32;
+const TAIL: usize = 48;
+/// The ring.
+const RING: usize = 64;
+/// 4 MiB: the rows of some milliseconds.
+pub const RING_WORDS: usize = 1 << 19;
+/// Longest payload; a row of a million Reals fits.
+const MAX_WORDS: usize = 1 << 21;
+/// How often a child looks whether a full ring has room again, and how much has to be free before it goes on.
+const PAUSE: Duration = Duration::from_millis(1);
+const ROOM: u64 = RING_WORDS as u64 / 4;
+
+/// The child's end.
+pub struct Link {
+    words: &'static SharedWords,
+    token: u64,
+    head: u64,
+    frame: Vec<u64>,
+}
+
+impl Link {
+    /// Takes the memory that the parent gave as standard input, keeps the parent's limits and ends with the parent.
+    pub fn attach() -> io::Result<Self> {
+        let file = system::take_stdin()?;
+        // For the life of the process: the mark of calls is read from anywhere.
+        let words: &'static SharedWords = Box::leak(Box::new(SharedWords::map(&file)?));
+        drop(file);
+        if words.len() != RING + RING_WORDS {
+            return Err(io::Error::other("the standard input is not that of a parent"));
+        }
+        let value = |index: usize| words[index].load(Ordering::Relaxed);
+        system::end_with_parent(value(PARENT))?;
+        system::restrict(value(MEMORY), value(FILES))?;
+        if let Ok(mark) = <&CallMark>::try_from(&words[MARK..MARK + MARK_WORDS]) {
+            loader::mark_calls(mark);
+        }
+        // Where no instruction of the FMU runs yet, nobody else reads the token.
+        let token = words[TOKEN].swap(0, Ordering::Relaxed);
+        Ok(Self { words, token, head: 0, frame: Vec::new() })
+    }
+
+    /// Whether the parent asks the child to end.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel_word().load(Ordering::Relaxed) != 0
+    }
+
+    /// The word by which the parent asks the child to end.
+    pub fn cancel_word(&self) -> &'static AtomicU64 {
+        &self.words[CANCEL]
+    }
+
+    fn free(&self) -> u64 {
+        let used = self.head.wrapping_sub(self.words[TAIL].load(Ordering::Acquire));
+        (RING_WORDS as u64).saturating_sub(used)
+    }
+
+    /// Sends a frame; waits while the ring is full.
+    pub fn send(&mut self, kind: u8, payload: impl FnOnce(&mut Vec<u64>)) -> Result<(), String> {
+        let mut frame = std::mem::take(&mut self.frame);
+        frame.clear();
+        frame.extend([0, self.token]);
+        payload(&mut frame);
+        let length = frame.len() - 2;
+        if length > MAX_WORDS {
+            return Err(format!("a row or text of {length} words, allowed are {MAX_WORDS}"));
+        }
+        frame[0] = u64::from(kind) | (length as u64) << 8;
+        let ring = &self.words[RING..];
+        let mut rest = frame.as_slice();
+        while !rest.is_empty() {
+            let at = (self.head % RING_WORDS as u64) as usize;
+            let count = (self.free() as usize).min(rest.len()).min(RING_WORDS - at);
+            if count == 0 {
+                while self.free() < ROOM {
+                    std::thread::sleep(PAUSE);
+                }
+                continue;
+            }
+            for (word, value) in ring[at..at + count].iter().zip(rest) {
+                word.store(*value, Ordering::Relaxed);
+            }
+            rest = &rest[count..];
+            self.head = self.head.wrapping_add(count as u64);
+            self.words[HEAD].store(self.head, Ordering::Release);
+        }
+        self.frame = frame;
+        Ok(())
+    }
+}
+
+/// Appends a text to a payload.
+pub fn push_text(payload: &mut Vec<u64>, text: &str) {
+    payload.push(text.len() as u64);
+    payload.extend(text.as_bytes().chunks(8).map(|chunk| {
+        let mut bytes = [0; 8];
+        bytes[..chunk.len()].copy_from_slice(chunk);
+        u64::from_le_bytes(bytes)
+    }));
+}
+
+/// A payload, read from its beginning on.
+pub struct Payload<'a>(&'a [u64]);
+
+impl<'a> Payload<'a> {
+    /// The next word.
+    pub fn word(&mut self) -> Option<u64> {
+        let (first, rest) = self.0.split_first()?;
+        self.0 = rest;
+        Some(*first)
+    }
+
+    /// The next words.
+    pub fn words(&mut self, count: usize) -> Option<&'a [u64]> {
+        let (words, rest) = self.0.split_at_checked(count)?;
+        self.0 = rest;
+        Some(words)
+    }
+
+    /// The next text.
+    pub fn text(&mut self) -> Option<String> {
+        let length = usize::try_from(self.word()?).ok()?;
+        let words = self.words(length.div_ceil(8))?;
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect();
+        Some(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// Whether everything was read.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// The parent's end.
+pub struct Inbox {
+    words: SharedWords,
+    token: u64,
+    tail: u64,
+    // The frame that comes in: its head, then its payload.
+    frame: Vec<u64>,
+}
+
+impl Inbox {
+    /// The memory, and the file to hand to the child; limits in bytes and files.
+    pub fn create(memory: Option<u64>, files: Option<u64>) -> io::Result<(std::fs::File, Self)> {
+        let (file, words) = SharedWords::create(RING + RING_WORDS)?;
+        let token = RandomState::new().build_hasher().finish();
+        let head = [
+            (TOKEN, token),
+            (PARENT, u64::from(std::process::id())),
+            (MEMORY, memory.unwrap_or(0)),
+            (FILES, files.unwrap_or(0)),
+        ];
+        for (index, value) in head {
+            words[index].store(value, Ordering::Relaxed);
+        }
+        Ok((file, Self { words, token, tail: 0, frame: Vec::new() }))
+    }
+
+    /// Asks the child to end.
+    pub fn cancel(&self) {
+        self.words[CANCEL].store(1, Ordering::Relaxed);
+    }
+
+    /// The mark of calls.
+    pub fn mark(&self) -> Option<&CallMark> {
+        <&CallMark>::try_from(&self.words[MARK..MARK + MARK_WORDS]).ok()
+    }
+
+    /// Hands every frame that has come to `take`, whose error ends it; gives the number of words that came.
+    pub fn drain(
+        &mut self,
+        take: &mut dyn FnMut(u8, Payload<'_>) -> Result<(), String>,
+    ) -> Result<usize, String> {
+        const BROKEN: &str = "it wrote over the memory by which its results are told";
+        let head = self.words[HEAD].load(Ordering::Acquire);
+        let came = head.wrapping_sub(self.tail);
+        if came > RING_WORDS as u64 {
+            return Err(BROKEN.to_owned());
+        }
+        let mut left = came as usize;
+        while left > 0 {
+            let wanted = match self.frame.first() {
+                Some(head) => 2 + (head >> 8) as usize - self.frame.len(),
+                None => 1,
+            };
+            let at = (self.tail % RING_WORDS as u64) as usize;
+            let count = wanted.min(left).min(RING_WORDS - at);
+            let part = &self.words[RING + at..RING + at + count];
+            self.frame.extend(part.iter().map(|word| word.load(Ordering::Relaxed)));
+            self.tail = self.tail.wrapping_add(count as u64);
+            left -= count;
+            if let [head, ..] = self.frame.as_slice()
+                && head >> 8 > MAX_WORDS as u64
+            {
+                return Err(BROKEN.to_owned());
+            }
+            if let [head, token, payload @ ..] = self.frame.as_slice()
+                && payload.len() as u64 == head >> 8
+            {
+                if *token != self.token {
+                    return Err(BROKEN.to_owned());
+                }
+                take((head & 0xff) as u8, Payload(payload))?;
+                self.frame.clear();
+                // The child may go on while the rest is taken.
+                self.words[TAIL].store(self.tail, Ordering::Release);
+            }
+        }
+        self.words[TAIL].store(self.tail, Ordering::Release);
+        Ok(came as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Frames arrive whole and in order; nothing else is taken for one.
+
+    use super::*;
+
+    fn pair() -> (Link, Inbox) {
+        let (file, inbox) = Inbox::create(None, None).unwrap();
+        let words: &'static SharedWords = Box::leak(Box::new(SharedWords::map(&file).unwrap()));
+        let token = words[TOKEN].swap(0, Ordering::Relaxed);
+        (Link { words, token, head: 0, frame: Vec::new() }, inbox)
+    }
+
+    #[test]
+    fn frames_longer_than_the_ring_arrive_whole_and_in_order() {
+        let (mut link, mut inbox) = pair();
+        let sent: Vec<Vec<u64>> =
+            [0, 1, RING_WORDS - 3, MAX_WORDS, 7].map(|length| (0..length as u64).collect()).to_vec();
+        let expected = sent.clone();
+        let child = std::thread::spawn(move || {
+            for (kind, payload) in (0..).zip(sent) {
+                link.send(kind, |frame| frame.extend(payload)).unwrap();
+            }
+        });
+        let mut found = Vec::new();
+        while found.len() < expected.len() {
+            let mut take = |kind: u8, mut payload: Payload<'_>| {
+                assert_eq!(usize::from(kind), found.len());
+                let mut words = Vec::new();
+                while let Some(word) = payload.word() {
+                    words.push(word);
+                }
+                found.push(words);
+                Ok(())
+            };
+            inbox.drain(&mut take).unwrap();
+        }
+        child.join().unwrap();
+        assert!(found == expected);
+    }
+
+    #[test]
+    fn texts_are_read_back_and_no_further_than_they_go() {
+        let mut words = Vec::new();
+        for text in ["", "eight by", "Überraum λ 火星"] {
+            push_text(&mut words, text);
+        }
+        let mut payload = Payload(&words);
+        for text in ["", "eight by", "Überraum λ 火星"] {
+            assert_eq!(payload.text().as_deref(), Some(text));
+        }
+        assert!(payload.is_empty() && payload.text().is_none());
+        assert_eq!(Payload(&[u64::MAX, 1]).text(), None);
+        assert_eq!(Payload(&[9, 1]).text(), None);
+    }
+
+    #[test]
+    fn what_an_fmu_writes_into_the_memory_is_no_frame() {
+        let mut take = |_: u8, _: Payload<'_>| -> Result<(), String> { panic!("taken") };
+        let (mut link, mut inbox) = pair();
+        link.token ^= 1;
+        link.send(1, |_| {}).unwrap();
+        assert!(inbox.drain(&mut take).is_err(), "a wrong token");
+        let (link, mut inbox) = pair();
+        link.words[HEAD].store(u64::MAX / 2, Ordering::Relaxed);
+        assert!(inbox.drain(&mut take).is_err(), "a head beyond the ring");
+        let (mut link, mut inbox) = pair();
+        link.send(1, |_| {}).unwrap();
+        link.words[RING].store(u64::MAX, Ordering::Relaxed);
+        assert!(inbox.drain(&mut take).is_err(), "a length beyond all measure");
+    }
+}

@@ -1,0 +1,15 @@
+//! An FMU in a process of its own: this program again, watched from outside.
+//!
+//! Parent and child share one memory without a name. In it the child marks the FMI call under way and sends frames:
+//! rows of a recording, findings of a probe, its end. What stands there after a crash is still read. Whatever the
+//! FMU prints goes through pipes of its own and is never taken for a frame.
+
+mod channel;
+mod printed;
+mod system;
+mod watch;
+
+pub use channel::{Link, Payload, push_text};
+pub use printed::BYTES_FORWARDED;
+pub use system::end_all;
+pub use watch::{Bounds, How, Limits, Started};

@@ -1,0 +1,117 @@
+//! What an FMU prints: read without waiting, counted, and kept only as far as it is shown.
+
+use std::{
+    collections::VecDeque,
+    io::{self, Read},
+    process::{Child, Stdio},
+};
+
+/// How much of what an FMU prints is handed on.
+pub const BYTES_FORWARDED: u64 = 1 << 20;
+/// Longest line that is handed on; the rest of it is a line of its own.
+const LINE: usize = 4096;
+/// Lines kept for the report of a crash.
+const LINES_KEPT: usize = 3;
+/// Read at a time, so that the parent looks after other things too.
+const AT_ONCE: usize = 1 << 20;
+
+/// Both streams of a child.
+pub struct Printed {
+    streams: Vec<Stream>,
+    last: VecDeque<String>,
+    bytes: u64,
+}
+
+struct Stream {
+    pipe: Box<dyn Read>,
+    line: Vec<u8>,
+}
+
+impl Printed {
+    /// How a stream has to be set up before the child is started.
+    pub fn stdio() -> Stdio {
+        // Elsewhere pipes cannot be read without waiting.
+        if cfg!(unix) { Stdio::piped() } else { Stdio::null() }
+    }
+
+    /// Takes the streams of a child.
+    pub fn of(child: &mut Child) -> io::Result<Self> {
+        let mut streams = Vec::new();
+        #[cfg(unix)]
+        {
+            if let Some(pipe) = child.stdout.take() {
+                super::system::never_wait(&pipe)?;
+                streams.push(Stream { pipe: Box::new(pipe), line: Vec::new() });
+            }
+            if let Some(pipe) = child.stderr.take() {
+                super::system::never_wait(&pipe)?;
+                streams.push(Stream { pipe: Box::new(pipe), line: Vec::new() });
+            }
+        }
+        #[cfg(not(unix))]
+        let _ = child;
+        Ok(Self { streams, last: VecDeque::new(), bytes: 0 })
+    }
+
+    /// Reads what is there and hands each line on; gives whether there was anything.
+    pub fn read(&mut self, line: &mut dyn FnMut(&str)) -> bool {
+        let mut buffer = [0; 1 << 14];
+        let mut some = false;
+        let Self { streams, last, bytes } = self;
+        streams.retain_mut(|stream| {
+            let mut left = AT_ONCE;
+            while left > 0 {
+                match stream.pipe.read(&mut buffer) {
+                    Ok(0) => return false,
+                    Ok(count) => {
+                        (some, left) = (true, left.saturating_sub(count));
+                        *bytes += count as u64;
+                        for byte in &buffer[..count] {
+                            if *byte != b'\n' {
+                                stream.line.push(*byte);
+                            }
+                            if *byte == b'\n' || stream.line.len() >= LINE {
+                                keep(last, &mut stream.line, line);
+                            }
+                        }
+                    }
+                    Err(error) if error.kind() == io::ErrorKind::WouldBlock => return true,
+                    Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                    Err(_) => return false,
+                }
+            }
+            true
+        });
+        some
+    }
+
+    /// Hands the last lines on, which nothing ended.
+    pub fn finish(&mut self, line: &mut dyn FnMut(&str)) {
+        self.read(line);
+        for stream in &mut self.streams {
+            if !stream.line.is_empty() {
+                keep(&mut self.last, &mut stream.line, line);
+            }
+        }
+    }
+
+    /// Bytes printed so far.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// The last lines, marked as what they are.
+    pub fn last(&self) -> String {
+        self.last.iter().map(|line| format!("\n| {line}")).collect()
+    }
+}
+
+fn keep(last: &mut VecDeque<String>, bytes: &mut Vec<u8>, line: &mut dyn FnMut(&str)) {
+    let text = String::from_utf8_lossy(bytes).into_owned();
+    bytes.clear();
+    line(&text);
+    if last.len() == LINES_KEPT {
+        last.pop_front();
+    }
+    last.push_back(text);
+}

@@ -1,0 +1,30 @@
+//! Ctrl-C and the other signals that ask a program to end.
+
+use std::{
+    process,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use crate::child;
+
+/// The usual exit status of a program that Ctrl-C ended.
+pub const INTERRUPTED: u8 = 130;
+
+static RAISED: AtomicBool = AtomicBool::new(false);
+
+/// From now on SIGINT, SIGTERM and SIGHUP end the program and its children and leave no temporary files. A patient
+/// command is only told the first time: see [`raised`].
+pub fn listen(patient: bool) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(move || {
+        if RAISED.swap(true, Ordering::Relaxed) || !patient {
+            child::end_all();
+            files::remove_temporaries();
+            process::exit(i32::from(INTERRUPTED));
+        }
+    })
+}
+
+/// Whether a signal came that asks the command to end.
+pub fn raised() -> bool {
+    RAISED.load(Ordering::Relaxed)
+}

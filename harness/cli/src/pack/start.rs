@@ -1,0 +1,158 @@
+//! `--set`: start values written into the `[start]` table of the packed file, over those that stand there.
+
+use loader::{Assigned, assignment};
+use model_description::{Causality, Description, VariableKind, value};
+use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+
+/// The table of start values in a setup file.
+const TABLE: &str = "start";
+
+/// The file's text with the start values that `sets` gives to variables of the model; the rest stays, comments too.
+///
+/// # Errors
+/// A name that the model does not have or that cannot be set, a value that it does not take.
+pub fn with_start_values(
+    text: &str,
+    model: &str,
+    description: &Description,
+    sets: &[String],
+) -> Result<String, Box<dyn std::error::Error>> {
+    if sets.is_empty() {
+        return Ok(text.to_owned());
+    }
+    let mut file: DocumentMut = text.strip_prefix('\u{feff}').unwrap_or(text).parse()?;
+    let mut start = table(file.as_table_mut(), TABLE)?;
+    // What is for this model alone would win over what is for all.
+    if start.contains_key(model) {
+        start = table(start, model)?;
+    }
+    for set in sets {
+        for assigned in assignment(description, set).map_err(|error| format!("--set {set}: {error}"))? {
+            let value = checked(description, &assigned)
+                .map_err(|misfit| format!("--set {set}: {}: {misfit}", assigned.variable.name))?;
+            match start.get_mut(&assigned.variable.name).and_then(Item::as_value_mut) {
+                Some(old) => {
+                    let decor = old.decor().clone();
+                    *old = value;
+                    *old.decor_mut() = decor;
+                }
+                None => drop(start.insert(&assigned.variable.name, Item::Value(value))),
+            }
+        }
+    }
+    Ok(file.to_string())
+}
+
+fn table<'t>(within: &'t mut dyn TableLike, key: &str) -> Result<&'t mut dyn TableLike, String> {
+    let item = within.entry(key).or_insert_with(|| Item::Table(Table::new()));
+    let found = item.type_name();
+    item.as_table_like_mut().ok_or_else(|| format!("{key}: found {found}, allowed: a table"))
+}
+
+/// The value as a file would have it: in SI, or with its unit as it was written.
+fn checked(description: &Description, assigned: &Assigned<'_>) -> Result<Value, value::Misfit> {
+    let Assigned { variable, value, written } = assigned;
+    if !matches!(variable.causality, Causality::Parameter | Causality::Input) {
+        let found = format!("the {} {}", variable.causality, variable.name);
+        return Err(value::Misfit::new(found, "a parameter or an input"));
+    }
+    value::check(description, variable, value)
+        .map_err(|misfit| value::Misfit { found: (*written).to_owned(), ..misfit })?;
+    let item = |number: i32| value::items(description, variable).iter().find(|item| item.value == number);
+    Ok(match (value, &variable.kind) {
+        (value::Value::Integer(number), VariableKind::Enumeration { .. }) => match item(*number) {
+            Some(item) => item.name.as_str().into(),
+            None => i64::from(*number).into(),
+        },
+        (value::Value::Real(number), _)
+            if written.ends_with(|last: char| last.is_ascii_digit() || last == '.') =>
+        {
+            (*number).into()
+        }
+        (value::Value::Real(_), _) => (*written).into(),
+        (value::Value::Integer(number), _) => i64::from(*number).into(),
+        (value::Value::Boolean(truth), _) => (*truth).into(),
+        (value::Value::Text(text), _) => text.as_str().into(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    //! What is written wins, and the rest of the file stays.
+
+    use model_description::{RealAttributes, ScalarVariable, Variability};
+
+    use super::*;
+
+    fn description() -> Description {
+        let variable = |name: &str| ScalarVariable {
+            name: name.to_owned(),
+            value_reference: 0,
+            description: None,
+            causality: Causality::Parameter,
+            variability: Variability::Tunable,
+            initial: None,
+            can_handle_multiple_set_per_time_instant: None,
+            kind: VariableKind::Real {
+                start: Some(0.0),
+                declared_type: None,
+                attributes: RealAttributes { max: Some(9.0), ..RealAttributes::default() },
+                derivative: None,
+                reinit: None,
+            },
+        };
+        Description {
+            variables: ["ship.mass", "arm[1]", "arm[2]"].map(variable).to_vec(),
+            ..Description::default()
+        }
+    }
+
+    fn written(text: &str, sets: &[&str]) -> String {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        with_start_values(text, "Plant", &description(), &sets).unwrap()
+    }
+
+    #[test]
+    fn the_table_is_made_or_added_to() {
+        let rest = "# mine\nname = \"A\" # say\n[mass]\nkg = 1\n";
+        let made = written(rest, &["ship.mass=2", "arm=1,2.5"]);
+        assert_eq!(
+            made,
+            format!("{rest}\n[start]\n\"ship.mass\" = 2.0\n\"arm[1]\" = 1.0\n\"arm[2]\" = 2.5\n")
+        );
+        let added =
+            written("[start] # here\n\"ship.mass\" = 1 # old\n[mass]\n", &["ship.mass=2", "arm[2]=3"]);
+        assert_eq!(added, "[start] # here\n\"ship.mass\" = 2.0 # old\n\"arm[2]\" = 3.0\n[mass]\n");
+        let inline = written("start = { \"ship.mass\" = 1 }\n", &["ship.mass=2"]);
+        assert_eq!(inline, "start = { \"ship.mass\" = 2.0 }\n");
+        assert_eq!(written("\u{feff}name = \"A\"\n", &[]), "\u{feff}name = \"A\"\n");
+    }
+
+    #[test]
+    fn a_table_for_the_model_alone_is_the_one_that_counts() {
+        let text = "[start]\n\"ship.mass\" = 1\n[start.Plant]\n\"ship.mass\" = 3\n";
+        assert_eq!(
+            written(text, &["ship.mass=2"]),
+            "[start]\n\"ship.mass\" = 1\n[start.Plant]\n\"ship.mass\" = 2.0\n"
+        );
+        let other = "[start.Other]\n\"ship.mass\" = 3\n";
+        let with_both = written(other, &["ship.mass=2"]);
+        let read: toml::Table = with_both.parse().unwrap();
+        assert_eq!(read["start"]["ship.mass"].as_float(), Some(2.0), "{with_both}");
+        assert_eq!(read["start"]["Other"]["ship.mass"].as_integer(), Some(3), "{with_both}");
+    }
+
+    #[test]
+    fn what_no_variable_takes_is_refused() {
+        for (set, says) in [
+            ("ship.mas=1", "near it: ship.mass"),
+            ("ship.mass=10", "ship.mass: found 10, allowed: a number up to 9"),
+            ("arm=1", "1 values given for its 2 elements"),
+            ("ship.mass", "name=value"),
+        ] {
+            let refused = with_start_values("", "Plant", &description(), &[set.to_owned()]).unwrap_err();
+            let text = refused.to_string();
+            assert!(text.contains(says) && text.contains("--set"), "{set}: {text}");
+        }
+    }
+}

@@ -1,0 +1,133 @@
+/* An FMU that misbehaves: what it does is chosen by -DDEED=..., where by -DIN_STEP or -DIN_INSTANTIATE.
+   One Real output x with reference 0, which is the time; steps from 3 s on do the deed. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <signal.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#define EXITS 1
+#define CRASHES 2
+#define SLEEPS 3
+#define SPINS 4
+#define PRINTS 5
+#define FORKS 6
+#define ALLOCATES 7
+#define ANSWERS_NAN 8
+#define OPENS 9
+#define LIES 10
+#define RETURNS_TWICE 11
+#define STAINS 12
+#define ABORTS 13
+#define FAILS 14
+
+typedef void *Component;
+typedef void (*Logger)(void *, const char *, int, const char *, const char *, ...);
+typedef struct {
+    Logger logger;
+    void *(*allocate)(size_t, size_t);
+    void (*release)(void *);
+    void (*finished)(void *, int);
+    void *environment;
+} Callbacks;
+
+static double now;
+static Callbacks callbacks;
+static volatile int forever = 1;
+static int *volatile nowhere = NULL;
+
+static int deed(void) {
+    switch (DEED) {
+    case EXITS: exit(0);
+    case CRASHES: *nowhere = 1; break;
+    case ABORTS: abort();
+    case FAILS: return 3;
+    case SLEEPS: for (;;) sleep(1000);
+    case SPINS: while (forever) {} break;
+    case PRINTS: for (;;) { puts("and on and on and on and on and on and on and on and on and on"); }
+    case FORKS:
+        /* The grandchild keeps every file open, also those that its parent would be waited for by. */
+        if (fork() == 0) { for (;;) sleep(1000); }
+        break;
+    case ALLOCATES:
+        for (long blocks = 0;; blocks++) {
+            if (!malloc((size_t)64 << 20)) {
+                fprintf(stderr, "it could allocate %ld blocks\n", blocks);
+                abort();
+            }
+        }
+    case OPENS: {
+        int count = 0;
+        while (open("/dev/zero", O_RDONLY) >= 0) count++;
+        fprintf(stderr, "it could open %d files\n", count);
+        abort();
+    }
+    case LIES: {
+        const char *lie = "ok everything is fine\nfinished\n";
+        /* Into every file that is open, so also into whatever tells results. */
+        for (int file = 1; file < 256; file++) {
+            if (write(file, lie, strlen(lie)) < 0) continue;
+        }
+        _exit(0);
+    }
+    case RETURNS_TWICE: if (fork() < 0) abort(); break;
+    case STAINS:
+        printf("\033[2Jcleared\a\n");
+        fflush(stdout);
+        if (callbacks.logger) callbacks.logger(callbacks.environment, "x", 3, "logStatusError", "\033]0;title\a a\rb");
+        return 3;
+    }
+    return 0;
+}
+
+#ifdef AT_LOADING
+__attribute__((constructor)) static void at_loading(void) { deed(); }
+#endif
+
+const char *fmi2GetTypesPlatform(void) { return "default"; }
+const char *fmi2GetVersion(void) { return "2.0"; }
+int fmi2SetDebugLogging(Component c, int on, size_t n, const char *const *names) { (void)c; (void)on; (void)n; (void)names; return 0; }
+Component fmi2Instantiate(const char *name, int type, const char *guid, const char *where, const Callbacks *given, int visible, int on) {
+    (void)name; (void)type; (void)guid; (void)where; (void)visible; (void)on;
+    callbacks = *given;
+#ifdef IN_INSTANTIATE
+    deed();
+#endif
+    return &now;
+}
+void fmi2FreeInstance(Component c) { (void)c; }
+int fmi2SetupExperiment(Component c, int has, double tolerance, double start, int stops, double stop) {
+    (void)c; (void)has; (void)tolerance; (void)stops; (void)stop;
+    now = start;
+    return 0;
+}
+int fmi2EnterInitializationMode(Component c) { (void)c; return 0; }
+int fmi2ExitInitializationMode(Component c) { (void)c; return 0; }
+int fmi2Terminate(Component c) { (void)c; return 0; }
+int fmi2Reset(Component c) { (void)c; return 0; }
+int fmi2GetReal(Component c, const unsigned *references, size_t n, double *values) {
+    (void)c; (void)references;
+    for (size_t i = 0; i < n; i++) values[i] = DEED == ANSWERS_NAN && now >= 3 ? 0.0 / (now - now) : now;
+    return 0;
+}
+int fmi2DoStep(Component c, double time, double step, int no) {
+    (void)c; (void)no;
+#ifdef IN_STEP
+    if (time >= 3) {
+        int status = deed();
+        if (status) return status;
+    }
+#endif
+    now = time + step;
+    return 0;
+}
+#define NOTHING(name) int fmi2##name(Component c) { (void)c; return 0; }
+NOTHING(GetInteger) NOTHING(GetBoolean) NOTHING(GetString) NOTHING(SetReal) NOTHING(SetInteger) NOTHING(SetBoolean)
+NOTHING(SetString) NOTHING(GetFMUstate) NOTHING(SetFMUstate) NOTHING(FreeFMUstate) NOTHING(SerializedFMUstateSize)
+NOTHING(SerializeFMUstate) NOTHING(DeSerializeFMUstate) NOTHING(GetDirectionalDerivative)
+NOTHING(SetRealInputDerivatives) NOTHING(GetRealOutputDerivatives) NOTHING(CancelStep) NOTHING(GetStatus)
+NOTHING(GetRealStatus) NOTHING(GetIntegerStatus) NOTHING(GetBooleanStatus) NOTHING(GetStringStatus)

@@ -1,0 +1,323 @@
+//! FMUs that exit, crash, hang, print, allocate, fork and lie: `run` and `check` outlive them, name the call, keep the
+//! rows and leave no process. They are compiled here from `tests/hostile/hostile.c`.
+#![cfg(unix)]
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Child, Command, Output, Stdio},
+    time::{Duration, Instant},
+};
+
+use tempfile::TempDir;
+
+use crate::{heliotorque, shown, text};
+
+const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="Hostile" guid="{hostile}">
+  <CoSimulation modelIdentifier="Hostile" canHandleVariableCommunicationStepSize="true"/>
+  <LogCategories><Category name="logStatusError"/></LogCategories>
+  <DefaultExperiment startTime="0" stopTime="10" stepSize="1"/>
+  <ModelVariables>
+    <ScalarVariable name="x" valueReference="0" causality="output" initial="calculated"><Real/></ScalarVariable>
+  </ModelVariables>
+  <ModelStructure>
+    <Outputs><Unknown index="1"/></Outputs>
+    <InitialUnknowns><Unknown index="1"/></InitialUnknowns>
+  </ModelStructure>
+</fmiModelDescription>
+"#;
+
+/// What tells the caller that something hangs: far beyond what any of these takes.
+const LONG: Duration = Duration::from_secs(60);
+
+/// An unpacked FMU that does this deed at this place; `None`, with a line that says why, where there is no compiler.
+fn hostile(deed: &str, place: &str) -> Option<TempDir> {
+    if Command::new("gcc").arg("--version").output().is_err() {
+        assert!(std::env::var_os("CI").is_none(), "gcc is missing");
+        eprintln!("skipped: hostile FMUs (no gcc on this machine)");
+        return None;
+    }
+    let room = tempfile::tempdir().unwrap();
+    let binaries = room.path().join("fmu/binaries").join(loader::platform_folders()[0]);
+    fs::create_dir_all(&binaries).unwrap();
+    fs::create_dir_all(room.path().join("tmp")).unwrap();
+    fs::write(room.path().join("fmu/modelDescription.xml"), DESCRIPTION).unwrap();
+    let output = Command::new("gcc")
+        .args(["-std=c11", "-O0", "-shared", "-fPIC", "-w"])
+        .args([format!("-DDEED={deed}"), format!("-D{place}")])
+        .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/hostile/hostile.c"))
+        .arg("-o")
+        .arg(binaries.join(format!("Hostile{}", std::env::consts::DLL_SUFFIX)))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    Some(room)
+}
+
+fn command(room: &TempDir, name: &str, more: &[&str]) -> Command {
+    let fmu = room.path().join("fmu");
+    let mut command = heliotorque(&[&[name, shown(&fmu)], more].concat());
+    command.env("TMPDIR", room.path().join("tmp")).stdin(Stdio::null());
+    command
+}
+
+/// Waits for its end, which must not be long in coming.
+fn wait(mut child: Child) -> Output {
+    let began = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if began.elapsed() > LONG {
+            child.kill().unwrap();
+            panic!("it hangs");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.wait_with_output().unwrap()
+}
+
+fn start(mut command: Command) -> Child {
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// What it says, once it ended with this status.
+fn ended(room: &TempDir, name: &str, more: &[&str], status: i32) -> String {
+    let output = start_to_file(room, command(room, name, more));
+    let said = text(&output);
+    assert_eq!(output.status.code(), Some(status), "{said}");
+    nothing_left(room);
+    said
+}
+
+/// As `wait`, for programs that say more than a pipe holds.
+fn start_to_file(room: &TempDir, mut command: Command) -> Output {
+    let (out, err) = (room.path().join("stdout"), room.path().join("stderr"));
+    command.stdout(fs::File::create(&out).unwrap()).stderr(fs::File::create(&err).unwrap());
+    let mut output = wait(command.spawn().unwrap());
+    output.stdout = fs::read(out).unwrap();
+    output.stderr = fs::read(err).unwrap();
+    output
+}
+
+/// No temporary file, and no process that works in or on this room.
+fn nothing_left(room: &TempDir) {
+    let left: Vec<PathBuf> =
+        fs::read_dir(room.path().join("tmp")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(left.is_empty(), "{left:?}");
+    let began = Instant::now();
+    while !processes(room.path()).is_empty() {
+        assert!(began.elapsed() < LONG, "processes are left: {:?}", processes(room.path()));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Processes, no zombies, whose arguments name this folder.
+fn processes(folder: &Path) -> Vec<u32> {
+    let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
+    let numbers = entries.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
+    let names_it = |number: &u32| {
+        // The arguments of a zombie are empty.
+        let arguments = fs::read(format!("/proc/{number}/cmdline")).unwrap_or_default();
+        String::from_utf8_lossy(&arguments).contains(shown(folder))
+    };
+    numbers.filter(names_it).collect()
+}
+
+fn rows(path: &Path) -> Vec<String> {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    assert!(text.is_empty() || text.ends_with('\n'), "a torn row: {text}");
+    text.lines().skip(1).map(str::to_owned).collect()
+}
+
+fn signal(child: &Child, name: &str) {
+    let kill = ["-c", "kill -$1 $2", "sh", name, &child.id().to_string()];
+    assert!(Command::new("sh").args(kill).status().unwrap().success());
+}
+
+#[test]
+fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
+    let in_step = "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): ";
+    for (deed, more, says) in [
+        ("EXITS", &[][..], "the process died: it exited with status 0"),
+        ("CRASHES", &[], "signal 11 (segmentation fault)"),
+        ("ABORTS", &[], "signal 6 (abort)"),
+        ("FAILS", &[], "answered fmi2Error"),
+        ("LIES", &[], "the process died: it exited with status 0"),
+        ("SLEEPS", &["--timeout", "0.3s"], "hangs: the call did not return within 0.3 s (see --timeout)"),
+        ("SPINS", &["--timeout", "300ms"], "hangs: the call did not return within 0.3 s (see --timeout)"),
+        ("PRINTS", &["--timeout", "0.5s"], "hangs: the call did not return within 0.5 s (see --timeout)"),
+    ] {
+        let Some(room) = hostile(deed, "IN_STEP") else { return };
+        let (table, part) = (room.path().join("a.csv"), room.path().join("a.csv.part"));
+        fs::write(&table, "the last good one").unwrap();
+        let said = ended(&room, "run", &[&["--output", shown(&table)], more].concat(), 1);
+        assert!(said.contains(in_step) && said.contains(says), "{deed}: {said}");
+        assert!(said.contains("4 rows so far: ") && said.contains("a.csv.part"), "{deed}: {said}");
+        assert_eq!(rows(&part), ["0,0", "1,1", "2,2", "3,3"], "{deed}");
+        assert_eq!(fs::read_to_string(&table).unwrap(), "the last good one", "{deed}");
+        // What it prints is bounded.
+        assert!(said.len() < 3 << 20, "{deed}: {} bytes", said.len());
+    }
+}
+
+#[test]
+fn nan_is_an_error_that_names_the_variable_and_keeps_the_rows_before() {
+    let Some(room) = hostile("ANSWERS_NAN", "IN_STEP") else { return };
+    let table = room.path().join("a.csv");
+    let said = ended(&room, "run", &["--output", shown(&table)], 1);
+    assert!(said.contains("fmi2GetReal(x): answered NaN at 3 s"), "{said}");
+    assert_eq!(rows(&room.path().join("a.csv.part")), ["0,0", "1,1", "2,2"]);
+    assert!(!table.exists());
+}
+
+#[test]
+fn a_run_names_the_call_before_the_first_step_too() {
+    for (place, says) in
+        [("IN_INSTANTIATE", "fmi2Instantiate: "), ("AT_LOADING", "loading the shared library: ")]
+    {
+        let Some(room) = hostile("CRASHES", place) else { return };
+        let table = room.path().join("a.csv");
+        let said = ended(&room, "run", &["--output", shown(&table)], 1);
+        assert!(said.contains(says) && said.contains("segmentation fault"), "{said}");
+        assert!(!table.exists() && !room.path().join("a.csv.part").exists());
+    }
+}
+
+#[test]
+fn what_an_fmu_forks_ends_with_the_run_and_sends_nothing() {
+    for deed in ["FORKS", "RETURNS_TWICE"] {
+        let Some(room) = hostile(deed, "IN_STEP") else { return };
+        let table = room.path().join("a.csv");
+        ended(&room, "run", &["--stop", "6", "--output", shown(&table)], 0);
+        assert_eq!(rows(&table), ["0,0", "1,1", "2,2", "3,3", "4,4", "5,5", "6,6"], "{deed}");
+    }
+}
+
+#[test]
+fn a_check_outlives_every_fmu_and_leaves_nothing() {
+    for (deed, place, says) in [
+        (
+            "EXITS",
+            "IN_STEP",
+            "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): the process died",
+        ),
+        ("CRASHES", "IN_STEP", "segmentation fault"),
+        ("CRASHES", "AT_LOADING", "loading the shared library: the process died"),
+        ("SLEEPS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
+        ("SPINS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
+        // Of 64 MiB each, with those of the process itself 4 GiB.
+        ("ALLOCATES", "IN_INSTANTIATE", "it could allocate 6"),
+        ("LIES", "IN_INSTANTIATE", "fmi2Instantiate: the process died: it exited with status 0"),
+        // Fewer than it may, for the process has files of its own.
+        ("OPENS", "IN_INSTANTIATE", "it could open 10"),
+    ] {
+        let Some(room) = hostile(deed, place) else { return };
+        let said = ended(&room, "check", &["--only", "flight", "--timeout", "1s"], 1);
+        assert!(said.contains(says), "{deed}: {said}");
+        // What it printed last is quoted, and nothing it printed is a verdict.
+        let is_verdict = |line: &str| line.contains("everything is fine") && !line.contains("| ");
+        assert!(!said.lines().any(is_verdict) && said.contains("1 wrong"), "{deed}: {said}");
+    }
+}
+
+#[test]
+fn a_check_takes_no_verdict_from_a_fork_and_waits_for_none() {
+    for deed in ["FORKS", "RETURNS_TWICE"] {
+        let Some(room) = hostile(deed, "IN_INSTANTIATE") else { return };
+        let said = ended(&room, "check", &["--only", "flight", "--timeout", "20s", "--verbose"], 0);
+        assert_eq!(said.matches("comes to its end").count().max(1), 1, "{said}");
+        assert!(!said.contains("hangs") && !said.contains("WRONG  "), "{said}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_check_of_an_fmu_that_prints_without_end_stays_small() {
+    let Some(room) = hostile("PRINTS", "IN_INSTANTIATE") else { return };
+    let mut child = start(command(&room, "check", &["--only", "flight"]));
+    let mut most_kb = 0;
+    while child.try_wait().unwrap().is_none() {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let peak = peak.and_then(|text| text.trim().strip_suffix(" kB")?.parse::<u64>().ok());
+        most_kb = most_kb.max(peak.unwrap_or(0));
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let said = text(&wait(child));
+    assert!(said.contains("fmi2Instantiate: prints without end: more than 16 MiB"), "{said}");
+    assert!((1..100_000).contains(&most_kb), "{most_kb} kB");
+    nothing_left(&room);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn signals_end_what_hangs_and_leave_nothing() {
+    for (name, place) in [("run", "IN_STEP"), ("check", "IN_INSTANTIATE")] {
+        for signal_name in ["INT", "TERM", "HUP"] {
+            let Some(room) = hostile("SLEEPS", place) else { return };
+            let table = room.path().join("a.csv");
+            let more: &[&str] =
+                if name == "run" { &["--output", shown(&table)] } else { &["--only", "flight"] };
+            let child = start(command(&room, name, more));
+            // Parent and child; the run has sent its rows.
+            let began = Instant::now();
+            let is_ready = || {
+                let hangs = name == "check" || rows(&room.path().join("a.csv.part")).len() == 4;
+                hangs && processes(room.path()).len() == 2
+            };
+            while !is_ready() {
+                assert!(began.elapsed() < LONG, "it does not begin");
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            signal(&child, signal_name);
+            let output = wait(child);
+            let said = text(&output);
+            assert_eq!(output.status.code(), Some(130), "{name}, {signal_name}: {said}");
+            nothing_left(&room);
+            if name == "run" {
+                assert!(said.contains("interrupted at 3 s") && said.contains("fmi2DoStep("), "{said}");
+                assert_eq!(rows(&table).len(), 4);
+                assert!(!room.path().join("a.csv.part").exists());
+            }
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_that_is_killed_leaves_whole_rows_and_no_process() {
+    let Some(room) = hostile("SLEEPS", "IN_STEP") else { return };
+    let (table, part) = (room.path().join("a.csv"), room.path().join("a.csv.part"));
+    fs::write(&table, "the last good one").unwrap();
+    let mut child = start(command(&room, "run", &["--output", shown(&table)]));
+    let began = Instant::now();
+    while rows(&part).len() < 4 {
+        assert!(began.elapsed() < LONG, "it does not begin");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    nothing_left(&room);
+    assert_eq!(rows(&part).len(), 4);
+    assert_eq!(fs::read_to_string(&table).unwrap(), "the last good one");
+    // The next run takes its place.
+    ended(&room, "run", &["--stop", "3", "--output", shown(&table)], 0);
+    assert_eq!(rows(&table).len(), 4);
+    assert!(!part.exists());
+}
+
+#[test]
+fn what_an_fmu_says_moves_no_cursor() {
+    let Some(room) = hostile("STAINS", "IN_STEP") else { return };
+    let said = ended(&room, "run", &["--log"], 1);
+    assert!(
+        said.contains("\\u{1b}[2Jcleared\\u{7}") && said.contains("\\u{1b}]0;title\\u{7} a\\rb"),
+        "{said}"
+    );
+    let is_control = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
+    assert!(!said.contains(is_control), "{said:?}");
+    // Names and texts of the description too.
+    let xml = DESCRIPTION.replace("guid=", "description=\"&#x9b;2J &#x85;\" guid=");
+    fs::write(room.path().join("fmu/modelDescription.xml"), xml).unwrap();
+    let said = ended(&room, "info", &[], 0);
+    assert!(said.contains("\\u{9b}2J") && !said.contains(is_control), "{said:?}");
+}

@@ -1,0 +1,397 @@
+//! Files to write, looked at before the work whose result they take.
+
+use std::{
+    ffi::OsString,
+    fs::{self, File, Metadata, OpenOptions},
+    io::{self, BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+use tempfile::NamedTempFile;
+
+use crate::{input::kind, temporary::Registered};
+
+/// The name that stands for the standard output.
+const STDOUT: &str = "-";
+
+/// A file that can be written. Until its new content is complete, what stood in it stays.
+#[derive(Debug)]
+pub struct Destination {
+    path: PathBuf,
+    option: &'static str,
+    // Behind all symbolic links; `None` is the standard output.
+    target: Option<PathBuf>,
+}
+
+impl Destination {
+    /// Looks at the file that `option` names; `-` is the standard output. Refused: what is no regular file, what
+    /// cannot be written, and what is one of `inputs` (files, or folders with all that is in them), under whatever
+    /// name. Folders are not created.
+    pub fn open(path: &Path, option: &'static str, inputs: &[&Path]) -> Result<Self, String> {
+        if path == Path::new(STDOUT) {
+            return Ok(Self { path: path.to_owned(), option, target: None });
+        }
+        let refuse = |what: String| format!("{}: {what}: see {option}", path.display());
+        let target = behind_links(path).map_err(|error| refuse(error.to_string()))?;
+        let folder = folder_of(&target);
+        if !folder.exists() {
+            return Err(refuse(format!("there is no folder {}, and none is created", folder.display())));
+        }
+        check(&target, inputs).map_err(refuse)?;
+        let destination = Self { path: path.to_owned(), option, target: Some(target) };
+        // Its folder has to take a new file.
+        destination.temporary().map_err(|error| destination.told(&error))?;
+        Ok(destination)
+    }
+
+    /// Whether it is the standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.target.is_none()
+    }
+
+    /// Whether both lead to one place.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (&self.target, &other.target) {
+            (Some(one), Some(two)) => one == two || is_one_file(one, two) || is_beside(one, two),
+            (None, None) => true,
+            _ => false,
+        }
+    }
+
+    /// Replaces the content by what `write` writes, all of it or nothing.
+    pub fn fill(self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), String> {
+        self.replace(write).map_err(|error| self.told(&error))
+    }
+
+    /// Takes a recording in progress: it grows as `<name>.part`, on the standard output as it is.
+    ///
+    /// A `.part` of an earlier recording is replaced once there is something to write.
+    pub fn grow(self, inputs: &[&Path]) -> Result<Growing, String> {
+        let part = self.target.as_deref().map(part_of);
+        if let Some(part) = &part {
+            check(part, inputs).map_err(|what| format!("{}: {what}: see {}", part.display(), self.option))?;
+        }
+        Ok(Growing { destination: self, part, file: None })
+    }
+
+    fn replace(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+        let Some(target) = &self.target else {
+            let mut out = BufWriter::new(io::stdout().lock());
+            return gone_reader_is_no_error(write(&mut out).and_then(|()| out.flush()));
+        };
+        let (temporary, _registered) = self.temporary()?;
+        let mut buffered = BufWriter::new(temporary.as_file());
+        write(&mut buffered)?;
+        buffered.flush()?;
+        drop(buffered);
+        keep_permissions(temporary.as_file(), target)?;
+        temporary.persist(target).map_err(|error| error.error)?;
+        Ok(())
+    }
+
+    /// A new file in the folder of the target.
+    fn temporary(&self) -> io::Result<(NamedTempFile, Registered)> {
+        let target = self.target.as_deref().unwrap_or(Path::new(STDOUT));
+        let mut prefix = OsString::from(".");
+        prefix.push(target.file_name().unwrap_or_default());
+        prefix.push(".");
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(&prefix).suffix(".tmp");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // What a program makes by default; the user's mask takes away from it.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let temporary = builder.tempfile_in(folder_of(target))?;
+        let registered = Registered::new(temporary.path());
+        Ok((temporary, registered))
+    }
+
+    fn told(&self, error: &io::Error) -> String {
+        format!("{}: {error}: see {}", self.path.display(), self.option)
+    }
+}
+
+/// A recording in progress: whole rows in `<name>.part`, which takes its name when it is complete.
+#[derive(Debug)]
+pub struct Growing {
+    destination: Destination,
+    part: Option<PathBuf>,
+    file: Option<File>,
+}
+
+impl Growing {
+    /// Appends these bytes at once.
+    pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
+        self.write(bytes).map_err(|error| match &self.part {
+            Some(part) => format!("{}: {error}: see {}", part.display(), self.destination.option),
+            None => self.destination.told(&error),
+        })
+    }
+
+    /// Gives the complete recording its name.
+    pub fn finish(mut self) -> Result<(), String> {
+        self.rename().map_err(|error| self.destination.told(&error))
+    }
+
+    /// Leaves what was recorded as it is and tells where, if anything was.
+    pub fn leave(self) -> Option<PathBuf> {
+        self.part.filter(|_| self.file.is_some())
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let Some(part) = &self.part else {
+            let mut out = io::stdout().lock();
+            return gone_reader_is_no_error(out.write_all(bytes).and_then(|()| out.flush()));
+        };
+        let file = match &mut self.file {
+            Some(file) => file,
+            None => {
+                match fs::remove_file(part) {
+                    Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                    _ => {}
+                }
+                // New, so that no link that somebody put there is followed.
+                self.file.insert(File::create_new(part)?)
+            }
+        };
+        file.write_all(bytes)
+    }
+
+    fn rename(&mut self) -> io::Result<()> {
+        self.write(&[])?;
+        let (Some(part), Some(target)) = (&self.part, &self.destination.target) else { return Ok(()) };
+        if let Some(file) = &self.file {
+            keep_permissions(file, target)?;
+        }
+        fs::rename(part, target)
+    }
+}
+
+/// Why a file cannot be the target: it is of another kind, not to be written, or an input.
+fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
+    let metadata = match fs::symlink_metadata(target) {
+        Ok(metadata) => Some(metadata),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(error.to_string()),
+    };
+    if let Some(found) = metadata.as_ref().and_then(kind) {
+        return Err(format!("found {found}, allowed: a regular file or - for the standard output"));
+    }
+    for input in inputs {
+        if is_one_file(target, input) || is_inside(target, input) {
+            return Err(format!("it is an input too, {}", input.display()));
+        }
+    }
+    if metadata.is_some() {
+        // A file that is protected against writing is not replaced.
+        OpenOptions::new().write(true).open(target).map_err(|error| error.to_string())?;
+    }
+    Ok(())
+}
+
+fn part_of(target: &Path) -> PathBuf {
+    let mut name = target.as_os_str().to_owned();
+    name.push(".part");
+    PathBuf::from(name)
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// The path behind symbolic links, also where the last one leads to nothing yet.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    const LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..LINKS {
+        match fs::symlink_metadata(&path) {
+            Ok(metadata) if metadata.is_symlink() => path = folder_of(&path).join(fs::read_link(&path)?),
+            _ => return Ok(path),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+/// Whether two new files in existing folders have one path.
+fn is_beside(one: &Path, two: &Path) -> bool {
+    let whole = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));
+    whole(one).is_some_and(|place| whole(two) == Some(place))
+}
+
+/// Whether both exist and are one file, by device and number where the system has them.
+fn is_one_file(one: &Path, two: &Path) -> bool {
+    let (Ok(first), Ok(second)) = (fs::metadata(one), fs::metadata(two)) else { return false };
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let identity = |metadata: &Metadata| (metadata.dev(), metadata.ino());
+        identity(&first) == identity(&second)
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = (first, second);
+        fs::canonicalize(one).is_ok_and(|one| fs::canonicalize(two).is_ok_and(|two| one == two))
+    }
+}
+
+/// Whether a file is one of a folder's files, or would become one.
+fn is_inside(target: &Path, folder: &Path) -> bool {
+    let is_folder = fs::metadata(folder).is_ok_and(|metadata| metadata.is_dir());
+    is_folder
+        && fs::canonicalize(folder_of(target))
+            .is_ok_and(|place| fs::canonicalize(folder).is_ok_and(|folder| place.starts_with(folder)))
+}
+
+fn keep_permissions(file: &File, target: &Path) -> io::Result<()> {
+    match fs::metadata(target) {
+        Ok(metadata) => file.set_permissions(metadata.permissions()),
+        Err(_) => Ok(()),
+    }
+}
+
+fn gone_reader_is_no_error(outcome: io::Result<()>) -> io::Result<()> {
+    match outcome {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Content changes only when it is replaced whole, and nothing else stays behind.
+
+    use super::*;
+
+    fn open(path: &Path) -> Result<Destination, String> {
+        Destination::open(path, "--output", &[])
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn an_unused_destination_leaves_no_trace() {
+        let room = tempfile::tempdir().unwrap();
+        let (new, old) = (room.path().join("new"), room.path().join("old"));
+        fs::write(&old, "precious").unwrap();
+        for path in [&new, &old] {
+            drop(open(path).unwrap());
+            drop(open(path).unwrap().grow(&[]).unwrap());
+        }
+        assert_eq!(names(room.path()), ["old"]);
+        assert_eq!(fs::read_to_string(&old).unwrap(), "precious");
+    }
+
+    #[test]
+    fn a_filled_destination_holds_the_new_content_only() {
+        let room = tempfile::tempdir().unwrap();
+        let (new, old) = (room.path().join("new"), room.path().join("old"));
+        fs::write(&old, "precious").unwrap();
+        for path in [&new, &old] {
+            open(path).unwrap().fill(|file| file.write_all(b"ours")).unwrap();
+            assert_eq!(fs::read_to_string(path).unwrap(), "ours");
+        }
+        assert_eq!(names(room.path()), ["new", "old"]);
+    }
+
+    #[test]
+    fn content_that_cannot_be_completed_changes_nothing() {
+        let room = tempfile::tempdir().unwrap();
+        let old = room.path().join("old");
+        fs::write(&old, "precious").unwrap();
+        let told = open(&old).unwrap().fill(|file| {
+            file.write_all(b"torn")?;
+            Err(io::Error::other("the disk is full"))
+        });
+        assert!(told.unwrap_err().ends_with("old: the disk is full: see --output"));
+        assert_eq!(fs::read_to_string(&old).unwrap(), "precious");
+        assert_eq!(names(room.path()), ["old"]);
+    }
+
+    #[test]
+    fn a_recording_grows_as_part_until_it_is_complete() {
+        let room = tempfile::tempdir().unwrap();
+        let (path, part) = (room.path().join("a.csv"), room.path().join("a.csv.part"));
+        fs::write(&path, "old").unwrap();
+        let mut growing = open(&path).unwrap().grow(&[]).unwrap();
+        growing.append(b"1\n").unwrap();
+        assert_eq!((fs::read(&path).unwrap(), fs::read(&part).unwrap()), (b"old".to_vec(), b"1\n".to_vec()));
+        growing.append(b"2\n").unwrap();
+        growing.finish().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"1\n2\n");
+        assert_eq!(names(room.path()), ["a.csv"]);
+
+        let mut growing = open(&path).unwrap().grow(&[]).unwrap();
+        growing.append(b"3\n").unwrap();
+        assert_eq!(growing.leave().as_deref(), Some(part.as_path()));
+        assert_eq!(
+            (fs::read(&path).unwrap(), fs::read(&part).unwrap()),
+            (b"1\n2\n".to_vec(), b"3\n".to_vec())
+        );
+        // What is in the way of the recording is an input: it is kept.
+        let told = open(&path).unwrap().grow(&[&part]).unwrap_err();
+        assert!(told.contains("an input too"), "{told}");
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_told_with_its_option() {
+        let room = tempfile::tempdir().unwrap();
+        let told = |path: &Path| Destination::open(path, "--plot", &[]).err().unwrap();
+        let folder = told(&room.path().join("no/such/a.svg"));
+        assert!(folder.contains("there is no folder") && folder.ends_with("see --plot"), "{folder}");
+        let folder = told(room.path());
+        assert!(folder.contains("found a directory") && folder.ends_with("see --plot"), "{folder}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn an_input_is_no_target_under_any_name() {
+        let room = tempfile::tempdir().unwrap();
+        let at = |name: &str| room.path().join(name);
+        fs::write(at("input"), "precious").unwrap();
+        fs::hard_link(at("input"), at("hard")).unwrap();
+        std::os::unix::fs::symlink(at("input"), at("soft")).unwrap();
+        std::os::unix::fs::symlink("soft", at("softer")).unwrap();
+        fs::create_dir(at("folder")).unwrap();
+        for name in ["input", "folder/../input", "hard", "soft", "softer"] {
+            let told = Destination::open(&at(name), "--output", &[&at("input")]).unwrap_err();
+            assert!(told.contains("it is an input too") && told.ends_with("see --output"), "{told}");
+        }
+        for name in ["folder/new", "folder/../folder/new"] {
+            let told = Destination::open(&at(name), "--output", &[&at("folder")]).unwrap_err();
+            assert!(told.contains("it is an input too"), "{told}");
+        }
+        let (one, two) = (open(&at("new")).unwrap(), open(&at("folder/../new")).unwrap());
+        assert!(one.is_same(&two) && !one.is_same(&open(&at("other")).unwrap()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_permissions_are_kept_and_devices_refused() {
+        use std::os::unix::fs::PermissionsExt;
+        let room = tempfile::tempdir().unwrap();
+        let at = |name: &str| room.path().join(name);
+        fs::write(at("old"), "old").unwrap();
+        fs::set_permissions(at("old"), fs::Permissions::from_mode(0o640)).unwrap();
+        std::os::unix::fs::symlink("old", at("link")).unwrap();
+        std::os::unix::fs::symlink("new", at("dangling")).unwrap();
+        for (link, target) in [("link", "old"), ("dangling", "new")] {
+            open(&at(link)).unwrap().fill(|file| file.write_all(b"ours")).unwrap();
+            assert!(fs::symlink_metadata(at(link)).unwrap().is_symlink());
+            assert_eq!(fs::read(at(target)).unwrap(), b"ours");
+        }
+        assert_eq!(fs::metadata(at("old")).unwrap().permissions().mode() & 0o777, 0o640);
+        let told = open(Path::new("/dev/null")).unwrap_err();
+        assert!(told.contains("found a character device, allowed: a regular file or -"), "{told}");
+    }
+}

@@ -1,0 +1,69 @@
+//! Inputs: regular files only, so that nothing waits for a FIFO or reads a device without end.
+
+use std::{
+    fs::{File, Metadata},
+    io::{self, Read},
+    path::Path,
+};
+
+/// What a file is if it is no regular file; `None` for a regular file.
+pub fn kind(metadata: &Metadata) -> Option<&'static str> {
+    let kind = metadata.file_type();
+    if kind.is_file() {
+        return None;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let kinds = [
+            (kind.is_fifo(), "a FIFO"),
+            (kind.is_char_device(), "a character device"),
+            (kind.is_block_device(), "a block device"),
+            (kind.is_socket(), "a socket"),
+        ];
+        if let Some((_, name)) = kinds.into_iter().find(|(is, _)| *is) {
+            return Some(name);
+        }
+    }
+    Some(if kind.is_dir() { "a directory" } else { "no regular file" })
+}
+
+/// Opens a regular file for reading; anything else is an error that says what was found.
+pub fn open(path: &Path) -> io::Result<File> {
+    // Looked at before it is opened: opening a FIFO waits for its writer.
+    refuse(&std::fs::metadata(path)?)?;
+    let file = File::open(path)?;
+    refuse(&file.metadata()?)?;
+    Ok(file)
+}
+
+/// Reads a regular file whole.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open(path)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn refuse(metadata: &Metadata) -> io::Result<()> {
+    match kind(metadata) {
+        None => Ok(()),
+        Some(found) => Err(io::Error::other(format!("found {found}, allowed: a regular file"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_regular_files_are_read() {
+        let room = tempfile::tempdir().unwrap();
+        let file = room.path().join("file");
+        std::fs::write(&file, "text").unwrap();
+        assert_eq!(read(&file).unwrap(), b"text");
+        assert!(read(room.path()).unwrap_err().to_string().contains("a directory"));
+        assert_eq!(read(&room.path().join("none")).unwrap_err().kind(), io::ErrorKind::NotFound);
+        #[cfg(unix)]
+        assert!(read(Path::new("/dev/null")).unwrap_err().to_string().contains("a character device"));
+    }
+}

@@ -1,0 +1,13 @@
+//! Files of the harness: inputs that are regular files, outputs that are whole or absent.
+//!
+//! Every file that a command writes goes through [`Destination`]: it is written beside its target and renamed. A
+//! recording in progress is a [`Growing`] file, `<name>.part`. Temporary files and folders are known to
+//! [`remove_temporaries`], which a signal handler calls.
+
+mod destination;
+mod input;
+mod temporary;
+
+pub use destination::{Destination, Growing};
+pub use input::{kind, open, read};
+pub use temporary::{Scratch, remove_temporaries};

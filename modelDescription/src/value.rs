@@ -1,0 +1,266 @@
+//! Values of any base type: how people write them, and which of them a variable admits.
+
+use core::fmt;
+
+use crate::{Description, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind, VariableKind};
+
+/// A value of a variable; Enumerations are Integers at the interface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Real, in the variable's unit.
+    Real(f64),
+    /// Integer or Enumeration.
+    Integer(i32),
+    /// Boolean.
+    Boolean(bool),
+    /// String.
+    Text(String),
+}
+
+impl fmt::Display for Value {
+    /// Reals in the shortest form that reads back to the same bits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Real(value) => write!(f, "{value}"),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Boolean(value) => write!(f, "{value}"),
+            Self::Text(value) => write!(f, "{value}"),
+        }
+    }
+}
+
+impl Value {
+    /// As a number: Booleans are 0 and 1, texts NaN.
+    pub fn to_f64(&self) -> f64 {
+        match self {
+            Self::Real(value) => *value,
+            Self::Integer(value) => f64::from(*value),
+            Self::Boolean(value) => f64::from(u8::from(*value)),
+            Self::Text(_) => f64::NAN,
+        }
+    }
+}
+
+/// Why a value does not fit its variable.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Misfit {
+    /// What was found.
+    pub found: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+impl Misfit {
+    /// Of what was found and what is allowed.
+    pub fn new(found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self { found: found.into(), allowed: allowed.into() }
+    }
+}
+
+impl fmt::Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "found {}, allowed: {}", self.found, self.allowed)
+    }
+}
+
+impl std::error::Error for Misfit {}
+
+/// Unit of a Real, its own or its declared type's.
+pub fn unit<'a>(description: &'a Description, variable: &'a ScalarVariable) -> Option<&'a str> {
+    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return None };
+    attributes.unit.as_deref().or_else(|| real_type(description, declared_type.as_deref()?)?.unit.as_deref())
+}
+
+/// The display unit of a Real as (name, factor, offset): value_display = factor * value + offset.
+///
+/// `None` where the variable has no display unit or its unit does not define it.
+pub fn display_unit<'a>(
+    description: &'a Description,
+    variable: &'a ScalarVariable,
+) -> Option<(&'a str, f64, f64)> {
+    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return None };
+    let name = attributes
+        .display_unit
+        .as_deref()
+        .or_else(|| real_type(description, declared_type.as_deref()?)?.display_unit.as_deref())?;
+    let unit = unit(description, variable)?;
+    let unit = description.units.iter().find(|candidate| candidate.name == unit)?;
+    let display = unit.display_units.iter().find(|candidate| candidate.name == name)?;
+    Some((name, display.factor, display.offset))
+}
+
+fn real_type<'a>(description: &'a Description, name: &str) -> Option<&'a RealAttributes> {
+    description.types.iter().find(|candidate| candidate.name == name).and_then(|found| match &found.kind {
+        SimpleTypeKind::Real(attributes) => Some(attributes),
+        _ => None,
+    })
+}
+
+/// The items of an Enumeration; none of any other variable.
+pub fn items<'a>(description: &'a Description, variable: &ScalarVariable) -> &'a [EnumerationItem] {
+    let VariableKind::Enumeration { declared_type, .. } = &variable.kind else { return &[] };
+    let found = description.types.iter().find_map(|candidate| match &candidate.kind {
+        SimpleTypeKind::Enumeration { items, .. } if candidate.name == *declared_type => Some(items),
+        _ => None,
+    });
+    found.map(Vec::as_slice).unwrap_or_default()
+}
+
+/// What may be written for a variable, in words.
+pub fn allowed(description: &Description, variable: &ScalarVariable) -> String {
+    match &variable.kind {
+        VariableKind::Real { .. } => match units(description, variable).join(", ") {
+            units if units.is_empty() || units == "1" => "a number".to_owned(),
+            units => format!("a number, with one of the units {units}"),
+        },
+        VariableKind::Integer { .. } => "a whole number within 32 bits".to_owned(),
+        VariableKind::Boolean { .. } => "true or false".to_owned(),
+        VariableKind::String { .. } => "a string".to_owned(),
+        VariableKind::Enumeration { .. } => {
+            let items = items(description, variable);
+            let names: Vec<String> =
+                items.iter().map(|item| format!("{} ({})", item.name, item.value)).collect();
+            if names.is_empty() { "an item's number".to_owned() } else { names.join(", ") }
+        }
+    }
+}
+
+/// The unit of a Real and its display units.
+fn units(description: &Description, variable: &ScalarVariable) -> Vec<String> {
+    let Some(name) = unit(description, variable) else { return Vec::new() };
+    let known = description.units.iter().find(|candidate| candidate.name == name);
+    let displays = known.map(|unit| unit.display_units.as_slice()).unwrap_or_default();
+    core::iter::once(name.to_owned()).chain(displays.iter().map(|display| display.name.clone())).collect()
+}
+
+/// Reads `text` as a value of `variable`.
+///
+/// Reals are in the variable's unit, or carry a suffix: the unit itself or one of its display units
+/// (`5deg`, `2.54 cm`). Enumerations take the item's name or number, Booleans `true`, `false`, `1`, `0`.
+pub fn read(description: &Description, variable: &ScalarVariable, text: &str) -> Result<Value, Misfit> {
+    let text = text.trim();
+    let misfit = || Misfit::new(format!("{text:?}"), allowed(description, variable));
+    match &variable.kind {
+        VariableKind::Real { .. } => read_real(description, variable, text).map(Value::Real),
+        VariableKind::Integer { .. } => text.parse().map(Value::Integer).map_err(|_| misfit()),
+        VariableKind::Boolean { .. } => match text {
+            "true" | "1" => Ok(Value::Boolean(true)),
+            "false" | "0" => Ok(Value::Boolean(false)),
+            _ => Err(Misfit::new(format!("{text:?}"), "true, false, 1, 0")),
+        },
+        VariableKind::String { .. } => Ok(Value::Text(text.to_owned())),
+        VariableKind::Enumeration { .. } => {
+            let by_name = items(description, variable).iter().find(|item| item.name == text);
+            match by_name {
+                Some(item) => Ok(Value::Integer(item.value)),
+                None => text.parse().map(Value::Integer).map_err(|_| misfit()),
+            }
+        }
+    }
+}
+
+fn read_real(description: &Description, variable: &ScalarVariable, text: &str) -> Result<f64, Misfit> {
+    let misfit = |found: String| Misfit::new(found, allowed(description, variable));
+    let no_number = || misfit(format!("{text:?}, which is no number"));
+    // The longest prefix that reads as a number; what follows is the unit. Words such as `inf` are no numbers
+    // here, so that a unit may begin with any letter.
+    let split = (1..=text.len())
+        .rev()
+        .filter(|&end| text.is_char_boundary(end))
+        .find(|&end| {
+            let number = text[..end].trim_end();
+            number.ends_with(|last: char| last.is_ascii_digit() || last == '.')
+                && number.parse::<f64>().is_ok()
+        })
+        .ok_or_else(no_number)?;
+    let number: f64 = text[..split].trim_end().parse().map_err(|_| no_number())?;
+    if !number.is_finite() {
+        return Err(misfit(format!("{text:?}, which is beyond the largest number")));
+    }
+    let suffix = text[split..].trim();
+    if suffix.is_empty() {
+        return Ok(number);
+    }
+    let Some(unit_name) = unit(description, variable) else {
+        let found = format!("{text:?} with the unit {suffix:?}");
+        return Err(Misfit::new(found, "a number alone: the variable has no unit"));
+    };
+    if suffix == unit_name {
+        return Ok(number);
+    }
+    let unit = description.units.iter().find(|candidate| candidate.name == unit_name);
+    let displays = unit.map(|unit| unit.display_units.as_slice()).unwrap_or_default();
+    match displays.iter().find(|display| display.name == suffix) {
+        Some(display) => Ok((number - display.offset) / display.factor),
+        None => Err(misfit(format!("{text:?} with the unknown unit {suffix:?}"))),
+    }
+}
+
+/// Checks that a variable admits a value: its base type, `min` and `max`, the items of its Enumeration.
+pub fn check(description: &Description, variable: &ScalarVariable, value: &Value) -> Result<(), Misfit> {
+    let found = || match value {
+        Value::Text(text) => format!("{text:?}"),
+        other => other.to_string(),
+    };
+    let between = |min: Option<String>, max: Option<String>, unit: Option<&str>| {
+        let unit = unit.filter(|unit| *unit != "1").map(|unit| format!(" {unit}")).unwrap_or_default();
+        match (min, max) {
+            (Some(min), Some(max)) => format!("a number from {min} to {max}{unit}"),
+            (Some(min), None) => format!("a number from {min}{unit} up"),
+            (None, Some(max)) => format!("a number up to {max}{unit}"),
+            (None, None) => allowed(description, variable),
+        }
+    };
+    let range = match (&variable.kind, value) {
+        (VariableKind::Real { declared_type, attributes, .. }, Value::Real(number)) => {
+            let of_type = declared_type.as_deref().and_then(|name| real_type(description, name));
+            let min = attributes.min.or_else(|| of_type?.min);
+            let max = attributes.max.or_else(|| of_type?.max);
+            if number.is_finite()
+                && min.is_none_or(|min| *number >= min)
+                && max.is_none_or(|max| *number <= max)
+            {
+                return Ok(());
+            }
+            let short = |bound: f64| {
+                if bound == 0.0 || (1e-3..1e7).contains(&bound.abs()) {
+                    bound.to_string()
+                } else {
+                    format!("{bound:e}")
+                }
+            };
+            between(min.map(short), max.map(short), unit(description, variable))
+        }
+        (VariableKind::Integer { min, max, .. }, Value::Integer(number)) => {
+            if min.is_none_or(|min| *number >= min) && max.is_none_or(|max| *number <= max) {
+                return Ok(());
+            }
+            between(min.map(|min| min.to_string()), max.map(|max| max.to_string()), None)
+        }
+        (VariableKind::Enumeration { .. }, Value::Integer(number)) => {
+            if items(description, variable).iter().any(|item| item.value == *number) {
+                return Ok(());
+            }
+            allowed(description, variable)
+        }
+        (VariableKind::Boolean { .. }, Value::Boolean(_)) | (VariableKind::String { .. }, Value::Text(_)) => {
+            return Ok(());
+        }
+        _ => allowed(description, variable),
+    };
+    Err(Misfit::new(found(), range))
+}
+
+/// Makes `value` the start value; a value of another base type changes nothing.
+pub fn set_start(variable: &mut ScalarVariable, value: &Value) {
+    match (&mut variable.kind, value) {
+        (VariableKind::Real { start, .. }, Value::Real(value)) => *start = Some(*value),
+        (
+            VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. },
+            Value::Integer(value),
+        ) => *start = Some(*value),
+        (VariableKind::Boolean { start, .. }, Value::Boolean(value)) => *start = Some(*value),
+        (VariableKind::String { start, .. }, Value::Text(value)) => *start = Some(value.clone()),
+        _ => {}
+    }
+}

@@ -1,0 +1,31 @@
+//! Any text is a spacecraft or spinner, or refused with what is wrong; what is accepted describes a lawful FMU.
+#![no_main]
+
+use heliotorque_fuzz::library;
+use libfuzzer_sys::fuzz_target;
+use model_description::{Severity, validate};
+use physics::spacecraft::{Spacecraft, SpacecraftError};
+use physics::spin::spinner::Spinner;
+
+/// Whether the file was read; what was refused is told.
+fn read<T>(outcome: Result<T, SpacecraftError>) -> bool {
+    if let Err(error) = &outcome {
+        assert!(error.to_string().starts_with("any.toml"), "{error}");
+    }
+    outcome.is_ok()
+}
+
+fuzz_target!(|text: &str| {
+    let models = [
+        ("MomentumPlant", read(Spacecraft::from_toml("any.toml", text))),
+        ("SpinPlant", read(Spinner::parse("any.toml", text))),
+    ];
+    for (model, accepted) in models {
+        let described = library(model).find(model).map(|entry| entry.describe(None, Some(text)));
+        let Some(Ok(description)) = described else { continue };
+        assert!(accepted, "{model}: described what its reader refuses");
+        let wrong: Vec<_> =
+            validate(&description).into_iter().filter(|it| it.severity() == Severity::Error).collect();
+        assert!(wrong.is_empty(), "{model}: {wrong:?}");
+    }
+});

@@ -1,0 +1,173 @@
+"""Loops of our FMUs under masters that send zeros before the first exchange: FMPy's SSP simulation and container FMU."""
+
+import numpy as np
+import pytest
+from fmpy import read_model_description, simulate_fmu
+
+from flight import vector
+from masters import container, elements, fly_ssp, wires
+from spacecraft import RESOURCES, call
+
+LIGHT_W_M2 = 1361.0
+STEP_S, STOP_S = 30.0, 43_200.0
+
+
+def packed(heliotorque, dist, folder, model, name, spacecraft, *settings):
+    """An FMU with start values of its own."""
+    fmu = folder / f"{name}.fmu"
+    sets = [word for setting in settings for word in ("--set", setting)]
+    template = (dist / f"{model}.fmu").resolve()
+    done = call(
+        heliotorque, "pack", "--template", template, "--model", model, "--name", name, "--output", fmu,
+        "--spacecraft", RESOURCES / spacecraft, *sets,
+    )
+    assert done.returncode == 0, done.stderr
+    return fmu
+
+
+@pytest.fixture(scope="module")
+def room(tmp_path_factory):
+    return tmp_path_factory.mktemp("loops")
+
+
+@pytest.fixture(scope="module")
+def light_loop(heliotorque, dist, room):
+    """A plant in the dark, lit by a DisturbanceTorque of the same spacecraft; and the plant that does it alone."""
+    # Body components integrated on their own: a delayed torque is the same torque, whatever way the body has turned.
+    settings = ("gravityGradient.enabled=false", "momentum.convention=bodyIntegral")
+    flux = f"solar.flux={LIGHT_W_M2}"
+    center = "spacecraft.centerOfMass=0.02,0.01,-0.05"
+    dark = packed(heliotorque, dist, room, "MomentumPlant", "dark", "messenger.toml", *settings, center, "solar.flux=0")
+    alone = packed(heliotorque, dist, room, "MomentumPlant", "alone", "messenger.toml", *settings, center, flux)
+    light = packed(
+        heliotorque, dist, room, "DisturbanceTorque", "light", "messenger.toml", center, flux, "shadowing.enabled=false"
+    )
+    connections = [
+        *wires("plant.sun.positionBody", "light.sun.positionBody", 3),
+        *wires("plant.planet.positionBody", "light.planet.positionBody", 3),
+        ("plant.panel[1].angleActual", "light.panel[1].angle"),
+        ("plant.panel[2].angleActual", "light.panel[2].angle"),
+        *wires("light.torque.solar", "plant.torque.applied", 3),
+    ]
+    return {"plant": dark, "light": light}, connections, alone
+
+
+def momentum_alone(alone):
+    names = [*vector("momentum.body"), *vector("torque.solar")]
+    result = simulate_fmu(str(alone), stop_time=STOP_S, step_size=STEP_S, output_interval=STEP_S, output=names)
+    momentum = np.array([result[name][-1] for name in vector("momentum.body")])
+    torque = np.column_stack([result[name] for name in vector("torque.solar")])
+    return momentum, np.linalg.norm(torque, axis=1).max()
+
+
+def assert_close(momentum, alone, step_s):
+    """What a loop lacks is what the torque held over a step and told two steps late comes to."""
+    expected, most_n_m = momentum_alone(alone)
+    assert np.abs(expected).min() > 4.0 * step_s * most_n_m, "no momentum to compare"
+    assert np.linalg.norm(momentum - expected) < 4.0 * step_s * most_n_m
+    return np.linalg.norm(momentum - expected)
+
+
+def test_an_ssp_of_plant_and_torque_flies_as_the_plant_alone(light_loop, tmp_path):
+    components, connections, alone = light_loop
+    lags = []
+    for step_s in (STEP_S, 2.0 * STEP_S):
+        folder = tmp_path / f"{step_s:.0f}"
+        folder.mkdir()
+        result = fly_ssp(folder, components, connections, step_s, STOP_S, outputs=elements("plant.momentum.body", 3))
+        momentum = np.array([result[name][-1] for name in elements("plant.momentum.body", 3)])
+        lags.append(assert_close(momentum, alone, step_s))
+        # Both were sent zeros before the first exchange, and answered with none.
+        first, last = result[0], result[-1]
+        assert [first[name] for name in elements("light.torque.solar", 3)] == [0.0, 0.0, 0.0]
+        assert np.linalg.norm([last[name] for name in elements("light.torque.solar", 3)]) > 0.0
+    # The delay is a matter of the step alone.
+    assert 1.8 < lags[1] / lags[0] < 2.2
+
+
+def test_a_container_of_plant_and_torque_flies_as_the_plant_alone(light_loop, tmp_path):
+    components, connections, alone = light_loop
+    outputs = [*elements("plant.momentum.body", 3), *elements("light.torque.solar", 3)]
+    fmu = container(tmp_path / "light-container.fmu", components, connections, STEP_S, outputs)
+    result = simulate_fmu(fmu, stop_time=STOP_S, step_size=STEP_S, output_interval=STEP_S, output=outputs, validate=False)
+    assert result["time"][-1] == STOP_S
+    assert_close(np.array([result[name][-1] for name in outputs[:3]]), alone, STEP_S)
+
+
+@pytest.fixture(scope="module")
+def ring(heliotorque, dist, room):
+    """All three: the spinner commands the plant's attitude, the plant lights the torque model, which turns the spinner."""
+    plant = packed(
+        heliotorque, dist, room, "MomentumPlant", "follower", "messenger.toml",
+        "attitude.source=commanded", "command.kind=attitude",
+    )
+    spinner = packed(heliotorque, dist, room, "SpinPlant", "spinner", "ace.toml", "geometry.source=inputs")
+    light = packed(heliotorque, dist, room, "DisturbanceTorque", "lamp", "messenger.toml")
+    connections = [
+        *wires("spinner.attitude.q", "plant.command.q", 4),
+        *wires("plant.sun.positionBody", "light.sun.positionBody", 3),
+        *wires("plant.planet.positionBody", "light.planet.positionBody", 3),
+        *wires("plant.sun.direction", "spinner.sun.direction", 3),
+        *wires("light.torque.total", "spinner.torque.applied", 3),
+    ]
+    return {"plant": plant, "light": light, "spinner": spinner}, connections
+
+
+def stack(result, name, size):
+    return np.column_stack([result[element] for element in elements(name, size)])
+
+
+def assert_followed(plant, spinner, lag):
+    """The plant turns as it was told `lag` rows before; a quaternion and its negative are one attitude."""
+    told, done = spinner[: len(spinner) - lag], plant[lag:]
+    assert np.abs(np.abs(np.sum(told * done, axis=1)) - 1.0).max() < 1e-12
+    assert np.ptp(done, axis=0).max() > 0.5, "nothing turned"
+
+
+def test_an_ssp_of_all_three_flies(ring, tmp_path):
+    components, connections = ring
+    result = fly_ssp(tmp_path, components, connections, 1.0, 60.0, outputs=elements("plant.attitude.q", 4))
+    plant, spinner = stack(result, "plant.attitude.q", 4), stack(result, "spinner.attitude.q", 4)
+    # A command of zeros is none: the plant holds the attitude that it began with.
+    assert plant[0].tolist() == [0.0, 0.0, 0.0, 1.0]
+    assert_followed(plant, spinner, 1)
+    torque = stack(result, "light.torque.total", 3)
+    assert torque[0].tolist() == [0.0, 0.0, 0.0] and (np.linalg.norm(torque[1:], axis=1) > 0.0).all()
+
+
+def test_a_container_of_all_three_flies(ring, tmp_path):
+    components, connections = ring
+    outputs = [*elements("plant.attitude.q", 4), *elements("spinner.attitude.q", 4), *elements("light.torque.total", 3)]
+    fmu = container(tmp_path / "ring-container.fmu", components, connections, 1.0, outputs)
+    result = simulate_fmu(fmu, stop_time=60.0, step_size=1.0, output_interval=1.0, output=outputs, validate=False)
+    plant, spinner = stack(result, "plant.attitude.q", 4), stack(result, "spinner.attitude.q", 4)
+    assert_followed(plant[1:], spinner[1:], 1)
+    assert (np.linalg.norm(stack(result, "light.torque.total", 3)[3:], axis=1) > 0.0).all()
+
+
+def inputs_of(fmu):
+    variables = read_model_description(str(fmu)).modelVariables
+    return [variable for variable in variables if variable.causality == "input"]
+
+
+# With options by which the inputs are read; what may not move.
+ALL_ZERO = {
+    "MomentumPlant": ("messenger.toml", ["attitude.source=commanded", "orbit.source=elements"], 600.0, "attitude.q", 4),
+    "SpinPlant": ("ace.toml", ["geometry.source=inputs", "burn.plan=commanded"], 1.0, "momentum.inertial", 3),
+    "DisturbanceTorque": ("messenger.toml", [], 60.0, "force.total", 3),
+}
+
+
+@pytest.mark.parametrize("model", ALL_ZERO)
+def test_every_input_may_be_zero_for_ever(heliotorque, dist, tmp_path, model):
+    spacecraft, settings, step_s, held, size = ALL_ZERO[model]
+    fmu = packed(heliotorque, dist, tmp_path, model, "zero", spacecraft, *settings)
+    inputs = [f"it.{variable.name}" for variable in inputs_of(fmu)]
+    assert len(inputs) >= 10
+    result = fly_ssp(tmp_path, {"it": fmu}, [], step_s, 20 * step_s, zeros=inputs, outputs=elements(f"it.{held}", size))
+    kept = stack(result, f"it.{held}", size)
+    assert np.isfinite(kept).all()
+    if model == "DisturbanceTorque":
+        assert not kept.any()
+    else:
+        assert kept[0].any() and np.abs(kept - kept[0]).max() <= 1e-12 * np.abs(kept[0]).max()

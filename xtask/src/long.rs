@@ -1,0 +1,266 @@
+//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::build::{self, Built};
+use crate::shell::{Outcome, available, command, root, run, target};
+use crate::test;
+use crate::test::compile_c_with;
+
+/// Fuzz targets, in `tests/fuzz/targets`.
+const TARGETS: &[&str] = &["spacecraft", "model_description", "state", "calls", "zip"];
+/// How long each target runs, in s; another number by this variable.
+const SECONDS: &str = "60";
+const SECONDS_VARIABLE: &str = "HELIOTORQUE_FUZZ_SECONDS";
+/// Parts to run, by name; all, and `cargo xtask test` before them, if it is not set.
+const PARTS_VARIABLE: &str = "HELIOTORQUE_LONG";
+/// Models, and the step in s, whose allocations fail.
+const FAILING: &[(&str, &str)] =
+    &[("MomentumPlant", "600"), ("SpinPlant", "0.5"), ("DisturbanceTorque", "60")];
+/// Allocations per model that fail in turn, evenly spread.
+const ALLOCATIONS: &str = "300";
+/// A command that still fails when its disk is full only after so many writes never ends well.
+const MOST_WRITES: u32 = 2_000;
+
+type Part = (&'static str, fn() -> Outcome);
+
+const PARTS: &[Part] = &[
+    ("fuzz", fuzz),
+    ("sanitizers", sanitizers),
+    ("miri", miri),
+    ("allocations", allocations),
+    ("writes", writes),
+];
+
+/// Everything `cargo xtask test` runs, then what hunts longer; stops at the first that fails.
+pub fn all() -> Outcome {
+    let Some(chosen) = std::env::var_os(PARTS_VARIABLE) else {
+        test::all()?;
+        return PARTS.iter().try_for_each(|(_, part)| part());
+    };
+    let chosen = chosen.to_string_lossy().into_owned();
+    for name in chosen.split(',') {
+        let (_, part) = PARTS.iter().find(|(known, _)| *known == name).ok_or_else(|| {
+            let names: Vec<&str> = PARTS.iter().map(|(name, _)| *name).collect();
+            format!("{PARTS_VARIABLE}: no part `{name}`; there are {}", names.join(", "))
+        })?;
+        part()?;
+    }
+    Ok(())
+}
+
+fn skipped(what: &str, missing: &str) -> Outcome {
+    eprintln!("skipped: {what} (no {missing} on this machine)");
+    Ok(())
+}
+
+/// `cargo +nightly`; the outer cargo's own choice of toolchain must not reach it.
+fn nightly(arguments: &[&str]) -> Command {
+    let mut nightly = command("cargo");
+    nightly
+        .env_remove("CARGO")
+        .env_remove("RUSTUP_TOOLCHAIN")
+        .env_remove("RUSTC")
+        .arg("+nightly")
+        .args(arguments);
+    nightly
+}
+
+fn answers(program: &mut Command) -> bool {
+    program.output().is_ok_and(|output| output.status.success())
+}
+
+/// Each target for its time, on a copy of its corpus: what is found stays under `target/`.
+fn fuzz() -> Outcome {
+    if !answers(&mut nightly(&["--version"])) {
+        return skipped("fuzzing", "nightly toolchain: `rustup toolchain install nightly`");
+    }
+    if !answers(&mut nightly(&["fuzz", "--version"])) {
+        return skipped("fuzzing", "cargo-fuzz: `cargo install cargo-fuzz`");
+    }
+    let home = root().join("tests").join("fuzz");
+    let seconds = std::env::var(SECONDS_VARIABLE).unwrap_or_else(|_| SECONDS.to_owned());
+    for name in TARGETS {
+        let found = build::scratch(&format!("fuzz/{name}"))?;
+        run(nightly(&["fuzz", "run", "--fuzz-dir"])
+            .arg(&home)
+            .arg("--target-dir")
+            .arg(target().join("fuzz"))
+            .arg(name)
+            .arg(&found)
+            .arg(home.join("corpus").join(name))
+            .arg("--")
+            .arg(format!("-max_total_time={seconds}"))
+            .arg(format!(
+                "-artifact_prefix={}/",
+                build::scratch(&format!("fuzz/{name}-artifacts"))?.display()
+            ))
+            .args([
+                "-timeout=20",
+                "-rss_limit_mb=2048",
+                "-max_len=32768",
+                "-len_control=0",
+                "-print_final_stats=1",
+            ]))?;
+    }
+    Ok(())
+}
+
+/// The C client, instrumented: the library's blocks are checked at the boundary, the client's threads against each
+/// other.
+fn sanitizers() -> Outcome {
+    if !available("gcc") {
+        return skipped("the C client under the sanitizers", "gcc");
+    }
+    let built = build::build()?;
+    let scratch = build::scratch("sanitizers")?;
+    for sanitizer in ["address,undefined", "thread"] {
+        let flag = format!("-fsanitize={sanitizer}");
+        let empty = scratch.join("empty.c");
+        fs::write(&empty, "int main(void) { return 0; }\n")
+            .map_err(|error| format!("{}: {error}", empty.display()))?;
+        if !answers(command("gcc").arg(&flag).arg(&empty).arg("-o").arg(scratch.join("empty"))) {
+            skipped(&format!("the C client under {flag}"), "library of this sanitizer")?;
+            continue;
+        }
+        let name = sanitizer.replace(',', "-");
+        let client = compile_c_with(
+            &scratch,
+            "client",
+            &format!("client-{name}"),
+            &[&flag, "-fno-omit-frame-pointer"],
+        )?;
+        // Older thread sanitizers cannot live with addresses as random as newer kernels make them.
+        let mut launched = match available("setarch") {
+            true => command("setarch"),
+            false => command(&client),
+        };
+        if available("setarch") {
+            launched.arg("--addr-no-randomize").arg(&client);
+        }
+        run(launched.arg(&built.library).arg(&built.probe).arg("--short").current_dir(&scratch))?;
+    }
+    Ok(())
+}
+
+/// The exporter's unit tests in Miri. Not those of its interface: Miri refuses a logger of fixed arguments behind the
+/// variadic type, which stable Rust cannot define, and describes a model for minutes. Nor what starts a process.
+fn miri() -> Outcome {
+    if !answers(&mut nightly(&["miri", "--version"])) {
+        return skipped("Miri", "Miri: `rustup component add --toolchain nightly miri rust-src`");
+    }
+    run(nightly(&["miri", "test", "--locked", "-p", "fmi-export", "--lib", "--target-dir"])
+        .arg(target().join("miri"))
+        .args(["--", "--skip", "what_is_no_regular_file_is_refused_by_name"])
+        .env("MIRIFLAGS", "-Zmiri-disable-isolation"))
+}
+
+/// The n-th allocation fails: an answer, or the abort that Rust documents, and nothing else.
+fn allocations() -> Outcome {
+    if !available("gcc") || !cfg!(all(target_os = "linux", target_env = "gnu")) {
+        return skipped("failing allocations", "gcc with glibc");
+    }
+    let built = build::build()?;
+    let scratch = build::scratch("allocations")?;
+    let client = compile_c_with(&scratch, "allocation", "allocation", &["-rdynamic"])?;
+    for (model, step_s) in FAILING {
+        run(command(&client).arg(&built.library).args([model, step_s, ALLOCATIONS]).current_dir(&scratch))?;
+    }
+    Ok(())
+}
+
+/// The disk is full from the n-th write on: the command fails, names the file and leaves the old one whole.
+fn writes() -> Outcome {
+    if !available("gcc") || !cfg!(target_os = "linux") {
+        return skipped("failing writes", "gcc on Linux");
+    }
+    let built = build::dist()?;
+    let scratch = build::scratch("writes")?;
+    let full_disk = scratch.join("full_disk.so");
+    run(command("gcc")
+        .args(["-std=c11", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC"])
+        .arg(root().join("tests").join("c").join("full_disk.c"))
+        .arg("-o")
+        .arg(&full_disk)
+        .arg("-ldl"))?;
+    let plant = root().join("dist").join("MomentumPlant.fmu");
+    let plant = plant.to_string_lossy();
+    let spacecraft = root().join("fmu-src").join("resources").join("messenger.toml");
+    let commands: [(&[&str], &str, &str); 3] = [
+        (&["run", &plant, "--stop", "2d", "--quiet"], "--output", "rows.csv"),
+        (&["run", &plant, "--stop", "2d", "--quiet"], "--plot", "rows.svg"),
+        (
+            &["pack", "--template", &plant, "--spacecraft", &spacecraft.to_string_lossy()],
+            "--output",
+            "Own.fmu",
+        ),
+    ];
+    for (arguments, option, file) in commands {
+        on_a_full_disk(&built, &scratch, &full_disk, (arguments, option, file))?;
+    }
+    Ok(())
+}
+
+/// What stood in the target before.
+const OLD: &str = "old";
+
+fn on_a_full_disk(
+    built: &Built,
+    scratch: &Path,
+    full_disk: &Path,
+    (arguments, option, file): (&[&str], &str, &str),
+) -> Outcome {
+    let [room, unpacked] = [scratch.join("room"), scratch.join("unpacked")];
+    let target = room.join(file);
+    let named = format!("heliotorque {} {option} {file}", arguments[0]);
+    let at_room = |error: std::io::Error| format!("{}: {error}", room.display());
+    for write in 1..=MOST_WRITES {
+        for folder in [&room, &unpacked] {
+            if folder.exists() {
+                fs::remove_dir_all(folder).map_err(at_room)?;
+            }
+            fs::create_dir_all(folder).map_err(at_room)?;
+        }
+        fs::write(&target, OLD).map_err(at_room)?;
+        let output = command(&built.heliotorque)
+            .args(arguments)
+            .arg(option)
+            .arg(&target)
+            .env("TMPDIR", &unpacked)
+            .env("LD_PRELOAD", full_disk)
+            .env("FULL_DISK_FROM", write.to_string())
+            .output()
+            .map_err(|error| format!("{named}: {error}"))?;
+        if output.status.success() {
+            eprintln!("{named}: {} writes failed in turn, each told and none torn", write - 1);
+            return if write > 1 { Ok(()) } else { Err(format!("{named}: wrote nothing that could fail")) };
+        }
+        let said = String::from_utf8_lossy(&output.stderr);
+        let fault =
+            |what: &str| Err(format!("{named}, disk full from write {write} on: {what}; it said: {said}"));
+        if output.status.code().is_none() {
+            return fault("it crashed");
+        }
+        if !said.contains("No space left") {
+            return fault("the cause is not told");
+        }
+        if !said.contains(file) && !said.contains(&*unpacked.to_string_lossy()) {
+            return fault("no file is named");
+        }
+        if fs::read(&target).ok().as_deref() != Some(OLD.as_bytes()) {
+            return fault("the old file is torn or gone");
+        }
+        if fs::read_dir(&unpacked).map_err(at_room)?.next().is_some() {
+            return fault("it left what it unpacked");
+        }
+        // A recording in progress stays as far as it came.
+        let left =
+            fs::read_dir(&room).map_err(at_room)?.filter_map(Result::ok).map(|entry| entry.file_name());
+        if let Some(left) = left.into_iter().find(|name| name != file && *name != *format!("{file}.part")) {
+            return fault(&format!("it left {}", left.display()));
+        }
+    }
+    Err(format!("{named}: still fails with {MOST_WRITES} writes"))
+}
