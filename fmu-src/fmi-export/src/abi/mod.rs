@@ -9,6 +9,8 @@ mod arguments;
 mod boundary;
 mod describe;
 mod export;
+#[cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod find_object;
 mod functions;
 mod in_process;
 pub mod loaded;
