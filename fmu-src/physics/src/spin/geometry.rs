@@ -31,14 +31,14 @@ pub struct L1Phases {
 
 /// An L1 orbit as a flight uses it: the setup's, with what the master may change.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct L1Flight {
+pub struct L1Ephemeris {
     /// The orbit.
     pub orbit: L1Orbit,
     /// Its phases.
     pub phases: L1Phases,
 }
 
-impl L1Flight {
+impl L1Ephemeris {
     /// Directions at `time_s`.
     pub fn sun_earth(&self, time_s: f64) -> SunEarth {
         self.orbit.sun_earth(&self.phases, time_s)

@@ -5,7 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use loader::{Column, Fmu, Value};
 use model_description::VariableKind;
 use physics::spin::{
-    forecast::{Flight, Timing},
+    forecast::{ForecastCase, Timing},
     nutation::Spin,
     train::Shape,
 };
@@ -94,7 +94,7 @@ pub fn refly(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Reflight,
             } else if task.flight.timing == Timing::Clock {
                 continue;
             } else {
-                Flight { spin, ..task.flight }.forecast(&row.train).moved_rad
+                ForecastCase { spin, ..task.flight }.forecast(&row.train).moved_rad
             };
             seen.miss = seen.miss.max((flown.moved_rad / meant_rad - 1.0).abs());
         }

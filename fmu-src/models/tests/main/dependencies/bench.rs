@@ -8,7 +8,7 @@ use fmi_export::model_description::{
 };
 use fmi_export::{Context, Declare, Model, Step, Values, Variables, describe};
 
-use super::super::pilot::Tables;
+use super::super::named_model::Tables;
 
 /// Lengths of the two steps from which the limit of a step without length is taken, in s.
 const STEPS_S: [f64; 2] = [1e-3, 1e-6];
@@ -24,9 +24,9 @@ const CHANGES: usize = 2;
 
 /// Numbers in [0, 1) that are the same every time.
 #[derive(Clone)]
-pub struct Dice(pub u64);
+pub struct RandomNumbers(pub u64);
 
-impl Dice {
+impl RandomNumbers {
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
@@ -122,20 +122,20 @@ pub struct Bench<M: Model> {
     left_at_start: Pairs,
     /// Number of the state looked at.
     look: u32,
-    dice: Dice,
+    random: RandomNumbers,
     refused: usize,
     taken: usize,
 }
 
 /// A flight at a communication point.
-pub struct Flight<M: Model> {
+pub struct TorqueModel<M: Model> {
     pub values: Tables,
     pub state: M::State,
     pub time_s: f64,
     pub changed: bool,
 }
 
-impl<M: Model> Clone for Flight<M> {
+impl<M: Model> Clone for TorqueModel<M> {
     fn clone(&self) -> Self {
         Self {
             values: self.values.clone(),
@@ -172,7 +172,7 @@ impl<M: Model> Bench<M> {
             seen_in_steps: Sightings::new(),
             seen_at_start: Sightings::new(),
             look: 0,
-            dice: Dice(1),
+            random: RandomNumbers(1),
             refused: 0,
             taken: 0,
         }
@@ -246,10 +246,10 @@ impl<M: Model> Bench<M> {
         }
     }
 
-    pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Flight<M>> {
+    pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<TorqueModel<M>> {
         let mut values = tables.back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
-        Some(Flight { values: Tables::of(&values), state, time_s: start_s, changed: false })
+        Some(TorqueModel { values: Tables::of(&values), state, time_s: start_s, changed: false })
     }
 
     /// Why a start is refused.
@@ -259,7 +259,7 @@ impl<M: Model> Bench<M> {
             .map_or_else(String::new, |e| e.to_string())
     }
 
-    pub fn step(&self, flight: &mut Flight<M>, length_s: f64) -> Option<()> {
+    pub fn step(&self, flight: &mut TorqueModel<M>, length_s: f64) -> Option<()> {
         let end_s = flight.time_s + length_s;
         let step = Step { start_s: flight.time_s, end_s, changed: flight.changed, input_derivatives: &[] };
         let mut values = flight.values.back();
@@ -299,7 +299,7 @@ impl<M: Model> Bench<M> {
         let admitted = |value: &f64| (variable.min..=variable.max).contains(value) && *value != now;
         let mut left: Vec<f64> = candidates.into_iter().filter(admitted).collect();
         while left.len() > CHANGES {
-            let k = (self.dice.next() * left.len() as f64) as usize;
+            let k = (self.random.next() * left.len() as f64) as usize;
             left.swap_remove(k.min(left.len() - 1));
         }
         left
@@ -343,7 +343,7 @@ impl<M: Model> Bench<M> {
         for known in 0..self.variables.len() {
             let variable = &self.variables[known];
             if !(variable.exact && named(&variable.name))
-                || Self::is_known(&mut self.dice, &self.left_at_start, known, edge)
+                || Self::is_known(&mut self.random, &self.left_at_start, known, edge)
             {
                 continue;
             }
@@ -385,21 +385,21 @@ impl<M: Model> Bench<M> {
     }
 
     /// Changes every input at the flight's communication point and records which outputs follow at once.
-    pub fn look_at_step(&mut self, flight: &Flight<M>) {
+    pub fn look_at_step(&mut self, flight: &TorqueModel<M>) {
         self.step_looks(flight, false);
     }
 
     /// The same where a flag is about to change.
-    pub fn look_at_step_edge(&mut self, flight: &Flight<M>) {
+    pub fn look_at_step_edge(&mut self, flight: &TorqueModel<M>) {
         self.step_looks(flight, true);
     }
 
-    fn step_looks(&mut self, flight: &Flight<M>, edge: bool) {
+    fn step_looks(&mut self, flight: &TorqueModel<M>, edge: bool) {
         self.look += 1;
         let outputs = indices(&self.description.structure.outputs);
         let after = |bench: &Self, values: &Tables| {
             let ended = |length_s: f64| {
-                let mut flight = Flight { values: values.clone(), changed: true, ..flight.clone() };
+                let mut flight = TorqueModel { values: values.clone(), changed: true, ..flight.clone() };
                 bench.step(&mut flight, length_s)?;
                 Some(flight.values)
             };
@@ -408,7 +408,7 @@ impl<M: Model> Bench<M> {
         let Some(base) = after(self, &flight.values) else { panic!("the flight does not go on") };
         for known in 0..self.variables.len() {
             if !self.variables[known].input
-                || Self::is_known(&mut self.dice, &self.left_in_steps, known, edge)
+                || Self::is_known(&mut self.random, &self.left_in_steps, known, edge)
             {
                 continue;
             }
@@ -439,8 +439,8 @@ impl<M: Model> Bench<M> {
     }
 
     /// The same for a flight at its communication point, between its inputs and tunable parameters and others.
-    pub fn edges_at_step(&self, flight: &Flight<M>, others: &[Tables]) -> Vec<Flight<M>> {
-        let with = |tables: Tables| Flight { values: tables, changed: true, ..flight.clone() };
+    pub fn edges_at_step(&self, flight: &TorqueModel<M>, others: &[Tables]) -> Vec<TorqueModel<M>> {
+        let with = |tables: Tables| TorqueModel { values: tables, changed: true, ..flight.clone() };
         let value = |tables: &Tables| {
             let mut flight = with(tables.clone());
             self.step(&mut flight, STEPS_S[1])?;
@@ -538,8 +538,8 @@ impl<M: Model> Bench<M> {
 
     /// Whether all that is declared of a known was seen; it is then changed only now and then, to find what is not declared,
     /// and not where a flag is about to change.
-    fn is_known(dice: &mut Dice, left: &Pairs, known: usize, at_edge: bool) -> bool {
-        !left.iter().any(|pair| pair.1 == known) && (at_edge || dice.next() < 0.85)
+    fn is_known(random: &mut RandomNumbers, left: &Pairs, known: usize, at_edge: bool) -> bool {
+        !left.iter().any(|pair| pair.1 == known) && (at_edge || random.next() < 0.85)
     }
 
     /// Whether nothing declared is left to be seen.

@@ -20,4 +20,4 @@ mod tests;
 pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
 pub use model::{DisturbanceModel, ModelError, Options};
 pub use planet_rule::PlanetLightMethod;
-pub use workspace::{Disturbance, FaceState, Workspace};
+pub use workspace::{Disturbance, FaceResult, Workspace};

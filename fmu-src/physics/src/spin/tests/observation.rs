@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use super::{ace, directions, paper_start};
 use crate::spin::{
-    geometry::L1Flight,
+    geometry::L1Ephemeris,
     noise::{Channel, normal},
     nutation::period_variation_s,
     plant::{Commands, Directions, Plant, Sampling},
@@ -178,7 +178,7 @@ fn sun_and_earth_of_the_l1_orbit_stand_where_the_geometry_puts_them() {
 fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     let spinner = ace();
     let mut start = paper_start(1.483);
-    start.l1 = Some(L1Flight { orbit: spinner.l1_orbit, phases: Default::default() });
+    start.l1 = Some(L1Ephemeris { orbit: spinner.l1_orbit, phases: Default::default() });
     // Spin axis a little off the Sun.
     let sun = spinner.l1_orbit.sun_earth(&Default::default(), 0.0).sun_inertial;
     let axis = Vector3::z().cross(&sun).normalize();

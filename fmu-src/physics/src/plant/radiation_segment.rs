@@ -1,38 +1,38 @@
-//! Cells of light and heat: they change slowly and cost more than everything else, so they are computed at a few nodes of
-//! a cell of their own and read from a polynomial in between. How the flight is stepped does not matter to them.
+//! Segments of light and heat: they change slowly and cost more than everything else, so they are computed at a few nodes of
+//! a segment of their own and read from a polynomial in between. How the flight is stepped does not matter to them.
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
-use crate::numerics::stretches::next_multiple_s;
-use crate::radiation::disturbance::{Disturbance, FaceState, GeometryError};
+use crate::numerics::intervals::next_multiple_s;
+use crate::radiation::disturbance::{Disturbance, FaceResult, GeometryError};
 use crate::radiation::{Effect, ForceTorque, Loads};
 
-use super::flight::{ExternalLoad, Plant};
-use super::light::{LightEffects, LightModel};
-use super::stretch::PlantError;
+use super::evaluation::{ExternalLoad, Plant};
+use super::propagator::PlantError;
+use super::radiation::{RadiationSettings, RadiationSolver};
 use super::work::Cost;
 
-/// Chebyshev nodes a cell.
+/// Chebyshev nodes a segment.
 pub(super) const NODES: usize = 6;
 /// Force and torque of every effect of light and heat.
 const ROWS: usize = 6 * Effect::RADIATION.len();
-/// No cell is shortened below this, in s: kinks where a face turns dark end here.
+/// No segment is shortened below this, in s: kinks where a face turns dark end here.
 const SHORTEST_S: f64 = 1.0;
 /// Torque is resolved as if the largest force had at least this arm, in m: on a symmetric body there is none.
 const LEAST_ARM_M: f64 = 0.01;
 /// No surface is hotter, in K.
 const HOTTEST_K: f64 = 1e5;
 
-/// Light and heat over a stretch of flight, and the heat stored at its end.
+/// Light and heat over one interval, and the heat stored at its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LightCell {
+pub struct RadiationSegment {
     start_s: f64,
     end_s: f64,
-    /// Length the tolerance will probably allow the next cell, in s.
+    /// Length the tolerance will probably allow the next segment, in s.
     next_longest_s: f64,
-    /// Absent before the first cell.
+    /// Absent before the first segment.
     loads: Option<Segment<ROWS, NODES>>,
     /// Temperature of every face in K; empty where no heat is stored.
     temperatures_k: Vec<Segment<1, NODES>>,
@@ -40,8 +40,8 @@ pub struct LightCell {
     end_k: Vec<f64>,
 }
 
-impl LightCell {
-    /// Before the first cell.
+impl RadiationSegment {
+    /// Before the first segment.
     pub(super) fn before() -> Self {
         Self {
             start_s: f64::INFINITY,
@@ -74,7 +74,7 @@ impl LightCell {
             && self.end_k.iter().all(hot)
     }
 
-    /// Whether it has come to `time_s` and no cell further; so in every flight, not in every sequence of bytes.
+    /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
     pub fn covers(&self, time_s: f64) -> bool {
         self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
     }
@@ -116,43 +116,43 @@ impl LightCell {
 
 impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
-    pub(super) fn light_up(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+    pub(super) fn extend_radiation(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
         if !self.configuration.light_and_heat.any() {
             return Ok(limit_s);
         }
-        if let Some(cell) = &self.course.light
-            && cell.start_s <= start_s
-            && start_s < cell.end_s
+        if let Some(segment) = &self.propagator.light
+            && segment.start_s <= start_s
+            && start_s < segment.end_s
         {
-            return Ok(cell.end_s.min(limit_s));
+            return Ok(segment.end_s.min(limit_s));
         }
         let Some(light) = self.light.take() else { return Ok(limit_s) };
-        let mut cell = self.course.light.take().unwrap_or_else(LightCell::before);
-        let built = self.build_light(light, &mut cell, start_s, limit_s);
-        let end_s = cell.end_s;
-        self.course.light = Some(cell);
+        let mut segment = self.propagator.light.take().unwrap_or_else(RadiationSegment::before);
+        let built = self.build_radiation_segment(light, &mut segment, start_s, limit_s);
+        let end_s = segment.end_s;
+        self.propagator.light = Some(segment);
         self.light = Some(light);
         built.map(|()| end_s)
     }
 
-    /// Builds the cell that begins at `start_s`. It ends at the next multiple of the grid or sooner: at `limit_s`, where
+    /// Builds the segment that begins at `start_s`. It ends at the next multiple of the grid or sooner: at `limit_s`, where
     /// the branch changes, or where the last Chebyshev terms would exceed the tolerance.
-    fn build_light(
+    fn build_radiation_segment(
         &mut self,
-        light: &mut LightModel,
-        cell: &mut LightCell,
+        light: &mut RadiationSolver,
+        segment: &mut RadiationSegment,
         start_s: f64,
         limit_s: f64,
     ) -> Result<(), PlantError> {
         let effects = self.configuration.light_and_heat;
         let stores = effects.storage && effects.recoil && light.model.stores_heat();
         if stores {
-            self.take_heat(light, cell, start_s)?;
+            self.take_heat(light, segment, start_s)?;
         } else {
-            cell.end_k.clear();
+            segment.end_k.clear();
         }
         // Written so that a NaN from restored bytes is the shortest.
-        let longest_s = cell.next_longest_s.max(SHORTEST_S);
+        let longest_s = segment.next_longest_s.max(SHORTEST_S);
         let limit_s = next_multiple_s(start_s, effects.grid_s)
             .min(start_s + longest_s)
             .min(limit_s)
@@ -162,8 +162,8 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let (series, growth) = loop {
             self.spend_units(Cost::Light, light.cell_units(stores), start_s)?;
             let length_s = end_s - start_s;
-            let lit = self.light_between(light, stores, &cell.end_k, start_s, end_s);
-            let shadows: usize = light.moments.iter().map(|moment| moment.workspace.shadows_cut()).sum();
+            let lit = self.light_between(light, stores, &segment.end_k, start_s, end_s);
+            let shadows: usize = light.nodes.iter().map(|node| node.workspace.shadows_cut()).sum();
             self.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
             let shorter_s = match lit {
                 Ok(series) => {
@@ -188,40 +188,39 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
             shortened = true;
         };
         let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
-        cell.next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
-        (cell.start_s, cell.end_s, cell.loads) = (start_s, end_s, Some(series));
-        cell.temperatures_k.clear();
+        segment.next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
+        (segment.start_s, segment.end_s, segment.loads) = (start_s, end_s, Some(series));
+        segment.temperatures_k.clear();
         if stores {
-            cell.temperatures_k.extend((0..light.face_count()).map(|face| {
-                let samples =
-                    core::array::from_fn(|j| SVector::from([light.moments[j].temperatures_k[face]]));
+            segment.temperatures_k.extend((0..light.face_count()).map(|face| {
+                let samples = core::array::from_fn(|j| SVector::from([light.nodes[j].temperatures_k[face]]));
                 Segment::from_samples(start_s, end_s, &samples)
             }));
-            cell.end_k.copy_from_slice(light.heat_rule.end_k());
+            segment.end_k.copy_from_slice(light.heat_rule.end_k());
         }
         Ok(())
     }
 
-    /// The heat stored at `start_s`: that at the end of the cell before, at the start of a flight that of balance.
+    /// The heat stored at `start_s`: that at the end of the segment before, at the start of a flight that of balance.
     fn take_heat(
         &mut self,
-        light: &mut LightModel,
-        cell: &mut LightCell,
+        light: &mut RadiationSolver,
+        segment: &mut RadiationSegment,
         start_s: f64,
     ) -> Result<(), PlantError> {
-        if cell.loads.is_none() && cell.end_k.is_empty() {
-            let LightModel { model, panels, moments, .. } = light;
-            if let Some(moment) = moments.first_mut() {
-                self.look(start_s, panels, moment);
-                moment.balance(model).map_err(|error| self.no_light(start_s, error))?;
-                cell.end_k.extend(moment.workspace.faces().iter().map(|face| face.temperature_k));
+        if segment.loads.is_none() && segment.end_k.is_empty() {
+            let RadiationSolver { model, panels, nodes, .. } = light;
+            if let Some(node) = nodes.first_mut() {
+                self.view(start_s, panels, node);
+                node.balance(model).map_err(|error| self.no_light(start_s, error))?;
+                segment.end_k.extend(node.workspace.faces().iter().map(|face| face.temperature_k));
             }
         }
-        let (found, allowed) = (cell.end_k.len(), light.face_count());
+        let (found, allowed) = (segment.end_k.len(), light.face_count());
         if found != allowed {
             return Err(PlantError::Temperatures { found, allowed });
         }
-        match cell.end_k.iter().find(|kelvin| !(0.0..=HOTTEST_K).contains(*kelvin)) {
+        match segment.end_k.iter().find(|kelvin| !(0.0..=HOTTEST_K).contains(*kelvin)) {
             Some(&found_k) => Err(PlantError::Temperature { found_k }),
             None => Ok(()),
         }
@@ -230,26 +229,26 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// Light and heat from `start_s` to `end_s`.
     fn light_between(
         &mut self,
-        light: &mut LightModel,
+        light: &mut RadiationSolver,
         stores: bool,
         start_k: &[f64],
         start_s: f64,
         end_s: f64,
     ) -> Result<Segment<ROWS, NODES>, GeometryError> {
-        let LightModel { model, panels, moments, heat_rule } = light;
+        let RadiationSolver { model, panels, nodes, heat_rule } = light;
         let times_s = Segment::<ROWS, NODES>::nodes(start_s, end_s);
-        for (moment, time_s) in moments.iter_mut().zip(times_s) {
-            self.look(time_s, panels, moment);
-            moment.balance(model)?;
+        for (node, time_s) in nodes.iter_mut().zip(times_s) {
+            self.view(time_s, panels, node);
+            node.balance(model)?;
         }
         if stores {
-            heat_rule.warm(model, moments, start_k, end_s - start_s);
-            for moment in moments.iter_mut() {
-                moment.radiate_stored(model)?;
+            heat_rule.integrate(model, nodes, start_k, end_s - start_s);
+            for node in nodes.iter_mut() {
+                node.radiate_stored(model)?;
             }
         }
         let effects = &self.configuration.light_and_heat;
-        let samples = core::array::from_fn(|j| rows(&moments[j].found, effects));
+        let samples = core::array::from_fn(|j| rows(&nodes[j].found, effects));
         Ok(Segment::from_samples(start_s, end_s, &samples))
     }
 
@@ -266,10 +265,10 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let Some(light) = self.light.take() else { return Ok(()) };
         let outcome = self.light_at(light, time_s);
         if outcome.is_ok()
-            && let Some(moment) = light.moments.first()
+            && let Some(node) = light.nodes.first()
         {
             let effects = &self.configuration.light_and_heat;
-            for face in moment.workspace.faces() {
+            for face in node.workspace.faces() {
                 report(face.temperature_k, force_of(face, effects));
             }
         }
@@ -277,32 +276,32 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         outcome
     }
 
-    /// Light and heat at one time, in the first of the moments.
-    fn light_at(&mut self, light: &mut LightModel, time_s: f64) -> Result<(), PlantError> {
-        let LightModel { model, panels, moments, .. } = light;
-        let Some(moment) = moments.first_mut() else { return Ok(()) };
-        self.look(time_s, panels, moment);
-        moment.balance(model).map_err(|error| self.no_light(time_s, error))?;
+    /// Light and heat at one time, in the first of the nodes.
+    fn light_at(&mut self, light: &mut RadiationSolver, time_s: f64) -> Result<(), PlantError> {
+        let RadiationSolver { model, panels, nodes, .. } = light;
+        let Some(node) = nodes.first_mut() else { return Ok(()) };
+        self.view(time_s, panels, node);
+        node.balance(model).map_err(|error| self.no_light(time_s, error))?;
         let effects = &self.configuration.light_and_heat;
-        if let Some(cell) = &self.course.light
+        if let Some(segment) = &self.propagator.light
             && effects.recoil
             && effects.storage
             && model.stores_heat()
         {
-            cell.temperatures_at(time_s, &mut moment.temperatures_k);
-            moment.radiate_stored(model).map_err(|error| self.no_light(time_s, error))?;
+            segment.temperatures_at(time_s, &mut node.temperatures_k);
+            node.radiate_stored(model).map_err(|error| self.no_light(time_s, error))?;
         }
         Ok(())
     }
 
     fn no_light(&self, time_s: f64, source: GeometryError) -> PlantError {
-        let position_m = self.course.trajectory.state_at(self.configuration, time_s).position_m.into();
+        let position_m = self.propagator.trajectory.state_at(self.configuration, time_s).position_m.into();
         PlantError::Light { time_s, position_m, source }
     }
 }
 
 /// The effects that act, row by row; sunlight always, as a measure for the others.
-fn rows(found: &Disturbance<f64>, effects: &LightEffects) -> SVector<f64, ROWS> {
+fn rows(found: &Disturbance<f64>, effects: &RadiationSettings) -> SVector<f64, ROWS> {
     let mut rows = SVector::<f64, ROWS>::zeros();
     let planet_light = effects.planet_light;
     for (index, (load, acts)) in [
@@ -322,14 +321,14 @@ fn rows(found: &Disturbance<f64>, effects: &LightEffects) -> SVector<f64, ROWS> 
     rows
 }
 
-fn force_of(face: &FaceState<f64>, effects: &LightEffects) -> Vector3<f64> {
+fn force_of(face: &FaceResult<f64>, effects: &RadiationSettings) -> Vector3<f64> {
     let [solar, albedo, infrared, thermal] = face.forces_body_n;
     let planet = if effects.planet_light { albedo + infrared } else { Vector3::zeros() };
     solar + planet + if effects.recoil { thermal } else { Vector3::zeros() }
 }
 
 /// Largest of the last two terms of force and torque, relative to the largest force and torque of all.
-fn unresolved(series: &Segment<ROWS, NODES>, effects: &LightEffects) -> f64 {
+fn unresolved(series: &Segment<ROWS, NODES>, effects: &RadiationSettings) -> f64 {
     let terms = series.coefficients();
     // Sunlight comes from the closed form unless it is shadowed.
     let first = if effects.shadowing { 0 } else { 6 };

@@ -1,25 +1,25 @@
-//! The stretch of time at hand: on it the orbit is known, the attitude law and the shadow keep their branch.
+//! Propagator: the segment of time on which the orbit is known and attitude law and shadow keep their branch.
 //!
-//! An orbit that light and heat act on has to be known before they can be computed, and they before it. A stretch begins
-//! with the orbit under gravity alone. Within a cell it is off by centimetres, which changes light and heat by less than
-//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the stretch's end.
+//! An orbit that light and heat act on has to be known before they can be computed, and they before it. A segment begins
+//! with the orbit under gravity alone. Within a segment it is off by centimetres, which changes light and heat by less than
+//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::environment::orbit::FlightError;
-use crate::momentum::{Flight, TooManyDumps};
+use crate::environment::orbit::OrbitIntegrationError;
+use crate::momentum::{TooManyDumps, TorqueModel};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::disturbance::GeometryError;
 
 use super::configuration::{Configuration, Motion};
-use super::flight::{ExternalLoad, Plant};
-use super::light_cell::LightCell;
+use super::evaluation::{ExternalLoad, Plant};
+use super::radiation_segment::RadiationSegment;
 use super::trajectory::Trajectory;
 use super::work::{Cost, WorkExceeded};
 
-/// Nodes at which the acceleration of a stretch is taken.
+/// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
 
 /// Why a flight ends.
@@ -27,7 +27,7 @@ const NODES: usize = 8;
 pub enum PlantError {
     /// The orbit.
     #[error(transparent)]
-    Orbit(#[from] FlightError),
+    Orbit(#[from] OrbitIntegrationError),
     /// Light and heat have no meaning where the spacecraft is.
     #[error(
         "at {time_s} s, the spacecraft being at {position_m:?} m about the orbit's centre, light has no meaning: {source}"
@@ -72,20 +72,20 @@ pub enum PlantError {
     },
 }
 
-/// What a flight remembers of itself, beside what it accumulates. Serialisable and complete: together with the
+/// State of the propagator, beside the totals of the momentum integrator. Serialisable and complete: together with the
 /// configuration it fixes everything that follows.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Course {
+pub struct PropagatorState {
     /// Where the spacecraft is.
     pub trajectory: Trajectory,
-    /// Light and heat of the stretch at hand; absent before the first one.
-    pub light: Option<LightCell>,
+    /// Light and heat of the present segment; absent before the first one.
+    pub light: Option<RadiationSegment>,
 }
 
-impl Course {
+impl PropagatorState {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        self.trajectory.is_sound() && self.light.as_ref().is_none_or(LightCell::is_sound)
+        self.trajectory.is_sound() && self.light.as_ref().is_none_or(RadiationSegment::is_sound)
     }
 
     /// At the start of a flight.
@@ -121,7 +121,7 @@ impl Course {
 }
 
 impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
-    /// Makes sure that `start_s` lies in the stretch at hand, and tells where that ends.
+    /// Makes sure that `start_s` lies in the present segment, and tells where that ends.
     pub(super) fn reach(&mut self, start_s: f64) -> Result<f64, PlantError> {
         let known_s = self.orbit_and_light(start_s)?;
         let instant = self.instant(start_s);
@@ -129,27 +129,27 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     }
 
     fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        if self.course.trajectory.end_s() > start_s {
-            return self.light_up(start_s, self.course.trajectory.end_s());
+        if self.propagator.trajectory.end_s() > start_s {
+            return self.extend_radiation(start_s, self.propagator.trajectory.end_s());
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
         self.spend_units(Cost::Orbit, 60, start_s)?;
-        self.course.trajectory.leave(self.configuration, start_s);
-        let before = self.course.trajectory;
+        self.propagator.trajectory.leave(self.configuration, start_s);
+        let before = self.propagator.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
         if let Motion::Disturbed { feedback: true, .. } = self.configuration.motion {
-            let lit_s = self.light_up(start_s, self.course.trajectory.end_s())?;
+            let lit_s = self.extend_radiation(start_s, self.propagator.trajectory.end_s())?;
             let end_s = self.smooth_until(start_s, lit_s);
             let acceleration_m_s2 =
                 Segment::<3, NODES>::fit(start_s, end_s, |at_s| self.sample(at_s).acceleration_inertial_m_s2);
-            let predicted = core::mem::replace(&mut self.course.trajectory, before);
-            self.course.trajectory.take_passages(&predicted, end_s);
+            let predicted = core::mem::replace(&mut self.propagator.trajectory, before);
+            self.propagator.trajectory.take_passages(&predicted, end_s);
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
         }
-        let end_s = self.course.trajectory.end_s();
+        let end_s = self.propagator.trajectory.end_s();
         // Written so that a NaN is stuck too.
         if end_s > start_s {
-            self.light_up(start_s, end_s)
+            self.extend_radiation(start_s, end_s)
         } else {
             Err(PlantError::Stuck { start_s, end_s })
         }
@@ -160,8 +160,8 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         limit_s: f64,
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<(), PlantError> {
-        let (configuration, method) = (self.configuration, self.craft.orbit_method);
-        let trajectory = &mut self.course.trajectory;
+        let (configuration, method) = (self.configuration, self.prepared.orbit_method);
+        let trajectory = &mut self.propagator.trajectory;
         Ok(trajectory.advance(configuration, self.ephemeris, method, limit_s, extra_m_s2)?)
     }
 }

@@ -11,13 +11,13 @@ use crate::radiation::disturbance::{
 use crate::spacecraft::Spacecraft;
 
 use super::configuration::{Configuration, PanelSetting};
-use super::flight::{ExternalLoad, Plant};
-use super::light_cell::NODES;
+use super::evaluation::{ExternalLoad, Plant};
+use super::radiation_segment::NODES;
 use super::stored_heat::HeatRule;
 
 /// Which of light's and heat's effects act, and how finely they are resolved in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightEffects {
+pub struct RadiationSettings {
     /// Light of the planet: albedo and infrared.
     pub planet_light: bool,
     /// Recoil of the heat the spacecraft radiates.
@@ -26,13 +26,13 @@ pub struct LightEffects {
     pub storage: bool,
     /// Whether surfaces given as polygons shadow one another from the Sun.
     pub shadowing: bool,
-    /// Cells of light and heat end at multiples of this, in s.
+    /// Segments of light and heat end at multiples of this, in s.
     pub grid_s: f64,
-    /// Largest last Chebyshev term of a cell relative to the largest force and torque in it.
+    /// Largest last Chebyshev term of a segment relative to the largest force and torque in it.
     pub tolerance: f64,
 }
 
-impl LightEffects {
+impl RadiationSettings {
     /// Direct sunlight alone, unshadowed.
     pub const OFF: Self = Self {
         planet_light: false,
@@ -52,18 +52,18 @@ impl LightEffects {
 /// The spacecraft and the planet's surface prepared for light and heat, with the scratch space of a flight. All of it
 /// follows from the setup and the configuration: cache, not state.
 #[derive(Clone, Debug)]
-pub struct LightModel {
+pub struct RadiationSolver {
     pub(super) model: DisturbanceModel,
     /// Place among all panels of those that take part.
     pub(super) panels: Vec<usize>,
-    pub(super) moments: Vec<Moment>,
+    pub(super) nodes: Vec<RadiationNode>,
     pub(super) heat_rule: HeatRule,
 }
 
 /// One time at which light and heat are computed.
 #[derive(Clone, Debug)]
-pub(super) struct Moment {
-    sight: Sight,
+pub(super) struct RadiationNode {
+    viewing: ViewingGeometry,
     pub found: Disturbance<f64>,
     pub workspace: Workspace<f64>,
     pub heat_w: Vec<f64>,
@@ -72,7 +72,7 @@ pub(super) struct Moment {
 
 /// Sun and planet from the spacecraft, and how it stands.
 #[derive(Clone, Debug)]
-struct Sight {
+struct ViewingGeometry {
     sun_direction_body: Vector3<f64>,
     sun_flux_w_m2: f64,
     lit_fraction: f64,
@@ -81,7 +81,7 @@ struct Sight {
     center_of_mass_body_m: Vector3<f64>,
 }
 
-impl LightModel {
+impl RadiationSolver {
     /// Prepares `spacecraft` without the panels the configuration leaves out; `planet` is the surface it flies over.
     ///
     /// # Errors
@@ -105,8 +105,8 @@ impl LightModel {
             sunshade_model: spacecraft.sunshade.as_ref().map(|_| configuration.sunshade),
         };
         let model = DisturbanceModel::new(&flown, &options)?;
-        let moment = Moment::new(panels.len(), model.face_count());
-        Ok(Self { moments: vec![moment; NODES], heat_rule: HeatRule::new(), panels, model })
+        let node = RadiationNode::new(panels.len(), model.face_count());
+        Ok(Self { nodes: vec![node; NODES], heat_rule: HeatRule::new(), panels, model })
     }
 
     /// Number of faces: those of plates, sunshade and the panels that take part, in this order.
@@ -114,17 +114,17 @@ impl LightModel {
         self.model.face_count()
     }
 
-    /// About how many microseconds a cell of light and heat takes.
+    /// About how many microseconds a segment of light and heat takes.
     pub(super) fn cell_units(&self, stores: bool) -> u32 {
         let heat = if stores { self.face_count() as u32 } else { 0 };
         NODES as u32 * self.model.evaluation_units() + heat
     }
 }
 
-impl Moment {
+impl RadiationNode {
     fn new(panels: usize, faces: usize) -> Self {
         Self {
-            sight: Sight {
+            viewing: ViewingGeometry {
                 sun_direction_body: Vector3::zeros(),
                 sun_flux_w_m2: 0.0,
                 lit_fraction: 1.0,
@@ -141,20 +141,20 @@ impl Moment {
 
     /// Computes light and heat, every surface in balance with its light.
     pub fn balance(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
-        self.found = model.evaluate(&self.sight.geometry(), Recoil::Balance, &mut self.workspace)?;
+        self.found = model.evaluate(&self.viewing.geometry(), Recoil::Balance, &mut self.workspace)?;
         model.heat_w(&self.workspace, &mut self.heat_w);
         Ok(())
     }
 
-    /// After [`Moment::balance`]: the recoil anew, at this moment's stored temperatures.
+    /// After [`RadiationNode::balance`]: the recoil anew, at this node's stored temperatures.
     pub fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
         let stored = Recoil::Stored(&self.temperatures_k);
-        self.found.thermal = model.recoil(&self.sight.geometry(), stored, &mut self.workspace)?;
+        self.found.thermal = model.recoil(&self.viewing.geometry(), stored, &mut self.workspace)?;
         Ok(())
     }
 }
 
-impl Sight {
+impl ViewingGeometry {
     fn geometry(&self) -> disturbance::Geometry<'_, f64> {
         disturbance::Geometry {
             sun_direction_body: self.sun_direction_body,
@@ -168,18 +168,18 @@ impl Sight {
 }
 
 impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
-    /// Turns everything at `time_s` into the body frame for `moment`.
-    pub(super) fn look(&mut self, time_s: f64, light_panels: &[usize], moment: &mut Moment) {
+    /// Turns everything at `time_s` into the body frame for `node`.
+    pub(super) fn view(&mut self, time_s: f64, light_panels: &[usize], node: &mut RadiationNode) {
         let configuration = self.configuration;
         let instant = self.instant(time_s);
-        let sight = &mut moment.sight;
-        sight.sun_direction_body = instant.sun_body;
+        let viewing = &mut node.viewing;
+        viewing.sun_direction_body = instant.sun_body;
         let flux_w_m2 = |distance_m: f64| configuration.light.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
-        sight.sun_flux_w_m2 = flux_w_m2(instant.sun_distance_m);
+        viewing.sun_flux_w_m2 = flux_w_m2(instant.sun_distance_m);
         // Inside the planet there is no fraction; what is wrong there is the place.
-        sight.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };
-        sight.center_of_mass_body_m = configuration.center_of_mass_body_m;
-        sight.planet = instant.planet_body_m.map(|position_body_m| {
+        viewing.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };
+        viewing.center_of_mass_body_m = configuration.center_of_mass_body_m;
+        viewing.planet = instant.planet_body_m.map(|position_body_m| {
             let sun_from_planet_body_m = instant.sun_position_body_m() - position_body_m;
             let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
             PlanetGeometry {
@@ -189,10 +189,10 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
                 pole_body: -Vector3::z(),
             }
         });
-        for (angle_rad, &index) in sight.panel_angles_rad.iter_mut().zip(light_panels) {
-            let setting = configuration.panels.get(index).zip(self.craft.panels.get(index));
+        for (angle_rad, &index) in viewing.panel_angles_rad.iter_mut().zip(light_panels) {
+            let setting = configuration.panels.get(index).zip(self.prepared.panels.get(index));
             *angle_rad = setting
-                .and_then(|(setting, panel)| setting.angle_rad(panel, &sight.sun_direction_body))
+                .and_then(|(setting, panel)| setting.angle_rad(panel, &viewing.sun_direction_body))
                 .unwrap_or(0.0);
         }
     }

@@ -1,16 +1,16 @@
-//! Accumulates torque over a flight, cell by cell, and lets thrusters dump when a threshold is exceeded.
+//! Integrates torque over time, segment by segment, and lets thrusters dump when a threshold is exceeded.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::cell::{Cell, Effort, Flight, Sample, Totals};
 use super::dump::DumpPolicy;
+use super::segment::{Effort, MomentumSegment, Sample, TorqueModel, Totals};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
-/// No thruster dumps this often within [`CROWD_S`].
-const MOST_IN_CROWD: u32 = 1_000;
-/// See [`MOST_IN_CROWD`], in s.
-const CROWD_S: f64 = 1.0;
+/// No thruster dumps this often within [`DUMP_WINDOW_S`].
+const MOST_DUMPS_IN_WINDOW: u32 = 1_000;
+/// See [`MOST_DUMPS_IN_WINDOW`], in s.
+const DUMP_WINDOW_S: f64 = 1.0;
 
 /// What "system momentum in the body frame" means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,12 +21,12 @@ pub enum Convention {
     BodyIntegral,
 }
 
-/// How the accumulation is carried out; constant within a step.
+/// How momentum is integrated; constant within a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Longest cell: cells end at multiples of this, in s.
+    /// Longest segment: segments end at multiples of this, in s.
     pub grid_s: f64,
-    /// Largest last Chebyshev term of a cell's totals, in N m s and m/s.
+    /// Largest last Chebyshev term of a segment's totals, in N m s and m/s.
     pub tolerance: f64,
     /// Which momentum the dump thresholds watch.
     pub convention: Convention,
@@ -40,15 +40,15 @@ pub struct Dumps {
     /// How many.
     pub count: i32,
     /// The last one, once there was one.
-    pub last: Option<Event>,
-    /// The first of those that followed one another within [`CROWD_S`], and how many followed.
-    crowd: (f64, u32),
+    pub last: Option<DumpEvent>,
+    /// The first of those that followed one another within [`DUMP_WINDOW_S`], and how many followed.
+    window: (f64, u32),
 }
 
 /// Dumps without end: the torque outruns what a dump leaves.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "{MOST_IN_CROWD} dumps between {from_s:?} s and {to_s:?} s, allowed: fewer within {CROWD_S} s; the thresholds are too low \
+    "{MOST_DUMPS_IN_WINDOW} dumps between {from_s:?} s and {to_s:?} s, allowed: fewer within {DUMP_WINDOW_S} s; the thresholds are too low \
      for the torque"
 )]
 pub struct TooManyDumps {
@@ -60,7 +60,7 @@ pub struct TooManyDumps {
 
 /// A dump as it happens; instantaneous.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Event {
+pub struct DumpEvent {
     /// When, in s.
     pub time_s: f64,
     /// Momentum before, body frame, in the watched convention, in N m s.
@@ -69,7 +69,7 @@ pub struct Event {
     pub after_body_n_m_s: Vector3<f64>,
 }
 
-impl Event {
+impl DumpEvent {
     /// Angular impulse of the thrusters, body frame, in N m s.
     pub fn impulse_body_n_m_s(&self) -> Vector3<f64> {
         self.after_body_n_m_s - self.before_body_n_m_s
@@ -78,29 +78,29 @@ impl Event {
 
 /// Totals of a flight with their dense output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Accumulator {
-    cell: Cell,
+pub struct MomentumIntegrator {
+    segment: MomentumSegment,
     dumps: Dumps,
 }
 
-impl Accumulator {
+impl MomentumIntegrator {
     /// Begins at `time_s` with `totals`.
     pub fn new(time_s: f64, totals: Totals) -> Self {
-        Self { cell: Cell::point(time_s, totals), dumps: Dumps::default() }
+        Self { segment: MomentumSegment::point(time_s, totals), dumps: Dumps::default() }
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        let event = |event: &Event| {
+        let event = |event: &DumpEvent| {
             let numbers =
                 event.before_body_n_m_s.iter().chain(&event.after_body_n_m_s).chain([&event.time_s]);
             numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
         };
-        let Dumps { count, last, crowd } = &self.dumps;
-        self.cell.is_sound()
+        let Dumps { count, last, window } = &self.dumps;
+        self.segment.is_sound()
             && *count >= 0
             && last.as_ref().is_none_or(event)
-            && crowd.0.abs() <= GREATEST_IN_STATE
+            && window.0.abs() <= GREATEST_IN_STATE
     }
 
     /// Dumps so far: those at or before the time last advanced to.
@@ -108,51 +108,51 @@ impl Accumulator {
         &self.dumps
     }
 
-    /// Totals at a time inside the current cell, which [`Accumulator::advance`] has reached.
+    /// Totals at a time inside the current segment, which [`MomentumIntegrator::advance`] has reached.
     pub fn totals(&self, time_s: f64) -> Totals {
-        self.cell.totals(time_s)
+        self.segment.totals(time_s)
     }
 
-    /// Whether [`Accumulator::advance`] has reached `time_s`, and its totals are known there.
+    /// Whether [`MomentumIntegrator::advance`] has reached `time_s`, and its totals are known there.
     pub fn covers(&self, time_s: f64) -> bool {
         let edge_tolerance_s = edge_tolerance_s(time_s);
-        self.cell.start_s() <= time_s + edge_tolerance_s && time_s <= self.cell.end_s()
+        self.segment.start_s() <= time_s + edge_tolerance_s && time_s <= self.segment.end_s()
     }
 
     /// Forgets what was computed ahead of `time_s`: the flight changes there.
     pub fn cut(&mut self, time_s: f64) {
-        let longest_s = self.cell.next_longest_s();
-        self.cell = Cell::point(time_s, self.cell.totals(time_s)).expecting(longest_s);
+        let longest_s = self.segment.next_longest_s();
+        self.segment = MomentumSegment::point(time_s, self.segment.totals(time_s)).expecting(longest_s);
     }
 
     /// Dumps at `time_s` on request: momentum goes to `target_body_n_m_s` in the watched convention.
     pub fn dump_to(
         &mut self,
-        flight: &mut impl Flight,
+        flight: &mut impl TorqueModel,
         settings: &Settings,
         time_s: f64,
         target_body_n_m_s: Vector3<f64>,
-    ) -> Event {
-        let totals = self.cell.totals(time_s);
+    ) -> DumpEvent {
+        let totals = self.segment.totals(time_s);
         self.dump(settings.convention, time_s, totals, &flight.sample(time_s), |_| target_body_n_m_s)
     }
 
-    /// Advances until the current cell covers `time_s`; an edge belongs to the cell that begins there.
+    /// Advances until the current segment covers `time_s`; an edge belongs to the segment that begins there.
     ///
     /// # Errors
     /// What ends the flight; everything before stays.
-    pub fn advance<F: Flight>(
+    pub fn advance<F: TorqueModel>(
         &mut self,
         flight: &mut F,
         settings: &Settings,
         time_s: f64,
-        mut report: impl FnMut(&Event),
+        mut report: impl FnMut(&DumpEvent),
     ) -> Result<(), F::Failure> {
         let edge_tolerance_s = edge_tolerance_s(time_s);
-        while self.cell.end_s() <= time_s + edge_tolerance_s {
-            let start_s = self.cell.end_s();
-            let longest_s = self.cell.next_longest_s();
-            let mut totals = self.cell.totals(start_s);
+        while self.segment.end_s() <= time_s + edge_tolerance_s {
+            let start_s = self.segment.end_s();
+            let longest_s = self.segment.next_longest_s();
+            let mut totals = self.segment.totals(start_s);
             let horizon_s = flight.prepare(start_s)?;
             let first = flight.sample(start_s);
             let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
@@ -163,9 +163,10 @@ impl Accumulator {
                 });
                 report(&event);
                 self.dumps.check()?;
-                totals = self.cell.totals(start_s);
+                totals = self.segment.totals(start_s);
             }
-            self.cell = Cell::build(flight, settings, start_s, horizon_s, totals, &first, longest_s)?;
+            self.segment =
+                MomentumSegment::build(flight, settings, start_s, horizon_s, totals, &first, longest_s)?;
         }
         Ok(())
     }
@@ -177,30 +178,30 @@ impl Accumulator {
         mut totals: Totals,
         sample: &Sample,
         after: impl FnOnce(&Vector3<f64>) -> Vector3<f64>,
-    ) -> Event {
+    ) -> DumpEvent {
         let before_body_n_m_s = totals.momentum_body_n_m_s(convention, &sample.inertial_from_body);
-        let event = Event { time_s, before_body_n_m_s, after_body_n_m_s: after(&before_body_n_m_s) };
+        let event = DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: after(&before_body_n_m_s) };
         totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
         totals.momentum_inertial_n_m_s += sample.inertial_from_body * event.impulse_body_n_m_s();
-        self.cell = Cell::point(time_s, totals);
+        self.segment = MomentumSegment::point(time_s, totals);
         self.dumps = self.dumps.with(event);
         event
     }
 }
 
 impl Dumps {
-    fn with(self, event: Event) -> Self {
-        let (from_s, count) = self.crowd;
+    fn with(self, event: DumpEvent) -> Self {
+        let (from_s, count) = self.window;
         // Written so that a restored NaN begins anew.
-        let goes_on = event.time_s - from_s < CROWD_S;
-        let crowd = if goes_on && count > 0 { (from_s, count.saturating_add(1)) } else { (event.time_s, 1) };
-        Self { count: self.count.saturating_add(1), last: Some(event), crowd }
+        let goes_on = event.time_s - from_s < DUMP_WINDOW_S;
+        let window = if goes_on && count > 0 { (from_s, count.saturating_add(1)) } else { (event.time_s, 1) };
+        Self { count: self.count.saturating_add(1), last: Some(event), window }
     }
 
     fn check(&self) -> Result<(), TooManyDumps> {
-        let (from_s, count) = self.crowd;
+        let (from_s, count) = self.window;
         let to_s = self.last.map_or(from_s, |event| event.time_s);
-        if count < MOST_IN_CROWD { Ok(()) } else { Err(TooManyDumps { from_s, to_s }) }
+        if count < MOST_DUMPS_IN_WINDOW { Ok(()) } else { Err(TooManyDumps { from_s, to_s }) }
     }
 }
 
@@ -223,7 +224,7 @@ mod tests {
     const AMPLITUDE_N_M: f64 = 1e-5;
     const FREQUENCY_RAD_S: f64 = 2e-4;
 
-    impl Flight for Known {
+    impl TorqueModel for Known {
         type Failure = TooManyDumps;
 
         fn prepare(&mut self, _: f64) -> Result<f64, Self::Failure> {
@@ -258,11 +259,11 @@ mod tests {
 
     #[test]
     fn totals_are_the_closed_form_integrals() {
-        let mut accumulator = Accumulator::new(-70.0, Totals::default());
+        let mut integrator = MomentumIntegrator::new(-70.0, Totals::default());
         let setting = settings(f64::INFINITY, Convention::Inertial);
         for time_s in [-70.0, 0.0, 999.0, 1000.0, 1000.5, 5000.0, 86_400.0] {
-            accumulator.advance(&mut Known, &setting, time_s, |_| {}).unwrap();
-            let totals = accumulator.totals(time_s);
+            integrator.advance(&mut Known, &setting, time_s, |_| {}).unwrap();
+            let totals = integrator.totals(time_s);
             let sine = |t: f64| (FREQUENCY_RAD_S * t).sin() / FREQUENCY_RAD_S;
             let x = AMPLITUDE_N_M * (sine(time_s) - sine(-70.0));
             // Body Z turns to inertial (0, -sin, cos) of the spin angle.
@@ -282,9 +283,9 @@ mod tests {
     #[test]
     fn a_dump_falls_where_the_threshold_is_crossed() {
         for convention in [Convention::Inertial, Convention::BodyIntegral] {
-            let mut accumulator = Accumulator::new(0.0, Totals::default());
+            let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
             let mut events = Vec::new();
-            accumulator
+            integrator
                 .advance(&mut Known, &settings(0.02, convention), 5000.0, |event| events.push(*event))
                 .unwrap();
             // 0.02 = (a / w) sin(w t)
@@ -292,39 +293,39 @@ mod tests {
             assert_eq!(events.len(), 1);
             assert_relative_eq!(events[0].time_s, expected_s, epsilon = 1e-3);
             assert_relative_eq!(events[0].after_body_n_m_s.x, -0.02, epsilon = 1e-15);
-            let total = accumulator.totals(5000.0).torque_integral_body_n_m_s.x;
+            let total = integrator.totals(5000.0).torque_integral_body_n_m_s.x;
             assert_relative_eq!(total, 0.05 * 1.0f64.sin() - 0.04, epsilon = 2e-9);
         }
     }
 
     #[test]
     fn a_dump_turns_with_the_body() {
-        let mut accumulator = Accumulator::new(0.0, Totals::default());
+        let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
         let setting = settings(f64::INFINITY, Convention::Inertial);
-        accumulator.advance(&mut Known, &setting, 500.0, |_| {}).unwrap();
-        accumulator.cut(500.0);
+        integrator.advance(&mut Known, &setting, 500.0, |_| {}).unwrap();
+        integrator.cut(500.0);
         let target = Vector3::new(0.1, -0.2, 0.3);
-        accumulator.dump_to(&mut Known, &setting, 500.0, target);
+        integrator.dump_to(&mut Known, &setting, 500.0, target);
         let rotation = Known.sample(500.0).inertial_from_body;
         assert_relative_eq!(
-            accumulator.totals(500.0).momentum_inertial_n_m_s,
+            integrator.totals(500.0).momentum_inertial_n_m_s,
             rotation * target,
             epsilon = 1e-15
         );
-        assert_eq!(accumulator.dumps().count, 1);
+        assert_eq!(integrator.dumps().count, 1);
     }
 
     #[test]
     fn how_the_flight_is_cut_changes_no_bit() {
         let setting = settings(0.01, Convention::Inertial);
         let fly = |step_s: f64| {
-            let mut accumulator = Accumulator::new(0.0, Totals::default());
+            let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
             let mut k = 0.0;
             while k * step_s < 50_400.0 {
                 k += 1.0;
-                accumulator.advance(&mut Known, &setting, k * step_s, |_| {}).unwrap();
+                integrator.advance(&mut Known, &setting, k * step_s, |_| {}).unwrap();
             }
-            (accumulator.totals(50_400.0), *accumulator.dumps())
+            (integrator.totals(50_400.0), *integrator.dumps())
         };
         let reference = fly(50_400.0);
         assert!(reference.1.count > 3);
@@ -341,26 +342,26 @@ mod tests {
         };
         let setting = Settings { policy, ..settings(1.0, Convention::Inertial) };
         let refused = |step_s: f64| {
-            let mut accumulator = Accumulator::new(0.0, Totals::default());
+            let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
             let mut k = 0.0;
             loop {
                 k += 1.0;
-                if let Err(failure) = accumulator.advance(&mut Known, &setting, k * step_s, |_| {}) {
+                if let Err(failure) = integrator.advance(&mut Known, &setting, k * step_s, |_| {}) {
                     return failure;
                 }
             }
         };
         let failure = refused(100.0);
         assert_eq!(failure, refused(0.01));
-        assert!(failure.to_s - failure.from_s < CROWD_S, "{failure}");
+        assert!(failure.to_s - failure.from_s < DUMP_WINDOW_S, "{failure}");
     }
 
     #[test]
     fn an_excess_that_is_there_from_the_start_is_dumped_at_once() {
         let totals = Totals { momentum_inertial_n_m_s: Vector3::new(3.0, 0.0, 0.0), ..Totals::default() };
-        let mut accumulator = Accumulator::new(0.0, totals);
-        accumulator.advance(&mut Known, &settings(1.0, Convention::Inertial), 0.0, |_| {}).unwrap();
-        assert_eq!(accumulator.dumps().last.unwrap().time_s, 0.0);
-        assert_relative_eq!(accumulator.totals(0.0).momentum_inertial_n_m_s.x, -1.0, epsilon = 1e-15);
+        let mut integrator = MomentumIntegrator::new(0.0, totals);
+        integrator.advance(&mut Known, &settings(1.0, Convention::Inertial), 0.0, |_| {}).unwrap();
+        assert_eq!(integrator.dumps().last.unwrap().time_s, 0.0);
+        assert_relative_eq!(integrator.totals(0.0).momentum_inertial_n_m_s.x, -1.0, epsilon = 1e-15);
     }
 }

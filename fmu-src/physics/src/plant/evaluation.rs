@@ -5,14 +5,14 @@ use nalgebra::Vector3;
 use crate::attitude::{MovingFrame, gravity_gradient_n_m};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
-use crate::momentum::{Effort, EventValues, Flight, Sample};
+use crate::momentum::{Effort, EventValues, Sample, TorqueModel};
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
 use crate::spacecraft::Panel;
 
 use super::configuration::Configuration;
 use super::kinematics::Instant;
-use super::light::LightModel;
-use super::stretch::{Course, PlantError};
+use super::propagator::{PlantError, PropagatorState};
+use super::radiation::RadiationSolver;
 use super::work::{Cost, Work};
 
 /// Force and torque from outside, body frame.
@@ -26,14 +26,14 @@ pub struct ExternalLoad {
 
 /// Everything about one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Snapshot {
+pub struct Evaluation {
     /// Where everything is and how the body stands.
     pub instant: Instant,
     /// What acts on it.
     pub loads: Loads,
 }
 
-impl Snapshot {
+impl Evaluation {
     /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
     pub fn nowhere(frame: MovingFrame) -> Self {
         Self { instant: Instant::nowhere(frame), loads: Loads::zero() }
@@ -42,7 +42,7 @@ impl Snapshot {
 
 /// What flies, prepared once.
 #[derive(Clone, Copy, Debug)]
-pub struct Craft<'a> {
+pub struct PreparedSpacecraft<'a> {
     /// Its panels.
     pub panels: &'a [Panel],
     /// The whole of it in sunlight.
@@ -53,11 +53,11 @@ pub struct Craft<'a> {
 
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a, L> {
-    pub(super) craft: Craft<'a>,
+    pub(super) prepared: PreparedSpacecraft<'a>,
     pub(super) configuration: &'a Configuration,
-    pub(super) course: &'a mut Course,
+    pub(super) propagator: &'a mut PropagatorState,
     pub(super) ephemeris: &'a mut Ephemeris,
-    pub(super) light: Option<&'a mut LightModel>,
+    pub(super) light: Option<&'a mut RadiationSolver>,
     external: L,
     work: Work,
 }
@@ -66,20 +66,20 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
     const SAMPLE_UNITS: u32 = 3;
 
-    /// `course` belongs to this configuration, and so does `light`, without which direct sunlight is all there is;
+    /// `propagator` belongs to this configuration, and so does `light`, without which direct sunlight is all there is;
     /// `external` gives the load from outside at any time. At most `work_limit` units of work are done, of about a
     /// microsecond each.
     pub fn new(
-        craft: Craft<'a>,
+        prepared: PreparedSpacecraft<'a>,
         configuration: &'a Configuration,
-        course: &'a mut Course,
+        propagator: &'a mut PropagatorState,
         ephemeris: &'a mut Ephemeris,
-        light: Option<&'a mut LightModel>,
+        light: Option<&'a mut RadiationSolver>,
         external: L,
         work_limit: u32,
     ) -> Self {
         let work = Work::new(work_limit, ephemeris.evaluations());
-        Self { craft, configuration, course, ephemeris, light, external, work }
+        Self { prepared, configuration, propagator, ephemeris, light, external, work }
     }
 
     /// Counts work, the flight having come to `time_s`.
@@ -87,8 +87,8 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
-    /// Everything at `time_s`, which the course must have reached ([`Flight::prepare`]).
-    pub fn snapshot(&mut self, time_s: f64) -> Snapshot {
+    /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
+    pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
         let instant = self.instant(time_s);
         let mut loads = self.radiation(time_s, &instant);
         if let Some(planet_body_m) = &instant.planet_body_m {
@@ -100,12 +100,12 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         }
         let ExternalLoad { force_body_n, torque_body_n_m } = (self.external)(time_s);
         loads[Effect::Applied] = ForceTorque { force_body_n, torque_body_n_m };
-        Snapshot { instant, loads }
+        Evaluation { instant, loads }
     }
 
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
-        self.course.trajectory.time_since_periapsis_s(self.configuration, time_s)
+        self.propagator.trajectory.time_since_periapsis_s(self.configuration, time_s)
     }
 
     /// Light and heat: slow effects from their segment, plain sunlight in closed form.
@@ -113,11 +113,11 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         let effects = &self.configuration.light_and_heat;
         let mut loads = Loads::zero();
         let mut shadowed = false;
-        if let (Some(cell), Some(light)) = (&self.course.light, &self.light)
+        if let (Some(segment), Some(light)) = (&self.propagator.light, &self.light)
             && effects.any()
         {
             shadowed = effects.shadowing && light.model.can_shadow();
-            cell.loads(time_s, &mut loads);
+            segment.loads(time_s, &mut loads);
         }
         if !shadowed {
             let pressure_pa = self.configuration.light.pressure_pa(instant.sun_distance_m);
@@ -131,9 +131,10 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
 
     fn sunlight(&self, beam: &Beam<f64>) -> ForceTorque<f64> {
         let center_of_mass = &self.configuration.center_of_mass_body_m;
-        let solar = self.craft.solar;
+        let solar = self.prepared.solar;
         let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
-        for (index, (panel, setting)) in self.craft.panels.iter().zip(&self.configuration.panels).enumerate()
+        for (index, (panel, setting)) in
+            self.prepared.panels.iter().zip(&self.configuration.panels).enumerate()
         {
             if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body) {
                 sum += solar.panel(index, beam, angle_rad, center_of_mass);
@@ -143,7 +144,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     }
 }
 
-impl<L: Fn(f64) -> ExternalLoad> Flight for Plant<'_, L> {
+impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
     type Failure = PlantError;
 
     fn prepare(&mut self, start_s: f64) -> Result<f64, PlantError> {
@@ -151,7 +152,7 @@ impl<L: Fn(f64) -> ExternalLoad> Flight for Plant<'_, L> {
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {
-        let Snapshot { instant, loads } = self.snapshot(time_s);
+        let Evaluation { instant, loads } = self.evaluate(time_s);
         let total = loads.total();
         let inertial_from_body = instant.frame.inertial_from_body;
         Sample {
@@ -168,12 +169,12 @@ impl<L: Fn(f64) -> ExternalLoad> Flight for Plant<'_, L> {
 
     fn spend(&mut self, effort: Effort, time_s: f64) -> Result<(), PlantError> {
         let samples = match effort {
-            Effort::Cell | Effort::Refinement => 10,
+            Effort::Segment | Effort::Refinement => 10,
             Effort::Search => 60,
-            // With the cell that it begins.
+            // With the segment that it begins.
             Effort::Dump => 16,
         };
-        let faces = self.craft.solar.face_count() as u32;
+        let faces = self.prepared.solar.face_count() as u32;
         self.spend_units(effort.into(), samples * (Self::SAMPLE_UNITS + faces / 50), time_s)
     }
 }

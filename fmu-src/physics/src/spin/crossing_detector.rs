@@ -17,10 +17,10 @@ const LONGEST_PERIOD_S: f64 = 1e100;
 /// Crossings of one direction, one after the other.
 ///
 /// A crossing within half a turn of the last does not count. The next one is looked for only when time comes near it,
-/// within the motion's present cell and always from the same instant, so that it does not depend on how often somebody
+/// within the motion's present segment and always from the same instant, so that it does not depend on how often somebody
 /// asks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Watch {
+pub struct CrossingDetector {
     last_s: Option<f64>,
     period_s: Option<f64>,
     period_before_s: Option<f64>,
@@ -30,13 +30,13 @@ pub struct Watch {
     next_s: Option<Option<f64>>,
 }
 
-impl Watch {
+impl CrossingDetector {
     /// Watches from `start_s` on.
     pub fn new(start_s: f64) -> Self {
         Self { search_from_s: start_s, ..Self::default() }
     }
 
-    /// Whether a decoded watch can be one.
+    /// Whether a decoded detector can be one.
     pub fn is_sound(&self) -> bool {
         let times = [self.last_s, Some(self.search_from_s), self.next_s.flatten()];
         let periods = [self.period_s, self.period_before_s];
@@ -67,7 +67,7 @@ impl Watch {
         self.count
     }
 
-    /// The motion, its cell or the direction changed: what was foreseen is void.
+    /// The motion, its segment or the direction changed: what was foreseen is void.
     pub fn forget(&mut self, now_s: f64) {
         self.next_s = None;
         self.search_from_s = self.search_from_s.max(now_s);

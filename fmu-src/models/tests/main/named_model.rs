@@ -5,13 +5,13 @@ use std::cell::RefCell;
 
 use fmi_export::model_description::{Causality, SimpleTypeKind, Variability, VariableKind};
 use fmi_export::{BaseType, Context, Declare, Failure, Model, Step, Values, Variables};
-use physics::numerics::stretches::next_multiple_s;
+use physics::numerics::intervals::next_multiple_s;
 
 /// Keeps warnings.
 #[derive(Default)]
-struct Heard(RefCell<Vec<String>>);
+struct Warnings(RefCell<Vec<String>>);
 
-impl Log for Heard {
+impl Log for Warnings {
     fn events_enabled(&self) -> bool {
         false
     }
@@ -22,12 +22,12 @@ impl Log for Heard {
 }
 
 /// A model with everything that does not change in flight.
-pub struct Hangar<M: Model> {
+pub struct NamedModel<M: Model> {
     setup: M::Setup,
     handles: M::Variables,
     names: Vec<Named>,
     start: Values,
-    heard: Heard,
+    warnings: Warnings,
 }
 
 struct Named {
@@ -49,7 +49,7 @@ enum Kind {
     Text,
 }
 
-impl<M: Model> Hangar<M> {
+impl<M: Model> NamedModel<M> {
     /// With the compiled-in setup.
     pub fn shipped() -> Self {
         Self::with("default", M::DEFAULT_SETUP)
@@ -102,7 +102,7 @@ impl<M: Model> Hangar<M> {
             }
         });
         let names = names.collect();
-        Self { names, setup, handles, start: table.start, heard: Heard::default() }
+        Self { names, setup, handles, start: table.start, warnings: Warnings::default() }
     }
 
     /// What a master may set, with its limits and whether it is a whole number.
@@ -123,7 +123,7 @@ impl<M: Model> Hangar<M> {
 
     /// The warnings of all flights so far.
     pub fn warnings(&self) -> Vec<String> {
-        self.heard.0.borrow().clone()
+        self.warnings.0.borrow().clone()
     }
 
     fn find(&self, name: &str, kind: Kind) -> usize {
@@ -134,17 +134,17 @@ impl<M: Model> Hangar<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, log: &self.heard }
+        Context { setup: &self.setup, variables: &self.handles, log: &self.warnings }
     }
 
     /// A flight from `start_s` with these start values.
-    pub fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<Pilot<'_, M>, Failure> {
+    pub fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<NamedInstance<'_, M>, Failure> {
         let mut values = self.start.clone();
         for (name, value) in sets {
             self.set(&mut values, name, *value);
         }
         let state = M::initialize(&self.context(), &mut values, start_s)?;
-        Ok(Pilot { hangar: self, values, state, time_s: start_s, before: None })
+        Ok(NamedInstance { named: self, values, state, time_s: start_s, before: None })
     }
 
     fn set(&self, values: &mut Values, name: &str, value: f64) {
@@ -181,8 +181,8 @@ impl Tables {
 }
 
 /// One flight.
-pub struct Pilot<'a, M: Model> {
-    hangar: &'a Hangar<M>,
+pub struct NamedInstance<'a, M: Model> {
+    named: &'a NamedModel<M>,
     values: Values,
     state: M::State,
     time_s: f64,
@@ -190,7 +190,7 @@ pub struct Pilot<'a, M: Model> {
     before: Option<Values>,
 }
 
-impl<M: Model> Pilot<'_, M> {
+impl<M: Model> NamedInstance<'_, M> {
     /// Now, in s.
     pub fn time_s(&self) -> f64 {
         self.time_s
@@ -200,7 +200,7 @@ impl<M: Model> Pilot<'_, M> {
     pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
         let changed = self.before.as_ref().is_some_and(|before| *before != self.values);
         let step = Step { start_s: self.time_s, end_s, changed, input_derivatives: &[] };
-        M::step(&self.hangar.context(), &mut self.values, &mut self.state, &step)?;
+        M::step(&self.named.context(), &mut self.values, &mut self.state, &step)?;
         self.time_s = end_s;
         self.before = None;
         Ok(())
@@ -217,17 +217,17 @@ impl<M: Model> Pilot<'_, M> {
     /// Sets an input or tunable.
     pub fn set(&mut self, name: &str, value: f64) {
         self.before.get_or_insert_with(|| self.values.clone());
-        self.hangar.set(&mut self.values, name, value);
+        self.named.set(&mut self.values, name, value);
     }
 
     /// A Real.
     pub fn real(&self, name: &str) -> f64 {
-        Tables::of(&self.values).reals[self.hangar.find(name, Kind::Real)]
+        Tables::of(&self.values).reals[self.named.find(name, Kind::Real)]
     }
 
     /// An Integer.
     pub fn integer(&self, name: &str) -> i32 {
-        Tables::of(&self.values).integers[self.hangar.find(name, Kind::Integer)]
+        Tables::of(&self.values).integers[self.named.find(name, Kind::Integer)]
     }
 
     /// `name[1]`..`name[3]`.
@@ -238,14 +238,14 @@ impl<M: Model> Pilot<'_, M> {
     /// The bits of every output that varies continuously.
     pub fn output_bits(&self) -> Vec<(String, u64)> {
         let tables = Tables::of(&self.values);
-        let reals = self.hangar.names.iter().filter(|it| it.kind == Kind::Real && it.output && it.varies);
+        let reals = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output && it.varies);
         reals.map(|it| (it.name.clone(), tables.reals[it.reference].to_bits())).collect()
     }
 
     /// The first output that is no finite number.
     pub fn not_finite(&self) -> Option<String> {
         let tables = Tables::of(&self.values);
-        let outputs = self.hangar.names.iter().filter(|it| it.kind == Kind::Real && it.output);
+        let outputs = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output);
         let bad = outputs.into_iter().find(|it| !tables.reals[it.reference].is_finite());
         bad.map(|it| format!("{} = {}", it.name, tables.reals[it.reference]))
     }
@@ -254,7 +254,7 @@ impl<M: Model> Pilot<'_, M> {
     pub fn restored(&self) -> Self {
         let bytes = postcard::to_stdvec(&(&self.values, &self.state)).unwrap();
         let (values, state) = postcard::from_bytes(&bytes).unwrap();
-        Self { hangar: self.hangar, values, state, time_s: self.time_s, before: self.before.clone() }
+        Self { named: self.named, values, state, time_s: self.time_s, before: self.before.clone() }
     }
 
     /// The state's bytes.
@@ -265,10 +265,10 @@ impl<M: Model> Pilot<'_, M> {
     /// Another flight with the state of these bytes; `None` where they are refused.
     pub fn with_state(&self, bytes: &[u8]) -> Option<Self> {
         let state = postcard::from_bytes(bytes).ok()?;
-        M::check_state(&self.hangar.setup, &state).ok()?;
+        M::check_state(&self.named.setup, &state).ok()?;
         M::check_time(&state, self.time_s).ok()?;
         Some(Self {
-            hangar: self.hangar,
+            named: self.named,
             values: self.values.clone(),
             state,
             time_s: self.time_s,
@@ -278,7 +278,7 @@ impl<M: Model> Pilot<'_, M> {
 }
 
 /// Two flights have every continuous output alike, to the bit.
-pub fn assert_same<M: Model>(a: &Pilot<'_, M>, b: &Pilot<'_, M>) {
+pub fn assert_same<M: Model>(a: &NamedInstance<'_, M>, b: &NamedInstance<'_, M>) {
     for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
         assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
     }

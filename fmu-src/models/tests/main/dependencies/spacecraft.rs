@@ -1,7 +1,7 @@
 //! Spacecraft in which everything can act on everything.
 
 /// Surfaces that shadow one another, with heat stored and not, each face reported; two wheels only.
-pub const WARM: &str = r#"
+pub const RADIATING: &str = r#"
 name = "Warm"
 per_plate_outputs = true
 [mass_properties]

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{FlightError, MassSource, Plant};
+use super::{MassSource, Plant, SpinPlantError};
 use crate::spin::{
     inertia::Inertia,
     spinner::Spinner,
@@ -10,10 +10,10 @@ use crate::spin::{
     work::{Cost, Work},
 };
 
-/// A turning force is summed over stretches of this much turn.
+/// A turning force is summed over intervals of this much turn.
 const IMPULSE_PANEL_RAD: f64 = 2.0;
 
-/// And over stretches in which the mass falls by this factor, its logarithm.
+/// And over intervals in which the mass falls by this factor, its logarithm.
 const IMPULSE_PANEL_MASS: f64 = 0.25;
 
 /// What the edges of many pulses have lost to rounding by a time, as a share of it and of the time a full tank lasts.
@@ -70,7 +70,7 @@ impl Plant {
         spinner: &Spinner,
         now_s: f64,
         work: &mut Work,
-    ) -> Result<(), FlightError> {
+    ) -> Result<(), SpinPlantError> {
         self.reach(spinner, now_s, work)?;
         self.settle_pulse(spinner, now_s);
         self.used_kg = self.initial_propellant_kg;
@@ -104,34 +104,34 @@ impl Plant {
         spinner.mass_properties.dry_mass_kg + left_kg.max(0.0)
     }
 
-    /// Goes on to the next cell, summing delta-v as the present one is left.
-    pub(super) fn next_cell(&mut self, spinner: &Spinner, work: &mut Work) -> Result<(), FlightError> {
+    /// Goes on to the next segment, summing delta-v as the present one is left.
+    pub(super) fn next_segment(&mut self, spinner: &Spinner, work: &mut Work) -> Result<(), SpinPlantError> {
         self.motion.check()?;
-        let end_s = self.motion.cell_end_s();
-        work.spend_cell(self.motion.damper());
+        let end_s = self.motion.segment_end_s();
+        work.spend_segment(self.motion.damper());
         if self.mask != 0 {
             work.spend(Cost::Impulse);
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, end_s);
             self.delta_v_until_s = end_s;
         }
-        self.motion.next_cell();
+        self.motion.next_segment();
         self.sun.forget(end_s);
         self.star.forget(end_s);
         Ok(())
     }
 
-    /// Goes on through cells until the present one holds `time_s`.
+    /// Goes on through segments until the present one holds `time_s`.
     pub(super) fn reach(
         &mut self,
         spinner: &Spinner,
         time_s: f64,
         work: &mut Work,
-    ) -> Result<(), FlightError> {
-        while self.motion.cell_end_s() < time_s {
+    ) -> Result<(), SpinPlantError> {
+        while self.motion.segment_end_s() < time_s {
             work.check(self.motion.anchor_s())?;
-            self.next_cell(spinner, work)?;
+            self.next_segment(spinner, work)?;
         }
-        if self.mask != 0 && self.motion.cell_end_s().is_infinite() {
+        if self.mask != 0 && self.motion.segment_end_s().is_infinite() {
             // Thrusters without torque: whole panels of the closed form, counted from when they went on.
             let rate = self.motion.at(self.motion.anchor_s()).rate_rad_s(self.motion.inertia()).norm();
             loop {
@@ -148,7 +148,7 @@ impl Plant {
         Ok(())
     }
 
-    /// Delta-v until `time_s` in the present cell, inertial, in m/s: the turning force over the mass left at each instant.
+    /// Delta-v until `time_s` in the present segment, inertial, in m/s: the turning force over the mass left at each instant.
     pub(super) fn delta_v_at(&self, spinner: &Spinner, time_s: f64) -> Vector3<f64> {
         if self.mask == 0 {
             return self.delta_v_inertial_m_s;

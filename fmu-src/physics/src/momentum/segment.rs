@@ -1,26 +1,26 @@
-//! A cell: a stretch of flight on which the rates are smooth, with its totals as a polynomial in time.
+//! Momentum segment: an interval on which the rates are smooth, with its totals as a polynomial in time.
 
 use nalgebra::{Rotation3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 use crate::numerics::events::first_event;
+use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
-use crate::numerics::stretches::next_multiple_s;
 
-use super::accumulator::TooManyDumps;
 use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
+use super::integrator::TooManyDumps;
 use super::{Convention, Settings};
 
 /// Sampled quantities that are integrated: torque (inertial), torque (body), acceleration (inertial).
 const RATES: usize = 9;
-/// Chebyshev nodes a cell.
+/// Chebyshev nodes a segment.
 const NODES: usize = 8;
-/// An event this soon after the start of a cell is the one that it starts with, in s: an orbit computed anew moves it.
+/// An event this soon after the start of a segment is the one that it starts with, in s: an orbit computed anew moves it.
 const EVENT_GAP_S: f64 = 1e-4;
-/// No cell is halved below this, in s.
+/// No segment is halved below this, in s.
 const SHORTEST_S: f64 = 1e-3;
-/// Terms of a series this much below its largest are rounding; halving the cell does not make them smaller.
+/// Terms of a series this much below its largest are rounding; halving the segment does not make them smaller.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The first time after `start_s` at which an event is another than the one there.
@@ -45,12 +45,12 @@ pub struct Sample {
 /// Values of the event functions of a flight.
 pub type EventValues = SVector<f64, 4>;
 
-/// What accumulating costs.
+/// What the integration of momentum costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// A cell as long as the grid and the flight let it be.
-    Cell,
-    /// A cell tried at a shorter length, because the tolerance asks for it.
+    /// A segment as long as the grid and the flight let it be.
+    Segment,
+    /// A segment tried at a shorter length, because the tolerance asks for it.
     Refinement,
     /// A search for the time at which something changes abruptly.
     Search,
@@ -58,13 +58,13 @@ pub enum Effort {
     Dump,
 }
 
-/// Anything that has an attitude and disturbances at any time.
-pub trait Flight {
+/// What gives attitude, torque and acceleration at any time.
+pub trait TorqueModel {
     /// Why a flight cannot go on.
     type Failure: From<TooManyDumps>;
 
     /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to the next change whose time is
-    /// known: a cell that starts there ends at that time or before. Called with rising times, and again with the same one.
+    /// known: a segment that starts there ends at that time or before. Called with rising times, and again with the same one.
     ///
     /// # Errors
     /// Whatever ends a flight.
@@ -85,7 +85,7 @@ pub trait Flight {
     }
 }
 
-/// What is accumulated over time.
+/// What is integrated over time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Totals {
     /// Angular momentum of the whole spacecraft in the inertial frame, in N m s: dH/dt = T.
@@ -131,20 +131,20 @@ fn pack(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> SVector<f64, RATES
     SVector::from([a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z])
 }
 
-/// One smooth stretch of flight.
+/// One interval without events.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Cell {
+pub struct MomentumSegment {
     start_s: f64,
     end_s: f64,
     at_start: Totals,
-    /// Length the tolerance will probably allow the next cell, in s.
+    /// Length the tolerance will probably allow the next segment, in s.
     next_longest_s: f64,
-    /// Absent for a cell without length.
+    /// Absent for a segment without length.
     totals: Option<Segment<RATES, { NODES + 1 }>>,
 }
 
-impl Cell {
-    /// A cell without length at `time_s`.
+impl MomentumSegment {
+    /// A segment without length at `time_s`.
     pub fn point(time_s: f64, totals: Totals) -> Self {
         Self { start_s: time_s, end_s: time_s, at_start: totals, next_longest_s: f64::INFINITY, totals: None }
     }
@@ -158,21 +158,21 @@ impl Cell {
             && self.totals.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
     }
 
-    /// The same, expecting that the tolerance allows the next cell this length, in s.
+    /// The same, expecting that the tolerance allows the next segment this length, in s.
     pub fn expecting(self, next_longest_s: f64) -> Self {
         Self { next_longest_s, ..self }
     }
 
-    /// Builds the cell that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
+    /// Builds the segment that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
     /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev
     /// terms of a total would exceed the tolerance, or where momentum exceeds a dump threshold.
     ///
-    /// `longest_s` is the length that the cell before expects the tolerance to allow: trying more would be work for
+    /// `longest_s` is the length that the segment before expects the tolerance to allow: trying more would be work for
     /// nothing.
     ///
     /// # Errors
     /// More work than the flight may take.
-    pub fn build<F: Flight>(
+    pub fn build<F: TorqueModel>(
         flight: &mut F,
         settings: &Settings,
         start_s: f64,
@@ -181,7 +181,7 @@ impl Cell {
         first: &Sample,
         longest_s: f64,
     ) -> Result<Self, F::Failure> {
-        flight.spend(Effort::Cell, start_s)?;
+        flight.spend(Effort::Segment, start_s)?;
         // Never without length, whatever a restored state expects.
         let limit_s = next_multiple_s(start_s, settings.grid_s)
             .min(start_s + longest_s)
@@ -196,7 +196,7 @@ impl Cell {
             for (sample, &time_s) in samples.iter_mut().zip(&nodes) {
                 *sample = flight.sample(time_s);
             }
-            // A shorter cell has no event that a longer one has not.
+            // A shorter segment has no event that a longer one has not.
             if !core::mem::replace(&mut watched, true) {
                 let values = samples.map(|sample| sample.events);
                 let after_s = after_event_s(start_s);
@@ -233,11 +233,11 @@ impl Cell {
         };
         let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
         let next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
-        let mut cell = Self { start_s, end_s, at_start, next_longest_s, totals: Some(totals) };
-        if let Some(dump_s) = cell.first_excess_s(settings, &nodes, &samples) {
-            cell.end_s = dump_s;
+        let mut segment = Self { start_s, end_s, at_start, next_longest_s, totals: Some(totals) };
+        if let Some(dump_s) = segment.first_excess_s(settings, &nodes, &samples) {
+            segment.end_s = dump_s;
         }
-        Ok(cell)
+        Ok(segment)
     }
 
     /// Start, in s.
@@ -250,12 +250,12 @@ impl Cell {
         self.end_s
     }
 
-    /// Length the tolerance will probably allow the next cell, in s.
+    /// Length the tolerance will probably allow the next segment, in s.
     pub fn next_longest_s(&self) -> f64 {
         self.next_longest_s
     }
 
-    /// Totals at a time inside the cell.
+    /// Totals at a time inside the segment.
     pub fn totals(&self, time_s: f64) -> Totals {
         match &self.totals {
             Some(totals) if time_s > self.start_s => Totals::from_vector(&totals.value(time_s)),
@@ -263,7 +263,7 @@ impl Cell {
         }
     }
 
-    /// The first time inside the cell at which a momentum component exceeds its threshold.
+    /// The first time inside the segment at which a momentum component exceeds its threshold.
     fn first_excess_s(
         &self,
         settings: &Settings,
@@ -290,12 +290,12 @@ impl Cell {
     }
 }
 
-/// First crossing of a threshold by rows `row`..`row + 3` of `momentum` inside `cell`.
+/// First crossing of a threshold by rows `row`..`row + 3` of `momentum` inside `segment`.
 fn first_crossing_s<const D: usize, const N: usize>(
     momentum: &Segment<D, N>,
     row: usize,
     policy: &DumpPolicy,
-    cell: &Cell,
+    segment: &MomentumSegment,
 ) -> Option<f64> {
     let mut first: Option<f64> = None;
     for axis in 0..3 {
@@ -309,12 +309,12 @@ fn first_crossing_s<const D: usize, const N: usize>(
             let mut direction = SVector::<f64, D>::zeros();
             direction[row + axis] = sign;
             let excess = momentum.project(&direction, -limit_n_m_s);
-            let crossing = excess.sign_changes(cell.start_s, cell.end_s).first();
+            let crossing = excess.sign_changes(segment.start_s, segment.end_s).first();
             first = match (first, crossing) {
                 (Some(a), Some(b)) => Some(a.min(b)),
                 (a, b) => a.or(b),
             };
         }
     }
-    first.filter(|&time_s| time_s > cell.start_s && time_s < cell.end_s)
+    first.filter(|&time_s| time_s > segment.start_s && time_s < segment.end_s)
 }
