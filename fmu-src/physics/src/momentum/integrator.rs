@@ -3,78 +3,10 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::dump::DumpPolicy;
-use super::segment::{Effort, MomentumSegment, Sample, TorqueModel, Totals};
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
-
-/// No thruster dumps this often within [`DUMP_WINDOW_S`].
-const MOST_DUMPS_IN_WINDOW: u32 = 1_000;
-/// See [`MOST_DUMPS_IN_WINDOW`], in s.
-const DUMP_WINDOW_S: f64 = 1.0;
-
-/// What "system momentum in the body frame" means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Convention {
-    /// Physical: dH/dt + w x H = T, the inertial momentum shown in body components.
-    Inertial,
-    /// Paper 000: the integral of each body component of torque on its own.
-    BodyIntegral,
-}
-
-/// How momentum is integrated; constant within a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Longest segment: segments end at multiples of this, in s.
-    pub grid_s: f64,
-    /// Largest last Chebyshev term of a segment's totals, in N m s and m/s.
-    pub tolerance: f64,
-    /// Which momentum the dump thresholds watch.
-    pub convention: Convention,
-    /// Thresholds and what follows.
-    pub policy: DumpPolicy,
-}
-
-/// Dumps so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Dumps {
-    /// How many.
-    pub count: i32,
-    /// The last one, once there was one.
-    pub last: Option<DumpEvent>,
-    /// The first of those that followed one another within [`DUMP_WINDOW_S`], and how many followed.
-    window: (f64, u32),
-}
-
-/// Dumps without end: the torque outruns what a dump leaves.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "{MOST_DUMPS_IN_WINDOW} dumps between {from_s:?} s and {to_s:?} s, allowed: fewer within {DUMP_WINDOW_S} s; the thresholds are too low \
-     for the torque"
-)]
-pub struct TooManyDumps {
-    /// The first of them, in s.
-    pub from_s: f64,
-    /// The last of them, in s.
-    pub to_s: f64,
-}
-
-/// A dump as it happens; instantaneous.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DumpEvent {
-    /// When, in s.
-    pub time_s: f64,
-    /// Momentum before, body frame, in the watched convention, in N m s.
-    pub before_body_n_m_s: Vector3<f64>,
-    /// Momentum after, likewise.
-    pub after_body_n_m_s: Vector3<f64>,
-}
-
-impl DumpEvent {
-    /// Angular impulse of the thrusters, body frame, in N m s.
-    pub fn impulse_body_n_m_s(&self) -> Vector3<f64> {
-        self.after_body_n_m_s - self.before_body_n_m_s
-    }
-}
+use super::dump::{DumpEvent, Dumps};
+use super::segment::{MomentumSegment, Settings};
+use super::torque_model::{Effort, Sample, TorqueModel};
+use super::totals::{Convention, Totals};
 
 /// Totals of a flight with their dense output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,16 +23,7 @@ impl MomentumIntegrator {
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        let event = |event: &DumpEvent| {
-            let numbers =
-                event.before_body_n_m_s.iter().chain(&event.after_body_n_m_s).chain([&event.time_s]);
-            numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
-        };
-        let Dumps { count, last, window } = &self.dumps;
-        self.segment.is_sound()
-            && *count >= 0
-            && last.as_ref().is_none_or(event)
-            && window.0.abs() <= GREATEST_IN_STATE
+        self.segment.is_sound() && self.dumps.is_sound()
     }
 
     /// Dumps so far: those at or before the time last advanced to.
@@ -189,22 +112,6 @@ impl MomentumIntegrator {
     }
 }
 
-impl Dumps {
-    fn with(self, event: DumpEvent) -> Self {
-        let (from_s, count) = self.window;
-        // Written so that a restored NaN begins anew.
-        let goes_on = event.time_s - from_s < DUMP_WINDOW_S;
-        let window = if goes_on && count > 0 { (from_s, count.saturating_add(1)) } else { (event.time_s, 1) };
-        Self { count: self.count.saturating_add(1), last: Some(event), window }
-    }
-
-    fn check(&self) -> Result<(), TooManyDumps> {
-        let (from_s, count) = self.window;
-        let to_s = self.last.map_or(from_s, |event| event.time_s);
-        if count < MOST_DUMPS_IN_WINDOW { Ok(()) } else { Err(TooManyDumps { from_s, to_s }) }
-    }
-}
-
 /// Times this close to an edge count as the edge.
 fn edge_tolerance_s(time_s: f64) -> f64 {
     4.0 * f64::EPSILON * time_s.abs()
@@ -214,7 +121,8 @@ fn edge_tolerance_s(time_s: f64) -> f64 {
 mod tests {
     //! Against torques whose integrals and threshold crossings are known in closed form.
     use super::*;
-    use crate::momentum::{EventValues, Reinitialise};
+    use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
+    use crate::momentum::torque_model::EventValues;
     use approx::assert_relative_eq;
     use nalgebra::Rotation3;
 

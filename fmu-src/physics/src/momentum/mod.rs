@@ -8,9 +8,13 @@
 mod dump;
 mod integrator;
 mod segment;
+mod torque_model;
+mod totals;
 mod wheels;
 
-pub use dump::{DumpPolicy, Reinitialise};
-pub use integrator::{Convention, DumpEvent, Dumps, MomentumIntegrator, Settings, TooManyDumps};
-pub use segment::{Effort, EventValues, Sample, TorqueModel, Totals, after_event_s};
+pub use dump::{DumpEvent, DumpPolicy, Dumps, Reinitialise, TooManyDumps};
+pub use integrator::MomentumIntegrator;
+pub use segment::Settings;
+pub use torque_model::{Effort, EventValues, Sample, TorqueModel, after_event_s};
+pub use totals::{Convention, Totals};
 pub use wheels::WheelArray;

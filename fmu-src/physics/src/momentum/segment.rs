@@ -1,134 +1,34 @@
 //! Momentum segment: an interval on which the rates are smooth, with its totals as a polynomial in time.
 
-use nalgebra::{Rotation3, SVector, Vector3};
+use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::next_multiple_s;
-use crate::numerics::spacing::spacing;
 
 use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
-use super::integrator::TooManyDumps;
-use super::{Convention, Settings};
+use super::torque_model::{Effort, Sample, TorqueModel, after_event_s};
+use super::totals::{Convention, RATES, Totals, pack};
 
-/// Sampled quantities that are integrated: torque (inertial), torque (body), acceleration (inertial).
-const RATES: usize = 9;
 /// Chebyshev nodes a segment.
 const NODES: usize = 8;
-/// An event this soon after the start of a segment is the one that it starts with, in s: an orbit computed anew moves it.
-const EVENT_GAP_S: f64 = 1e-4;
 /// No segment is halved below this, in s.
 const SHORTEST_S: f64 = 1e-3;
 /// Terms of a series this much below its largest are rounding; halving the segment does not make them smaller.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The first time after `start_s` at which an event is another than the one there.
-pub fn after_event_s(start_s: f64) -> f64 {
-    start_s + EVENT_GAP_S.max(4.0 * spacing(start_s))
-}
-
-/// What a flight gives at one time.
+/// How momentum is integrated; constant within a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Matrix that takes body components to inertial components.
-    pub inertial_from_body: Rotation3<f64>,
-    /// Total external torque about the centre of mass, body frame, in N m.
-    pub torque_body_n_m: Vector3<f64>,
-    /// Acceleration by non-gravitational forces, inertial frame, in m/s2.
-    pub acceleration_inertial_m_s2: Vector3<f64>,
-    /// Event functions: between two of their roots the sample is a smooth function of time. Infinite where there is nothing
-    /// to watch.
-    pub events: EventValues,
-}
-
-/// Values of the event functions of a flight.
-pub type EventValues = SVector<f64, 4>;
-
-/// What the integration of momentum costs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
-    /// A segment as long as the grid and the flight let it be.
-    Segment,
-    /// A segment tried at a shorter length, because the tolerance asks for it.
-    Refinement,
-    /// A search for the time at which something changes abruptly.
-    Search,
-    /// A dump.
-    Dump,
-}
-
-/// What gives attitude, torque and acceleration at any time.
-pub trait TorqueModel {
-    /// Why a flight cannot go on.
-    type Failure: From<TooManyDumps>;
-
-    /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to the next change whose time is
-    /// known: a segment that starts there ends at that time or before. Called with rising times, and again with the same one.
-    ///
-    /// # Errors
-    /// Whatever ends a flight.
-    fn prepare(&mut self, start_s: f64) -> Result<f64, Self::Failure>;
-
-    /// Sample at `time_s`; a pure function of time within what was prepared.
-    fn sample(&mut self, time_s: f64) -> Sample;
-
-    /// The event functions of the sample alone.
-    fn events(&mut self, time_s: f64) -> EventValues;
-
-    /// Counts what is about to be done, the flight having come to `time_s`.
-    ///
-    /// # Errors
-    /// More was spent than may be.
-    fn spend(&mut self, _effort: Effort, _time_s: f64) -> Result<(), Self::Failure> {
-        Ok(())
-    }
-}
-
-/// What is integrated over time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Totals {
-    /// Angular momentum of the whole spacecraft in the inertial frame, in N m s: dH/dt = T.
-    pub momentum_inertial_n_m_s: Vector3<f64>,
-    /// Integral of the body components of torque, in N m s (paper 000's eq 13, read component by component).
-    pub torque_integral_body_n_m_s: Vector3<f64>,
-    /// Velocity change by non-gravitational forces, inertial frame, in m/s.
-    pub delta_v_inertial_m_s: Vector3<f64>,
-}
-
-impl Totals {
-    /// System momentum in the body frame by `convention`, in N m s.
-    pub fn momentum_body_n_m_s(
-        &self,
-        convention: Convention,
-        inertial_from_body: &Rotation3<f64>,
-    ) -> Vector3<f64> {
-        match convention {
-            Convention::Inertial => inertial_from_body.inverse() * self.momentum_inertial_n_m_s,
-            Convention::BodyIntegral => self.torque_integral_body_n_m_s,
-        }
-    }
-
-    /// Whether every number is finite.
-    pub fn is_finite(&self) -> bool {
-        self.to_vector().iter().all(|x| x.is_finite())
-    }
-
-    fn to_vector(self) -> SVector<f64, RATES> {
-        pack(self.momentum_inertial_n_m_s, self.torque_integral_body_n_m_s, self.delta_v_inertial_m_s)
-    }
-
-    fn from_vector(v: &SVector<f64, RATES>) -> Self {
-        Self {
-            momentum_inertial_n_m_s: Vector3::new(v[0], v[1], v[2]),
-            torque_integral_body_n_m_s: Vector3::new(v[3], v[4], v[5]),
-            delta_v_inertial_m_s: Vector3::new(v[6], v[7], v[8]),
-        }
-    }
-}
-
-fn pack(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> SVector<f64, RATES> {
-    SVector::from([a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z])
+pub struct Settings {
+    /// Longest segment: segments end at multiples of this, in s.
+    pub grid_s: f64,
+    /// Largest last Chebyshev term of a segment's totals, in N m s and m/s.
+    pub tolerance: f64,
+    /// Which momentum the dump thresholds watch.
+    pub convention: Convention,
+    /// Thresholds and what follows.
+    pub policy: DumpPolicy,
 }
 
 /// One interval without events.

@@ -5,7 +5,7 @@ use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{OrbitError, elements::check_mu};
+use super::elements::{OrbitError, check_mu};
 use crate::{
     bodies::BodyData,
     constants::GM_SUN_M3_S2,

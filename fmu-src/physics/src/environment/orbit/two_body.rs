@@ -6,8 +6,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Elements, OrbitError,
-    elements::check_mu,
+    elements::{Elements, OrbitError, check_mu},
     kepler::{eccentric_anomaly_rad, hyperbolic_anomaly},
 };
 use crate::environment::CartesianState;

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::error::ModelError;
 use super::geometry::{GeometryError, PlanetGeometry};
-use super::model::ModelError;
 use crate::bodies::surface::{PlanetSurface, SurfaceExitance};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::grid::{CellLayout, PlanetGrid, sun_fixed_axes};

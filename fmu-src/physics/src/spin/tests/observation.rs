@@ -153,7 +153,7 @@ fn draws_are_normal_and_depend_on_seed_channel_and_event_alone() {
 fn sun_and_earth_of_the_l1_orbit_stand_where_the_geometry_puts_them() {
     let mut orbit = ace().l1_orbit;
     let day = 86_400.0;
-    let at = |orbit: &crate::spin::spinner::L1Orbit, t: f64| orbit.sun_earth(&Default::default(), t);
+    let at = |orbit: &crate::spin::geometry::L1Orbit, t: f64| orbit.sun_earth(&Default::default(), t);
     // Without an amplitude Sun and Earth are opposite and turn by 0.9829 deg a day.
     orbit.amplitude_m = [0.0; 3];
     let (now, later) = (at(&orbit, 0.0), at(&orbit, day));

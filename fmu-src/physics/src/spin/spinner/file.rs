@@ -1,19 +1,88 @@
-//! Reading and checking the spinner's file; every problem is told by file, line, key, what was found and what is
+//! The spinner, from its file; every problem is told by file, line, key, what was found and what is
 //! allowed.
 
 use nalgebra::Vector3;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    Group, L1Orbit, Limits, MOST_THRUSTERS, MassProperties, Spinner, StarTracker, SunSensor, Thruster,
+use super::hardware::{
+    Group, Limits, MOST_THRUSTERS, MassProperties, StarTracker, SunSensor, Thrust, Thruster,
 };
-use crate::spacecraft::{Checker, Document, Place, SpacecraftError, StartTable, nearest, start_entries};
+use crate::spacecraft::{
+    Checker, Document, Place, SpacecraftError, StartEntry, StartTable, nearest, start_entries,
+};
+use crate::spin::geometry::L1Orbit;
 
 /// Greatest distance, in m: planets and their Lagrange points are nearer to the Sun.
 const GREATEST_DISTANCE_M: f64 = 1e13;
 
 /// Standard gravity, in m/s2 (3rd CGPM 1901): specific impulse in seconds times this is exhaust speed.
 const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
+
+/// The whole setup, validated.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spinner {
+    /// Name.
+    pub name: String,
+    /// Mass properties.
+    pub mass_properties: MassProperties,
+    /// 1/e time of the nutation angle, in s; 0 without a damper.
+    pub damper_time_constant_s: f64,
+    /// Smallest step of pulse width, in s.
+    pub resolution_s: f64,
+    /// Thrusters.
+    pub thrusters: Vec<Thruster>,
+    /// Named groups.
+    pub groups: Vec<Group>,
+    /// Star tracker.
+    pub star_tracker: StarTracker,
+    /// Sun sensor.
+    pub sun_sensor: SunSensor,
+    /// Limits.
+    pub limits: Limits,
+    /// Orbit.
+    pub l1_orbit: L1Orbit,
+    /// Start values of the model's variables, handed on as they were written.
+    #[serde(skip)]
+    pub start: Vec<StartEntry>,
+}
+
+impl Spinner {
+    /// Reads a spinner from TOML text; `file` only names it in errors.
+    ///
+    /// # Errors
+    ///
+    /// Text that is not TOML, or all unknown, missing and ill-typed keys and all values no spinner can have, each with
+    /// line, key, what was found and what is allowed.
+    pub fn parse(file: &str, text: &str) -> Result<Self, SpacecraftError> {
+        let document = Document::parse(file, text)?;
+        let (raw, findings) = document.read::<File>()?;
+        let mut builder = Builder { check: Checker::new(&document, findings) };
+        let spinner = builder.spinner(raw);
+        builder.check.finish(spinner)
+    }
+
+    /// What the thrusters of `mask` do together.
+    pub fn thrust(&self, mask: u32) -> Thrust {
+        let mut sum =
+            Thrust { force_body_n: Vector3::zeros(), torque_body_n_m: Vector3::zeros(), flow_kg_s: 0.0 };
+        for (k, thruster) in self.thrusters.iter().enumerate() {
+            if mask >> k & 1 == 1 {
+                sum.force_body_n += thruster.force_body_n;
+                sum.torque_body_n_m += thruster.torque_body_n_m;
+                sum.flow_kg_s += thruster.flow_kg_s;
+            }
+        }
+        sum
+    }
+
+    /// The group or single thruster called `name`: its mask and that of its opposite.
+    pub fn named(&self, name: &str) -> Option<(u32, Option<u32>)> {
+        if let Some(group) = self.groups.iter().find(|group| group.name == name) {
+            return Some((group.mask, group.opposite.and_then(|o| self.groups.get(o)).map(|g| g.mask)));
+        }
+        self.thrusters.iter().position(|thruster| thruster.name == name).map(|k| (1 << k, None))
+    }
+}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -59,14 +128,6 @@ struct GroupEntry {
     name: String,
     thrusters: Vec<String>,
     opposite: Option<String>,
-}
-
-pub(super) fn parse(file: &str, text: &str) -> Result<Spinner, SpacecraftError> {
-    let document = Document::parse(file, text)?;
-    let (raw, findings) = document.read::<File>()?;
-    let mut builder = Builder { check: Checker::new(&document, findings) };
-    let spinner = builder.spinner(raw);
-    builder.check.finish(spinner)
 }
 
 /// Gathers problems on the way through the file.
