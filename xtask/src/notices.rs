@@ -168,8 +168,8 @@ mod tests {
     #[test]
     fn lines_of_the_tree_are_crates_of_others() {
         let found = crate_of("toml v1.2.1+spec-1.1.0|MIT OR Apache-2.0 (*)").unwrap();
-        let wanted = ["toml", "1.2.1+spec-1.1.0", "MIT OR Apache-2.0"];
-        assert_eq!([found.name.as_str(), found.version.as_str(), found.license.as_str()], wanted);
+        let expected = ["toml", "1.2.1+spec-1.1.0", "MIT OR Apache-2.0"];
+        assert_eq!([found.name.as_str(), found.version.as_str(), found.license.as_str()], expected);
         assert_eq!(crate_of("physics v0.1.0 (/home/me/physics)|MIT OR Apache-2.0"), None);
         assert_eq!(crate_of(""), None);
     }

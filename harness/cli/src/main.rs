@@ -8,13 +8,13 @@ mod args;
 mod check;
 mod child;
 mod coefficients;
-mod fly;
 mod info;
 mod interrupt;
 mod output;
 mod pack;
 mod plan;
 mod plot;
+mod run;
 mod study;
 
 use std::process::ExitCode;

@@ -67,7 +67,7 @@ impl Report {
         fs::create_dir_all(folder)
             .map_err(|error| StudyError::Write(format!("{}: {error}", folder.display())))?;
         let path = folder.join(file);
-        // An FMU that is flown is never written over.
+        // An FMU that is simulated is never written over.
         let fmus: Vec<PathBuf> = fs::read_dir(&options.dist)
             .map(|entries| {
                 entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect()

@@ -6,7 +6,7 @@
 mod child;
 mod probes;
 mod spacecraft;
-mod still;
+mod static_checks;
 
 use std::{process::ExitCode, time::Instant};
 
@@ -109,11 +109,11 @@ pub fn run(arguments: &Check) -> Outcome {
     if arguments.template.is_some() {
         return Err("--template is for a spacecraft (.toml): an FMU is checked by its own library".into());
     }
-    let is_wanted = |probe: &&probes::Probe| {
+    let is_selected = |probe: &&probes::Probe| {
         arguments.only.as_ref().is_none_or(|only| probe.name.contains(only.as_str()))
     };
     if let Some(only) = &arguments.only
-        && !probes::ALL.iter().any(|probe| is_wanted(&probe))
+        && !probes::ALL.iter().any(|probe| is_selected(&probe))
     {
         let names: Vec<&str> = probes::ALL.iter().map(|probe| probe.name).collect();
         return Err(
@@ -129,8 +129,11 @@ pub fn run(arguments: &Check) -> Outcome {
             return report(arguments, &sections);
         }
     };
-    sections.push(Section { title: "archive".to_owned(), findings: still::archive(&fmu) });
-    sections.push(Section { title: "modelDescription.xml".to_owned(), findings: still::description(&fmu) });
+    sections.push(Section { title: "archive".to_owned(), findings: static_checks::archive(&fmu) });
+    sections.push(Section {
+        title: "modelDescription.xml".to_owned(),
+        findings: static_checks::description(&fmu),
+    });
     let runnable = !arguments.is_static && fmu.co_simulation().is_ok();
     if runnable {
         let loads = child::run(&fmu, "library", arguments.timeout);
@@ -138,7 +141,7 @@ pub fn run(arguments: &Check) -> Outcome {
         let usable = loads.first().is_some_and(|finding| finding.verdict == Verdict::Good);
         sections.push(Section { title: "library".to_owned(), findings: loads });
         if usable {
-            for probe in probes::ALL.iter().filter(|probe| probe.name != "library").filter(is_wanted) {
+            for probe in probes::ALL.iter().filter(|probe| probe.name != "library").filter(is_selected) {
                 let mut findings = child::run(&fmu, probe.name, arguments.timeout);
                 for trial in probes::trials().filter(|trial| trial.probe == probe.name) {
                     findings.extend(try_out(&fmu, trial, arguments.timeout));

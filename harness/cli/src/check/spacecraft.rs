@@ -49,7 +49,7 @@ pub fn run(arguments: &Check) -> Outcome {
         ))?;
         return Ok(ExitCode::SUCCESS);
     }
-    // The kinds of file are far apart: what the other models miss in it would bury what is wrong.
+    // The kinds of file are far apart: what the other models miss in it would hide what is wrong.
     let is_own = |model: &Described| Some(&model.model) == own.as_ref();
     let rank = |model: &Described| (common_keys(&text, &model.default_setup), is_own(model));
     let Some(fittest) = refusals.iter().max_by_key(|(model, _)| rank(model)) else {
@@ -81,14 +81,14 @@ fn without_start_values(text: &str) -> Option<String> {
     Some(file.to_string())
 }
 
-/// How many keys two files have in common, tables inside of tables left out.
+/// EndReason many keys two files have in common, tables inside of tables left out.
 fn common_keys(one: &str, other: &str) -> usize {
     // What can be read of a torn file tells its kind too.
     let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
     one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }
 
-/// How many of each part the file describes: its lists of tables, and what its sunshade is given as.
+/// EndReason many of each part the file describes: its lists of tables, and what its sunshade is given as.
 fn contents(text: &str) -> String {
     let Ok(file) = text.parse::<Table>() else { return String::new() };
     let mut parts = lists(&file);

@@ -1,4 +1,4 @@
-//! The flights of paper 000's study and how one is flown.
+//! The simulations of paper 000's study and how one is simulated.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use loader::{Fmu, Value};
@@ -59,7 +59,7 @@ impl Convention {
     }
 }
 
-/// What a flight chooses otherwise than the study does, where the paper prints nothing.
+/// What a simulation chooses otherwise than the study does, where the paper prints nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// Nothing: the FMU's own start date, orbit frame and panel tilts.
@@ -104,7 +104,7 @@ impl Choice {
     }
 }
 
-/// One flight.
+/// One simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
     /// Dump threshold of all axes, in N m s.
@@ -168,10 +168,10 @@ impl Case {
     }
 }
 
-/// A finished flight.
+/// A finished simulation.
 #[derive(Clone, Debug)]
-pub struct Flown {
-    /// What was flown.
+pub struct Simulated {
+    /// What was simulated.
     pub case: Case,
     /// Communication points, in days.
     pub times_d: Vec<f64>,
@@ -210,7 +210,7 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-/// Flights over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
+/// Simulations over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
 pub fn open() -> Vec<Case> {
     let mut cases = Vec::new();
     let mut extend = |reinit, threshold_n_m_s, shade, choices: &[Choice]| {
@@ -241,8 +241,12 @@ pub fn open() -> Vec<Case> {
     cases
 }
 
-/// Flies every one of `cases` that `options` leaves, on all cores; the order of results does not depend on theirs.
-pub fn fly_all(study: &'static str, options: &Options, cases: Vec<Case>) -> Result<Vec<Flown>, StudyError> {
+/// Runs every one of `cases` that `options` leaves, on all cores; the order of results does not depend on theirs.
+pub fn simulate_all(
+    study: &'static str,
+    options: &Options,
+    cases: Vec<Case>,
+) -> Result<Vec<Simulated>, StudyError> {
     let only = options.only.as_deref().unwrap_or_default();
     let known = cases.iter().map(Case::label).collect::<Vec<_>>().join("\n  ");
     let cases: Vec<Case> = cases.into_iter().filter(|case| case.label().contains(only)).collect();
@@ -251,25 +255,27 @@ pub fn fly_all(study: &'static str, options: &Options, cases: Vec<Case>) -> Resu
     }
     let fmu = options.fmu("MomentumPlant.fmu")?;
     let bar = if options.progress { ProgressBar::new(cases.len() as u64) } else { ProgressBar::hidden() };
-    if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} flights {elapsed}") {
+    if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} simulations {elapsed}") {
         bar.set_style(style);
     }
-    bar.set_message("flying 90 days");
-    let flown = cases
+    bar.set_message("running 90 days");
+    let simulated = cases
         .par_iter()
         .map(|case| {
-            let flown = fly(&fmu, case);
+            let simulated = simulate(&fmu, case);
             bar.inc(1);
-            flown
+            simulated
         })
         .collect();
     bar.finish_and_clear();
-    flown
+    simulated
 }
 
-fn fly(fmu: &Fmu, case: &Case) -> Result<Flown, StudyError> {
-    let failed =
-        |source: Box<dyn std::error::Error + Send + Sync>| StudyError::Flight { case: case.label(), source };
+fn simulate(fmu: &Fmu, case: &Case) -> Result<Simulated, StudyError> {
+    let failed = |source: Box<dyn std::error::Error + Send + Sync>| StudyError::Simulation {
+        case: case.label(),
+        source,
+    };
     let names = ["momentum.body[1]", "dump.count", "dump.lastTime"];
     let record = names.iter().filter_map(|name| fmu.position(name)).collect();
     let options = loader::Options {
@@ -290,7 +296,7 @@ fn fly(fmu: &Fmu, case: &Case) -> Result<Flown, StudyError> {
     let mut dumps_d: Vec<f64> =
         last_s.iter().filter(|&&time_s| time_s >= 0.0).map(|time_s| time_s / DAY_S).collect();
     dumps_d.dedup();
-    Ok(Flown {
+    Ok(Simulated {
         case: *case,
         times_d: recording.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
         momentum_x_n_m_s,

@@ -1,6 +1,6 @@
 //! Paper 002: ACE's nutation from pulse trains, and its observation by the star tracker.
 
-mod flight;
+mod case;
 mod history;
 mod numbers;
 mod tracker;

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::flight::{Case, RATIO, left};
+use super::case::{Case, RATIO, left};
 use super::verdict::{rounds, says, verdict};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -21,12 +21,12 @@ const SAMPLINGS: [(&str, i32); 2] = [("clock, every 96 s", 2), ("every 8 spins",
 
 /// Figure 6.
 pub fn figure6(options: &Options) -> Result<Report, StudyError> {
-    let wanted = left("spin/figure6", options, SAMPLINGS.iter().map(|(label, _)| *label))?;
+    let selected = left("spin/figure6", options, SAMPLINGS.iter().map(|(label, _)| *label))?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let mut report = Report::default();
     report.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
     let (mut rows, mut csv, mut panels) = (Vec::new(), Vec::new(), Vec::new());
-    for (label, number) in SAMPLINGS.iter().filter(|(label, _)| wanted.contains(label)) {
+    for (label, number) in SAMPLINGS.iter().filter(|(label, _)| selected.contains(label)) {
         let case = Case::new(*label, 14_400.0, 0.5)
             .integer("burn.plan", 4)
             .real("start.nutation", NUTATION_RAD)
@@ -38,13 +38,15 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             "starTracker.nutation",
             "starTracker.nutationSigma",
         ];
-        let flown = case.fly(&fmu, &names)?;
-        let (times, exact) = (&flown.times_s, &flown.columns[0]);
+        let simulated = case.simulate(&fmu, &names)?;
+        let (times, exact) = (&simulated.times_s, &simulated.columns[0]);
         let mean = exact.iter().sum::<f64>() / exact.len() as f64;
         // Where a sample has just come: the true declination there, and what the tracker said.
         let samples: Vec<(f64, f64, f64)> = (1..times.len())
-            .filter(|&i| flown.columns[1][i] != flown.columns[1][i - 1] && flown.columns[1][i] >= 0.0)
-            .map(|i| (flown.columns[1][i], exact[i], flown.columns[2][i]))
+            .filter(|&i| {
+                simulated.columns[1][i] != simulated.columns[1][i - 1] && simulated.columns[1][i] >= 0.0
+            })
+            .map(|i| (simulated.columns[1][i], exact[i], simulated.columns[2][i]))
             .collect();
         let first: Vec<_> = samples.iter().take(8).collect();
         let span = match (first.first(), first.last()) {
@@ -60,8 +62,8 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
         rows.push(vec![
             format!("{label}: nutation from the samples of 4 h"),
             "0.02 deg (set)".to_owned(),
-            format!("{:.4} +- {:.4} deg", flown.last(3).to_degrees(), flown.last(4).to_degrees()),
-            verdict((flown.last(3) - NUTATION_RAD).abs() < 3.0 * flown.last(4)).to_owned(),
+            format!("{:.4} +- {:.4} deg", simulated.last(3).to_degrees(), simulated.last(4).to_degrees()),
+            verdict((simulated.last(3) - NUTATION_RAD).abs() < 3.0 * simulated.last(4)).to_owned(),
         ]);
         csv.extend(samples.iter().map(|(time_s, exact, measured)| {
             vec![
@@ -71,8 +73,8 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
                 format!("{:.9}", measured.to_degrees()),
             ]
         }));
-        // The wave of 8 s is drawn from a flight of its own, finer than the picture.
-        let wave = case.clone().grid(SHOWN_S, 0.05).fly(&fmu, &names[..1])?;
+        // The wave of 8 s is drawn from a simulation of its own, finer than the picture.
+        let wave = case.clone().grid(SHOWN_S, 0.05).simulate(&fmu, &names[..1])?;
         panels.push(Panel {
             y_label: "declination - mean [deg]".to_owned(),
             series: vec![
@@ -125,10 +127,10 @@ struct Point {
 pub fn figure7(options: &Options) -> Result<Report, StudyError> {
     let ratios: Vec<f64> = (0..24).map(|i| 1.4715 + 0.001 * f64::from(i) * 22.5 / 23.0).collect();
     let labels: Vec<String> = ratios.iter().map(|ratio| format!("ratio {ratio:.4}")).collect();
-    let wanted = left("spin/figure7", options, labels.iter().map(String::as_str))?;
+    let selected = left("spin/figure7", options, labels.iter().map(String::as_str))?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let grid: Vec<(usize, f64)> = (0..ratios.len())
-        .filter(|&i| wanted.contains(&labels[i].as_str()))
+        .filter(|&i| selected.contains(&labels[i].as_str()))
         .flat_map(|i| (0..40).map(move |j| (i, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0)))
         .collect();
     let points: Vec<Point> = grid
@@ -140,7 +142,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
                     .integer("burn.plan", 4)
                     .real("spin.initialRate", rate_rpm * PI / 30.0)
                     .integer("starTracker.sampling", number)
-                    .fly(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
+                    .simulate(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
             };
             let (clock, spins) = (time(2)?, time(1)?);
             Ok(Point {

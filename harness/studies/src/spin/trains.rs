@@ -2,16 +2,16 @@
 
 use rayon::prelude::*;
 
-use super::flight::{Case, PERIOD_S, RADIAL_ARM_M, RATIO, eq8, left, width_s};
+use super::case::{Case, PERIOD_S, RADIAL_ARM_M, RATIO, eq8, left, width_s};
 use super::verdict::{AGREES, rounds, says, verdict};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
 /// The manoeuvre, in rad.
 const MANOEUVRE_RAD: f64 = 2.0 * core::f64::consts::PI / 180.0;
-/// Most pulses flown.
+/// Most pulses simulated.
 const MOST: u32 = 120;
-/// Fewest in the picture: fewer leave so much nutation that nothing is seen of the rest.
+/// Fewest in the picture: fewer leave so much nutation that nothing is found of the rest.
 const FEWEST_SHOWN: u32 = 10;
 /// Eq 8 takes pulses for impulses. Pulses as short as 20 of them make, 0.18 s, are impulses but for (Omega l)^2/24.
 const IMPULSES: u32 = 20;
@@ -22,7 +22,7 @@ struct Row {
     count: u32,
     width_s: f64,
     printed_rad: f64,
-    flown_rad: f64,
+    simulated_rad: f64,
 }
 
 /// Figure 2: one pulse per half revolution.
@@ -43,12 +43,12 @@ fn figure(
     options: &Options,
 ) -> Result<Report, StudyError> {
     let labels: Vec<String> = (1..=MOST).map(|count| format!("n = {count}")).collect();
-    let wanted = left(study, options, labels.iter().map(String::as_str))?;
+    let selected = left(study, options, labels.iter().map(String::as_str))?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let phase = core::f64::consts::TAU * turns * RATIO;
     let rows: Vec<Row> = (1..=MOST)
         .into_par_iter()
-        .filter(|count| wanted.contains(&labels[*count as usize - 1].as_str()))
+        .filter(|count| selected.contains(&labels[*count as usize - 1].as_str()))
         .filter_map(|count| {
             let per_pulse = MANOEUVRE_RAD / f64::from(count);
             Some((count, per_pulse, width_s(per_pulse, RADIAL_ARM_M)?))
@@ -59,9 +59,9 @@ fn figure(
                 .integer("burn.count", count as i32)
                 .real("burn.turnsPerPulse", turns)
                 .real("burn.pulseWidth", width_s);
-            let flown = case.fly(&fmu, &["nutation.angle"])?;
+            let simulated = case.simulate(&fmu, &["nutation.angle"])?;
             let printed_rad = eq8(per_pulse, phase, f64::from(count));
-            Ok(Row { count, width_s, printed_rad, flown_rad: flown.last(0) })
+            Ok(Row { count, width_s, printed_rad, simulated_rad: simulated.last(0) })
         })
         .collect::<Result<_, StudyError>>()?;
     let mut report = Report::default();
@@ -71,13 +71,13 @@ fn figure(
     report.csv(
         options,
         &format!("{file}.csv"),
-        &["n", "pulse_width_s", "eq8_deg", "flown_deg", "envelope_deg"],
+        &["n", "pulse_width_s", "eq8_deg", "simulated_deg", "envelope_deg"],
         rows.iter().map(|row| {
             vec![
                 row.count.to_string(),
                 format!("{:.9}", row.width_s),
                 format!("{:.9}", row.printed_rad.to_degrees()),
-                format!("{:.9}", row.flown_rad.to_degrees()),
+                format!("{:.9}", row.simulated_rad.to_degrees()),
                 format!("{:.9}", envelope_deg(f64::from(row.count), phase)),
             ]
         }),
@@ -86,7 +86,7 @@ fn figure(
     let difference = |least: u32| {
         rows.iter()
             .filter(|row| row.count >= least)
-            .map(|row| (row.flown_rad - row.printed_rad).abs().to_degrees())
+            .map(|row| (row.simulated_rad - row.printed_rad).abs().to_degrees())
             .fold(0.0, f64::max)
     };
     let exact_deg = envelope_deg(113.0, phase);
@@ -96,7 +96,7 @@ fn figure(
         .iter()
         .filter(|row| {
             row.count >= IMPULSES
-                && row.flown_rad.to_degrees() > 1.001 * envelope_deg(f64::from(row.count), phase)
+                && row.simulated_rad.to_degrees() > 1.001 * envelope_deg(f64::from(row.count), phase)
         })
         .count();
     let impulses = rows.iter().filter(|row| row.count >= IMPULSES).count();
@@ -115,19 +115,19 @@ fn figure(
             .to_owned(),
         ],
         vec![
-            "flown beyond the exact envelope, n >= 20".to_owned(),
+            "simulated beyond the exact envelope, n >= 20".to_owned(),
             "-".to_owned(),
             format!("{beyond} of {impulses}"),
             judged(beyond == 0).to_owned(),
         ],
         vec![
-            "eq 8 against flight, n >= 20".to_owned(),
+            "eq 8 against simulation, n >= 20".to_owned(),
             "-".to_owned(),
             format!("{:.6} deg", difference(IMPULSES)),
             judged(difference(IMPULSES) < EQ8_DEG).to_owned(),
         ],
         vec![
-            "eq 8 against flight, all n".to_owned(),
+            "eq 8 against simulation, all n".to_owned(),
             "-".to_owned(),
             format!("{:.6} deg", difference(1)),
             if difference(1) > EQ8_DEG { "pulses of seconds are no impulses" } else { AGREES }.to_owned(),
@@ -158,7 +158,7 @@ fn chart(rows: &[Row], turns: f64, phase: f64) -> Chart {
                 // Eq 8 says nothing between whole numbers of pulses.
                 Series::rings("eq 8", at_counts(|row| row.printed_rad)),
                 Series::line("exact envelope", envelope),
-                Series::dots("SpinPlant", at_counts(|row| row.flown_rad)),
+                Series::dots("SpinPlant", at_counts(|row| row.simulated_rad)),
             ],
             y_range: Some((0.0, 1.05 * envelope_deg(f64::from(FEWEST_SHOWN), phase))),
             marks: Vec::new(),

@@ -57,7 +57,7 @@ pub fn trials() -> impl Iterator<Item = &'static Trial> {
 /// Every probe, in the order of the report.
 pub const ALL: &[Probe] = &[
     Probe { name: "library", title: "loads, exports every function", run: library::probe },
-    Probe { name: "flight", title: "flies as its default experiment says", run: stepping::flight },
+    Probe { name: "simulation", title: "runs as its default experiment says", run: stepping::simulation },
     Probe {
         name: "values",
         title: "start values read back, limits and references are kept",
@@ -87,7 +87,7 @@ pub const ALL: &[Probe] = &[
         title: "refuses a wrong GUID, takes strange instance names",
         run: host::identity,
     },
-    Probe { name: "locale", title: "flies alike under a comma locale", run: host::locale },
+    Probe { name: "locale", title: "runs alike under a comma locale", run: host::locale },
     Probe {
         name: "threads",
         title: "two instances on two threads do not disturb each other",

@@ -1,22 +1,22 @@
-//! The default experiment flown, and how a call's outcome is judged.
+//! The default experiment simulated, and how a call's outcome is judged.
 
 use loader::{Fmu, Options, Status, Value};
 use model_description::{SimpleTypeKind, VariableKind};
 
 use super::{Finding, Findings, bench};
 
-/// Flies the default experiment, or a hundredth of it if it is long, under the strict call checker.
-pub fn flight(fmu: &Fmu) -> Findings {
+/// Runs the default experiment, or a hundredth of it if it is long, under the strict call checker.
+pub fn simulation(fmu: &Fmu) -> Findings {
     /// Steps enough to see a model at work, few enough to wait for.
     const LONGEST: u64 = 2000;
     let times = bench::times(fmu)?;
     let stop_s = times.point_s(times.steps().min(LONGEST));
     let options = Options { stop_s: Some(stop_s), instance: bench::strict(), ..Options::default() };
-    let flight = match loader::simulate(fmu, options) {
-        Ok(flight) => flight,
+    let simulation = match loader::simulate(fmu, options) {
+        Ok(simulation) => simulation,
         Err(stopped) => return Err(stopped.error),
     };
-    let recording = flight.recording;
+    let recording = simulation.recording;
     let steps = recording.times_s.len().saturating_sub(1);
     let mut findings = vec![Finding::good(format!("{steps} steps of {} s", times.step_s))];
     for (name, column) in recording.names.iter().zip(&recording.columns) {
@@ -37,7 +37,7 @@ pub fn flight(fmu: &Fmu) -> Findings {
         }
     }
     let troubled =
-        flight.messages.iter().find(|message| !matches!(message.status, Status::Ok | Status::Warning));
+        simulation.messages.iter().find(|message| !matches!(message.status, Status::Ok | Status::Warning));
     if let Some(message) = troubled {
         findings.push(Finding::note(format!("logged on the way: {message}")));
     }

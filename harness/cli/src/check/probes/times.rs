@@ -43,12 +43,12 @@ const fn wrong(what: &'static str, senseless: bool, run: fn(&Fmu, &Trial) -> Fin
 
 fn step(fmu: &Fmu, trial: &Trial, times: impl Fn(&Times) -> (f64, f64)) -> Findings {
     let (time_s, step_s) = times(&bench::times(fmu)?);
-    let mut instance = bench::ready(fmu, &bench::lawless())?;
+    let mut instance = bench::ready(fmu, &bench::unchecked())?;
     Ok(vec![refused(trial.what, instance.do_step(time_s, step_s, false))])
 }
 
 fn start_at_nan(fmu: &Fmu, trial: &Trial) -> Findings {
-    let Some(mut instance) = bench::at(fmu, &bench::lawless(), State::Instantiated)? else {
+    let Some(mut instance) = bench::at(fmu, &bench::unchecked(), State::Instantiated)? else {
         return Ok(Vec::new());
     };
     let outcome = instance.setup_experiment(None, f64::NAN, None).and_then(|()| {

@@ -1,4 +1,4 @@
-//! Flying SpinPlant by the names of its variables.
+//! Running SpinPlant by the names of its variables.
 
 use loader::{Fmu, Value};
 
@@ -19,7 +19,7 @@ pub const PERIOD_S: f64 = 12.0;
 /// The ratio of the paper's figures.
 pub const RATIO: f64 = 1.483;
 
-/// One flight: what is set, how long and how finely.
+/// One simulation: what is set, how long and how finely.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// For messages and tables.
@@ -31,14 +31,14 @@ pub struct Case {
 
 /// Recorded columns, in the order asked for, and the communication points.
 #[derive(Clone, Debug)]
-pub struct Flown {
+pub struct Simulated {
     /// Communication points, in s.
     pub times_s: Vec<f64>,
     /// Columns.
     pub columns: Vec<Vec<f64>>,
 }
 
-impl Flown {
+impl Simulated {
     /// Last value of a column.
     pub fn last(&self, column: usize) -> f64 {
         self.columns[column].last().copied().unwrap_or(f64::NAN)
@@ -90,9 +90,9 @@ impl Case {
             .real("inertia[3]", SPIN_INERTIA_KG_M2)
     }
 
-    /// Flies it and returns the columns of `names`.
-    pub fn fly(&self, fmu: &Fmu, names: &[&str]) -> Result<Flown, StudyError> {
-        let failed = |source: Box<dyn std::error::Error + Send + Sync>| StudyError::Flight {
+    /// Runs it and returns the columns of `names`.
+    pub fn simulate(&self, fmu: &Fmu, names: &[&str]) -> Result<Simulated, StudyError> {
+        let failed = |source: Box<dyn std::error::Error + Send + Sync>| StudyError::Simulation {
             case: self.label.clone(),
             source,
         };
@@ -116,7 +116,7 @@ impl Case {
                 column.ok_or_else(|| failed(format!("{name} was not recorded").into()))
             })
             .collect::<Result<Vec<_>, _>>()?;
-        Ok(Flown { times_s: recording.times_s, columns })
+        Ok(Simulated { times_s: recording.times_s, columns })
     }
 }
 

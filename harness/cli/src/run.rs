@@ -1,4 +1,4 @@
-//! `heliotorque run`: flies an FMU in a process of its own, records, writes, draws.
+//! `heliotorque run`: runs an FMU in a process of its own, records, writes, draws.
 
 use std::{
     io::IsTerminal,
@@ -20,17 +20,17 @@ use crate::{
 
 mod child;
 
-/// Flies the FMU in a child process.
+/// Runs the FMU in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     if let Some(path) = &arguments.plot {
         plot::check_path(path)?;
     }
     let fmu = Fmu::open(&arguments.fmu)?;
     // Everything that can be refused without the FMU's library is refused here.
-    let flight = Flight::of(&fmu, arguments)?;
+    let settings = Settings::of(&fmu, arguments)?;
     fmu.binary_path()?;
     let mut files = Files::open(arguments)?;
-    let (times, positions) = (flight.times, flight.positions);
+    let (times, positions) = (settings.times, settings.positions);
     let mut collector = Collector::new(&fmu, &positions);
     let every = loader::steps_between_points(&times, arguments.every)?;
     let points = times.steps().div_ceil(every).saturating_add(1);
@@ -38,7 +38,7 @@ pub fn run(arguments: &Run) -> Outcome {
 
     let progress = progress_bar(&times, arguments.quiet);
     let began = Instant::now();
-    let flown = child::fly(&fmu, arguments.timeout, points, &mut collector, |recording, time_s| {
+    let simulated = child::simulate(&fmu, arguments.timeout, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }
@@ -49,13 +49,13 @@ pub fn run(arguments: &Run) -> Outcome {
 
     let recording = collector.recording();
     if arguments.log {
-        print_log(&flown.messages);
+        print_log(&simulated.messages);
     }
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
-    let ended = match flown.outcome {
+    let ended = match simulated.outcome {
         Ok(ended) => ended,
         Err(error) => {
-            // What was flown until then is worth keeping.
+            // What was simulated until then is worth keeping.
             let kept = files.leave(&fmu, recording);
             let rows = recording.times_s.len();
             let kept: String =
@@ -84,27 +84,27 @@ pub fn run(arguments: &Run) -> Outcome {
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
-    match flown.fault {
+    match simulated.fault {
         // The recording is complete, the FMU is not what it should be.
         Some(fault) => Err(fault.into()),
         None => Ok(ExitCode::SUCCESS),
     }
 }
 
-/// Flies the FMU in this process for the parent.
+/// Runs the FMU in this process for the parent.
 pub fn run_in_child(arguments: &RunInChild) -> Outcome {
     child::run(arguments)
 }
 
 /// What the arguments mean for an FMU.
-struct Flight {
+struct Settings {
     times: Times,
     sets: Vec<(String, loader::Value)>,
     inputs: Option<InputTable>,
     positions: Vec<usize>,
 }
 
-impl Flight {
+impl Settings {
     fn of(fmu: &Fmu, arguments: &Run) -> Result<Self, Box<dyn std::error::Error>> {
         let times = Times::of(fmu, arguments.start, arguments.stop, arguments.step)?;
         let mut sets = Vec::new();
@@ -166,7 +166,7 @@ fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::
 /// Rows of a table that are written at once.
 const ROWS_AT_ONCE: usize = 64;
 
-/// What a flight leaves.
+/// What a simulation leaves.
 struct Files {
     output: Option<Growing>,
     plot: Option<Destination>,
@@ -231,7 +231,7 @@ impl Files {
 
     /// Leaves what there is under the names of recordings in progress, and tells them.
     fn leave(mut self, fmu: &Fmu, recording: &Recording) -> Vec<PathBuf> {
-        // The flight failed already: what cannot be kept now changes nothing of that.
+        // The simulation failed already: what cannot be kept now changes nothing of that.
         let _ = self.record(recording);
         let table = self.output.and_then(Growing::leave);
         let picture = self.plot.filter(|_| !recording.times_s.is_empty()).and_then(|plot| {
