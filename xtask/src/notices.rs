@@ -1,6 +1,9 @@
 //! `cargo xtask notices`: the licences of the crates linked into the shared library, as every FMU carries them.
 //!
 //! The text is committed, so that packing needs no sources, and a test compares it with what `Cargo.lock` asks for.
+//!
+//! Why not `cargo-about`: it is a program to install, from the network and in minutes, before the test could run on a
+//! fresh machine; and it knows neither the Rust standard library nor GCC's unwinder, whose notices stand here too.
 
 use std::{
     collections::BTreeMap,
