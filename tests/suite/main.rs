@@ -6,6 +6,7 @@ mod allocations;
 mod bad_input;
 mod blobs;
 mod calls;
+mod conformance;
 mod foreign;
 mod golden;
 mod instances;

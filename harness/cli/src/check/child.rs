@@ -2,10 +2,10 @@
 
 use std::ffi::OsString;
 
+use conformance::{Finding, Verdict};
 use files::Scratch;
 use loader::Fmu;
 
-use super::{Finding, Verdict};
 use crate::child::{Bounds, ChildProcess, Limits, Link, Payload, push_text};
 
 /// Kinds of frames: a finding, the probe's end.

@@ -3,9 +3,11 @@
 use fmi_export::call_table::State;
 use loader::Fmu;
 
-use super::{
-    Finding, Findings,
-    bench::{self, STEPS},
+use crate::{
+    Finding,
+    experiment::{self, STEPS},
+    judge::refused,
+    probe::Findings,
 };
 
 /// Saves between two steps and compares what follows.
@@ -14,19 +16,19 @@ pub fn probe(fmu: &Fmu) -> Findings {
     let half = STEPS / 2;
     let mut findings = Vec::new();
 
-    let mut fresh = bench::ready(fmu, &bench::strict())?;
-    let at_start = bench::outputs(&mut fresh)?;
-    bench::simulate(&mut fresh, 0, STEPS)?;
-    let at_end = bench::outputs(&mut fresh)?;
+    let mut fresh = experiment::ready(fmu, &experiment::strict())?;
+    let at_start = experiment::outputs(&mut fresh)?;
+    experiment::simulate(&mut fresh, 0, STEPS)?;
+    let at_end = experiment::outputs(&mut fresh)?;
 
-    let again = bench::short_simulation(fmu, &bench::strict())?;
+    let again = experiment::short_simulation(fmu, &experiment::strict())?;
     findings.push(Finding::expect(again == at_end, "a second simulation gives the same bits"));
 
     fresh.reset()?;
-    bench::advance(&mut fresh, State::StepComplete)?;
-    let reset_start = bench::outputs(&mut fresh)?;
-    bench::simulate(&mut fresh, 0, STEPS)?;
-    let reset_end = bench::outputs(&mut fresh)?;
+    experiment::advance(&mut fresh, State::StepComplete)?;
+    let reset_start = experiment::outputs(&mut fresh)?;
+    experiment::simulate(&mut fresh, 0, STEPS)?;
+    let reset_end = experiment::outputs(&mut fresh)?;
     let same = reset_start == at_start && reset_end == at_end;
     findings.push(Finding::expect(same, "after fmi2Reset it runs as a fresh instance, to the bit"));
 
@@ -34,20 +36,20 @@ pub fn probe(fmu: &Fmu) -> Findings {
         findings.push(Finding::skipped("saving and restoring: not claimed"));
         return Ok(findings);
     }
-    let mut instance = bench::ready(fmu, &bench::strict())?;
-    bench::simulate(&mut instance, 0, half)?;
-    let at_half = bench::outputs(&mut instance)?;
+    let mut instance = experiment::ready(fmu, &experiment::strict())?;
+    experiment::simulate(&mut instance, 0, half)?;
+    let at_half = experiment::outputs(&mut instance)?;
     let saved = instance.save_state()?;
-    findings.push(Finding::expect(bench::outputs(&mut instance)? == at_half, "saving changes nothing"));
-    bench::simulate(&mut instance, half, STEPS)?;
-    let first = bench::outputs(&mut instance)?;
+    findings.push(Finding::expect(experiment::outputs(&mut instance)? == at_half, "saving changes nothing"));
+    experiment::simulate(&mut instance, half, STEPS)?;
+    let first = experiment::outputs(&mut instance)?;
     instance.restore_state(saved)?;
     findings.push(Finding::expect(
-        bench::outputs(&mut instance)? == at_half,
+        experiment::outputs(&mut instance)? == at_half,
         "a restored state has the outputs it was saved with",
     ));
-    bench::simulate(&mut instance, half, STEPS)?;
-    let second = bench::outputs(&mut instance)?;
+    experiment::simulate(&mut instance, half, STEPS)?;
+    let second = experiment::outputs(&mut instance)?;
     findings.push(Finding::expect(first == second, "a restored state runs on as the first time, to the bit"));
     findings.push(Finding::expect(
         first == at_end,
@@ -57,11 +59,11 @@ pub fn probe(fmu: &Fmu) -> Findings {
     if flags.can_serialize_fmu_state {
         let bytes = instance.serialize_state(saved)?;
         findings.push(Finding::good(format!("a state serialises to {} bytes", bytes.len())));
-        let mut other = bench::ready(fmu, &bench::strict())?;
+        let mut other = experiment::ready(fmu, &experiment::strict())?;
         let state = other.deserialize_state(&bytes)?;
         other.restore_state(state)?;
-        bench::simulate(&mut other, half, STEPS)?;
-        let there = bench::outputs(&mut other)?;
+        experiment::simulate(&mut other, half, STEPS)?;
+        let there = experiment::outputs(&mut other)?;
         findings
             .push(Finding::expect(there == at_end, "another instance runs on from the bytes, to the bit"));
         let back = other.serialize_state(state)?;
@@ -84,10 +86,10 @@ fn torn(fmu: &Fmu, bytes: &[u8], findings: &mut Vec<Finding>) -> Result<(), load
     let cases: [(&str, &[u8]); 3] =
         [("no bytes", &[]), ("half the bytes", &bytes[..bytes.len() / 2]), ("a flipped bit", &damaged)];
     for (what, bytes) in cases {
-        let mut instance = bench::ready(fmu, &bench::unchecked())?;
+        let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
         let outcome = instance.deserialize_state(bytes).map(|_| ());
         let what = format!("a serialised state of {what}");
-        findings.push(super::stepping::refused(&what, outcome));
+        findings.push(refused(&what, outcome));
     }
     Ok(())
 }

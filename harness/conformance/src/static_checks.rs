@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 use loader::Fmu;
 use model_description::Severity;
 
-use super::{Finding, Verdict};
+use crate::{Finding, Verdict};
 
 /// Files and folders that FMI 2.0.5 knows at the top of an archive (2.3).
 const KNOWN: [&str; 8] = [

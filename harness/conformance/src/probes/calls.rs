@@ -4,7 +4,8 @@ use fmi_export::call_table::{Access, Condition, Function, LENIENCIES, State, all
 use loader::{Error, Fmu, Instance, State as Saved, Status};
 use model_description::{Causality, ScalarVariable, Variability, VariableKind, rules};
 
-use super::{Finding, Findings, bench, values};
+use super::values;
+use crate::{Finding, experiment, probe::Findings};
 
 /// The states an FMU can be brought to by lawful calls, and the error state.
 const STATES: [State; 5] =
@@ -168,7 +169,7 @@ fn judge(case: &Case<'_>, status: Status) -> Option<Finding> {
 /// Makes the call in a fresh instance.
 fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
     let flags = fmu.co_simulation()?;
-    let mut instance = fmu.instantiate("probe", &bench::unchecked())?;
+    let mut instance = fmu.instantiate("probe", &experiment::unchecked())?;
     let needs_saved = matches!(
         case.function,
         Function::SetFmuState
@@ -193,7 +194,7 @@ fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
         }
         bytes = instance.serialize_state(saved)?;
     }
-    if !bench::advance(&mut instance, case.state)? {
+    if !experiment::advance(&mut instance, case.state)? {
         return Ok(Answer::None);
     }
     let Some(outcome) = make(&mut instance, case, saved, &bytes)? else { return Ok(Answer::None) };
@@ -211,7 +212,7 @@ type Made = Result<Option<Result<(), Error>>, Error>;
 fn make(instance: &mut Instance, case: &Case<'_>, saved: Option<Saved>, bytes: &[u8]) -> Made {
     let fmu = instance.fmu().clone();
     let flags = fmu.co_simulation()?;
-    let times = bench::times(&fmu)?;
+    let times = experiment::times(&fmu)?;
     let continuous = |causality: Causality| {
         let mut variables = fmu.description().variables.iter();
         variables
