@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command},
-    check, info, interrupt, output, pack, plan, run as simulation, study,
+    check, info, interrupt, pack, plan, run as simulation, study,
 };
 
 /// JSON Schema of the spacecraft file, kept in step with its reader by a test of `physics`.
@@ -33,7 +33,7 @@ pub fn run() -> Outcome {
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema => {
-            output::print(SPACECRAFT_SCHEMA.trim_end())?;
+            terminal::print(SPACECRAFT_SCHEMA.trim_end())?;
             Ok(ExitCode::SUCCESS)
         }
         Command::Plan(arguments) => plan::run(&arguments),

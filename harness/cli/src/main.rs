@@ -10,7 +10,6 @@ mod child;
 mod coefficients;
 mod info;
 mod interrupt;
-mod output;
 mod pack;
 mod plan;
 mod plot;
@@ -21,7 +20,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     app::run().unwrap_or_else(|error| {
-        output::note(&format!("heliotorque: {}", output::chain(error.as_ref())));
+        terminal::note(&format!("heliotorque: {}", loader::Error::chain(error.as_ref())));
         ExitCode::FAILURE
     })
 }

@@ -1,21 +1,19 @@
 //! `heliotorque run`: runs an FMU in a process of its own, records, writes, draws.
 
 use std::{
-    io::IsTerminal,
     path::{Path, PathBuf},
     process::ExitCode,
     time::Instant,
 };
 
 use files::{Destination, Growing};
-use indicatif::{ProgressBar, ProgressStyle};
 use loader::{Collector, Ended, Fmu, InputTable, LogMessage, Recording, Times};
 
 use crate::{
     app::Outcome,
     args::{Run, RunInChild},
     interrupt::INTERRUPTED,
-    output, plot,
+    plot,
 };
 
 mod child;
@@ -36,7 +34,7 @@ pub fn run(arguments: &Run) -> Outcome {
     let points = times.steps().div_ceil(every).saturating_add(1);
     collector.fits(points)?;
 
-    let progress = progress_bar(&times, arguments.quiet);
+    let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
     let simulated = child::simulate(&fmu, arguments.timeout, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
@@ -66,21 +64,21 @@ pub fn run(arguments: &Run) -> Outcome {
     let shows_summary = !arguments.quiet && arguments.output.is_none() && arguments.plot.is_none();
     files.finish(&fmu, recording)?;
     if shows_summary {
-        output::print(&summary(&fmu, recording))?;
+        terminal::print(&summary(&fmu, recording))?;
     }
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
-        let (last, elapsed) = (output::short(last_s), elapsed.as_secs_f64());
-        output::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
+        let (last, elapsed) = (terminal::short(last_s), elapsed.as_secs_f64());
+        terminal::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
     }
     match ended {
         Ended::AtStop => {}
         Ended::ByItself => {
-            output::note(&format!("the FMU ended by itself at {} s", output::short(last_s)));
+            terminal::note(&format!("the FMU ended by itself at {} s", terminal::short(last_s)));
         }
         Ended::Cancelled => {
-            let last = output::short(last_s);
-            output::note(&format!("interrupted at {last} s; what was recorded until then is written"));
+            let last = terminal::short(last_s);
+            terminal::note(&format!("interrupted at {last} s; what was recorded until then is written"));
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
@@ -133,21 +131,10 @@ fn selection(fmu: &Fmu, patterns: &[String]) -> Result<Option<Vec<usize>>, loade
     Ok(Some(positions))
 }
 
-fn progress_bar(times: &Times, quiet: bool) -> ProgressBar {
-    if quiet || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new((times.stop_s - times.start_s) as u64);
-    let template = "{bar:40.cyan/blue} {percent:>3}%  {elapsed} gone, {eta} to go";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar
-}
-
 /// Reads an input table.
 fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::Error>> {
-    let in_file = |error: &dyn std::error::Error| format!("{}: {}", path.display(), output::chain(error));
+    let in_file =
+        |error: &dyn std::error::Error| format!("{}: {}", path.display(), loader::Error::chain(error));
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -246,13 +233,13 @@ impl Files {
 
 fn print_log(messages: &[LogMessage]) {
     for message in messages {
-        output::note(&format!("{} {message}", message.status));
+        terminal::note(&format!("{} {message}", message.status));
     }
 }
 
 /// First, smallest, largest and last value of everything recorded.
 fn summary(fmu: &Fmu, recording: &Recording) -> String {
-    let mut table = output::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
+    let mut table = terminal::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
     for (name, column) in recording.names.iter().zip(&recording.columns) {
         let variable = fmu.find(name);
         let display = variable.and_then(|variable| loader::display_unit(fmu.description(), variable));
@@ -278,10 +265,10 @@ fn summary(fmu: &Fmu, recording: &Recording) -> String {
         table.add_row([
             name.clone(),
             unit.to_owned(),
-            output::short(first),
-            output::short(smallest),
-            output::short(largest),
-            output::short(last),
+            terminal::short(first),
+            terminal::short(smallest),
+            terminal::short(largest),
+            terminal::short(last),
         ]);
     }
     table.to_string()

@@ -3,6 +3,7 @@
 //! A study loads FMUs from a folder, runs them through their C interface, and leaves text, CSV files and
 //! pictures. It knows nothing of the models but what their descriptions say.
 
+mod case;
 pub mod chart;
 mod momentum;
 mod report;

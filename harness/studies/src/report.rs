@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use comfy_table::{ContentArrangement, Table, presets};
 use files::Destination;
 
 use crate::chart::Chart;
@@ -27,9 +26,7 @@ impl Report {
 
     /// Adds a table.
     pub(crate) fn table(&mut self, header: &[&str], rows: &[Vec<String>]) {
-        let mut table = Table::new();
-        table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled);
-        table.set_header(header);
+        let mut table = terminal::table(header);
         for row in rows {
             table.add_row(row);
         }

@@ -15,7 +15,6 @@ use crate::{
     app::Outcome,
     args::{self, Check},
     child::Link,
-    output,
 };
 
 /// A group of findings under one heading.
@@ -59,7 +58,7 @@ pub fn run(arguments: &Check) -> Outcome {
     let fmu = match Fmu::open(&arguments.subject) {
         Ok(fmu) => fmu,
         Err(error) => {
-            let finding = Finding::bad(output::chain(&error));
+            let finding = Finding::bad(loader::Error::chain(&error));
             sections.push(Section { title: "archive".to_owned(), findings: vec![finding] });
             return report(arguments, &sections);
         }
@@ -137,6 +136,6 @@ fn report(arguments: &Check, sections: &[Section]) -> Outcome {
         count(Verdict::Note),
         count(Verdict::Bad)
     ));
-    output::print(&text)?;
+    terminal::print(&text)?;
     Ok(if count(Verdict::Bad) == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -10,7 +10,6 @@ use toml::{Table, Value, de::DeTable};
 use crate::{
     app::Outcome,
     args::{Check, DEFAULT_TEMPLATE},
-    output,
     pack::{read_text, source},
 };
 
@@ -43,7 +42,7 @@ pub fn run(arguments: &Check) -> Outcome {
         let description = model_description::parse(described.xml.as_bytes())?.description;
         let variables = description.variables.len();
         let model = &described.model;
-        output::print(&format!(
+        terminal::print(&format!(
             "{file}: ok for {model}: {}; the FMU will have {variables} variables",
             contents(&text)
         ))?;
@@ -64,11 +63,11 @@ pub fn run(arguments: &Check) -> Outcome {
 
 /// Tells the problems that a model finds in the file.
 fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
-    output::print(problems)?;
+    terminal::print(problems)?;
     let count = problems.lines().filter(|line| line.starts_with(file)).count().max(1);
     let plural = if count == 1 { "problem" } else { "problems" };
     let model = &model.model;
-    output::note(&format!(
+    terminal::note(&format!(
         "{file}: {count} {plural}, judged as a file of {model}, which cannot be packed with it"
     ));
     Ok(ExitCode::FAILURE)

@@ -15,7 +15,6 @@ use crate::{
     app::Outcome,
     args::RunInChild,
     child::{BYTES_FORWARDED, Bounds, ChildProcess, EndReason, Limits, Link, Payload, push_text},
-    output,
 };
 
 /// Kinds of frames: a row, a message of the log, the end of the simulation, its failure.
@@ -67,9 +66,9 @@ pub fn simulate(
             let before = forwarded;
             forwarded += line.len() as u64 + 1;
             if forwarded <= BYTES_FORWARDED {
-                output::note(line);
+                terminal::note(line);
             } else if before <= BYTES_FORWARDED {
-                output::note(&format!("{}: what else it prints is left out", fmu.name()));
+                terminal::note(&format!("{}: what else it prints is left out", fmu.name()));
             }
         },
         &mut |mark| tick(inbox_cell.borrow().collector.recording(), mark.and_then(loader::step_begin_s)),
@@ -81,7 +80,7 @@ pub fn simulate(
         (Some(outcome), EndReason::Refused(why)) => outcome.and(Err(why.clone())),
         (Some(outcome), _) => outcome,
         (None, EndReason::Interrupted) => {
-            output::note(&format!("{name}: {}", supervised.without_result()));
+            terminal::note(&format!("{name}: {}", supervised.without_result()));
             Ok(Ended::Cancelled)
         }
         (None, EndReason::Refused(why)) => Err(why.clone()),
@@ -206,7 +205,7 @@ pub fn run(arguments: &RunInChild) -> Outcome {
             link.send(ENDED, |payload| payload.push(number as u64))?;
         }
         Err(error) => {
-            let text = output::chain(error.as_ref());
+            let text = loader::Error::chain(error.as_ref());
             link.send(FAILED, |payload| push_text(payload, &text))?;
         }
     }

@@ -1,9 +1,7 @@
 //! The planner's answer as text.
 
-use std::{fmt::Write, io::IsTerminal, path::Path};
+use std::{fmt::Write, path::Path};
 
-use comfy_table::{ContentArrangement, Table, presets};
-use indicatif::{ProgressBar, ProgressStyle};
 use loader::Fmu;
 use physics::spin::{geometry::L1Phases, spinner::Spinner};
 
@@ -71,7 +69,7 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
         task.allowed_nutation_rad.to_degrees(),
         options.sun_angle_deg
     ));
-    let mut table = table(&[
+    let mut table = terminal::table(&[
         "train",
         "pulses",
         "unit",
@@ -212,8 +210,8 @@ fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError
     intervals.extend(longest);
     intervals.sort_by(f64::total_cmp);
     let turns = intervals.iter().map(|interval_s| u64::from(windows(duration_s, *interval_s)));
-    let bar = progress_bar(turns.sum());
-    let mut table = table(&[
+    let bar = terminal::progress(turns.sum(), "turns", false);
+    let mut table = terminal::table(&[
         "every",
         "turns",
         "mean",
@@ -262,23 +260,4 @@ fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError
         None => writeln!(text, "No interval keeps the deadband: the Earth leaves it within a tenth of a day"),
     };
     Ok(text)
-}
-
-fn progress_bar(length: u64) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} turns  {elapsed} gone, {eta} to go")
-    {
-        bar.set_style(style);
-    }
-    bar
-}
-
-fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header);
-    table
 }

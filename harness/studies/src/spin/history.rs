@@ -1,7 +1,8 @@
 //! Figure 4: nutation during the 2 deg manoeuvre, and what shape of body gives the paper's range.
 
-use super::case::{Case, RATIO, left};
+use super::spinner::{RATIO, paper_case};
 use super::verdict::says;
+use crate::case::{Case, chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
@@ -14,7 +15,7 @@ const PAPER_DEG: (f64, f64, f64) = (0.001, 0.032, 0.024);
 const READ_DEG: f64 = 0.001;
 
 fn cases() -> Vec<Case> {
-    let case = |label: &str| Case::new(label, STOP_S, 0.5);
+    let case = |label: &str| paper_case(label, STOP_S, 0.5);
     vec![
         case("axisymmetric, ratio 1.483"),
         case("axisymmetric, ratio 1.484").ratio(1.484),
@@ -55,16 +56,15 @@ impl NutationRange {
 
 /// Figure 4.
 pub fn figure4(options: &Options) -> Result<Report, StudyError> {
-    let cases = cases();
-    let selected = left("spin/figure4", options, cases.iter().map(|case| case.label.as_str()))?;
+    let cases = chosen("spin/figure4", options, cases(), |case| case.label.clone())?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let mut report = Report::default();
     report
         .line("Nutation during a 2 deg manoeuvre of 114 pulses of 32 ms, once a turn (paper 002, Figure 4)");
+    let names = ["nutation.angle", "nutation.predicted", "burn.done", "nutation.envelope"];
+    let results = run_all(options, &cases, |case| case.simulate(&fmu, &names))?;
     let (mut rows, mut panels, mut csv) = (Vec::new(), Vec::new(), Vec::new());
-    for case in cases.iter().filter(|case| selected.contains(&case.label.as_str())) {
-        let names = ["nutation.angle", "nutation.predicted", "burn.done", "nutation.envelope"];
-        let simulated = case.simulate(&fmu, &names)?;
+    for (case, simulated) in cases.iter().zip(&results) {
         let degrees = |column: usize| simulated.columns[column].iter().map(|angle| angle.to_degrees());
         let between = |from_s: f64, to_s: f64| {
             let chosen =

@@ -5,8 +5,11 @@ use core::f64::consts::PI;
 use loader::Fmu;
 use rayon::prelude::*;
 
-use super::case::{AXIAL_ARM_M, Case, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, left};
+use super::spinner::{
+    AXIAL_ARM_M, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, paper_case,
+};
 use super::verdict::{rounds, says, verdict};
+use crate::case::chosen;
 use crate::{Options, Report, StudyError};
 
 /// Number of ratios over 1.471 to 1.494 at which trains are simulated.
@@ -40,11 +43,9 @@ pub fn numbers(options: &Options) -> Result<Report, StudyError> {
     rows.extend(envelopes(&fmu)?);
     rows.extend(observation(&fmu)?);
     rows.extend(beyond(&fmu)?);
-    let selected = left("spin/numbers", options, rows.iter().map(|row| row.quantity))?;
-    let table: Vec<Vec<String>> = rows
-        .iter()
-        .filter(|row| selected.contains(&row.quantity))
-        .map(|row| vec![row.quantity.into(), row.paper.into(), row.ours.clone(), row.verdict.clone()])
+    let table: Vec<Vec<String>> = chosen("spin/numbers", options, rows, |row| row.quantity.to_owned())?
+        .into_iter()
+        .map(|row| vec![row.quantity.into(), row.paper.into(), row.ours, row.verdict])
         .collect();
     let mut report = Report::default();
     report.line("Numbers of paper 002 beside simulations of SpinPlant");
@@ -63,12 +64,12 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         "momentum.displacement",
         "burn.plannedCount",
     ];
-    let one = Case::new("one pulse of 1 s", 40.0, 40.0)
+    let one = paper_case("one pulse of 1 s", 40.0, 40.0)
         .real("burn.pulseWidth", 1.0)
         .integer("burn.count", 1)
         .simulate(fmu, &names)?;
     let train = |thruster: i32, turns: f64| {
-        Case::new("2 deg", 1800.0, 1800.0)
+        paper_case("2 deg", 1800.0, 1800.0)
             .integer("burn.thruster", thruster)
             .integer("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
             .real("burn.turnsPerPulse", turns)
@@ -147,7 +148,7 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 
 /// Half the angle by which the body turns while a pulse of 32 ms is on, from the edges of a simulation, in deg.
 fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
-    let simulated = Case::new("half arc", 2.0 * PERIOD_S, 0.016)
+    let simulated = paper_case("half arc", 2.0 * PERIOD_S, 0.016)
         .integer("burn.count", 1)
         .simulate(fmu, &["burn.nextEdge", "thruster[8].active", "spin.rate"])?;
     let (mut on_s, mut off_s) = (f64::NAN, f64::NAN);
@@ -167,7 +168,7 @@ fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
 /// the antenna, to 3 deg on the other; the second half is simulated.
 fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
     let still = |label: &str, stop_s: f64| {
-        let case = Case::new(label, stop_s, 600.0).integer("burn.plan", 4).integer("geometry.source", 2);
+        let case = paper_case(label, stop_s, 600.0).integer("burn.plan", 4).integer("geometry.source", 2);
         (1..=3).fold(case, |case, axis| case.real(&format!("geometry.amplitude[{axis}]"), 0.0))
     };
     let names = ["earth.inertial[1]", "earth.inertial[2]", "earth.inertial[3]"];
@@ -206,7 +207,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         // Pulses of exactly 2 deg / n.
         let sine =
             2.0_f64.to_radians() / count * SPIN_INERTIA_KG_M2 * RATE_RAD_S.powi(2) / (2.0 * FORCE_N * arm_m);
-        let found = Case::new("envelope", 1.0, 1.0)
+        let found = paper_case("envelope", 1.0, 1.0)
             .integer("burn.thruster", thruster)
             .integer("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
             .real("burn.turnsPerPulse", turns)
@@ -240,7 +241,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         format!("{hours:.2} h"),
         verdict((hours - 2.75).abs() < 0.1),
     ));
-    let damped = Case::new("damping", 9.5 * 3600.0, 9.5 * 3600.0)
+    let damped = paper_case("damping", 9.5 * 3600.0, 9.5 * 3600.0)
         .real("damper.timeConstant", 9.5 * 3600.0)
         .integer("burn.plan", 4)
         .real("start.nutation", 0.02_f64.to_radians())
@@ -257,7 +258,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 
 /// Section IV and eq 1.
 fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
-    let tracker = Case::new("observation", 1.0, 1.0)
+    let tracker = paper_case("observation", 1.0, 1.0)
         .integer("starTracker.sampling", 2)
         .simulate(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
     let minutes = tracker.last(0) / 60.0;
@@ -266,7 +267,7 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         let beta = beta_deg.to_radians();
         // The axis stands `nutation` off the momentum; the Sun is revolution about the line both lie across.
         let nutation = 1e-6;
-        let found = Case::new("eq 1", 1e-3, 1e-3)
+        let found = paper_case("eq 1", 1e-3, 1e-3)
             .integer("burn.plan", 4)
             .real("start.nutation", nutation)
             .real("sun.direction[1]", 0.0)
@@ -324,7 +325,7 @@ impl Worst {
                 let ratio = 1.471 + 0.023 * f64::from(i) / f64::from(RATIOS - 1);
                 let names =
                     ["nutation.angle", "burn.plannedDuration", "nutation.envelope", "momentum.displacement"];
-                let simulated = Case::new(format!("plan {plan} at {ratio:.4}"), 1500.0, 6.0)
+                let simulated = paper_case(format!("plan {plan} at {ratio:.4}"), 1500.0, 6.0)
                     .ratio(ratio)
                     .integer("burn.plan", plan)
                     .integer("burn.taperOrder", order)
@@ -382,7 +383,7 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let (uniform, tapered) = (Worst::of(fmu, 1, 1, 114)?, Worst::of(fmu, 2, 1, 58)?);
     let (second, fourth) = (Worst::of(fmu, 2, 2, 30)?, Worst::of(fmu, 2, 4, 11)?);
     let quiet = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;
-    let split = Case::new("split train", 1600.0, 1600.0)
+    let split = paper_case("split train", 1600.0, 1600.0)
         .integer("burn.plan", 3)
         .simulate(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
     let (split_deg, split_moved_deg) = (split.last(0).to_degrees(), split.last(3).to_degrees());

@@ -1,9 +1,8 @@
 //! Figures 2 and 3: nutation left by a 2 deg manoeuvre in n pulses, once per half turn and once per turn.
 
-use rayon::prelude::*;
-
-use super::case::{Case, PERIOD_S, RADIAL_ARM_M, RATIO, eq8, left, width_s};
+use super::spinner::{PERIOD_S, RADIAL_ARM_M, RATIO, eq8, paper_case, width_s};
 use super::verdict::{AGREES, rounds, says, verdict};
+use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
@@ -42,28 +41,26 @@ fn figure(
     paper_envelope_deg: f64,
     options: &Options,
 ) -> Result<Report, StudyError> {
-    let labels: Vec<String> = (1..=MOST).map(|count| format!("n = {count}")).collect();
-    let selected = left(study, options, labels.iter().map(String::as_str))?;
+    let label = |count: &u32| format!("n = {count}");
+    let counts = chosen(study, options, 1..=MOST, label)?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let phase = core::f64::consts::TAU * turns * RATIO;
-    let rows: Vec<Row> = (1..=MOST)
-        .into_par_iter()
-        .filter(|count| selected.contains(&labels[*count as usize - 1].as_str()))
-        .filter_map(|count| {
-            let per_pulse = MANOEUVRE_RAD / f64::from(count);
-            Some((count, per_pulse, width_s(per_pulse, RADIAL_ARM_M)?))
-        })
-        .map(|(count, per_pulse, width_s)| {
-            let stop_s = (f64::from(count) * turns + 2.0) * PERIOD_S;
-            let case = Case::new(&labels[count as usize - 1], stop_s, stop_s)
-                .integer("burn.count", count as i32)
-                .real("burn.turnsPerPulse", turns)
-                .real("burn.pulseWidth", width_s);
-            let simulated = case.simulate(&fmu, &["nutation.angle"])?;
-            let printed_rad = eq8(per_pulse, phase, f64::from(count));
-            Ok(Row { count, width_s, printed_rad, simulated_rad: simulated.last(0) })
-        })
-        .collect::<Result<_, StudyError>>()?;
+    // Too few pulses would have to last beyond half a turn.
+    let pulse = |count: &u32| {
+        let per_pulse = MANOEUVRE_RAD / f64::from(*count);
+        Some((*count, per_pulse, width_s(per_pulse, RADIAL_ARM_M)?))
+    };
+    let pulses: Vec<(u32, f64, f64)> = counts.iter().filter_map(pulse).collect();
+    let rows = run_all(options, &pulses, |&(count, per_pulse, width_s)| {
+        let stop_s = (f64::from(count) * turns + 2.0) * PERIOD_S;
+        let simulated = paper_case(label(&count), stop_s, stop_s)
+            .integer("burn.count", count as i32)
+            .real("burn.turnsPerPulse", turns)
+            .real("burn.pulseWidth", width_s)
+            .simulate(&fmu, &["nutation.angle"])?;
+        let printed_rad = eq8(per_pulse, phase, f64::from(count));
+        Ok(Row { count, width_s, printed_rad, simulated_rad: simulated.last(0) })
+    })?;
     let mut report = Report::default();
     report.line(&format!(
         "Nutation after a 2 deg manoeuvre in n pulses, one every {turns} turns, ratio {RATIO} (paper 002, {file})"

@@ -2,17 +2,16 @@
 //!
 //! Tables 7 and 8, Figures 12 and 13.
 
-mod case;
+mod orbit;
 mod paper;
 mod table;
 mod year;
 
-use rayon::prelude::*;
-
+use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
-use case::{Case, EFFECTS, Fmus, Planet, Sample};
+use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
 use paper::{Row, TABLE_7, TABLE_8};
 pub use year::figure13;
 
@@ -130,29 +129,14 @@ fn simulate_rows(
     planet: Planet,
     belts: Option<i32>,
 ) -> Result<Vec<Simulated>, StudyError> {
-    let label = |row: &Row| format!("case {}", row.case);
-    let only = options.only.as_deref().unwrap_or_default();
-    let chosen: Vec<&Row> = rows.iter().filter(|row| label(row).contains(only)).collect();
-    if chosen.is_empty() {
-        let known = rows.iter().map(label).collect::<Vec<_>>().join("\n  ");
-        return Err(StudyError::NothingLeft { study, only: only.to_owned(), known });
-    }
+    let rows = chosen(study, options, rows.iter().copied(), |row| format!("case {}", row.case))?;
     let fmus = Fmus::open(options)?;
-    chosen
-        .par_iter()
-        .map(|row| {
-            let true_anomaly_deg = row.true_anomaly_deg;
-            let simulate = |belts| {
-                fmus.simulate(&Case {
-                    true_anomaly_deg,
-                    planet,
-                    duration_s: DURATION_S,
-                    step_s: STEP_S,
-                    belts,
-                })
-            };
-            let by_cells = belts.map(|belts| simulate(Some(belts))).transpose()?;
-            Ok(Simulated { row: **row, samples: simulate(None)?, by_cells })
-        })
-        .collect()
+    run_all(options, &rows, |row| {
+        let true_anomaly_deg = row.true_anomaly_deg;
+        let simulate = |belts| {
+            fmus.simulate(&Case { true_anomaly_deg, planet, duration_s: DURATION_S, step_s: STEP_S, belts })
+        };
+        let by_cells = belts.map(|belts| simulate(Some(belts))).transpose()?;
+        Ok(Simulated { row: *row, samples: simulate(None)?, by_cells })
+    })
 }

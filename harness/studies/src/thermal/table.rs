@@ -1,7 +1,7 @@
 //! Tables 7 and 8: extremes around the orbit beside the paper's.
 
 use super::Simulated;
-use super::case::{EFFECTS, Sample};
+use super::orbit::{EFFECTS, Sample};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 

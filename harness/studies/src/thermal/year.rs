@@ -3,7 +3,7 @@
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
-use super::case::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
+use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
 
 /// Time between samples, in s.
 const STEP_S: f64 = 60.0;

@@ -2,6 +2,7 @@
 
 use loader::{Fmu, Instance, InstanceOptions, Value};
 
+use crate::case;
 use crate::{Options, StudyError};
 
 /// Mercury's sidereal revolution by the paper's semi-major axis, in s.
@@ -32,6 +33,21 @@ pub struct Case {
     pub step_s: f64,
     /// Belts of the planet's cells, as the paper sums; without them rings.
     pub belts: Option<i32>,
+}
+
+impl Case {
+    /// How `MomentumPlant` runs along the orbit.
+    fn trajectory(&self) -> case::Case {
+        let label = format!("Mercury at {} deg", self.true_anomaly_deg);
+        case::Case::new(label, self.duration_s, self.step_s)
+            .integer("guided.scienceRule", 3)
+            .integer("guided.downlinkEvery", 0)
+            .integer("ephemeris.source", 2)
+            .real("ephemeris.trueAnomaly", self.true_anomaly_deg.to_radians())
+            .integer("orbit.frame", 1)
+            .real("orbit.semiMajorAxis", 10_175_000.0)
+            .integer("eclipse.method", 4)
+    }
 }
 
 /// Accelerations at one time, in m/s2.
@@ -73,9 +89,9 @@ impl Fmus {
 
     /// Runs one case.
     pub fn simulate(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
-        let label = format!("Mercury at {} deg", case.true_anomaly_deg);
-        let fail = |error: loader::Error| failed(&label, error);
-        let trajectory = self.trajectory(case, &label)?;
+        let trajectory_case = case.trajectory();
+        let fail = |error: loader::Error| trajectory_case.failed(error);
+        let trajectory = self.trajectory(case, &trajectory_case)?;
         let mut disturbance = DisturbanceRun::start(&self.disturbance, case).map_err(fail)?;
         let mut samples = Vec::with_capacity(trajectory.len());
         let mut revolution = PlanetRevolution::default();
@@ -87,48 +103,20 @@ impl Fmus {
     }
 
     /// Where everything is at every communication point.
-    fn trajectory(&self, case: &Case, label: &str) -> Result<Vec<TrajectoryPoint>, StudyError> {
-        let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));
-        let choice = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
+    fn trajectory(&self, case: &Case, trajectory: &case::Case) -> Result<Vec<TrajectoryPoint>, StudyError> {
         let vectors = [("position", 3), ("heliocentric.position", 3), ("attitude.q", 4)];
         let names: Vec<String> = vectors
             .iter()
             .flat_map(|(name, count)| (1..=*count).map(move |i| format!("{name}[{i}]")))
             .chain(["mass".to_owned()])
             .collect();
-        let options = loader::Options {
-            stop_s: Some(case.duration_s),
-            step_s: Some(case.step_s),
-            sets: vec![
-                choice("guided.scienceRule", 3),
-                choice("guided.downlinkEvery", 0),
-                choice("ephemeris.source", 2),
-                real("ephemeris.trueAnomaly", case.true_anomaly_deg.to_radians()),
-                choice("orbit.frame", 1),
-                real("orbit.semiMajorAxis", 10_175_000.0),
-                choice("eclipse.method", 4),
-            ],
-            record: Some(names.iter().filter_map(|name| self.plant.position(name)).collect()),
-            ..loader::Options::default()
-        };
-        let simulation = loader::simulate(&self.plant, options).map_err(|stopped| failed(label, *stopped))?;
-        let recording = simulation.recording;
-        let columns: Vec<Vec<f64>> = names
-            .iter()
-            .map(|name| {
-                let column = recording.column(name).map(loader::Column::numbers);
-                column.ok_or_else(|| StudyError::Simulation {
-                    case: label.to_owned(),
-                    source: format!("MomentumPlant has no variable {name}").into(),
-                })
-            })
-            .collect::<Result<_, _>>()?;
-        let mut points: Vec<TrajectoryPoint> = recording
+        let recorded = trajectory.simulate(&self.plant, &names)?;
+        let mut points: Vec<TrajectoryPoint> = recorded
             .times_s
             .iter()
             .enumerate()
             .map(|(row, &time_s)| {
-                let value = |column: usize| columns[column][row];
+                let value = |column: usize| recorded.columns[column][row];
                 let position_m = [0, 1, 2].map(value);
                 let heliocentric_m = [3, 4, 5].map(value);
                 let planet_m = [0, 1, 2].map(|i| heliocentric_m[i] - position_m[i]);
@@ -256,8 +244,4 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
 
 fn dot(a: &Vector, b: &Vector) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn failed(case: &str, source: impl std::error::Error + Send + Sync + 'static) -> StudyError {
-    StudyError::Simulation { case: case.to_owned(), source: Box::new(source) }
 }
