@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use bitflags::bitflags;
 use fmi_export::call_table::{Access, Condition, Function, Next, State, after, allowed};
 use model_description::{Description, VariableKind, rules};
 
@@ -37,19 +38,32 @@ impl Base {
     }
 }
 
-/// For every value reference, by base type and sorted: which of the table's conditions it meets.
-pub(crate) struct AccessTable([Vec<(u32, u8)>; 4]);
-
-const fn bit(condition: Condition) -> u8 {
-    match condition {
-        Condition::SettableBeforeInitialization => 1,
-        Condition::OutputOrInitialUnknown => 2,
-        Condition::SettableInInitialization => 4,
-        Condition::InputOrTunable => 8,
-        // These restrict what the values are good for, not which variables may be read.
-        Condition::Debugging | Condition::DebuggingUnlessTerminated => 0,
+bitflags! {
+    /// Which of the call table's conditions a variable meets.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    struct Conditions: u8 {
+        const SETTABLE_BEFORE_INITIALIZATION = 1;
+        const OUTPUT_OR_INITIAL_UNKNOWN = 1 << 1;
+        const SETTABLE_IN_INITIALIZATION = 1 << 2;
+        const INPUT_OR_TUNABLE = 1 << 3;
     }
 }
+
+impl From<Condition> for Conditions {
+    fn from(condition: Condition) -> Self {
+        match condition {
+            Condition::SettableBeforeInitialization => Self::SETTABLE_BEFORE_INITIALIZATION,
+            Condition::OutputOrInitialUnknown => Self::OUTPUT_OR_INITIAL_UNKNOWN,
+            Condition::SettableInInitialization => Self::SETTABLE_IN_INITIALIZATION,
+            Condition::InputOrTunable => Self::INPUT_OR_TUNABLE,
+            // These restrict what the values are good for, not which variables may be read.
+            Condition::Debugging | Condition::DebuggingUnlessTerminated => Self::empty(),
+        }
+    }
+}
+
+/// For every value reference, by base type and sorted: which of the table's conditions it meets.
+pub(crate) struct AccessTable([Vec<(u32, Conditions)>; 4]);
 
 impl AccessTable {
     pub fn of(description: &Description) -> Self {
@@ -59,31 +73,23 @@ impl AccessTable {
                 *flag = true;
             }
         }
-        let mut tables: [Vec<(u32, u8)>; 4] = Default::default();
+        let mut tables: [Vec<(u32, Conditions)>; 4] = Default::default();
         for (position, variable) in description.variables.iter().enumerate() {
             let listed = initial_unknown[position + 1];
-            let meets = [
-                (
-                    Condition::SettableBeforeInitialization,
-                    rules::settable(variable, rules::Phase::Instantiated),
-                ),
-                (
-                    Condition::OutputOrInitialUnknown,
-                    rules::gettable(variable, listed, rules::Phase::InitializationMode),
-                ),
-                (
-                    Condition::SettableInInitialization,
-                    rules::settable(variable, rules::Phase::InitializationMode),
-                ),
-                (Condition::InputOrTunable, rules::settable(variable, rules::Phase::StepComplete)),
-            ];
-            let bits =
-                meets.iter().filter(|(_, met)| *met).fold(0, |bits, (condition, _)| bits | bit(*condition));
-            tables[Base::of(&variable.kind) as usize].push((variable.value_reference, bits));
+            let settable = |phase| rules::settable(variable, phase);
+            let mut met = Conditions::empty();
+            met.set(Conditions::SETTABLE_BEFORE_INITIALIZATION, settable(rules::Phase::Instantiated));
+            met.set(
+                Conditions::OUTPUT_OR_INITIAL_UNKNOWN,
+                rules::gettable(variable, listed, rules::Phase::InitializationMode),
+            );
+            met.set(Conditions::SETTABLE_IN_INITIALIZATION, settable(rules::Phase::InitializationMode));
+            met.set(Conditions::INPUT_OR_TUNABLE, settable(rules::Phase::StepComplete));
+            tables[Base::of(&variable.kind) as usize].push((variable.value_reference, met));
         }
         for table in &mut tables {
             // Aliases share a reference: what one of them may, all may.
-            table.sort_unstable();
+            table.sort_unstable_by_key(|row| row.0);
             table.dedup_by(|next, kept| {
                 let alias = next.0 == kept.0;
                 if alias {
@@ -95,7 +101,7 @@ impl AccessTable {
         Self(tables)
     }
 
-    fn bits(&self, base: Base, reference: u32) -> Option<u8> {
+    fn met(&self, base: Base, reference: u32) -> Option<Conditions> {
         let table = &self.0[base as usize];
         table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
     }
@@ -130,12 +136,12 @@ impl Checker {
     /// As [`Checker::allow`], and every variable meets the condition of the state.
     pub fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), String> {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
-        let needed = bit(condition);
+        let needed = Conditions::from(condition);
         for &reference in references {
-            let Some(bits) = self.fmu.access().bits(base, reference) else {
+            let Some(met) = self.fmu.access().met(base, reference) else {
                 return Err(format!("the description has no {base:?} with value reference {reference}"));
             };
-            if bits & needed != needed {
+            if !met.contains(needed) {
                 return Err(format!(
                     "in state {} it takes only {}, and {} is none",
                     self.state.get().map_or("unknown", State::name),

@@ -53,11 +53,11 @@ fn a_step_past_the_stop_time_is_an_error() {
 #[test]
 fn a_model_that_ends_by_itself_answers_discard_with_terminated() {
     let (mut instance, description) = started("Panicking");
-    let accident = [reference(&description, "accident")];
+    let fault = [reference(&description, "fault")];
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
     assert_eq!((instance.terminated(), instance.last_successful_time()), ((Ok, false), (Ok, 1.0)));
-    let terminate = probe::panicking::Accident::TerminateStep as i32 + 1;
-    assert_eq!(instance.set_integer(&accident, &[terminate]), Ok);
+    let terminate = probe::panicking::Fault::TerminateStep as i32 + 1;
+    assert_eq!(instance.set_integer(&fault, &[terminate]), Ok);
     assert_eq!(instance.do_step(1.0, 1.0), Discard);
     assert!(only_message(&instance).contains("the model ends here"));
     assert_eq!((instance.terminated(), instance.last_successful_time()), ((Ok, true), (Ok, 1.0)));

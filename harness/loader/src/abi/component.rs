@@ -13,7 +13,7 @@ use fmi_export::call_table::Function;
 
 use super::{
     Binary, Handle,
-    logger::{CallbackFunctions, FixedLogger, LogBook, Logger, log_message},
+    logger::{CallbackFunctions, FixedLogger, Logger, MessageBuffer, log_message},
     text,
 };
 use crate::{LogMessage, Status, calls, error::Outcome};
@@ -23,7 +23,7 @@ unsafe extern "C" {
     fn free(pointer: *mut c_void);
 }
 
-/// How the callbacks are handed over; the default is the kindest to old FMUs.
+/// How the callbacks are handed over; the default is the least_nutation to old FMUs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Callbacks {
     /// NULL for `allocateMemory` and `freeMemory`.
@@ -48,7 +48,7 @@ pub(crate) type Answer = Result<Status, Outcome>;
 pub(crate) struct Component {
     binary: Arc<Binary>,
     handle: Handle,
-    book: Arc<LogBook>,
+    book: Arc<MessageBuffer>,
     // Old FMUs read the callbacks from the caller's struct for the whole of their life.
     callbacks: *mut CallbackFunctions,
     states: Vec<Slot>,
@@ -100,7 +100,7 @@ impl Component {
         let Some(function) = binary.functions.fmi2Instantiate else {
             return Err((Outcome::Missing, Vec::new()));
         };
-        let book = Arc::new(LogBook::default());
+        let book = Arc::new(MessageBuffer::default());
         let fixed: FixedLogger = log_message;
         let memory = !start.callbacks.null_memory;
         let callbacks = Box::into_raw(Box::new(CallbackFunctions {

@@ -3,10 +3,11 @@
 use fmi_export::call_table::State;
 use loader::{Error, Fmu, Times};
 
-use super::{
-    Finding, Findings, Trial,
-    bench::{self, STEPS},
-    stepping::{refused, verdict},
+use crate::{
+    Finding,
+    experiment::{self, STEPS},
+    judge::{refused, verdict},
+    probe::{Findings, Trial},
 };
 
 /// Wrong times: an FMU whose solver goes on until it has passed the end of a step may never come back.
@@ -42,13 +43,13 @@ const fn wrong(what: &'static str, senseless: bool, run: fn(&Fmu, &Trial) -> Fin
 }
 
 fn step(fmu: &Fmu, trial: &Trial, times: impl Fn(&Times) -> (f64, f64)) -> Findings {
-    let (time_s, step_s) = times(&bench::times(fmu)?);
-    let mut instance = bench::ready(fmu, &bench::lawless())?;
+    let (time_s, step_s) = times(&experiment::times(fmu)?);
+    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     Ok(vec![refused(trial.what, instance.do_step(time_s, step_s, false))])
 }
 
 fn start_at_nan(fmu: &Fmu, trial: &Trial) -> Findings {
-    let Some(mut instance) = bench::at(fmu, &bench::lawless(), State::Instantiated)? else {
+    let Some(mut instance) = experiment::at(fmu, &experiment::unchecked(), State::Instantiated)? else {
         return Ok(Vec::new());
     };
     let outcome = instance.setup_experiment(None, f64::NAN, None).and_then(|()| {
@@ -60,12 +61,12 @@ fn start_at_nan(fmu: &Fmu, trial: &Trial) -> Findings {
 
 /// Times as masters really give them, and times that are wrong.
 pub fn probe(fmu: &Fmu) -> Findings {
-    let times = bench::times(fmu)?;
+    let times = experiment::times(fmu)?;
     let mut findings = Vec::new();
     let variable_steps = fmu.co_simulation()?.can_handle_variable_communication_step_size;
 
     // A master that adds up its steps drifts by rounding.
-    let mut instance = bench::ready(fmu, &bench::strict())?;
+    let mut instance = experiment::ready(fmu, &experiment::strict())?;
     let step_s = (times.stop_s - times.start_s) / 1000.0 / 3.0;
     let step_s = if variable_steps { step_s } else { times.step_s };
     let count = (((times.stop_s - times.start_s) / step_s).floor() as u64).min(500);
@@ -77,7 +78,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
     });
     findings.push(verdict("accepts communication points that carry the rounding of a sum", outcome));
 
-    let mut instance = bench::ready(fmu, &bench::strict())?;
+    let mut instance = experiment::ready(fmu, &experiment::strict())?;
     let outcome = (0..STEPS.min(times.steps() - 1)).try_for_each(|k| {
         // Off by one in the last place, to either side.
         let exact_s = times.point_s(k);
@@ -91,7 +92,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
     findings.push(verdict("accepts communication points that are off in the last place", outcome));
 
     if variable_steps {
-        let mut instance = bench::ready(fmu, &bench::strict())?;
+        let mut instance = experiment::ready(fmu, &experiment::strict())?;
         let mut time_s = times.start_s;
         let outcome = [1.0, 0.1, 0.37, 1e-3, 0.5].into_iter().try_for_each(|part| {
             let end_s = (time_s + part * times.step_s).min(times.stop_s);

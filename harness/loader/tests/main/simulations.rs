@@ -1,4 +1,4 @@
-//! The driver: what it flies equals closed forms, and whatever stops it, what was recorded stays.
+//! The driver: what it runs equals closed forms, and whatever stops it, what was recorded stays.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -13,7 +13,7 @@ fn real(value: f64) -> Value {
 #[test]
 fn outputs_are_recorded_at_every_point() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
-    let flight = simulate(
+    let simulation = simulate(
         &fmu,
         Options {
             stop_s: Some(2.0),
@@ -23,8 +23,8 @@ fn outputs_are_recorded_at_every_point() {
         },
     )
     .unwrap();
-    assert_eq!(flight.ended, Ended::AtStop);
-    let recording = flight.recording;
+    assert_eq!(simulation.ended, Ended::AtStop);
+    let recording = simulation.recording;
     let expected: Vec<f64> = (0..7).map(|k| f64::from(k) * 0.3).chain([2.0]).collect();
     assert_eq!(recording.times_s, expected);
     for (time_s, integral) in recording.times_s.iter().zip(recording.reals("output.integral").unwrap()) {
@@ -38,7 +38,7 @@ fn outputs_are_recorded_at_every_point() {
 }
 
 #[test]
-fn an_input_table_drives_the_flight() {
+fn an_input_table_drives_the_simulation() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     // u = t up to 4, then 4; a step of 0.5 holds u over each step unless slopes are given.
     let table = InputTable::parse(
@@ -48,7 +48,7 @@ fn an_input_table_drives_the_flight() {
     )
     .unwrap();
     let integral = |input_derivatives: bool| {
-        let flight = simulate(
+        let simulation = simulate(
             &fmu,
             Options {
                 stop_s: Some(8.0),
@@ -60,9 +60,9 @@ fn an_input_table_drives_the_flight() {
             },
         )
         .unwrap();
-        let counted = flight.recording.column("output.integer").unwrap().number(16);
+        let counted = simulation.recording.column("output.integer").unwrap().number(16);
         assert_eq!(counted, 2.0, "the value at the start of the last step");
-        flight.recording.reals("output.integral").unwrap()[16]
+        simulation.recording.reals("output.integral").unwrap()[16]
     };
     // Held: sum of k/2 * 1/2 for k < 8, plus 16. With slopes the ramp is exact: 8 + 16.
     assert!((integral(false) - 23.0).abs() < 1e-12, "{}", integral(false));
@@ -72,7 +72,7 @@ fn an_input_table_drives_the_flight() {
 #[test]
 fn recording_less_often_keeps_the_last_point() {
     let Some((_folder, fmu)) = probe("Empty").or(probe("AllTypes")) else { return };
-    let flight = simulate(
+    let simulation = simulate(
         &fmu,
         Options {
             start_s: Some(0.0),
@@ -83,15 +83,15 @@ fn recording_less_often_keeps_the_last_point() {
         },
     )
     .unwrap();
-    assert_eq!(flight.recording.times_s, [0.0, 4.0, 8.0, 10.5]);
+    assert_eq!(simulation.recording.times_s, [0.0, 4.0, 8.0, 10.5]);
 }
 
 #[test]
-fn cancelling_keeps_what_was_flown() {
+fn cancelling_keeps_what_was_simulated() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     let cancel = AtomicBool::new(false);
     let mut progress = |time_s: f64| cancel.store(time_s >= 5.0, Ordering::Relaxed);
-    let flight = simulate(
+    let simulation = simulate(
         &fmu,
         Options {
             stop_s: Some(100.0),
@@ -102,25 +102,31 @@ fn cancelling_keeps_what_was_flown() {
         },
     )
     .unwrap();
-    assert_eq!(flight.ended, Ended::Cancelled);
-    let last_s = *flight.recording.times_s.last().unwrap();
+    assert_eq!(simulation.ended, Ended::Cancelled);
+    let last_s = *simulation.recording.times_s.last().unwrap();
     assert!((5.0..=6.0).contains(&last_s), "{last_s}");
-    assert!(flight.recording.columns.iter().all(|it| it.numbers().len() == flight.recording.times_s.len()));
+    assert!(
+        simulation
+            .recording
+            .columns
+            .iter()
+            .all(|it| it.numbers().len() == simulation.recording.times_s.len())
+    );
 }
 
-/// Inputs under which the Panicking probe meets `accident` from 3 s on.
-fn accident_at_3_s(fmu: &loader::Fmu, accident: &str) -> InputTable {
-    let variable = fmu.variable("accident").unwrap();
-    let item = loader::parse_value(fmu.description(), variable, accident).unwrap();
+/// Inputs under which the Panicking probe meets `fault` from 3 s on.
+fn fault_at_3_s(fmu: &loader::Fmu, fault: &str) -> InputTable {
+    let variable = fmu.variable("fault").unwrap();
+    let item = loader::parse_value(fmu.description(), variable, fault).unwrap();
     let rows = [vec!["0".to_owned(), "1".to_owned()], vec!["3".to_owned(), item.to_string()]];
-    InputTable::parse(fmu, &["time".to_owned(), "accident".to_owned()], &rows).unwrap()
+    InputTable::parse(fmu, &["time".to_owned(), "fault".to_owned()], &rows).unwrap()
 }
 
 #[test]
 fn an_fmu_that_ends_by_itself_is_no_error() {
     let Some((_folder, fmu)) = probe("Panicking") else { return };
-    let table = accident_at_3_s(&fmu, "terminateStep");
-    let flight = simulate(
+    let table = fault_at_3_s(&fmu, "terminateStep");
+    let simulation = simulate(
         &fmu,
         Options {
             start_s: Some(0.0),
@@ -131,14 +137,14 @@ fn an_fmu_that_ends_by_itself_is_no_error() {
         },
     )
     .unwrap();
-    assert_eq!(flight.ended, Ended::ByItself);
-    assert!(*flight.recording.times_s.last().unwrap() <= 4.0);
+    assert_eq!(simulation.ended, Ended::ByItself);
+    assert!(*simulation.recording.times_s.last().unwrap() <= 4.0);
 }
 
 #[test]
-fn an_error_on_the_way_keeps_what_was_flown() {
+fn an_error_on_the_way_keeps_what_was_simulated() {
     let Some((_folder, fmu)) = probe("Panicking") else { return };
-    let table = accident_at_3_s(&fmu, "failStep");
+    let table = fault_at_3_s(&fmu, "failStep");
     let stopped = simulate(
         &fmu,
         Options {
@@ -155,7 +161,7 @@ fn an_error_on_the_way_keeps_what_was_flown() {
 }
 
 #[test]
-fn what_cannot_be_set_is_refused_before_the_flight() {
+fn what_cannot_be_set_is_refused_before_the_simulation() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     for name in ["output.real", "role.outputConstant", "no.such.name"] {
         let sets = vec![(name.to_owned(), real(1.0))];

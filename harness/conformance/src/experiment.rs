@@ -4,7 +4,7 @@ use fmi_export::call_table::State;
 use loader::{Checking, Error, Fmu, Instance, InstanceOptions, Times};
 use model_description::{Causality, VariableKind};
 
-/// Steps of a short flight.
+/// Steps of a short simulation.
 pub const STEPS: u64 = 12;
 
 /// Options of a probe that stays within the standard.
@@ -13,7 +13,7 @@ pub fn strict() -> InstanceOptions {
 }
 
 /// Options of a probe that breaks the rules on purpose.
-pub fn lawless() -> InstanceOptions {
+pub fn unchecked() -> InstanceOptions {
     InstanceOptions { logging: true, checking: Checking::Off, ..InstanceOptions::default() }
 }
 
@@ -110,8 +110,8 @@ pub fn ready(fmu: &Fmu, options: &InstanceOptions) -> Result<Instance, Error> {
     Ok(instance)
 }
 
-/// Flies steps `from..to` of the default experiment.
-pub fn fly(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error> {
+/// Runs steps `from..to` of the default experiment.
+pub fn simulate(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error> {
     let times = times(instance.fmu())?;
     for k in from..to.min(times.steps()) {
         let time_s = times.point_s(k);
@@ -122,9 +122,9 @@ pub fn fly(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error> {
     Ok(())
 }
 
-/// What a short flight says at its end.
-pub fn short_flight(fmu: &Fmu, options: &InstanceOptions) -> Result<Bits, Error> {
+/// What a short simulation says at its end.
+pub fn short_simulation(fmu: &Fmu, options: &InstanceOptions) -> Result<Bits, Error> {
     let mut instance = ready(fmu, options)?;
-    fly(&mut instance, 0, STEPS)?;
+    simulate(&mut instance, 0, STEPS)?;
     outputs(&mut instance)
 }

@@ -1,44 +1,42 @@
-//! `heliotorque run`: flies an FMU in a process of its own, records, writes, draws.
+//! `heliotorque run`: runs an FMU in a process of its own, records, writes, draws.
 
 use std::{
-    io::IsTerminal,
     path::{Path, PathBuf},
     process::ExitCode,
     time::Instant,
 };
 
 use files::{Destination, Growing};
-use indicatif::{ProgressBar, ProgressStyle};
 use loader::{Collector, Ended, Fmu, InputTable, LogMessage, Recording, Times};
 
 use crate::{
     app::Outcome,
     args::{Run, RunInChild},
     interrupt::INTERRUPTED,
-    output, plot,
+    plot,
 };
 
 mod child;
 
-/// Flies the FMU in a child process.
+/// Runs the FMU in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     if let Some(path) = &arguments.plot {
         plot::check_path(path)?;
     }
     let fmu = Fmu::open(&arguments.fmu)?;
     // Everything that can be refused without the FMU's library is refused here.
-    let flight = Flight::of(&fmu, arguments)?;
+    let settings = Settings::of(&fmu, arguments)?;
     fmu.binary_path()?;
     let mut files = Files::open(arguments)?;
-    let (times, positions) = (flight.times, flight.positions);
+    let (times, positions) = (settings.times, settings.positions);
     let mut collector = Collector::new(&fmu, &positions);
     let every = loader::steps_between_points(&times, arguments.every)?;
     let points = times.steps().div_ceil(every).saturating_add(1);
     collector.fits(points)?;
 
-    let progress = progress_bar(&times, arguments.quiet);
+    let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
-    let flown = child::fly(&fmu, arguments.timeout, points, &mut collector, |recording, time_s| {
+    let simulated = child::simulate(&fmu, arguments.timeout, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }
@@ -49,13 +47,13 @@ pub fn run(arguments: &Run) -> Outcome {
 
     let recording = collector.recording();
     if arguments.log {
-        print_log(&flown.messages);
+        print_log(&simulated.messages);
     }
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
-    let ended = match flown.outcome {
+    let ended = match simulated.outcome {
         Ok(ended) => ended,
         Err(error) => {
-            // What was flown until then is worth keeping.
+            // What was simulated until then is worth keeping.
             let kept = files.leave(&fmu, recording);
             let rows = recording.times_s.len();
             let kept: String =
@@ -66,45 +64,45 @@ pub fn run(arguments: &Run) -> Outcome {
     let shows_summary = !arguments.quiet && arguments.output.is_none() && arguments.plot.is_none();
     files.finish(&fmu, recording)?;
     if shows_summary {
-        output::print(&summary(&fmu, recording))?;
+        terminal::print(&summary(&fmu, recording))?;
     }
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
-        let (last, elapsed) = (output::short(last_s), elapsed.as_secs_f64());
-        output::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
+        let (last, elapsed) = (terminal::short(last_s), elapsed.as_secs_f64());
+        terminal::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
     }
     match ended {
         Ended::AtStop => {}
         Ended::ByItself => {
-            output::note(&format!("the FMU ended by itself at {} s", output::short(last_s)));
+            terminal::note(&format!("the FMU ended by itself at {} s", terminal::short(last_s)));
         }
         Ended::Cancelled => {
-            let last = output::short(last_s);
-            output::note(&format!("interrupted at {last} s; what was recorded until then is written"));
+            let last = terminal::short(last_s);
+            terminal::note(&format!("interrupted at {last} s; what was recorded until then is written"));
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
-    match flown.fault {
+    match simulated.fault {
         // The recording is complete, the FMU is not what it should be.
         Some(fault) => Err(fault.into()),
         None => Ok(ExitCode::SUCCESS),
     }
 }
 
-/// Flies the FMU in this process for the parent.
+/// Runs the FMU in this process for the parent.
 pub fn run_in_child(arguments: &RunInChild) -> Outcome {
     child::run(arguments)
 }
 
 /// What the arguments mean for an FMU.
-struct Flight {
+struct Settings {
     times: Times,
     sets: Vec<(String, loader::Value)>,
     inputs: Option<InputTable>,
     positions: Vec<usize>,
 }
 
-impl Flight {
+impl Settings {
     fn of(fmu: &Fmu, arguments: &Run) -> Result<Self, Box<dyn std::error::Error>> {
         let times = Times::of(fmu, arguments.start, arguments.stop, arguments.step)?;
         let mut sets = Vec::new();
@@ -133,21 +131,10 @@ fn selection(fmu: &Fmu, patterns: &[String]) -> Result<Option<Vec<usize>>, loade
     Ok(Some(positions))
 }
 
-fn progress_bar(times: &Times, quiet: bool) -> ProgressBar {
-    if quiet || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new((times.stop_s - times.start_s) as u64);
-    let template = "{bar:40.cyan/blue} {percent:>3}%  {elapsed} gone, {eta} to go";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar
-}
-
 /// Reads an input table.
 fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::Error>> {
-    let in_file = |error: &dyn std::error::Error| format!("{}: {}", path.display(), output::chain(error));
+    let in_file =
+        |error: &dyn std::error::Error| format!("{}: {}", path.display(), loader::Error::chain(error));
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -166,7 +153,7 @@ fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::
 /// Rows of a table that are written at once.
 const ROWS_AT_ONCE: usize = 64;
 
-/// What a flight leaves.
+/// What a simulation leaves.
 struct Files {
     output: Option<Growing>,
     plot: Option<Destination>,
@@ -231,7 +218,7 @@ impl Files {
 
     /// Leaves what there is under the names of recordings in progress, and tells them.
     fn leave(mut self, fmu: &Fmu, recording: &Recording) -> Vec<PathBuf> {
-        // The flight failed already: what cannot be kept now changes nothing of that.
+        // The simulation failed already: what cannot be kept now changes nothing of that.
         let _ = self.record(recording);
         let table = self.output.and_then(Growing::leave);
         let picture = self.plot.filter(|_| !recording.times_s.is_empty()).and_then(|plot| {
@@ -246,13 +233,13 @@ impl Files {
 
 fn print_log(messages: &[LogMessage]) {
     for message in messages {
-        output::note(&format!("{} {message}", message.status));
+        terminal::note(&format!("{} {message}", message.status));
     }
 }
 
 /// First, smallest, largest and last value of everything recorded.
 fn summary(fmu: &Fmu, recording: &Recording) -> String {
-    let mut table = output::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
+    let mut table = terminal::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
     for (name, column) in recording.names.iter().zip(&recording.columns) {
         let variable = fmu.find(name);
         let display = variable.and_then(|variable| loader::display_unit(fmu.description(), variable));
@@ -278,10 +265,10 @@ fn summary(fmu: &Fmu, recording: &Recording) -> String {
         table.add_row([
             name.clone(),
             unit.to_owned(),
-            output::short(first),
-            output::short(smallest),
-            output::short(largest),
-            output::short(last),
+            terminal::short(first),
+            terminal::short(smallest),
+            terminal::short(largest),
+            terminal::short(last),
         ]);
     }
     table.to_string()

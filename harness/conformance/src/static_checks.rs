@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 use loader::Fmu;
 use model_description::Severity;
 
-use super::{Finding, Verdict};
+use crate::{Finding, Verdict};
 
 /// Files and folders that FMI 2.0.5 knows at the top of an archive (2.3).
 const KNOWN: [&str; 8] = [
@@ -39,12 +39,12 @@ pub fn archive(fmu: &Fmu) -> Vec<Finding> {
     source_files(fmu, &mut findings);
     top_level(fmu, &mut findings);
     let has = |path: &str| fmu.folder().join(path).exists();
-    findings.push(wanted(has("documentation"), "documentation"));
-    findings.push(wanted(LICENSE_ENTRIES.into_iter().any(has), &LICENSE_ENTRIES.join(" or ")));
+    findings.push(presence(has("documentation"), "documentation"));
+    findings.push(presence(LICENSE_ENTRIES.into_iter().any(has), &LICENSE_ENTRIES.join(" or ")));
     findings
 }
 
-fn wanted(there: bool, what: &str) -> Finding {
+fn presence(there: bool, what: &str) -> Finding {
     if there { Finding::good(format!("has {what}")) } else { Finding::note(format!("has no {what}")) }
 }
 
@@ -88,8 +88,8 @@ fn top_level(fmu: &Fmu, findings: &mut Vec<Finding>) {
 
 /// Everything the reader and the validator say, with lines.
 pub fn description(fmu: &Fmu) -> Vec<Finding> {
-    let said = fmu.parsed().findings();
-    let mut findings: Vec<Finding> = said
+    let found = fmu.parsed().findings();
+    let mut findings: Vec<Finding> = found
         .iter()
         .map(|finding| {
             let verdict = match finding.severity() {

@@ -1,4 +1,4 @@
-//! A plan flown again through the FMU, over the range of what may be wrong.
+//! A plan simulated again through the FMU, over the range of what may be wrong.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -14,8 +14,8 @@ use super::{Firing, PlanError, Row, Task};
 
 /// What the FMU says of a plan.
 #[derive(Clone, Copy, Debug)]
-pub struct Reflight {
-    /// Inertia ratios and spin rates; each with each is a flight.
+pub struct Verification {
+    /// Inertia ratios and spin rates; each with each is a simulation.
     pub ratios: u32,
     /// See `ratios`.
     pub rates: u32,
@@ -32,7 +32,7 @@ pub struct Reflight {
     pub miss: f64,
 }
 
-impl Reflight {
+impl Verification {
     /// What of `task` it breaks, in words; empty if it keeps everything.
     pub fn broken(&self, task: &Task) -> Vec<String> {
         let mut broken = Vec::new();
@@ -50,23 +50,23 @@ impl Reflight {
     }
 }
 
-/// One flight.
-struct Flown {
+/// One simulation.
+struct Simulated {
     final_rad: f64,
     peak_rad: f64,
     moved_rad: f64,
     duration_s: f64,
 }
 
-/// Flies `row` with `ratios` inertia ratios over the task's range, each at the assumed spin rate and at the ends of its
+/// Runs `row` with `ratios` inertia ratios over the task's range, each at the assumed spin rate and at the ends of its
 /// range, the damper off.
 ///
 /// # Errors
-/// An FMU that refuses the flight, has other thrusters, or does not end the burn.
-pub fn refly(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Reflight, PlanError> {
+/// An FMU that refuses the simulation, has other thrusters, or does not end the burn.
+pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verification, PlanError> {
     let ratios = ratios.max(1);
     let rates: &[f64] = if task.range.rate_rad_s > 0.0 { &[-1.0, 0.0, 1.0] } else { &[0.0] };
-    let mut seen = Reflight {
+    let mut seen = Verification {
         ratios,
         rates: rates.len() as u32,
         final_rad: 0.0,
@@ -84,11 +84,12 @@ pub fn refly(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Reflight,
                 ratio: assumed.ratio + share * task.range.ratio,
                 ..*assumed
             };
-            let flown = fly(fmu, task, row, &spin)?;
-            seen.final_rad = seen.final_rad.max(flown.final_rad);
-            seen.peak_rad = seen.peak_rad.max(flown.peak_rad);
-            seen.moved_rad = (seen.moved_rad.0.min(flown.moved_rad), seen.moved_rad.1.max(flown.moved_rad));
-            seen.longest_s = seen.longest_s.max(flown.duration_s);
+            let simulated = simulate(fmu, task, row, &spin)?;
+            seen.final_rad = seen.final_rad.max(simulated.final_rad);
+            seen.peak_rad = seen.peak_rad.max(simulated.peak_rad);
+            seen.moved_rad =
+                (seen.moved_rad.0.min(simulated.moved_rad), seen.moved_rad.1.max(simulated.moved_rad));
+            seen.longest_s = seen.longest_s.max(simulated.duration_s);
             let meant_rad = if rate_share == 0.0 {
                 task.angle_rad
             } else if task.flight.timing == Timing::Clock {
@@ -96,14 +97,14 @@ pub fn refly(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Reflight,
             } else {
                 ForecastCase { spin, ..task.flight }.forecast(&row.train).moved_rad
             };
-            seen.miss = seen.miss.max((flown.moved_rad / meant_rad - 1.0).abs());
+            seen.miss = seen.miss.max((simulated.moved_rad / meant_rad - 1.0).abs());
         }
     }
     Ok(seen)
 }
 
-/// Flies `row` once with the body `spin`; the burn goes by what the task assumes.
-fn fly(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Flown, PlanError> {
+/// Runs `row` once with the body `spin`; the burn goes by what the task assumes.
+fn simulate(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Simulated, PlanError> {
     let stop_s = row.train.duration_s(spin.period_s()) + 4.0 * spin.period_s();
     let names = [
         "nutation.angle",
@@ -117,7 +118,7 @@ fn fly(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Flown, PlanErro
     ];
     let record = names
         .iter()
-        .map(|name| fmu.position(name).ok_or_else(|| PlanError::Refly(format!("no variable {name}"))))
+        .map(|name| fmu.position(name).ok_or_else(|| PlanError::Verify(format!("no variable {name}"))))
         .collect::<Result<Vec<_>, _>>()?;
     let options = loader::Options {
         stop_s: Some(stop_s),
@@ -126,15 +127,16 @@ fn fly(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Flown, PlanErro
         record: Some(record),
         ..loader::Options::default()
     };
-    let flight = loader::simulate(fmu, options).map_err(|stopped| PlanError::Refly(stopped.to_string()))?;
+    let simulation =
+        loader::simulate(fmu, options).map_err(|stopped| PlanError::Verify(stopped.to_string()))?;
     let numbers = |name: &str| {
-        let column = flight.recording.column(name).map(Column::numbers);
-        column.ok_or_else(|| PlanError::Refly(format!("{name} was not recorded")))
+        let column = simulation.recording.column(name).map(Column::numbers);
+        column.ok_or_else(|| PlanError::Verify(format!("{name} was not recorded")))
     };
     let columns = names.iter().map(|name| numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let last = |column: usize| columns[column].last().copied().unwrap_or(f64::NAN);
     if last(2) != 1.0 {
-        return Err(PlanError::Refly(format!("the burn did not end within {stop_s} s")));
+        return Err(PlanError::Verify(format!("the burn did not end within {stop_s} s")));
     }
     // The edges are read where the first and the last pulse are still to come, or on.
     let count = row.train.count();
@@ -148,7 +150,7 @@ fn fly(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Flown, PlanErro
             last_s = if firing { edge_s } else { edge_s + row.train.width_s(count - 1) };
         }
     }
-    Ok(Flown {
+    Ok(Simulated {
         final_rad: last(0),
         peak_rad: columns[0].iter().copied().fold(0.0, f64::max),
         // Within the plane of the turn, as it is foreseen: a clock that runs wrong also moves it aside.
@@ -157,7 +159,7 @@ fn fly(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Flown, PlanErro
     })
 }
 
-/// Everything the flight depends on, whatever the FMU's own start values are: the momentum starts along +Z and turns toward
+/// Everything the simulation depends on, whatever the FMU's own start values are: the momentum starts along +Z and turns toward
 /// +X, the Sun stands across that plane.
 fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, Value)>, PlanError> {
     let (plan, order) = match row.train.shape() {
@@ -225,7 +227,7 @@ fn check_name(fmu: &Fmu, task: &Task, number: i32) -> Result<(), PlanError> {
         Some(VariableKind::String { start: Some(name), .. }) => format!("\"{name}\""),
         _ => "missing".to_owned(),
     };
-    Err(PlanError::Refly(format!(
+    Err(PlanError::Verify(format!(
         "its {variable} is {found}, the plan is for \"{}\": it was packed for another spacecraft",
         task.thruster
     )))

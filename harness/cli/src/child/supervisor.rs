@@ -1,4 +1,4 @@
-//! Starts a child and watches it until it ends, or ends it.
+//! Starts a child and supervises it until it ends, or ends it.
 
 use std::{
     ffi::OsString,
@@ -16,11 +16,11 @@ use super::{
 };
 use crate::interrupt;
 
-/// How often the parent looks: from often, while much comes, to seldom.
+/// EndReason often the parent looks: from often, while much comes, to seldom.
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(5)];
 /// Words at a time that are much.
 const MUCH: usize = RING_WORDS / 8;
-/// How long a child that is asked to end, or has told its end, may take.
+/// EndReason long a child that is asked to end, or has told its end, may take.
 const GRACE: Duration = Duration::from_secs(2);
 
 /// What the child's process may take of the computer.
@@ -43,9 +43,9 @@ pub struct Bounds {
     pub printed: Option<u64>,
 }
 
-/// How a child came to its end.
+/// EndReason a child came to its end.
 #[derive(Debug)]
-pub enum How {
+pub enum EndReason {
     /// By itself.
     Ended(ExitStatus),
     /// It took longer than it may, in s.
@@ -62,30 +62,30 @@ pub enum How {
     Refused(String),
 }
 
-/// A child that was watched to its end.
+/// A child that was supervised to its end.
 #[derive(Debug)]
-pub struct Watched {
-    /// How it ended.
-    pub how: How,
+pub struct Supervised {
+    /// EndReason it ended.
+    pub how: EndReason,
     /// The call it was in.
     pub mark: Marked,
     /// The last lines it printed, each after a line break.
     pub printed: String,
 }
 
-impl Watched {
+impl Supervised {
     /// Why it is no good end, with the call it came in; `None` for a good one.
     pub fn fault(&self) -> Option<String> {
         let what = match &self.how {
-            How::Ended(status) if status.success() => return None,
-            how => tell(how),
+            EndReason::Ended(status) if status.success() => return None,
+            how => describe(how),
         };
         Some(self.placed(&what))
     }
 
     /// That it ended without telling its result.
-    pub fn silence(&self) -> String {
-        self.placed(&tell(&self.how))
+    pub fn without_result(&self) -> String {
+        self.placed(&describe(&self.how))
     }
 
     fn placed(&self, what: &str) -> String {
@@ -98,26 +98,28 @@ impl Watched {
     }
 }
 
-fn tell(how: &How) -> String {
+fn describe(how: &EndReason) -> String {
     match how {
-        How::Ended(status) => format!("the process died: {}", system::how(*status)),
-        How::Hangs(time_s) => format!("hangs: still busy after {time_s} s (see --timeout)"),
-        How::CallHangs(time_s) => format!("hangs: the call did not return within {time_s} s (see --timeout)"),
-        How::DoesNotExit => "its process does not exit".to_owned(),
-        How::Prints(bytes) => format!("prints without end: more than {} MiB", bytes >> 20),
-        How::Interrupted => "interrupted".to_owned(),
-        How::Refused(why) => why.clone(),
+        EndReason::Ended(status) => format!("the process died: {}", system::how(*status)),
+        EndReason::Hangs(time_s) => format!("hangs: still busy after {time_s} s (see --timeout)"),
+        EndReason::CallHangs(time_s) => {
+            format!("hangs: the call did not return within {time_s} s (see --timeout)")
+        }
+        EndReason::DoesNotExit => "its process does not exit".to_owned(),
+        EndReason::Prints(bytes) => format!("prints without end: more than {} MiB", bytes >> 20),
+        EndReason::Interrupted => "interrupted".to_owned(),
+        EndReason::Refused(why) => why.clone(),
     }
 }
 
 /// A child that runs.
-pub struct Started {
+pub struct ChildProcess {
     child: Child,
     inbox: Inbox,
     printed: Printed,
 }
 
-impl Started {
+impl ChildProcess {
     /// Starts this program with these arguments.
     pub fn new(
         arguments: impl IntoIterator<Item = OsString>,
@@ -138,25 +140,25 @@ impl Started {
         }
     }
 
-    /// Watches it to its end. `take` gets every frame and tells whether it was the last one, `line` every line that
+    /// Supervises it to its end. `take` gets every frame and tells whether it was the last one, `line` every line that
     /// is printed; `tick` is called between.
-    pub fn watch(
+    pub fn supervise(
         mut self,
         bounds: Bounds,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
         tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
-    ) -> Watched {
+    ) -> Supervised {
         let how = self.follow(bounds, take, line, tick);
         let mark = self.inbox.mark().map(loader::read_mark).unwrap_or_default();
         let status = system::end(&mut self.child);
         self.printed.finish(line);
         let how = match (how, status) {
             (Some(how), _) => how,
-            (None, Ok(status)) => How::Ended(status),
-            (None, Err(error)) => How::Refused(format!("the process cannot be waited for: {error}")),
+            (None, Ok(status)) => EndReason::Ended(status),
+            (None, Err(error)) => EndReason::Refused(format!("the process cannot be waited for: {error}")),
         };
-        Watched { how, mark, printed: self.printed.last() }
+        Supervised { how, mark, printed: self.printed.last() }
     }
 
     /// Until it ended by itself (`None`) or has to be ended.
@@ -166,7 +168,7 @@ impl Started {
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
         tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
-    ) -> Option<How> {
+    ) -> Option<EndReason> {
         let began = Instant::now();
         let (mut call, mut call_began) = (None, began);
         let (mut finished, mut cancelled) = (None::<Instant>, None::<Instant>);
@@ -182,17 +184,17 @@ impl Started {
             });
             let came = match came {
                 Ok(came) => came,
-                Err(why) => return Some(How::Refused(why)),
+                Err(why) => return Some(EndReason::Refused(why)),
             };
             if let Err(why) = tick(self.inbox.mark()) {
-                return Some(How::Refused(why));
+                return Some(EndReason::Refused(why));
             }
             let printed = self.printed.read(line);
             if ended {
                 return None;
             }
             if let Some(allowed) = bounds.printed.filter(|allowed| self.printed.bytes() > *allowed) {
-                return Some(How::Prints(allowed));
+                return Some(EndReason::Prints(allowed));
             }
             let now = Instant::now();
             // The call under way and its number.
@@ -202,24 +204,24 @@ impl Started {
             }
             let is_over = |from: Instant, time_s: &f64| (now - from).as_secs_f64() > *time_s;
             if let Some(time_s) = bounds.time_s.filter(|time_s| is_over(began, time_s)) {
-                return Some(How::Hangs(time_s));
+                return Some(EndReason::Hangs(time_s));
             }
             let in_call = call.is_some();
             if let Some(time_s) = bounds.call_s.filter(|time_s| in_call && is_over(call_began, time_s)) {
-                return Some(How::CallHangs(time_s));
+                return Some(EndReason::CallHangs(time_s));
             }
             if is_last {
                 finished = Some(now);
             }
             if finished.is_some_and(|from| now - from > GRACE) {
-                return Some(How::DoesNotExit);
+                return Some(EndReason::DoesNotExit);
             }
             if interrupt::raised() && cancelled.is_none() {
                 self.inbox.cancel();
                 cancelled = Some(now);
             }
             if cancelled.is_some_and(|from| now - from > GRACE) {
-                return Some(How::Interrupted);
+                return Some(EndReason::Interrupted);
             }
             std::thread::sleep(pause);
             pause = if came > MUCH || printed { (pause / 2).max(often) } else { (pause * 2).min(seldom) };

@@ -4,10 +4,11 @@ use fmi_export::call_table::State;
 use loader::{Fmu, Instance, Value};
 use model_description::{Causality, Initial, ScalarVariable, Variability, VariableKind, rules};
 
-use super::{
-    Finding, Findings,
-    bench::{self, References},
-    stepping::{refused, same, verdict},
+use crate::{
+    Finding,
+    experiment::{self, References},
+    judge::{refused, same, verdict},
+    probe::Findings,
 };
 
 /// Start values read back, limits are kept, unknown references refused.
@@ -32,17 +33,17 @@ pub fn start(variable: &ScalarVariable) -> Option<Value> {
 }
 
 fn start_values(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
-    let mut instance = bench::ready(fmu, &bench::strict())?;
+    let mut instance = experiment::ready(fmu, &experiment::strict())?;
     let mut checked = 0;
     for variable in &fmu.description().variables {
         let exact = rules::effective_initial(variable) == Some(Initial::Exact)
             || variable.causality == Causality::Input;
-        let (true, Some(wanted)) = (exact, start(variable)) else { continue };
+        let (true, Some(expected)) = (exact, start(variable)) else { continue };
         let found = instance.get_variable(variable)?;
         checked += 1;
-        if !same(&found, &wanted) {
+        if !same(&found, &expected) {
             findings
-                .push(Finding::bad(format!("{} starts at {found}, its XML says {wanted}", variable.name)));
+                .push(Finding::bad(format!("{} starts at {found}, its XML says {expected}", variable.name)));
         }
     }
     findings.push(Finding::good(format!("{checked} start values read back as in the XML")));
@@ -71,7 +72,8 @@ fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
         };
         let Some(outside) = outside else { continue };
         tried += 1;
-        let Some(mut instance) = bench::at(fmu, &bench::lawless(), State::InitializationMode)? else {
+        let Some(mut instance) = experiment::at(fmu, &experiment::unchecked(), State::InitializationMode)?
+        else {
             continue;
         };
         let what = format!("{}={outside}, outside its limits", variable.name);
@@ -81,7 +83,7 @@ fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
         variable.causality == Causality::Input && matches!(variable.kind, VariableKind::Real { .. })
     });
     if let Some(input) = real_input {
-        let mut instance = bench::ready(fmu, &bench::lawless())?;
+        let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
         findings.push(refused(
             &format!("{}=NaN", input.name),
             instance.set_variable(input, &Value::Real(f64::NAN)),
@@ -103,19 +105,19 @@ fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Erro
             .unwrap_or(u32::MAX)
     };
     let no_real = unknown(|kind| matches!(kind, VariableKind::Real { .. }));
-    let mut instance = bench::ready(fmu, &bench::lawless())?;
+    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     findings.push(refused(
         "reading a Real reference it does not have",
         instance.get_reals(&[no_real], &mut [0.0]),
     ));
     let no_boolean = unknown(|kind| matches!(kind, VariableKind::Boolean { .. }));
-    let mut instance = bench::ready(fmu, &bench::lawless())?;
+    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     findings.push(refused(
         "reading a Boolean reference it does not have",
         instance.get_booleans(&[no_boolean], &mut [0]),
     ));
     if let Some(&known) = references.first() {
-        let mut instance = bench::ready(fmu, &bench::lawless())?;
+        let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
         let mut before = [0.0];
         instance.get_reals(&[known], &mut before)?;
         let value = before[0] + 1e-3;
@@ -134,7 +136,7 @@ fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Erro
     }
     let constant = fmu.description().variables.iter().find(|it| it.variability == Variability::Constant);
     if let Some((constant, value)) = constant.and_then(|it| Some((it, start(it)?))) {
-        let mut instance = bench::ready(fmu, &bench::lawless())?;
+        let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
         findings.push(refused("setting a constant", instance.set_variable(constant, &value)));
     }
     Ok(())
@@ -148,12 +150,12 @@ pub fn derivatives(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
     match inputs.first() {
         Some(&input) if flags.can_interpolate_inputs => {
-            let mut instance = bench::ready(fmu, &bench::strict())?;
+            let mut instance = experiment::ready(fmu, &experiment::strict())?;
             let outcome = instance
                 .set_input_derivatives(&[input, input], &[1, 2], &[1e-9, 0.0])
-                .and_then(|()| bench::fly(&mut instance, 0, 2));
+                .and_then(|()| experiment::simulate(&mut instance, 0, 2));
             findings.push(verdict("takes first and second input derivatives and steps on", outcome));
-            let mut instance = bench::ready(fmu, &bench::lawless())?;
+            let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
             let outcome = instance.set_input_derivatives(&[input], &[0], &[1.0]);
             findings.push(refused("an input derivative of order 0", outcome));
         }
@@ -162,23 +164,23 @@ pub fn derivatives(fmu: &Fmu) -> Findings {
     match outputs.first() {
         Some(_) if flags.max_output_derivative_order > 0 => {
             let order = i32::try_from(flags.max_output_derivative_order).unwrap_or(i32::MAX);
-            let mut instance = bench::ready(fmu, &bench::strict())?;
-            bench::fly(&mut instance, 0, 2)?;
+            let mut instance = experiment::ready(fmu, &experiment::strict())?;
+            experiment::simulate(&mut instance, 0, 2)?;
             let mut values = vec![f64::NAN; outputs.len()];
             let orders = vec![order; outputs.len()];
             let outcome = instance.get_output_derivatives(&outputs, &orders, &mut values);
             findings.push(verdict(&format!("gives output derivatives of order {order}"), outcome));
             let finite = values.iter().all(|value| value.is_finite());
             findings.push(Finding::expect(finite, "every output derivative is finite"));
-            let mut instance = bench::ready(fmu, &bench::lawless())?;
-            bench::fly(&mut instance, 0, 1)?;
+            let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
+            experiment::simulate(&mut instance, 0, 1)?;
             let outcome = instance.get_output_derivatives(&outputs[..1], &[0], &mut [0.0]);
             findings.push(refused("an output derivative of order 0", outcome));
         }
         _ => findings.push(Finding::skipped("output derivatives: not claimed, or no continuous Real output")),
     }
     if flags.provides_directional_derivative && !inputs.is_empty() && !outputs.is_empty() {
-        let mut instance = bench::ready(fmu, &bench::strict())?;
+        let mut instance = experiment::ready(fmu, &experiment::strict())?;
         directional(&mut instance, &outputs, &inputs, &mut findings)?;
     } else {
         findings.push(Finding::skipped("directional derivatives: not claimed"));

@@ -4,35 +4,36 @@ use std::{fs, path::Path};
 
 use loader::{Callbacks, Error, Fmu, InstanceOptions, LogMessage, Resources, Status};
 
-use super::{
-    Finding, Findings, Trial,
-    bench::{self, STEPS},
-    stepping::verdict,
+use crate::{
+    Finding,
+    experiment::{self, STEPS},
+    judge::verdict,
+    probe::{Findings, Trial},
 };
 
 /// The callbacks' struct dies with `fmi2Instantiate` (2.0.5); memory functions may be NULL if the FMU says so.
 pub fn callbacks(fmu: &Fmu) -> Findings {
-    let wanted = bench::short_flight(fmu, &bench::strict())?;
+    let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let may_be_null = fmu.co_simulation()?.can_not_use_memory_management_functions;
     let mut findings = Vec::new();
     let mut try_with = |what: &str, callbacks: Callbacks| {
-        let options = InstanceOptions { callbacks, ..bench::strict() };
-        let outcome = bench::short_flight(fmu, &options);
+        let options = InstanceOptions { callbacks, ..experiment::strict() };
+        let outcome = experiment::short_simulation(fmu, &options);
         findings.push(match outcome {
-            Ok(found) => Finding::expect(found == wanted, what.to_owned()),
+            Ok(found) => Finding::expect(found == expected, what.to_owned()),
             Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
         });
     };
     try_with(
-        "flies on after the struct of callbacks is overwritten",
+        "runs on after the struct of callbacks is overwritten",
         Callbacks { scribbled: true, ..Callbacks::default() },
     );
     if may_be_null {
         try_with(
-            "flies with NULL for allocateMemory and freeMemory, as it claims",
+            "runs with NULL for allocateMemory and freeMemory, as it claims",
             Callbacks { null_memory: true, ..Callbacks::default() },
         );
-        try_with("flies with both", Callbacks { null_memory: true, scribbled: true });
+        try_with("runs with both", Callbacks { null_memory: true, scribbled: true });
     } else {
         findings.push(Finding::skipped("NULL memory functions: it claims to need them"));
     }
@@ -41,7 +42,7 @@ pub fn callbacks(fmu: &Fmu) -> Findings {
 
 /// NULL where nothing is to be read or written.
 pub fn nulls(fmu: &Fmu) -> Findings {
-    let mut instance = bench::ready(fmu, &bench::lawless())?;
+    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     let state_calls = fmu.co_simulation()?.can_get_and_set_fmu_state;
     let findings = instance
         .probe_nulls()
@@ -70,7 +71,7 @@ fn free_no_state(fmu: &Fmu, trial: &Trial) -> Findings {
     if !fmu.co_simulation()?.can_get_and_set_fmu_state {
         return Ok(vec![Finding::skipped(format!("{}: states are not claimed", trial.call))]);
     }
-    let mut instance = bench::ready(fmu, &bench::lawless())?;
+    let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     Ok(vec![match instance.probe_free_no_state() {
         Ok(Status::Ok | Status::Warning) => Finding::good(format!("{} is ignored (2.1.8)", trial.call)),
         Ok(status) => Finding::note(format!("{} answers {status}", trial.call)),
@@ -82,18 +83,18 @@ fn free_no_state(fmu: &Fmu, trial: &Trial) -> Findings {
 const STRANGE: [&str; 6] =
     ["with space", "50% off", "a+b", "{braces} #1", "Überraum λ 火星", "dots..and~tilde"];
 
-/// Moves the FMU to strange places and flies it there.
+/// Moves the FMU to strange places and runs it there.
 pub fn paths(fmu: &Fmu) -> Findings {
-    let wanted = bench::short_flight(fmu, &bench::strict())?;
+    let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let mut findings = Vec::new();
-    let room = tempfile::tempdir().map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
+    let scratch = tempfile::tempdir().map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
     for name in STRANGE {
-        let place = room.path().join(name);
+        let place = scratch.path().join(name);
         copy(fmu.folder(), &place)?;
         let there = Fmu::open(&place)?;
-        let what = format!("flies from a folder called {name:?}");
-        findings.push(match bench::short_flight(&there, &bench::strict()) {
-            Ok(found) => Finding::expect(found == wanted, what),
+        let what = format!("runs from a folder called {name:?}");
+        findings.push(match experiment::short_simulation(&there, &experiment::strict()) {
+            Ok(found) => Finding::expect(found == expected, what),
             Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
         });
     }
@@ -104,9 +105,9 @@ pub fn paths(fmu: &Fmu) -> Findings {
         ("takes file://localhost/path", format!("file://localhost{path}")),
         ("takes a resource location with a slash at its end", format!("{own}/")),
     ] {
-        let options = InstanceOptions { resources: Resources::Uri(uri), ..bench::strict() };
-        findings.push(match bench::short_flight(fmu, &options) {
-            Ok(found) => Finding::expect(found == wanted, what),
+        let options = InstanceOptions { resources: Resources::Uri(uri), ..experiment::strict() };
+        findings.push(match experiment::short_simulation(fmu, &options) {
+            Ok(found) => Finding::expect(found == expected, what),
             Err(error) => Finding::note(format!("not so: {what}\n{error}")),
         });
     }
@@ -117,10 +118,10 @@ pub fn paths(fmu: &Fmu) -> Findings {
         ("a folder that is not there", Resources::Uri("file:///no/such/folder".to_owned())),
         ("no URI at all", Resources::Uri("%zz:// %".to_owned())),
     ] {
-        let options = InstanceOptions { resources, ..bench::strict() };
-        let flies =
+        let options = InstanceOptions { resources, ..experiment::strict() };
+        let runs =
             if fmu.instantiate("probe", &options).is_ok() { "instantiates" } else { "gives no instance" };
-        findings.push(Finding::good(format!("{flies} with {what} for the resource location, and lives")));
+        findings.push(Finding::good(format!("{runs} with {what} for the resource location, and lives")));
     }
     Ok(findings)
 }
@@ -144,7 +145,7 @@ fn copy(from: &Path, to: &Path) -> Result<(), Error> {
 pub fn identity(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
     for guid in ["", "{00000000-0000-0000-0000-000000000000}", "100 %s %n #r1#"] {
-        let options = InstanceOptions { guid: Some(guid.to_owned()), ..bench::lawless() };
+        let options = InstanceOptions { guid: Some(guid.to_owned()), ..experiment::unchecked() };
         findings.push(match fmu.instantiate("probe", &options) {
             Ok(_) => Finding::bad(format!("gives an instance for the GUID {guid:?}, which is not its own")),
             Err(Error::Call(call)) if !call.messages.is_empty() => {
@@ -157,22 +158,22 @@ pub fn identity(fmu: &Fmu) -> Findings {
     {
         let shown: String = name.chars().take(20).collect();
         let what = format!("takes the instance name {shown:?}");
-        findings.push(verdict(&what, fmu.instantiate(name, &bench::strict()).map(|_| ())));
+        findings.push(verdict(&what, fmu.instantiate(name, &experiment::strict()).map(|_| ())));
     }
     for name in ["", "   "] {
-        let outcome = fmu.instantiate(name, &bench::lawless());
+        let outcome = fmu.instantiate(name, &experiment::unchecked());
         findings.push(match outcome {
             Err(_) => Finding::good(format!("refuses the instance name {name:?}")),
             Ok(_) => Finding::note(format!("takes the instance name {name:?}, which says nothing (2.1.5)")),
         });
     }
     // Two instances of one name are two instances.
-    let mut one = bench::ready(fmu, &bench::strict())?;
+    let mut one = experiment::ready(fmu, &experiment::strict())?;
     if !fmu.co_simulation()?.can_be_instantiated_only_once_per_process {
-        let mut two = bench::ready(fmu, &bench::strict())?;
-        bench::fly(&mut two, 0, STEPS)?;
-        bench::fly(&mut one, 0, STEPS)?;
-        let same = bench::outputs(&mut one)? == bench::outputs(&mut two)?;
+        let mut two = experiment::ready(fmu, &experiment::strict())?;
+        experiment::simulate(&mut two, 0, STEPS)?;
+        experiment::simulate(&mut one, 0, STEPS)?;
+        let same = experiment::outputs(&mut one)? == experiment::outputs(&mut two)?;
         findings.push(Finding::expect(same, "two instances of one name do not disturb each other"));
     }
     Ok(findings)
@@ -188,84 +189,86 @@ const COMMA_LOCALES: [&str; 6] =
 
 /// Simulation tools set the locale of the whole process; a number in XML or TOML keeps its point.
 pub fn locale(fmu: &Fmu) -> Findings {
-    let wanted = bench::short_flight(fmu, &bench::strict())?;
+    let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let Some(name) = COMMA_LOCALES.into_iter().find(|name| loader::set_locale(name)) else {
         let names = COMMA_LOCALES.join(", ");
         return Ok(vec![Finding::skipped(format!("comma locale: this computer has none of {names}"))]);
     };
-    let found = bench::short_flight(fmu, &bench::strict());
+    let found = experiment::short_simulation(fmu, &experiment::strict());
     loader::set_locale("C");
-    let what = format!("flies under {name} to the same bits");
+    let what = format!("runs under {name} to the same bits");
     Ok(vec![match found {
-        Ok(found) => Finding::expect(found == wanted, what),
+        Ok(found) => Finding::expect(found == expected, what),
         Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
     }])
 }
 
-/// Flights on threads at the same time.
+/// Simulations on threads at the same time.
 pub fn threads(fmu: &Fmu) -> Findings {
     if fmu.co_simulation()?.can_be_instantiated_only_once_per_process {
         return Ok(vec![Finding::skipped("it allows one instance a process only")]);
     }
     const ROUNDS: usize = 8;
-    let wanted = bench::short_flight(fmu, &bench::strict())?;
-    let flights = std::thread::scope(|scope| {
-        let fly = || (0..ROUNDS).map(|_| bench::short_flight(fmu, &bench::strict())).collect::<Vec<_>>();
-        let handles = [scope.spawn(fly), scope.spawn(fly)];
+    let expected = experiment::short_simulation(fmu, &experiment::strict())?;
+    let simulations = std::thread::scope(|scope| {
+        let simulate = || {
+            (0..ROUNDS).map(|_| experiment::short_simulation(fmu, &experiment::strict())).collect::<Vec<_>>()
+        };
+        let handles = [scope.spawn(simulate), scope.spawn(simulate)];
         handles.into_iter().flat_map(|handle| handle.join().unwrap_or_default()).collect::<Vec<_>>()
     });
     let mut findings = vec![Finding::expect(
-        flights.len() == 2 * ROUNDS,
-        format!("{} flights on two threads at a time come to their end", 2 * ROUNDS),
+        simulations.len() == 2 * ROUNDS,
+        format!("{} simulations on two threads at a time come to their end", 2 * ROUNDS),
     )];
     let mut alike = true;
-    for flight in flights {
-        alike &= flight? == wanted;
+    for simulation in simulations {
+        alike &= simulation? == expected;
     }
-    findings.push(Finding::expect(alike, "each gives the bits of a flight alone"));
+    findings.push(Finding::expect(alike, "each gives the bits of a simulation alone"));
 
     // An instance may move from thread to thread between calls.
-    let mut instance = bench::ready(fmu, &bench::strict())?;
-    bench::fly(&mut instance, 0, STEPS / 2)?;
+    let mut instance = experiment::ready(fmu, &experiment::strict())?;
+    experiment::simulate(&mut instance, 0, STEPS / 2)?;
     let moved = std::thread::scope(|scope| {
         let handle = scope.spawn(move || {
-            bench::fly(&mut instance, STEPS / 2, STEPS)?;
-            bench::outputs(&mut instance)
+            experiment::simulate(&mut instance, STEPS / 2, STEPS)?;
+            experiment::outputs(&mut instance)
         });
         handle.join().ok()
     });
-    let same = matches!(moved, Some(Ok(bits)) if bits == wanted);
-    findings.push(Finding::expect(same, "an instance flies on when another thread takes it over"));
+    let same = matches!(moved, Some(Ok(bits)) if bits == expected);
+    findings.push(Finding::expect(same, "an instance runs on when another thread takes it over"));
     Ok(findings)
 }
 
 /// Instances beside and after one another.
 pub fn instances(fmu: &Fmu) -> Findings {
-    let wanted = bench::short_flight(fmu, &bench::strict())?;
+    let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let mut findings = Vec::new();
     if fmu.co_simulation()?.can_be_instantiated_only_once_per_process {
         findings.push(Finding::skipped("beside one another: it allows one instance a process only"));
     } else {
         let mut fleet = Vec::new();
         for _ in 0..16 {
-            fleet.push(bench::ready(fmu, &bench::strict())?);
+            fleet.push(experiment::ready(fmu, &experiment::strict())?);
         }
         // Step by step in turn, so that anything they share shows.
         for k in 0..STEPS {
             for instance in &mut fleet {
-                bench::fly(instance, k, k + 1)?;
+                experiment::simulate(instance, k, k + 1)?;
             }
         }
         let mut alike = true;
         for instance in &mut fleet {
-            alike &= bench::outputs(instance)? == wanted;
+            alike &= experiment::outputs(instance)? == expected;
         }
         findings.push(Finding::expect(alike, "16 instances stepped in turn give the bits of one"));
     }
     for _ in 0..100 {
         drop(fmu.instantiate("probe", &InstanceOptions::default())?);
     }
-    let after = bench::short_flight(fmu, &bench::strict())?;
-    findings.push(Finding::expect(after == wanted, "after 100 instances came and went it flies as before"));
+    let after = experiment::short_simulation(fmu, &experiment::strict())?;
+    findings.push(Finding::expect(after == expected, "after 100 instances came and went it runs as before"));
     Ok(findings)
 }

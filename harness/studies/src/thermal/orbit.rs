@@ -1,7 +1,8 @@
-//! One flight: `MomentumPlant` flies the orbit in the paper's attitude, `DisturbanceTorque` feels light and heat.
+//! One simulation: `MomentumPlant` runs the orbit in the paper's attitude, `DisturbanceTorque` gives the force of light and heat.
 
 use loader::{Fmu, Instance, InstanceOptions, Value};
 
+use crate::case;
 use crate::{Options, StudyError};
 
 /// Mercury's sidereal revolution by the paper's semi-major axis, in s.
@@ -10,7 +11,7 @@ pub const MERCURY_YEAR_S: f64 = 7_600_714.0;
 /// Revolution of the spacecraft by Table 3, in s.
 pub const ORBIT_S: f64 = 43_446.6;
 
-/// How the planet moves during a flight, and how its shadow falls.
+/// How the planet moves during a simulation, and how its shadow falls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Planet {
     /// It stands still and casts a cylindrical shadow: the paper's analytical model.
@@ -19,7 +20,7 @@ pub enum Planet {
     Moving,
 }
 
-/// What is flown.
+/// What is simulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
     /// Mercury's true anomaly at the start, in deg.
@@ -32,6 +33,21 @@ pub struct Case {
     pub step_s: f64,
     /// Belts of the planet's cells, as the paper sums; without them rings.
     pub belts: Option<i32>,
+}
+
+impl Case {
+    /// How `MomentumPlant` runs along the orbit.
+    fn trajectory(&self) -> case::Case {
+        let label = format!("Mercury at {} deg", self.true_anomaly_deg);
+        case::Case::new(label, self.duration_s, self.step_s)
+            .integer("guided.scienceRule", 3)
+            .integer("guided.downlinkEvery", 0)
+            .integer("ephemeris.source", 2)
+            .real("ephemeris.trueAnomaly", self.true_anomaly_deg.to_radians())
+            .integer("orbit.frame", 1)
+            .real("orbit.semiMajorAxis", 10_175_000.0)
+            .integer("eclipse.method", 4)
+    }
 }
 
 /// Accelerations at one time, in m/s2.
@@ -57,12 +73,12 @@ pub const EFFECTS: [&str; 4] = ["solar", "albedo", "infrared", "thermal"];
 type Vector = [f64; 3];
 
 /// Both FMUs.
-pub struct Fleet {
+pub struct Fmus {
     plant: Fmu,
     disturbance: Fmu,
 }
 
-impl Fleet {
+impl Fmus {
     /// Opens both in the folder `options` names.
     pub fn open(options: &Options) -> Result<Self, StudyError> {
         Ok(Self {
@@ -71,82 +87,60 @@ impl Fleet {
         })
     }
 
-    /// Flies one case.
-    pub fn fly(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
-        let label = format!("Mercury at {} deg", case.true_anomaly_deg);
-        let fail = |error: loader::Error| failed(&label, error);
-        let route = self.route(case, &label)?;
-        let mut felt = Felt::start(&self.disturbance, case).map_err(fail)?;
-        let mut samples = Vec::with_capacity(route.len());
-        let mut turned = Turned::default();
-        for leg in &route {
-            let true_anomaly_deg = case.true_anomaly_deg + turned.to(&leg.planet_m).to_degrees();
-            samples.push(felt.at(leg, true_anomaly_deg).map_err(fail)?);
+    /// Runs one case.
+    pub fn simulate(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
+        let trajectory_case = case.trajectory();
+        let fail = |error: loader::Error| trajectory_case.failed(error);
+        let trajectory = self.trajectory(case, &trajectory_case)?;
+        let mut disturbance = DisturbanceRun::start(&self.disturbance, case).map_err(fail)?;
+        let mut samples = Vec::with_capacity(trajectory.len());
+        let mut revolution = PlanetRevolution::default();
+        for point in &trajectory {
+            let true_anomaly_deg = case.true_anomaly_deg + revolution.to(&point.planet_m).to_degrees();
+            samples.push(disturbance.at(point, true_anomaly_deg).map_err(fail)?);
         }
         Ok(samples)
     }
 
     /// Where everything is at every communication point.
-    fn route(&self, case: &Case, label: &str) -> Result<Vec<Leg>, StudyError> {
-        let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));
-        let choice = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
+    fn trajectory(&self, case: &Case, trajectory: &case::Case) -> Result<Vec<TrajectoryPoint>, StudyError> {
         let vectors = [("position", 3), ("heliocentric.position", 3), ("attitude.q", 4)];
         let names: Vec<String> = vectors
             .iter()
             .flat_map(|(name, count)| (1..=*count).map(move |i| format!("{name}[{i}]")))
             .chain(["mass".to_owned()])
             .collect();
-        let options = loader::Options {
-            stop_s: Some(case.duration_s),
-            step_s: Some(case.step_s),
-            sets: vec![
-                choice("guided.scienceRule", 3),
-                choice("guided.downlinkEvery", 0),
-                choice("ephemeris.source", 2),
-                real("ephemeris.trueAnomaly", case.true_anomaly_deg.to_radians()),
-                choice("orbit.frame", 1),
-                real("orbit.semiMajorAxis", 10_175_000.0),
-                choice("eclipse.method", 4),
-            ],
-            record: Some(names.iter().filter_map(|name| self.plant.position(name)).collect()),
-            ..loader::Options::default()
-        };
-        let flight = loader::simulate(&self.plant, options).map_err(|stopped| failed(label, *stopped))?;
-        let recording = flight.recording;
-        let columns: Vec<Vec<f64>> = names
-            .iter()
-            .map(|name| {
-                let column = recording.column(name).map(loader::Column::numbers);
-                column.ok_or_else(|| StudyError::Flight {
-                    case: label.to_owned(),
-                    source: format!("MomentumPlant has no variable {name}").into(),
-                })
-            })
-            .collect::<Result<_, _>>()?;
-        let mut legs: Vec<Leg> = recording
+        let recorded = trajectory.simulate(&self.plant, &names)?;
+        let mut points: Vec<TrajectoryPoint> = recorded
             .times_s
             .iter()
             .enumerate()
             .map(|(row, &time_s)| {
-                let value = |column: usize| columns[column][row];
+                let value = |column: usize| recorded.columns[column][row];
                 let position_m = [0, 1, 2].map(value);
                 let heliocentric_m = [3, 4, 5].map(value);
                 let planet_m = [0, 1, 2].map(|i| heliocentric_m[i] - position_m[i]);
-                Leg { time_s, position_m, planet_m, q: [6, 7, 8, 9].map(value), mass_kg: value(10) }
+                TrajectoryPoint {
+                    time_s,
+                    position_m,
+                    planet_m,
+                    q: [6, 7, 8, 9].map(value),
+                    mass_kg: value(10),
+                }
             })
             .collect();
-        if let (Planet::Still, Some(first)) = (case.planet, legs.first().copied()) {
-            for leg in &mut legs {
-                *leg = Leg { planet_m: first.planet_m, q: first.q, ..*leg };
+        if let (Planet::Still, Some(first)) = (case.planet, points.first().copied()) {
+            for point in &mut points {
+                *point = TrajectoryPoint { planet_m: first.planet_m, q: first.q, ..*point };
             }
         }
-        Ok(legs)
+        Ok(points)
     }
 }
 
-/// One communication point of the route, in EME2000.
+/// One communication point of the trajectory, in EME2000.
 #[derive(Clone, Copy, Debug)]
-struct Leg {
+struct TrajectoryPoint {
     time_s: f64,
     /// Spacecraft from the planet's centre.
     position_m: Vector,
@@ -159,12 +153,12 @@ struct Leg {
 
 /// How far the planet has gone round.
 #[derive(Default)]
-struct Turned {
+struct PlanetRevolution {
     angle_rad: f64,
     last: Option<Vector>,
 }
 
-impl Turned {
+impl PlanetRevolution {
     fn to(&mut self, planet_m: &Vector) -> f64 {
         if let Some(last) = self.last.replace(*planet_m) {
             let across = cross(&last, planet_m);
@@ -174,8 +168,8 @@ impl Turned {
     }
 }
 
-/// `DisturbanceTorque` in flight.
-struct Felt {
+/// An instance of `DisturbanceTorque`, stepped along a trajectory.
+struct DisturbanceRun {
     instance: Instance,
     inputs: Vec<u32>,
     outputs: Vec<u32>,
@@ -183,9 +177,9 @@ struct Felt {
     steps: u32,
 }
 
-impl Felt {
+impl DisturbanceRun {
     fn start(fmu: &Fmu, case: &Case) -> Result<Self, loader::Error> {
-        let mut instance = fmu.instantiate("felt", &InstanceOptions::default())?;
+        let mut instance = fmu.instantiate("disturbance", &InstanceOptions::default())?;
         let eclipse = if case.planet == Planet::Still { 3 } else { 2 };
         instance.set("eclipse.method", &Value::Integer(eclipse))?;
         if let Some(belts) = case.belts {
@@ -211,22 +205,22 @@ impl Felt {
         })
     }
 
-    fn at(&mut self, leg: &Leg, true_anomaly_deg: f64) -> Result<Sample, loader::Error> {
-        let to_sun = [0, 1, 2].map(|i| -leg.planet_m[i] - leg.position_m[i]);
-        let [sun, planet] = [to_sun, leg.position_m.map(|x| -x)].map(|v| turn(&leg.q, &v));
+    fn at(&mut self, point: &TrajectoryPoint, true_anomaly_deg: f64) -> Result<Sample, loader::Error> {
+        let to_sun = [0, 1, 2].map(|i| -point.planet_m[i] - point.position_m[i]);
+        let [sun, planet] = [to_sun, point.position_m.map(|x| -x)].map(|v| turn(&point.q, &v));
         let inputs: Vec<f64> = sun.into_iter().chain(planet).collect();
         self.instance.set_reals(&self.inputs, &inputs)?;
         self.instance.do_step(f64::from(self.steps) * self.step_s, self.step_s, true)?;
         self.steps += 1;
         let mut outputs = [0.0; 13];
         self.instance.get_reals(&self.outputs, &mut outputs)?;
-        let effect = |index: usize| -> Vector { [0, 1, 2].map(|i| outputs[3 * index + i] / leg.mass_kg) };
+        let effect = |index: usize| -> Vector { [0, 1, 2].map(|i| outputs[3 * index + i] / point.mass_kg) };
         let sum = |effects: &[usize]| {
             let vector = [0, 1, 2].map(|i| effects.iter().map(|&k| effect(k)[i]).sum::<f64>());
             dot(&vector, &vector).sqrt()
         };
         Ok(Sample {
-            time_s: leg.time_s,
+            time_s: point.time_s,
             true_anomaly_deg,
             lit: outputs[12] > 0.0,
             effects: [0, 1, 2, 3].map(|k| sum(&[k])),
@@ -250,8 +244,4 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
 
 fn dot(a: &Vector, b: &Vector) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn failed(case: &str, source: impl std::error::Error + Send + Sync + 'static) -> StudyError {
-    StudyError::Flight { case: case.to_owned(), source: Box::new(source) }
 }

@@ -1,4 +1,4 @@
-"""Flying MomentumPlant with FMPy: the paper's settings by name, results by name."""
+"""Running MomentumPlant with FMPy: the paper's settings by name, results by name."""
 
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
@@ -31,7 +31,7 @@ def vector(name):
     return [f"{name}[{i}]" for i in (1, 2, 3)]
 
 
-def fly(fmu, step_s=600.0, days=90.0, start=None, output=None, **options):
+def simulate(fmu, step_s=600.0, days=90.0, start=None, output=None, **options):
     output = output or vector("momentum.body") + ["dump.count", "dump.lastTime"]
     return simulate_fmu(
         fmu,

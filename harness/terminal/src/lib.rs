@@ -1,4 +1,7 @@
-//! What the commands print.
+//! What the harness shows on a terminal: text without control characters, tables, numbers, progress.
+
+// They panic when the reader went away; `print` and `note` do not.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
 use std::{
     borrow::Cow,
@@ -6,6 +9,7 @@ use std::{
 };
 
 use comfy_table::{ContentArrangement, Table, TableComponent, presets};
+use indicatif::{ProgressBar, ProgressStyle};
 
 /// Prints a text; a reader that went away (as `head` does) is no error.
 pub fn print(text: &str) -> io::Result<()> {
@@ -57,9 +61,18 @@ pub fn table(header: &[&str]) -> Table {
     table
 }
 
-/// An error with all its reasons, each said once.
-pub fn chain(error: &dyn std::error::Error) -> String {
-    loader::Error::chain(error)
+/// A bar on stderr over `count` of what `unit` names; hidden when quiet or where nobody sees it.
+pub fn progress(count: u64, unit: &str, is_quiet: bool) -> ProgressBar {
+    if is_quiet || !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(count);
+    let template =
+        format!("{{bar:40.cyan/blue}} {{percent:>3}}% of {{len}} {unit}, {{elapsed}} gone, {{eta}} to go");
+    if let Ok(style) = ProgressStyle::with_template(&template) {
+        bar.set_style(style);
+    }
+    bar
 }
 
 /// A number for people: six significant digits.

@@ -1,22 +1,22 @@
-//! The default experiment flown, and how a call's outcome is judged.
+//! The default experiment, simulated.
 
-use loader::{Fmu, Options, Status, Value};
+use loader::{Fmu, Options, Status};
 use model_description::{SimpleTypeKind, VariableKind};
 
-use super::{Finding, Findings, bench};
+use crate::{Finding, experiment, probe::Findings};
 
-/// Flies the default experiment, or a hundredth of it if it is long, under the strict call checker.
-pub fn flight(fmu: &Fmu) -> Findings {
+/// Runs the default experiment, or a hundredth of it if it is long, under the strict call checker.
+pub fn simulation(fmu: &Fmu) -> Findings {
     /// Steps enough to see a model at work, few enough to wait for.
     const LONGEST: u64 = 2000;
-    let times = bench::times(fmu)?;
+    let times = experiment::times(fmu)?;
     let stop_s = times.point_s(times.steps().min(LONGEST));
-    let options = Options { stop_s: Some(stop_s), instance: bench::strict(), ..Options::default() };
-    let flight = match loader::simulate(fmu, options) {
-        Ok(flight) => flight,
+    let options = Options { stop_s: Some(stop_s), instance: experiment::strict(), ..Options::default() };
+    let simulation = match loader::simulate(fmu, options) {
+        Ok(simulation) => simulation,
         Err(stopped) => return Err(stopped.error),
     };
-    let recording = flight.recording;
+    let recording = simulation.recording;
     let steps = recording.times_s.len().saturating_sub(1);
     let mut findings = vec![Finding::good(format!("{steps} steps of {} s", times.step_s))];
     for (name, column) in recording.names.iter().zip(&recording.columns) {
@@ -37,7 +37,7 @@ pub fn flight(fmu: &Fmu) -> Findings {
         }
     }
     let troubled =
-        flight.messages.iter().find(|message| !matches!(message.status, Status::Ok | Status::Warning));
+        simulation.messages.iter().find(|message| !matches!(message.status, Status::Ok | Status::Warning));
     if let Some(message) = troubled {
         findings.push(Finding::note(format!("logged on the way: {message}")));
     }
@@ -60,35 +60,5 @@ fn limits(fmu: &Fmu, kind: &VariableKind) -> (f64, f64) {
             numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), n| (low.min(n), high.max(n)))
         }
         VariableKind::Boolean { .. } | VariableKind::String { .. } => (f64::NEG_INFINITY, f64::INFINITY),
-    }
-}
-
-/// Good if it was done.
-pub fn verdict(what: &str, outcome: Result<(), loader::Error>) -> Finding {
-    match outcome {
-        Ok(()) => Finding::good(what),
-        Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
-    }
-}
-
-/// Good if it was refused with a status; a note if it was let through.
-pub fn refused(what: &str, outcome: Result<(), loader::Error>) -> Finding {
-    match outcome {
-        Err(error) if matches!(error.status(), Some(Status::Error | Status::Discard)) => {
-            Finding::good(format!("refuses {what}"))
-        }
-        Err(error) if error.status() == Some(Status::Fatal) => {
-            Finding::bad(format!("condemns all its instances by fmi2Fatal for {what}"))
-        }
-        Err(error) => Finding::note(format!("{what}: {error}")),
-        Ok(()) => Finding::note(format!("lets through {what}")),
-    }
-}
-
-/// A value as bits, for comparing.
-pub fn same(a: &Value, b: &Value) -> bool {
-    match (a, b) {
-        (Value::Real(a), Value::Real(b)) => a.to_bits() == b.to_bits() || a == b,
-        (a, b) => a == b,
     }
 }

@@ -2,7 +2,7 @@
 
 use loader::{Fmu, SYMBOLS};
 
-use super::{Finding, Findings};
+use crate::{Finding, probe::Findings};
 
 /// Loads the library in this process.
 pub fn probe(fmu: &Fmu) -> Findings {

@@ -2,16 +2,16 @@
 //! instances and freeing go on.
 
 use fmi_export::{BaseType, Enumeration, Status, abi::InProcess, abi::StatePointer};
-use probe::{LIBRARY, panicking::Accident};
+use probe::{LIBRARY, panicking::Fault};
 
-const ACCIDENT: [u32; 1] = [BaseType::Integer.first_reference()];
+const FAULT: [u32; 1] = [BaseType::Integer.first_reference()];
 const INPUT: [u32; 1] = [0];
 const OUTPUT: [u32; 1] = [1];
 
-/// One instance of `Panicking` that will have this accident.
-fn instance(accident: Accident) -> InProcess {
+/// One instance of `Panicking` that will have this fault.
+fn instance(fault: Fault) -> InProcess {
     let mut instance = InProcess::of(&LIBRARY, "Panicking").unwrap();
-    assert_eq!(instance.set_integer(&ACCIDENT, &[accident.value()]), Status::Ok);
+    assert_eq!(instance.set_integer(&FAULT, &[fault.value()]), Status::Ok);
     instance
 }
 
@@ -34,59 +34,56 @@ fn use_everything(instance: &mut InProcess) -> Result<(), (&'static str, Status)
 }
 
 #[test]
-fn every_accident_is_a_status_of_its_call() {
-    let mut neighbour = instance(Accident::Nowhere);
+fn every_fault_is_a_status_of_its_call() {
+    let mut neighbour = instance(Fault::Nowhere);
     assert_eq!(neighbour.start(0.0, None), Status::Ok);
-    for (step, item) in Accident::items().iter().enumerate() {
-        let accident = Accident::from_value(item.value).unwrap();
-        let expected = match accident {
-            Accident::Nowhere => Ok(()),
-            Accident::Initialize | Accident::FailInitialize => Err(("start", Status::Error)),
-            Accident::Step
-            | Accident::StepPayload
-            | Accident::StepPayloadDrop
-            | Accident::StepIndex
-            | Accident::FailStep => Err(("doStep", Status::Error)),
-            Accident::TerminateStep => Err(("doStep", Status::Discard)),
-            Accident::OutputDerivative => Err(("outputDerivatives", Status::Error)),
-            Accident::DirectionalDerivative => Err(("directionalDerivative", Status::Error)),
-            Accident::CloneState => Err(("getState", Status::Error)),
-            Accident::SerializeState | Accident::FailSerializeState => Err(("serialize", Status::Error)),
-            Accident::DeserializeState | Accident::CheckState | Accident::FailCheckState => {
+    for (step, item) in Fault::items().iter().enumerate() {
+        let fault = Fault::from_value(item.value).unwrap();
+        let expected = match fault {
+            Fault::Nowhere => Ok(()),
+            Fault::Initialize | Fault::FailInitialize => Err(("start", Status::Error)),
+            Fault::Step
+            | Fault::StepPayload
+            | Fault::StepPayloadDrop
+            | Fault::StepIndex
+            | Fault::FailStep => Err(("doStep", Status::Error)),
+            Fault::TerminateStep => Err(("doStep", Status::Discard)),
+            Fault::OutputDerivative => Err(("outputDerivatives", Status::Error)),
+            Fault::DirectionalDerivative => Err(("directionalDerivative", Status::Error)),
+            Fault::CloneState => Err(("getState", Status::Error)),
+            Fault::SerializeState | Fault::FailSerializeState => Err(("serialize", Status::Error)),
+            Fault::DeserializeState | Fault::CheckState | Fault::FailCheckState => {
                 Err(("deserialize", Status::Error))
             }
             // Restoring drops the state there was.
-            Accident::DropState => Err(("setState", Status::Error)),
+            Fault::DropState => Err(("setState", Status::Error)),
         };
-        let mut unlucky = instance(accident);
-        assert_eq!(use_everything(&mut unlucky), expected, "{accident:?}");
+        let mut unlucky = instance(fault);
+        assert_eq!(use_everything(&mut unlucky), expected, "{fault:?}");
         if expected.is_err() {
             let messages = unlucky.take_messages();
-            assert!(messages.iter().any(|it| !it.text.is_empty()), "{accident:?} is not reported");
+            assert!(messages.iter().any(|it| !it.text.is_empty()), "{fault:?} is not reported");
         }
         let time_s = step as f64 * 0.5;
-        assert_eq!(neighbour.do_step(time_s, 0.5), Status::Ok, "the neighbour of {accident:?}");
+        assert_eq!(neighbour.do_step(time_s, 0.5), Status::Ok, "the neighbour of {fault:?}");
     }
 }
 
 #[test]
 fn a_panic_poisons_but_a_failure_can_be_reset() {
-    for (accident, after_reset) in [(Accident::Step, Status::Error), (Accident::FailStep, Status::Ok)] {
-        let mut unlucky = instance(accident);
+    for (fault, after_reset) in [(Fault::Step, Status::Error), (Fault::FailStep, Status::Ok)] {
+        let mut unlucky = instance(fault);
         assert_eq!(unlucky.start(0.0, None), Status::Ok);
         assert_eq!(unlucky.do_step(0.0, 1.0), Status::Error);
-        assert!(
-            unlucky.take_messages().iter().any(|it| it.text.contains("100 %% deliberate")),
-            "{accident:?}"
-        );
-        assert_eq!(unlucky.do_step(0.0, 1.0), Status::Error, "{accident:?}");
-        assert_eq!(unlucky.reset(), after_reset, "{accident:?}");
+        assert!(unlucky.take_messages().iter().any(|it| it.text.contains("100 %% deliberate")), "{fault:?}");
+        assert_eq!(unlucky.do_step(0.0, 1.0), Status::Error, "{fault:?}");
+        assert_eq!(unlucky.reset(), after_reset, "{fault:?}");
     }
 }
 
 #[test]
 fn a_model_that_ends_says_so_and_can_be_read() {
-    let mut ending = instance(Accident::TerminateStep);
+    let mut ending = instance(Fault::TerminateStep);
     assert_eq!(ending.start(2.0, None), Status::Ok);
     assert_eq!(ending.do_step(2.0, 1.0), Status::Discard);
     assert_eq!(ending.terminated(), (Status::Ok, true));
@@ -103,5 +100,5 @@ fn a_panic_over_the_setup_refuses_the_instance_only() {
         let messages = InProcess::instantiate(&LIBRARY, &guid, Some(&location)).unwrap_err();
         assert!(messages.iter().any(|it| it.text.contains("100 %% deliberate")), "{place}: {messages:?}");
     }
-    assert_eq!(instance(Accident::Nowhere).start(0.0, None), Status::Ok);
+    assert_eq!(instance(Fault::Nowhere).start(0.0, None), Status::Ok);
 }

@@ -1,53 +1,22 @@
-//! The probes: what they are called and what they ask of an FMU.
+//! What an FMI 2.0 co-simulation FMU must do: one list of probes.
+//!
+//! `heliotorque check` runs each probe on a foreign FMU in a process of its own, the tests run all of them on this
+//! project's FMUs through their shared library.
 
-mod bench;
-mod calls;
-mod host;
-mod library;
-mod state;
-mod stepping;
-mod times;
-mod values;
+mod experiment;
+mod finding;
+mod judge;
+mod probe;
+mod probes;
+mod static_checks;
 
 use loader::{Error, Fmu};
 
-use super::Finding;
+pub use finding::{Finding, Verdict};
+pub use probe::{Findings, Probe, Trial};
+pub use static_checks::{archive, description};
 
-/// What a probe gives; an error is a finding too.
-pub type Findings = Result<Vec<Finding>, Error>;
-
-/// One probe.
-pub struct Probe {
-    /// Short name.
-    pub name: &'static str,
-    /// What it asks.
-    pub title: &'static str,
-    /// Runs it, in a process of its own.
-    pub run: fn(&Fmu) -> Findings,
-}
-
-/// One call that even a good FMU may not come back from, tried in a process of its own.
-pub struct Trial {
-    /// The probe it belongs to.
-    pub probe: &'static str,
-    /// The function it calls.
-    pub call: &'static str,
-    /// What it tries.
-    pub what: &'static str,
-    /// Whether the call is senseless by any reading of the standard: then a hang is worth a note, and a short wait.
-    pub senseless: bool,
-    /// Whether the standard can be read as asking nothing here: then what goes wrong is worth a note.
-    pub disputed: bool,
-    /// Runs it.
-    pub run: fn(&Fmu, &Trial) -> Findings,
-}
-
-impl Trial {
-    /// What the process is told to run.
-    pub fn name(&self) -> String {
-        format!("{}: {}", self.probe, self.what)
-    }
-}
+use probes::{calls, host, library, state, stepping, times, values};
 
 /// Every trial of every probe.
 pub fn trials() -> impl Iterator<Item = &'static Trial> {
@@ -55,9 +24,9 @@ pub fn trials() -> impl Iterator<Item = &'static Trial> {
 }
 
 /// Every probe, in the order of the report.
-pub const ALL: &[Probe] = &[
+pub const PROBES: &[Probe] = &[
     Probe { name: "library", title: "loads, exports every function", run: library::probe },
-    Probe { name: "flight", title: "flies as its default experiment says", run: stepping::flight },
+    Probe { name: "simulation", title: "runs as its default experiment says", run: stepping::simulation },
     Probe {
         name: "values",
         title: "start values read back, limits and references are kept",
@@ -87,7 +56,7 @@ pub const ALL: &[Probe] = &[
         title: "refuses a wrong GUID, takes strange instance names",
         run: host::identity,
     },
-    Probe { name: "locale", title: "flies alike under a comma locale", run: host::locale },
+    Probe { name: "locale", title: "runs alike under a comma locale", run: host::locale },
     Probe {
         name: "threads",
         title: "two instances on two threads do not disturb each other",
@@ -95,3 +64,14 @@ pub const ALL: &[Probe] = &[
     },
     Probe { name: "instances", title: "many instances come and go", run: host::instances },
 ];
+
+/// Runs the probe or trial of this name; `None` where there is none. An FMU that fails in it is a finding.
+pub fn run(fmu: &Fmu, name: &str) -> Option<Vec<Finding>> {
+    let findings = if let Some(probe) = PROBES.iter().find(|probe| probe.name == name) {
+        (probe.run)(fmu)
+    } else {
+        let trial = trials().find(|trial| trial.name() == name)?;
+        (trial.run)(fmu, trial)
+    };
+    Some(findings.unwrap_or_else(|error| vec![Finding::bad(Error::chain(&error))]))
+}

@@ -4,7 +4,8 @@ use fmi_export::call_table::{Access, Condition, Function, LENIENCIES, State, all
 use loader::{Error, Fmu, Instance, State as Saved, Status};
 use model_description::{Causality, ScalarVariable, Variability, VariableKind, rules};
 
-use super::{Finding, Findings, bench, values};
+use super::values;
+use crate::{Finding, experiment, probe::Findings};
 
 /// The states an FMU can be brought to by lawful calls, and the error state.
 const STATES: [State; 5] =
@@ -38,11 +39,11 @@ struct Case<'a> {
     function: Function,
     state: State,
     variable: Option<&'a ScalarVariable>,
-    wanted: Wanted,
+    expected: Expected,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Wanted {
+enum Expected {
     /// The call is legal.
     Done,
     /// The call is illegal.
@@ -60,11 +61,11 @@ enum Answer {
 /// The calls of one function in one state: for conditional access one with a variable that meets the condition
 /// and one with a variable that does not.
 fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
-    let case = |variable, wanted| Case { function, state, variable, wanted };
+    let case = |variable, expected| Case { function, state, variable, expected };
     let Some((kind, sets)) = variable_function(function) else {
         return match allowed(function, state) {
-            Access::Forbidden => vec![case(None, Wanted::Refused)],
-            Access::Allowed | Access::Conditional(_) => vec![case(None, Wanted::Done)],
+            Access::Forbidden => vec![case(None, Expected::Refused)],
+            Access::Allowed | Access::Conditional(_) => vec![case(None, Expected::Done)],
         };
     };
     let of_kind = || {
@@ -80,12 +81,12 @@ fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
             .into_iter()
             .collect(),
         Access::Allowed => {
-            of_kind().next().map(|variable| case(Some(variable), Wanted::Done)).into_iter().collect()
+            of_kind().next().map(|variable| case(Some(variable), Expected::Done)).into_iter().collect()
         }
         Access::Conditional(condition) => {
             let meets = |it: &&ScalarVariable| meets(fmu, condition, it);
             let mut cases = Vec::new();
-            cases.extend(of_kind().find(meets).map(|variable| case(Some(variable), Wanted::Done)));
+            cases.extend(of_kind().find(meets).map(|variable| case(Some(variable), Expected::Done)));
             let other = of_kind().find(|it| !meets(it));
             cases.extend(other.map(|variable| case(Some(variable), lenient(function, state, variable))));
             cases
@@ -132,10 +133,14 @@ fn meets(fmu: &Fmu, condition: Condition, variable: &ScalarVariable) -> bool {
 }
 
 /// What is beyond the table and yet common.
-fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Wanted {
+fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Expected {
     let known = LENIENCIES.iter().any(|it| it.state == state && it.functions.contains(&function));
     let sets = matches!(variable_function(function), Some((_, true)));
-    if known && (!sets || variable.causality == Causality::Input) { Wanted::Either } else { Wanted::Refused }
+    if known && (!sets || variable.causality == Causality::Input) {
+        Expected::Either
+    } else {
+        Expected::Refused
+    }
 }
 
 fn judge(case: &Case<'_>, status: Status) -> Option<Finding> {
@@ -149,22 +154,22 @@ fn judge(case: &Case<'_>, status: Status) -> Option<Finding> {
             | Function::GetBooleanStatus
             | Function::GetStringStatus
     );
-    match (case.wanted, status) {
+    match (case.expected, status) {
         (_, Status::Fatal) => Some(Finding::bad(format!("{call} condemns all instances by fmi2Fatal"))),
         (_, Status::Invalid(_) | Status::Pending) => Some(Finding::bad(format!("{call} answers {status}"))),
-        (Wanted::Either, _) => None,
-        (Wanted::Done, Status::Ok | Status::Warning) | (Wanted::Refused, Status::Error) => None,
+        (Expected::Either, _) => None,
+        (Expected::Done, Status::Ok | Status::Warning) | (Expected::Refused, Status::Error) => None,
         // "A status that cannot be given" is fmi2Discard.
-        (Wanted::Done, Status::Discard) if wants_status => None,
-        (Wanted::Done, _) => Some(Finding::bad(format!("{call} is allowed and answers {status}"))),
-        (Wanted::Refused, _) => Some(Finding::note(format!("{call} is forbidden and answers {status}"))),
+        (Expected::Done, Status::Discard) if wants_status => None,
+        (Expected::Done, _) => Some(Finding::bad(format!("{call} is allowed and answers {status}"))),
+        (Expected::Refused, _) => Some(Finding::note(format!("{call} is forbidden and answers {status}"))),
     }
 }
 
 /// Makes the call in a fresh instance.
 fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
     let flags = fmu.co_simulation()?;
-    let mut instance = fmu.instantiate("probe", &bench::lawless())?;
+    let mut instance = fmu.instantiate("probe", &experiment::unchecked())?;
     let needs_saved = matches!(
         case.function,
         Function::SetFmuState
@@ -189,7 +194,7 @@ fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
         }
         bytes = instance.serialize_state(saved)?;
     }
-    if !bench::advance(&mut instance, case.state)? {
+    if !experiment::advance(&mut instance, case.state)? {
         return Ok(Answer::None);
     }
     let Some(outcome) = make(&mut instance, case, saved, &bytes)? else { return Ok(Answer::None) };
@@ -207,7 +212,7 @@ type Made = Result<Option<Result<(), Error>>, Error>;
 fn make(instance: &mut Instance, case: &Case<'_>, saved: Option<Saved>, bytes: &[u8]) -> Made {
     let fmu = instance.fmu().clone();
     let flags = fmu.co_simulation()?;
-    let times = bench::times(&fmu)?;
+    let times = experiment::times(&fmu)?;
     let continuous = |causality: Causality| {
         let mut variables = fmu.description().variables.iter();
         variables

@@ -1,4 +1,4 @@
-//! A flight in a process of its own: the child sends rows, the parent takes them as far as they are expected.
+//! A simulation in a process of its own: the child sends rows, the parent takes them as far as they are expected.
 
 use std::{
     ffi::OsString,
@@ -10,15 +10,14 @@ use loader::{
     Collector, Ended, Error, Fmu, InstanceOptions, LogMessage, Options, Recording, Row, Rows, Status,
 };
 
-use super::Flight;
+use super::Settings;
 use crate::{
     app::Outcome,
     args::RunInChild,
-    child::{BYTES_FORWARDED, Bounds, How, Limits, Link, Payload, Started, push_text},
-    output,
+    child::{BYTES_FORWARDED, Bounds, ChildProcess, EndReason, Limits, Link, Payload, push_text},
 };
 
-/// Kinds of frames: a row, a message of the log, the end of the flight, its failure.
+/// Kinds of frames: a row, a message of the log, the end of the simulation, its failure.
 const ROW: u8 = 1;
 const MESSAGE: u8 = 2;
 const ENDED: u8 = 3;
@@ -28,8 +27,8 @@ const ENDS: [Ended; 3] = [Ended::AtStop, Ended::Cancelled, Ended::ByItself];
 /// Messages taken at most: as many as an instance keeps.
 const MESSAGES: usize = 1000;
 
-/// What came of a flight.
-pub struct Flown {
+/// What came of a simulation.
+pub struct Simulated {
     /// Why it ended.
     pub outcome: Result<Ended, String>,
     /// What the instance logged.
@@ -38,59 +37,59 @@ pub struct Flown {
     pub fault: Option<String>,
 }
 
-/// Flies in a child process. `tick` is shown the recording so far and the beginning of the step under way.
-pub fn fly(
+/// Runs in a child process. `tick` is shown the recording so far and the beginning of the step under way.
+pub fn simulate(
     fmu: &Fmu,
     timeout_s: Option<f64>,
     points: u64,
     collector: &mut Collector,
     mut tick: impl FnMut(&Recording, Option<f64>) -> Result<(), String>,
-) -> Flown {
+) -> Simulated {
     let mut unpacked = OsString::from("--unpacked-in=");
     unpacked.push(fmu.folder());
     // After the program and `run`: the child reads the same arguments.
     let arguments = [OsString::from("run-in-child"), unpacked].into_iter().chain(std::env::args_os().skip(2));
-    let child = match Started::new(arguments, Limits::default(), &[]) {
+    let child = match ChildProcess::new(arguments, Limits::default(), &[]) {
         Ok(child) => child,
         Err(error) => {
             let outcome = Err(format!("the process of the FMU cannot be started: {error}"));
-            return Flown { outcome, messages: Vec::new(), fault: None };
+            return Simulated { outcome, messages: Vec::new(), fault: None };
         }
     };
     let mut inbox = Inbox::new(collector, points);
     let inbox_cell = std::cell::RefCell::new(&mut inbox);
     let mut forwarded = 0;
-    let watched = child.watch(
+    let supervised = child.supervise(
         Bounds { time_s: None, call_s: timeout_s, printed: None },
         &mut |kind, payload| inbox_cell.borrow_mut().take(kind, payload),
         &mut |line| {
             let before = forwarded;
             forwarded += line.len() as u64 + 1;
             if forwarded <= BYTES_FORWARDED {
-                output::note(line);
+                terminal::note(line);
             } else if before <= BYTES_FORWARDED {
-                output::note(&format!("{}: what else it prints is left out", fmu.name()));
+                terminal::note(&format!("{}: what else it prints is left out", fmu.name()));
             }
         },
         &mut |mark| tick(inbox_cell.borrow().collector.recording(), mark.and_then(loader::step_begin_s)),
     );
     let Inbox { outcome, messages, .. } = inbox;
     let name = fmu.name();
-    let fault = watched.fault().map(|fault| format!("{name}: {fault}"));
-    let outcome = match (outcome, &watched.how) {
-        (Some(outcome), How::Refused(why)) => outcome.and(Err(why.clone())),
+    let fault = supervised.fault().map(|fault| format!("{name}: {fault}"));
+    let outcome = match (outcome, &supervised.how) {
+        (Some(outcome), EndReason::Refused(why)) => outcome.and(Err(why.clone())),
         (Some(outcome), _) => outcome,
-        (None, How::Interrupted) => {
-            output::note(&format!("{name}: {}", watched.silence()));
+        (None, EndReason::Interrupted) => {
+            terminal::note(&format!("{name}: {}", supervised.without_result()));
             Ok(Ended::Cancelled)
         }
-        (None, How::Refused(why)) => Err(why.clone()),
-        (None, _) => Err(format!("{name}: {}", watched.silence())),
+        (None, EndReason::Refused(why)) => Err(why.clone()),
+        (None, _) => Err(format!("{name}: {}", supervised.without_result())),
     };
-    Flown { outcome, messages, fault }
+    Simulated { outcome, messages, fault }
 }
 
-/// Takes the frames of a flight.
+/// Takes the frames of a simulation.
 struct Inbox<'a> {
     collector: &'a mut Collector,
     widths: [usize; 4],
@@ -172,9 +171,9 @@ fn message(payload: &mut Payload<'_>) -> Option<LogMessage> {
 }
 
 /// Sends rows to the parent.
-struct Sent<'a>(&'a mut Link);
+struct RowSender<'a>(&'a mut Link);
 
-impl Rows for Sent<'_> {
+impl Rows for RowSender<'_> {
     fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
         let whole = |value: &i32| u64::from(*value as u32);
         self.0
@@ -189,10 +188,10 @@ impl Rows for Sent<'_> {
     }
 }
 
-/// Flies in this process and sends the parent what comes of it.
+/// Runs in this process and sends the parent what comes of it.
 pub fn run(arguments: &RunInChild) -> Outcome {
     let mut link = Link::attach().map_err(|error| format!("`heliotorque run` starts this: {error}"))?;
-    match flight(arguments, &mut link) {
+    match simulation(arguments, &mut link) {
         Ok((ended, messages)) => {
             for message in &messages {
                 link.send(MESSAGE, |payload| {
@@ -206,7 +205,7 @@ pub fn run(arguments: &RunInChild) -> Outcome {
             link.send(ENDED, |payload| payload.push(number as u64))?;
         }
         Err(error) => {
-            let text = output::chain(error.as_ref());
+            let text = loader::Error::chain(error.as_ref());
             link.send(FAILED, |payload| push_text(payload, &text))?;
         }
     }
@@ -214,12 +213,12 @@ pub fn run(arguments: &RunInChild) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-fn flight(
+fn simulation(
     arguments: &RunInChild,
     link: &mut Link,
 ) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
     let fmu = Fmu::open(&arguments.unpacked_in)?;
-    let flight = Flight::of(&fmu, &arguments.run)?;
+    let settings = Settings::of(&fmu, &arguments.run)?;
     let (cancel, asked) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
     let mut look = |_: f64| {
         if asked.load(Ordering::Relaxed) != 0 {
@@ -232,13 +231,13 @@ fn flight(
         stop_s: run.stop,
         step_s: run.step,
         record_every_s: run.every,
-        sets: flight.sets,
-        inputs: flight.inputs.as_ref(),
+        sets: settings.sets,
+        inputs: settings.inputs.as_ref(),
         input_derivatives: run.slopes,
-        record: Some(flight.positions),
+        record: Some(settings.positions),
         instance: InstanceOptions { logging: run.log, ..InstanceOptions::default() },
         progress: Some(&mut look),
         cancel: Some(&cancel),
     };
-    Ok(loader::simulate_into(&fmu, options, &mut Sent(link))?)
+    Ok(loader::simulate_into(&fmu, options, &mut RowSender(link))?)
 }
