@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
-use fmi_export::call_table::{Access, Condition, Function, Next, State, after, allowed};
-use model_description::{Description, VariableKind, rules};
+use model_description::call_table::{Access, Condition, Function, Next, State, after, allowed};
+use model_description::{BaseType, Description};
 
 use crate::{Fmu, Status, abi::StateKey};
 
@@ -17,28 +17,16 @@ pub enum Checking {
     Off,
 }
 
-/// Base type at the C interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Base {
-    Real,
-    Integer,
-    Boolean,
-    Text,
-}
-
-impl Base {
-    pub fn of(kind: &VariableKind) -> Self {
-        match kind {
-            VariableKind::Real { .. } => Self::Real,
-            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Self::Integer,
-            VariableKind::Boolean { .. } => Self::Boolean,
-            VariableKind::String { .. } => Self::Text,
-        }
-    }
-}
-
 /// For every value reference, by base type and sorted: which of the table's conditions it meets.
 pub(crate) struct AccessTable([Vec<(u32, u8)>; 4]);
+
+/// The conditions that restrict which variables may be set or read.
+const RESTRICTING: [Condition; 4] = [
+    Condition::SettableBeforeInitialization,
+    Condition::OutputOrInitialUnknown,
+    Condition::SettableInInitialization,
+    Condition::InputOrTunable,
+];
 
 const fn bit(condition: Condition) -> u8 {
     match condition {
@@ -62,24 +50,11 @@ impl AccessTable {
         let mut tables: [Vec<(u32, u8)>; 4] = Default::default();
         for (position, variable) in description.variables.iter().enumerate() {
             let listed = initial_unknown[position + 1];
-            let meets = [
-                (
-                    Condition::SettableBeforeInitialization,
-                    rules::settable(variable, rules::Phase::Instantiated),
-                ),
-                (
-                    Condition::OutputOrInitialUnknown,
-                    rules::gettable(variable, listed, rules::Phase::InitializationMode),
-                ),
-                (
-                    Condition::SettableInInitialization,
-                    rules::settable(variable, rules::Phase::InitializationMode),
-                ),
-                (Condition::InputOrTunable, rules::settable(variable, rules::Phase::StepComplete)),
-            ];
-            let bits =
-                meets.iter().filter(|(_, met)| *met).fold(0, |bits, (condition, _)| bits | bit(*condition));
-            tables[Base::of(&variable.kind) as usize].push((variable.value_reference, bits));
+            let bits = RESTRICTING
+                .iter()
+                .filter(|it| it.admits(variable, listed))
+                .fold(0, |bits, it| bits | bit(*it));
+            tables[variable.kind.base_type() as usize].push((variable.value_reference, bits));
         }
         for table in &mut tables {
             // Aliases share a reference: what one of them may, all may.
@@ -95,7 +70,7 @@ impl AccessTable {
         Self(tables)
     }
 
-    fn bits(&self, base: Base, reference: u32) -> Option<u8> {
+    fn bits(&self, base: BaseType, reference: u32) -> Option<u8> {
         let table = &self.0[base as usize];
         table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
     }
@@ -128,12 +103,20 @@ impl Checker {
     }
 
     /// As [`Checker::allow`], and every variable meets the condition of the state.
-    pub fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), String> {
+    pub fn allow_variables(
+        &self,
+        function: Function,
+        references: &[u32],
+        base: BaseType,
+    ) -> Result<(), String> {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
         let needed = bit(condition);
         for &reference in references {
             let Some(bits) = self.fmu.access().bits(base, reference) else {
-                return Err(format!("the description has no {base:?} with value reference {reference}"));
+                return Err(format!(
+                    "the description has no {} with value reference {reference}",
+                    base.name()
+                ));
             };
             if bits & needed != needed {
                 return Err(format!(
@@ -161,10 +144,10 @@ impl Checker {
         Ok(access)
     }
 
-    fn name_of(&self, base: Base, reference: u32) -> String {
+    fn name_of(&self, base: BaseType, reference: u32) -> String {
         let mut variables = self.fmu.description().variables.iter();
         variables
-            .find(|variable| variable.value_reference == reference && Base::of(&variable.kind) == base)
+            .find(|variable| variable.value_reference == reference && variable.kind.base_type() == base)
             .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
     }
 
@@ -177,14 +160,6 @@ impl Checker {
                 _ => {}
             }
         }
-        let status = match status {
-            Status::Ok => fmi_export::Status::Ok,
-            Status::Warning => fmi_export::Status::Warning,
-            Status::Discard => fmi_export::Status::Discard,
-            Status::Error | Status::Invalid(_) => fmi_export::Status::Error,
-            Status::Fatal => fmi_export::Status::Fatal,
-            Status::Pending => fmi_export::Status::Pending,
-        };
         // From an unknown state, what happens next tells as if the steps were complete.
         let known = self.state.get();
         let next = after(function, known.unwrap_or(State::StepComplete), status);
@@ -216,8 +191,8 @@ impl Checker {
 }
 
 /// Whether the call's answer fixes the state whatever it was before.
-fn tells_state(function: Function, status: fmi_export::Status) -> bool {
-    use fmi_export::Status::{Discard, Error, Fatal, Ok, Warning};
+fn tells_state(function: Function, status: model_description::Status) -> bool {
+    use model_description::Status::{Discard, Error, Fatal, Ok, Warning};
     match status {
         Error | Fatal => true,
         Ok | Warning | Discard => matches!(

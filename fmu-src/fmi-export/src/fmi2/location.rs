@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::library::shown;
+use crate::fmi2::library::shown;
 
 /// No setup file is larger than this.
 const MAX_SETUP_BYTES: u64 = 64 << 20;
