@@ -2,9 +2,14 @@
 
 use std::cell::Cell;
 
+<<<<<<< HEAD
 use bitflags::bitflags;
 use fmi_export::call_table::{Access, Condition, Function, Next, State, after, allowed};
 use model_description::{Description, VariableKind, rules};
+=======
+use model_description::call_table::{Access, Condition, Function, Next, State, after, allowed};
+use model_description::{BaseType, Description};
+>>>>>>> export
 
 use crate::{Fmu, Status, abi::StateKey};
 
@@ -18,6 +23,7 @@ pub enum Checking {
     Off,
 }
 
+<<<<<<< HEAD
 /// Base type at the C interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Base {
@@ -46,6 +52,27 @@ bitflags! {
         const OUTPUT_OR_INITIAL_UNKNOWN = 1 << 1;
         const SETTABLE_IN_INITIALIZATION = 1 << 2;
         const INPUT_OR_TUNABLE = 1 << 3;
+=======
+/// For every value reference, by base type and sorted: which of the table's conditions it meets.
+pub(crate) struct AccessTable([Vec<(u32, u8)>; 4]);
+
+/// The conditions that restrict which variables may be set or read.
+const RESTRICTING: [Condition; 4] = [
+    Condition::SettableBeforeInitialization,
+    Condition::OutputOrInitialUnknown,
+    Condition::SettableInInitialization,
+    Condition::InputOrTunable,
+];
+
+const fn bit(condition: Condition) -> u8 {
+    match condition {
+        Condition::SettableBeforeInitialization => 1,
+        Condition::OutputOrInitialUnknown => 2,
+        Condition::SettableInInitialization => 4,
+        Condition::InputOrTunable => 8,
+        // These restrict what the values are good for, not which variables may be read.
+        Condition::Debugging | Condition::DebuggingUnlessTerminated => 0,
+>>>>>>> export
     }
 }
 
@@ -76,6 +103,7 @@ impl AccessTable {
         let mut tables: [Vec<(u32, Conditions)>; 4] = Default::default();
         for (position, variable) in description.variables.iter().enumerate() {
             let listed = initial_unknown[position + 1];
+<<<<<<< HEAD
             let settable = |phase| rules::settable(variable, phase);
             let mut met = Conditions::empty();
             met.set(Conditions::SETTABLE_BEFORE_INITIALIZATION, settable(rules::Phase::Instantiated));
@@ -86,6 +114,13 @@ impl AccessTable {
             met.set(Conditions::SETTABLE_IN_INITIALIZATION, settable(rules::Phase::InitializationMode));
             met.set(Conditions::INPUT_OR_TUNABLE, settable(rules::Phase::StepComplete));
             tables[Base::of(&variable.kind) as usize].push((variable.value_reference, met));
+=======
+            let bits = RESTRICTING
+                .iter()
+                .filter(|it| it.admits(variable, listed))
+                .fold(0, |bits, it| bits | bit(*it));
+            tables[variable.kind.base_type() as usize].push((variable.value_reference, bits));
+>>>>>>> export
         }
         for table in &mut tables {
             // Aliases share a reference: what one of them may, all may.
@@ -101,7 +136,11 @@ impl AccessTable {
         Self(tables)
     }
 
+<<<<<<< HEAD
     fn met(&self, base: Base, reference: u32) -> Option<Conditions> {
+=======
+    fn bits(&self, base: BaseType, reference: u32) -> Option<u8> {
+>>>>>>> export
         let table = &self.0[base as usize];
         table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
     }
@@ -134,12 +173,25 @@ impl Checker {
     }
 
     /// As [`Checker::allow`], and every variable meets the condition of the state.
-    pub fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), String> {
+    pub fn allow_variables(
+        &self,
+        function: Function,
+        references: &[u32],
+        base: BaseType,
+    ) -> Result<(), String> {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
         let needed = Conditions::from(condition);
         for &reference in references {
+<<<<<<< HEAD
             let Some(met) = self.fmu.access().met(base, reference) else {
                 return Err(format!("the description has no {base:?} with value reference {reference}"));
+=======
+            let Some(bits) = self.fmu.access().bits(base, reference) else {
+                return Err(format!(
+                    "the description has no {} with value reference {reference}",
+                    base.name()
+                ));
+>>>>>>> export
             };
             if !met.contains(needed) {
                 return Err(format!(
@@ -167,10 +219,10 @@ impl Checker {
         Ok(access)
     }
 
-    fn name_of(&self, base: Base, reference: u32) -> String {
+    fn name_of(&self, base: BaseType, reference: u32) -> String {
         let mut variables = self.fmu.description().variables.iter();
         variables
-            .find(|variable| variable.value_reference == reference && Base::of(&variable.kind) == base)
+            .find(|variable| variable.value_reference == reference && variable.kind.base_type() == base)
             .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
     }
 
@@ -183,14 +235,6 @@ impl Checker {
                 _ => {}
             }
         }
-        let status = match status {
-            Status::Ok => fmi_export::Status::Ok,
-            Status::Warning => fmi_export::Status::Warning,
-            Status::Discard => fmi_export::Status::Discard,
-            Status::Error | Status::Invalid(_) => fmi_export::Status::Error,
-            Status::Fatal => fmi_export::Status::Fatal,
-            Status::Pending => fmi_export::Status::Pending,
-        };
         // From an unknown state, what happens next tells as if the steps were complete.
         let known = self.state.get();
         let next = after(function, known.unwrap_or(State::StepComplete), status);
@@ -222,8 +266,8 @@ impl Checker {
 }
 
 /// Whether the call's answer fixes the state whatever it was before.
-fn tells_state(function: Function, status: fmi_export::Status) -> bool {
-    use fmi_export::Status::{Discard, Error, Fatal, Ok, Warning};
+fn tells_state(function: Function, status: model_description::Status) -> bool {
+    use model_description::Status::{Discard, Error, Fatal, Ok, Warning};
     match status {
         Error | Fatal => true,
         Ok | Warning | Discard => matches!(

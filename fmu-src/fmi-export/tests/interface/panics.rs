@@ -1,9 +1,15 @@
 //! A panic in any callback ends its instance with an error and a message; everybody else lives.
 
+use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;
+<<<<<<< HEAD
 use fmi_export::Status::{self, Error, Ok};
 use fmi_export::abi::{InProcess, StatePointer};
 use probe::panicking::Fault;
+=======
+use fmi_export::model_description::Status::{self, Error, Ok};
+use probe::panicking::Accident;
+>>>>>>> export
 
 use super::{reference, started};
 

@@ -1,9 +1,15 @@
 //! Random legal and illegal calls are answered as the standard's text says, state by state.
 
+use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;
+<<<<<<< HEAD
 use fmi_export::Status::{self, Discard, Error, Ok};
 use fmi_export::abi::{InProcess, StatePointer};
 use probe::panicking::Fault;
+=======
+use fmi_export::model_description::Status::{self, Discard, Error, Ok};
+use probe::panicking::Accident;
+>>>>>>> export
 
 use super::{Random, fresh, reference};
 

@@ -3,6 +3,7 @@
 use fmi_export::model::Log;
 use std::cell::RefCell;
 
+use fmi_export::fmi2::references;
 use fmi_export::model_description::{Causality, SimpleTypeKind, Variability, VariableKind};
 use fmi_export::{BaseType, Context, Declare, Failure, Model, Step, Values, Variables};
 use physics::numerics::intervals::next_multiple_s;
@@ -96,7 +97,7 @@ impl<M: Model> NamedModel<M> {
                 input: variable.causality == Causality::Input,
                 name: variable.name.clone(),
                 kind,
-                reference: (variable.value_reference - base.first_reference()) as usize,
+                reference: (variable.value_reference - references::first(base)) as usize,
                 output: variable.causality == Causality::Output,
                 varies: variable.variability == Variability::Continuous,
             }

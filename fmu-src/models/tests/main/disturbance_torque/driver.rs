@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library, Status};
 use model_description::{Causality, Description};
 use models::DisturbanceTorque;

@@ -1,6 +1,6 @@
 //! DisturbanceTorque through FMI's functions gives what its physics gives, has no memory, and refuses by name.
 
-use fmi_export::abi::{Message, StatePointer};
+use client::{Message, StatePointer};
 use fmi_export::{Model, Status};
 use model_description::{Causality, validate};
 use models::DisturbanceTorque;

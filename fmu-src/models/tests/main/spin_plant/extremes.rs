@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use fmi_export::Status;
+use model_description::Status;
 use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind};
 
 use super::driver::{Spinner, assert_names, description};

@@ -1,12 +1,14 @@
 //! Getting and setting variables: everything is checked before anything is written.
 
 use super::{Instance, once};
-use crate::access::{
-    AccessTable, BaseType, GET_INITIALIZATION, GIVEN, INPUT, SET_INITIALIZATION, SET_INSTANTIATED, SET_STEP,
+use crate::fmi2::access::{
+    AccessTable, GET_INITIALIZATION, INPUT, SET_BY_IMPORTER, SET_INITIALIZATION, SET_INSTANTIATED, SET_STEP,
 };
-use crate::call_table::{Function, State};
-use crate::memory::copy_values;
-use crate::problem::Problem;
+use crate::fmi2::instance::state::copy_values;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
+use model_description::BaseType;
+use model_description::call_table::{Function, State};
 
 /// `fmi2GetXXX` of a base type whose values are plain.
 macro_rules! getter {
@@ -18,9 +20,9 @@ macro_rules! getter {
                 if self.reading_needs_care() {
                     self.prepare_reading(BaseType::$base, references)?;
                 }
-                let table = &self.memory.values.$table;
+                let table = &self.state.values.$table;
                 for (&reference, value) in references.iter().zip(values) {
-                    match table.get(BaseType::$base.index(reference)) {
+                    match table.get(references::index(BaseType::$base, reference)) {
                         Some(stored) => *value = $read(stored),
                         None => return Err(unknown(BaseType::$base, reference, table.len())),
                     }
@@ -41,15 +43,15 @@ macro_rules! setter {
                 self.guard(Function::$function)?;
                 let needed = self.settable_flag();
                 let (mut lenient, mut differs) = (false, false);
-                let table = &self.memory.values.$table;
+                let table = &self.state.values.$table;
                 let flags = self.access.flags(BaseType::$base);
                 for (&reference, value) in references.iter().zip(values) {
-                    let index = BaseType::$base.index(reference);
+                    let index = references::index(BaseType::$base, reference);
                     let (Some(&flags), Some(stored)) = (flags.get(index), table.get(index)) else {
                         return Err(unknown(BaseType::$base, reference, table.len()));
                     };
                     if flags & needed == 0 {
-                        let state = self.memory.state;
+                        let state = self.state.mode;
                         if state != State::Instantiated || flags & INPUT == 0 {
                             return Err(Problem::NotSettable { base: BaseType::$base, reference, state });
                         }
@@ -61,14 +63,14 @@ macro_rules! setter {
                 if lenient {
                     self.say_input_before_initialization();
                 }
-                if BaseType::$base as u8 == BaseType::Real as u8 && self.memory.state != State::StepComplete {
+                if BaseType::$base as u8 == BaseType::Real as u8 && self.state.mode != State::StepComplete {
                     self.note_tolerance(references);
                 }
                 if differs {
                     self.before_change();
-                    let table = &mut self.memory.values.$table;
+                    let table = &mut self.state.values.$table;
                     for (&reference, value) in references.iter().zip(values) {
-                        if let Some(stored) = table.get_mut(BaseType::$base.index(reference)) {
+                        if let Some(stored) = table.get_mut(references::index(BaseType::$base, reference)) {
                             $write(stored, value);
                         }
                     }
@@ -85,7 +87,7 @@ getter!(get_boolean, GetBoolean, Boolean, booleans, i32, |stored: &bool| i32::fr
 
 setter!(set_real, SetReal, Real, reals, f64,
     check: |access: &AccessTable, reference: u32, value: &f64| {
-        match access.real_limits.get(BaseType::Real.index(reference)) {
+        match access.real_limits.get(references::index(BaseType::Real, reference)) {
             // Written so that NaN fails.
             Some(&(min, max)) if min <= *value && *value <= max => Ok(()),
             _ => Err(Problem::RealOutOfRange { reference, value: *value }),
@@ -96,7 +98,7 @@ setter!(set_real, SetReal, Real, reals, f64,
 
 setter!(set_integer, SetInteger, Integer, integers, i32,
     check: |access: &AccessTable, reference: u32, value: &i32| {
-        match access.admits_integer(BaseType::Integer.index(reference), *value) {
+        match access.admits_integer(references::index(BaseType::Integer, reference), *value) {
             true => Ok(()),
             false => Err(Problem::IntegerOutOfRange { reference, value: *value }),
         }
@@ -134,9 +136,9 @@ impl Instance {
         if self.reading_needs_care() {
             self.prepare_reading(BaseType::String, references)?;
         }
-        let table = &self.memory.values.strings;
+        let table = &self.state.values.strings;
         for (position, &reference) in references.iter().enumerate() {
-            let index = BaseType::String.index(reference);
+            let index = references::index(BaseType::String, reference);
             match table.get(index) {
                 Some(stored) => take(position, index, stored),
                 None => return Err(unknown(BaseType::String, reference, table.len())),
@@ -148,7 +150,7 @@ impl Instance {
     /// Which flag a variable needs to be set now. The guard has admitted the state.
     #[inline]
     fn settable_flag(&self) -> u8 {
-        match self.memory.state {
+        match self.state.mode {
             State::Instantiated => SET_INSTANTIATED,
             State::InitializationMode => SET_INITIALIZATION,
             _ => SET_STEP,
@@ -158,9 +160,9 @@ impl Instance {
     /// Whether a read must compute or say something first.
     #[inline]
     fn reading_needs_care(&self) -> bool {
-        match self.memory.state {
+        match self.state.mode {
             State::StepComplete => {
-                self.memory.at_last_step.is_some() && self.said & once::OUTPUT_AFTER_SET == 0
+                self.state.at_last_step.is_some() && self.warned & once::OUTPUT_AFTER_SET == 0
             }
             State::InitializationMode => true,
             _ => false,
@@ -172,15 +174,15 @@ impl Instance {
         let flags = self.access.flags(base);
         let mut all = u8::MAX;
         for &reference in references {
-            match flags.get(base.index(reference)) {
+            match flags.get(references::index(base, reference)) {
                 Some(flags) => all &= flags,
                 None => return Err(unknown(base, reference, flags.len())),
             }
         }
-        let only_given = all & GIVEN != 0;
-        if self.memory.state == State::StepComplete {
+        let only_given = all & SET_BY_IMPORTER != 0;
+        if self.state.mode == State::StepComplete {
             if !only_given {
-                self.say_once(
+                self.warn_once(
                     once::OUTPUT_AFTER_SET,
                     format_args!(
                         "outputs are read after a set and before the next step: they belong to the last communication point"
@@ -190,7 +192,7 @@ impl Instance {
             return Ok(());
         }
         if all & GET_INITIALIZATION == 0 {
-            self.say_once(
+            self.warn_once(
                 once::READ_IN_INITIALIZATION,
                 format_args!(
                     "variables that are neither outputs nor InitialUnknowns are read in Initialization Mode: the standard does not allow it, answered all the same"
@@ -203,12 +205,12 @@ impl Instance {
     /// Called when a set is about to write a different value.
     #[inline]
     fn before_change(&mut self) {
-        match self.memory.state {
-            State::InitializationMode => self.memory.needs_initialization = true,
-            State::StepComplete if self.memory.at_last_step.is_none() => {
+        match self.state.mode {
+            State::InitializationMode => self.state.needs_initialization = true,
+            State::StepComplete if self.state.at_last_step.is_none() => {
                 let mut values = core::mem::take(&mut self.spare);
-                copy_values(&mut values, &self.memory.values);
-                self.memory.at_last_step = Some(values);
+                copy_values(&mut values, &self.state.values);
+                self.state.at_last_step = Some(values);
             }
             _ => {}
         }
@@ -217,12 +219,12 @@ impl Instance {
     /// What the master sets of the tolerance goes before the experiment's.
     #[cold]
     fn note_tolerance(&mut self, references: &[u32]) {
-        self.memory.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&at.reference()));
+        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&at.reference()));
     }
 
     #[cold]
     fn say_input_before_initialization(&mut self) {
-        self.say_once(
+        self.warn_once(
             once::INPUT_BEFORE_INITIALIZATION,
             format_args!(
                 "inputs are set before Initialization Mode: the standard does not allow it, accepted all the same"

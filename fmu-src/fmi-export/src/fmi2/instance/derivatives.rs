@@ -1,10 +1,12 @@
 //! Input derivatives, output derivatives, directional derivatives.
 
 use super::{Instance, once};
-use crate::access::{BaseType, CONTINUOUS, GET_INITIALIZATION, INPUT, OUTPUT, SET_INITIALIZATION};
-use crate::call_table::{Function, State};
-use crate::memory::MAX_INPUT_DERIVATIVE_ORDER;
-use crate::problem::Problem;
+use crate::fmi2::access::{CONTINUOUS, GET_INITIALIZATION, INPUT, OUTPUT, SET_INITIALIZATION};
+use crate::fmi2::instance::state::MAX_INPUT_DERIVATIVE_ORDER;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
+use model_description::BaseType;
+use model_description::call_table::{Function, State};
 
 impl Instance {
     /// `fmi2SetRealInputDerivatives`; they hold until the end of the next step.
@@ -23,13 +25,13 @@ impl Instance {
             }
         }
         if !self.capabilities.interpolates_inputs {
-            self.say_once(
+            self.warn_once(
                 once::NO_INTERPOLATION,
                 format_args!("fmi2SetRealInputDerivatives: this model does not interpolate inputs; ignored"),
             );
             return Ok(());
         }
-        let kept = &mut self.memory.input_derivatives;
+        let kept = &mut self.state.input_derivatives;
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let order = order.unsigned_abs();
             match kept.iter_mut().find(|(r, o, _)| *r == reference && *o == order) {
@@ -74,7 +76,7 @@ impl Instance {
         result: &mut [f64],
     ) -> Result<(), Problem> {
         self.guard(Function::GetDirectionalDerivative)?;
-        let initializing = self.memory.state == State::InitializationMode;
+        let initializing = self.state.mode == State::InitializationMode;
         let (unknown, known) = match initializing {
             true => (GET_INITIALIZATION, INPUT | SET_INITIALIZATION),
             false => (OUTPUT, INPUT),
@@ -107,7 +109,7 @@ impl Instance {
     /// Refuses a Real reference without any of the flags `any`, or without all of the flags `all`.
     fn require(&self, reference: u32, any: u8, all: u8, role: &'static str) -> Result<(), Problem> {
         let table = self.access.flags(BaseType::Real);
-        match table.get(BaseType::Real.index(reference)) {
+        match table.get(references::index(BaseType::Real, reference)) {
             Some(flags) if flags & any != 0 && flags & all == all => Ok(()),
             Some(_) => Err(Problem::NotA { role, reference }),
             None => Err(Problem::UnknownReference { base: BaseType::Real, reference, count: table.len() }),

@@ -5,18 +5,24 @@
 
 mod derivatives;
 mod lifecycle;
+pub(crate) mod state;
 mod stepping;
 mod values;
 
-use crate::access::{AccessTable, BaseType};
-use crate::call_table::{self, Access, Function, Next, State};
-use crate::logger::Logger;
-use crate::memory::{Memory, copy_values};
-use crate::problem::Problem;
+use crate::fmi2::access::AccessTable;
+use crate::fmi2::description::Prepared;
+use crate::fmi2::logger::Logger;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
 use crate::runtime::{Capabilities, Parts, Runtime};
 use crate::variables::{Real, Values};
-use crate::{Status, describe::Prepared};
+use model_description::BaseType;
+use model_description::Status;
+use model_description::call_table::{self, Access, Function, Next, State};
+use state::copy_values;
 
+pub use state::MAX_INPUT_DERIVATIVE_ORDER;
+pub(crate) use state::{InstanceState, content};
 pub(crate) use stepping::StatusKind;
 
 /// Messages that are worth saying once per instance, as bits.
@@ -24,13 +30,13 @@ mod once {
     pub(super) const INPUT_BEFORE_INITIALIZATION: u8 = 1;
     pub(super) const READ_IN_INITIALIZATION: u8 = 1 << 1;
     pub(super) const OUTPUT_AFTER_SET: u8 = 1 << 2;
-    pub(super) const BEHIND_PROMISE: u8 = 1 << 3;
+    pub(super) const STATE_BEFORE_PROMISED_TIME: u8 = 1 << 3;
     pub(super) const NO_INTERPOLATION: u8 = 1 << 4;
 }
 
 /// One instance of one model.
 pub(crate) struct Instance {
-    pub(super) memory: Memory,
+    pub(super) state: InstanceState,
     pub(super) runtime: Box<dyn Runtime>,
     pub(super) access: AccessTable,
     pub(super) start: Values,
@@ -38,10 +44,10 @@ pub(crate) struct Instance {
     pub(super) capabilities: Capabilities,
     pub(super) logger: Logger,
     /// What has been said already.
-    said: u8,
+    warned: u8,
     /// The master promised not to go back before this time.
-    promised_s: f64,
-    /// Spare memory for [`Memory::at_last_step`].
+    earliest_s: f64,
+    /// Spare memory for [`InstanceState::at_last_step`].
     spare: Values,
     /// The parameter that the experiment's tolerance stands in for.
     tolerance: Option<Real>,
@@ -52,20 +58,20 @@ impl Instance {
     /// A fresh instance.
     pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
         let Parts { access, start, runtime, digest, capabilities } = prepared.parts;
-        let mut memory = Memory::new(&start);
-        memory.input_derivatives.reserve(access.real_limits.len());
+        let mut state = InstanceState::new(&start);
+        state.input_derivatives.reserve(access.real_limits.len());
         Self {
             spare: start.clone(),
             tolerance: runtime.tolerance(),
-            memory,
+            state,
             runtime,
             access,
             start,
             digest,
             capabilities,
             logger,
-            said: 0,
-            promised_s: f64::NEG_INFINITY,
+            warned: 0,
+            earliest_s: f64::NEG_INFINITY,
             poisoned: false,
         }
     }
@@ -79,7 +85,7 @@ impl Instance {
     /// No call but free works from here on.
     pub(crate) fn poison(&mut self) {
         self.poisoned = true;
-        self.memory.state = State::Error;
+        self.state.mode = State::Error;
     }
 
     /// The log.
@@ -95,8 +101,8 @@ impl Instance {
     /// Refuses a call that the table forbids in this state. What is conditional is checked per variable.
     #[inline]
     pub(super) fn guard(&self, function: Function) -> Result<(), Problem> {
-        match call_table::allowed(function, self.memory.state) {
-            Access::Forbidden => Err(Problem::Illegal { function, state: self.memory.state }),
+        match call_table::allowed(function, self.state.mode) {
+            Access::Forbidden => Err(Problem::Illegal { function, state: self.state.mode }),
             Access::Allowed | Access::Conditional(_) => Ok(()),
         }
     }
@@ -123,23 +129,23 @@ impl Instance {
 
     #[inline]
     fn follow(&mut self, function: Function, status: Status) {
-        if let Next::State(state) = call_table::after(function, self.memory.state, status) {
-            self.memory.state = state;
+        if let Next::State(state) = call_table::after(function, self.state.mode, status) {
+            self.state.mode = state;
         }
     }
 
     /// Logs a warning the first time only.
     #[cold]
-    pub(super) fn say_once(&mut self, what: u8, message: core::fmt::Arguments<'_>) {
-        if self.said & what == 0 {
-            self.said |= what;
+    pub(super) fn warn_once(&mut self, what: u8, message: core::fmt::Arguments<'_>) {
+        if self.warned & what == 0 {
+            self.warned |= what;
             self.logger.log(Status::Warning, message);
         }
     }
 
     /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot go on with.
     pub(super) fn check_finite(&self, initially: bool) -> Result<(), Problem> {
-        match self.access.first_not_finite(&self.memory.values) {
+        match self.access.first_not_finite(&self.state.values) {
             None => Ok(()),
             Some((reference, value)) => Err(self.not_finite(reference, value, initially)),
         }
@@ -157,9 +163,9 @@ impl Instance {
 
     /// A variable's value for a message.
     fn shown(&self, reference: u32) -> Option<String> {
-        let values = &self.memory.values;
-        let base = BaseType::of_reference(reference)?;
-        let index = base.index(reference);
+        let values = &self.state.values;
+        let base = references::base_type(reference)?;
+        let index = references::index(base, reference);
         Some(match base {
             BaseType::Real => format!("{:?}", values.reals.get(index)?),
             BaseType::Integer => values.integers.get(index)?.to_string(),
@@ -170,17 +176,17 @@ impl Instance {
 
     /// The values that derivatives are asked of: those of the last step, whatever was set since.
     pub(super) fn values_at_last_step(&self) -> &Values {
-        self.memory.at_last_step.as_ref().unwrap_or(&self.memory.values)
+        self.state.at_last_step.as_ref().unwrap_or(&self.state.values)
     }
 
     /// Brings the spare values to their size, so that no step has to.
     pub(super) fn warm_up(&mut self) {
-        copy_values(&mut self.spare, &self.memory.values);
+        copy_values(&mut self.spare, &self.state.values);
     }
 
     /// Forgets the values kept for derivatives, but not their memory.
     pub(super) fn forget_last_step(&mut self) {
-        if let Some(values) = self.memory.at_last_step.take() {
+        if let Some(values) = self.state.at_last_step.take() {
             self.spare = values;
         }
     }

@@ -1,15 +1,19 @@
-//! A safe client of the C functions within one process, for tests of models and of this crate.
+//! A safe client of the C functions within one process.
 //!
-//! It calls what a master calls, pointers and all, but needs no shared library; an allocator of the test's
+//! It calls what an importer calls, pointers and all, but needs no shared library; an allocator of the test's
 //! own therefore sees what the functions allocate.
+#![allow(unsafe_code, reason = "calls the C functions")]
 
 use core::ffi::{CStr, c_char, c_int, c_void};
 use std::ffi::CString;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
-use super::{CallbackFunctions, LoggerCallback, functions as c};
-use crate::Status;
-use crate::library::Library;
+use fmi_export::{Library, fmi2 as c};
+use model_description::Status;
+use model_description::functions::{
+    CO_SIMULATION, LAST_SUCCESSFUL_TIME, TERMINATED,
+    types::{CallbackFunctions, CallbackLogger, Component, FmuState},
+};
 
 /// A message that reached the logger.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +31,7 @@ type Messages = Mutex<Vec<Message>>;
 /// One instance, driven through the C functions; freed when dropped.
 #[derive(Debug)]
 pub struct InProcess {
-    component: *mut c_void,
+    component: Component,
     messages: Box<Messages>,
 }
 
@@ -35,12 +39,15 @@ pub struct InProcess {
 // ensures.
 unsafe impl Send for InProcess {}
 
-/// A `fmi2FMUstate`; NULL until one is taken, freed when dropped.
+/// A `fmi2FMUstate`; NULL until one is taken. Once dropped, the next instance that is dropped frees it.
 #[derive(Debug)]
-pub struct StatePointer(*mut c_void);
+pub struct StatePointer(FmuState);
 
 // SAFETY: a saved state belongs to no thread.
 unsafe impl Send for StatePointer {}
+
+/// States to be freed: only an instance can free them, and any instance of this program can.
+static DROPPED: Mutex<Vec<StatePointer>> = Mutex::new(Vec::new());
 
 impl StatePointer {
     /// NULL.
@@ -57,8 +64,8 @@ impl StatePointer {
 impl Drop for StatePointer {
     fn drop(&mut self) {
         if !self.0.is_null() {
-            // SAFETY: not NULL, so it came from `fmi2GetFMUstate` or `fmi2DeSerializeFMUstate`.
-            let _ = crate::panics::contain(|| unsafe { super::boundary::free_state(self.0) });
+            let mut dropped = DROPPED.lock().unwrap_or_else(PoisonError::into_inner);
+            dropped.push(Self(core::mem::replace(&mut self.0, core::ptr::null_mut())));
         }
     }
 }
@@ -97,7 +104,7 @@ impl InProcess {
         let logger = unsafe {
             core::mem::transmute::<
                 unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
-                LoggerCallback,
+                CallbackLogger,
             >(receive)
         };
         let functions = CallbackFunctions {
@@ -114,7 +121,7 @@ impl InProcess {
             c::instantiate(
                 library,
                 c"in process".as_ptr(),
-                1,
+                CO_SIMULATION,
                 guid.as_ptr(),
                 location.as_deref().map_or(core::ptr::null(), CStr::as_ptr),
                 &raw const functions,
@@ -131,8 +138,8 @@ impl InProcess {
         let described = library.find(name).map(|entry| entry.describe(None, None));
         let guid = match described {
             Some(Ok(description)) => description.guid,
-            Some(Err(error)) => return Err(vec![complaint(error.to_string())]),
-            None => return Err(vec![complaint(format!("no model `{name}`, but {}", library.names()))]),
+            Some(Err(error)) => return Err(vec![error_message(error.to_string())]),
+            None => return Err(vec![error_message(format!("no model `{name}`, but {}", library.names()))]),
         };
         Self::instantiate(library, &guid, None)
     }
@@ -154,7 +161,7 @@ impl InProcess {
         let categories: Vec<_> = categories.iter().map(|category| category.as_ptr()).collect();
         // SAFETY: a live instance, and an array of its length.
         status(unsafe {
-            c::set_debug_logging(self.component, c_int::from(on), categories.len(), categories.as_ptr())
+            c::fmi2SetDebugLogging(self.component, c_int::from(on), categories.len(), categories.as_ptr())
         })
     }
 
@@ -162,25 +169,25 @@ impl InProcess {
     pub fn setup_experiment(&mut self, start_s: f64, stop_s: Option<f64>) -> Status {
         let (defined, stop) = (c_int::from(stop_s.is_some()), stop_s.unwrap_or(0.0));
         // SAFETY: a live instance.
-        status(unsafe { c::setup_experiment(self.component, 0, 0.0, start_s, defined, stop) })
+        status(unsafe { c::fmi2SetupExperiment(self.component, 0, 0.0, start_s, defined, stop) })
     }
 
     /// `fmi2SetupExperiment` with a tolerance.
     pub fn setup_experiment_with_tolerance(&mut self, tolerance: f64, start_s: f64) -> Status {
         // SAFETY: a live instance.
-        status(unsafe { c::setup_experiment(self.component, 1, tolerance, start_s, 0, 0.0) })
+        status(unsafe { c::fmi2SetupExperiment(self.component, 1, tolerance, start_s, 0, 0.0) })
     }
 
     /// `fmi2DoStep`.
     pub fn do_step(&mut self, point_s: f64, step_size_s: f64) -> Status {
         // SAFETY: a live instance.
-        status(unsafe { c::do_step(self.component, point_s, step_size_s, 0) })
+        status(unsafe { c::fmi2DoStep(self.component, point_s, step_size_s, 0) })
     }
 
     /// `fmi2DoStep` with `noSetFMUStatePriorToCurrentPoint`.
     pub fn do_step_without_return(&mut self, point_s: f64, step_size_s: f64) -> Status {
         // SAFETY: a live instance.
-        status(unsafe { c::do_step(self.component, point_s, step_size_s, 1) })
+        status(unsafe { c::fmi2DoStep(self.component, point_s, step_size_s, 1) })
     }
 
     /// `fmi2GetString`.
@@ -188,7 +195,7 @@ impl InProcess {
         let mut pointers = vec![core::ptr::null(); references.len()];
         // SAFETY: a live instance, and arrays of their length.
         let code = unsafe {
-            c::get_string(self.component, references.as_ptr(), references.len(), pointers.as_mut_ptr())
+            c::fmi2GetString(self.component, references.as_ptr(), references.len(), pointers.as_mut_ptr())
         };
         let text = |&pointer: &*const c_char| match pointer.is_null() {
             true => String::new(),
@@ -204,32 +211,32 @@ impl InProcess {
         let pointers: Vec<*const c_char> = texts.iter().map(|text| text.as_ptr().cast()).collect();
         let count = references.len().min(pointers.len());
         // SAFETY: a live instance, and arrays of at least `count` terminated texts.
-        status(unsafe { c::set_string(self.component, references.as_ptr(), count, pointers.as_ptr()) })
+        status(unsafe { c::fmi2SetString(self.component, references.as_ptr(), count, pointers.as_ptr()) })
     }
 
     /// `fmi2GetFMUstate`; reuses the memory of a state that is not NULL.
     pub fn get_state(&mut self, state: &mut StatePointer) -> Status {
         // SAFETY: a live instance, and NULL or a live state.
-        status(unsafe { c::get_fmu_state(self.component, &raw mut state.0) })
+        status(unsafe { c::fmi2GetFMUstate(self.component, &raw mut state.0) })
     }
 
     /// `fmi2SetFMUstate`.
     pub fn set_state(&mut self, state: &StatePointer) -> Status {
         // SAFETY: a live instance, and NULL or a live state.
-        status(unsafe { c::set_fmu_state(self.component, state.0) })
+        status(unsafe { c::fmi2SetFMUstate(self.component, state.0) })
     }
 
     /// `fmi2FreeFMUstate`.
     pub fn free_state(&mut self, state: &mut StatePointer) -> Status {
         // SAFETY: a live instance, and NULL or a live state.
-        status(unsafe { c::free_fmu_state(self.component, &raw mut state.0) })
+        status(unsafe { c::fmi2FreeFMUstate(self.component, &raw mut state.0) })
     }
 
     /// `fmi2SerializedFMUstateSize`, then `fmi2SerializeFMUstate` with that many bytes.
     pub fn serialize(&mut self, state: &StatePointer) -> (Status, Vec<u8>) {
         let mut size = 0;
         // SAFETY: a live instance, and NULL or a live state.
-        let sized = status(unsafe { c::serialized_fmu_state_size(self.component, state.0, &raw mut size) });
+        let sized = status(unsafe { c::fmi2SerializedFMUstateSize(self.component, state.0, &raw mut size) });
         if sized != Status::Ok {
             return (sized, Vec::new());
         }
@@ -241,7 +248,7 @@ impl InProcess {
     pub fn serialize_into(&mut self, state: &StatePointer, bytes: &mut [u8]) -> Status {
         // SAFETY: a live instance, NULL or a live state, and an array of its length.
         status(unsafe {
-            c::serialize_fmu_state(self.component, state.0, bytes.as_mut_ptr().cast(), bytes.len())
+            c::fmi2SerializeFMUstate(self.component, state.0, bytes.as_mut_ptr().cast(), bytes.len())
         })
     }
 
@@ -250,7 +257,7 @@ impl InProcess {
         let mut state = StatePointer::null();
         // SAFETY: a live instance, and an array of its length.
         let code = unsafe {
-            c::deserialize_fmu_state(self.component, bytes.as_ptr().cast(), bytes.len(), &raw mut state.0)
+            c::fmi2DeSerializeFMUstate(self.component, bytes.as_ptr().cast(), bytes.len(), &raw mut state.0)
         };
         (status(code), state)
     }
@@ -270,7 +277,7 @@ impl InProcess {
         // SAFETY: a live instance, and arrays of at least `count` elements.
         status(unsafe {
             let (references, orders) = (references.as_ptr(), orders.as_ptr());
-            c::set_real_input_derivatives(self.component, references, count, orders, values.as_ptr())
+            c::fmi2SetRealInputDerivatives(self.component, references, count, orders, values.as_ptr())
         })
     }
 
@@ -285,7 +292,7 @@ impl InProcess {
         // SAFETY: a live instance, and arrays of at least `count` elements.
         status(unsafe {
             let (references, orders) = (references.as_ptr(), orders.as_ptr());
-            c::get_real_output_derivatives(self.component, references, count, orders, values.as_mut_ptr())
+            c::fmi2GetRealOutputDerivatives(self.component, references, count, orders, values.as_mut_ptr())
         })
     }
 
@@ -302,7 +309,7 @@ impl InProcess {
         let (seed, result) = (seed.as_ptr(), result.as_mut_ptr());
         // SAFETY: a live instance, and arrays of at least the announced lengths.
         status(unsafe {
-            c::get_directional_derivative(self.component, unknowns, rows, knowns, columns, seed, result)
+            c::fmi2GetDirectionalDerivative(self.component, unknowns, rows, knowns, columns, seed, result)
         })
     }
 
@@ -310,7 +317,7 @@ impl InProcess {
     pub fn last_successful_time(&mut self) -> (Status, f64) {
         let mut value = f64::NAN;
         // SAFETY: a live instance.
-        let code = unsafe { c::get_real_status(self.component, 2, &raw mut value) };
+        let code = unsafe { c::fmi2GetRealStatus(self.component, LAST_SUCCESSFUL_TIME, &raw mut value) };
         (status(code), value)
     }
 
@@ -318,7 +325,7 @@ impl InProcess {
     pub fn terminated(&mut self) -> (Status, bool) {
         let mut value = 0;
         // SAFETY: a live instance.
-        let code = unsafe { c::get_boolean_status(self.component, 3, &raw mut value) };
+        let code = unsafe { c::fmi2GetBooleanStatus(self.component, TERMINATED, &raw mut value) };
         (status(code), value == 1)
     }
 
@@ -326,82 +333,83 @@ impl InProcess {
     pub fn get_status(&mut self, kind: i32) -> Status {
         let mut value = 0;
         // SAFETY: a live instance.
-        status(unsafe { c::get_status(self.component, kind, &raw mut value) })
+        status(unsafe { c::fmi2GetStatus(self.component, kind, &raw mut value) })
     }
 
     /// `fmi2GetIntegerStatus`.
     pub fn get_integer_status(&mut self, kind: i32) -> Status {
         let mut value = 0;
         // SAFETY: a live instance.
-        status(unsafe { c::get_integer_status(self.component, kind, &raw mut value) })
+        status(unsafe { c::fmi2GetIntegerStatus(self.component, kind, &raw mut value) })
     }
 
     /// `fmi2GetStringStatus`.
     pub fn get_string_status(&mut self, kind: i32) -> Status {
         let mut value = core::ptr::null();
         // SAFETY: a live instance.
-        status(unsafe { c::get_string_status(self.component, kind, &raw mut value) })
+        status(unsafe { c::fmi2GetStringStatus(self.component, kind, &raw mut value) })
     }
 }
 
 macro_rules! simple {
-    ($($(#[$doc:meta])* $name:ident;)*) => {
+    ($($name:ident, $symbol:ident;)*) => {
         impl InProcess { $(
-            $(#[$doc])*
+            #[doc = concat!("`", stringify!($symbol), "`.")]
             pub fn $name(&mut self) -> Status {
                 // SAFETY: a live instance.
-                status(unsafe { c::$name(self.component) })
+                status(unsafe { c::$symbol(self.component) })
             }
         )* }
     };
 }
 
 simple! {
-    /// `fmi2EnterInitializationMode`.
-    enter_initialization_mode;
-    /// `fmi2ExitInitializationMode`.
-    exit_initialization_mode;
-    /// `fmi2Terminate`.
-    terminate;
-    /// `fmi2Reset`.
-    reset;
-    /// `fmi2CancelStep`.
-    cancel_step;
+    enter_initialization_mode, fmi2EnterInitializationMode;
+    exit_initialization_mode, fmi2ExitInitializationMode;
+    terminate, fmi2Terminate;
+    reset, fmi2Reset;
+    cancel_step, fmi2CancelStep;
 }
 
 macro_rules! access {
-    ($($get:ident, $set:ident, $type:ty, $doc:literal;)*) => {
+    ($($get:ident, $set:ident, $get_symbol:ident, $set_symbol:ident, $type:ty;)*) => {
         impl InProcess { $(
-            #[doc = concat!("`fmi2Get", $doc, "`.")]
+            #[doc = concat!("`", stringify!($get_symbol), "`.")]
             pub fn $get(&mut self, references: &[u32], values: &mut [$type]) -> Status {
                 let count = references.len().min(values.len());
                 // SAFETY: a live instance, and arrays of at least `count` elements.
-                status(unsafe { c::$get(self.component, references.as_ptr(), count, values.as_mut_ptr()) })
+                status(unsafe { c::$get_symbol(self.component, references.as_ptr(), count, values.as_mut_ptr()) })
             }
 
-            #[doc = concat!("`fmi2Set", $doc, "`.")]
+            #[doc = concat!("`", stringify!($set_symbol), "`.")]
             pub fn $set(&mut self, references: &[u32], values: &[$type]) -> Status {
                 let count = references.len().min(values.len());
                 // SAFETY: a live instance, and arrays of at least `count` elements.
-                status(unsafe { c::$set(self.component, references.as_ptr(), count, values.as_ptr()) })
+                status(unsafe { c::$set_symbol(self.component, references.as_ptr(), count, values.as_ptr()) })
             }
         )* }
     };
 }
 
 access! {
-    get_real, set_real, f64, "Real";
-    get_integer, set_integer, i32, "Integer";
-    get_boolean, set_boolean, i32, "Boolean";
+    get_real, set_real, fmi2GetReal, fmi2SetReal, f64;
+    get_integer, set_integer, fmi2GetInteger, fmi2SetInteger, i32;
+    get_boolean, set_boolean, fmi2GetBoolean, fmi2SetBoolean, i32;
 }
 
 impl Drop for InProcess {
     fn drop(&mut self) {
+        if !self.component.is_null() {
+            let dropped = core::mem::take(&mut *DROPPED.lock().unwrap_or_else(PoisonError::into_inner));
+            for mut state in dropped {
+                self.free_state(&mut state);
+            }
+        }
         // SAFETY: NULL or a live instance, not used again.
-        unsafe { c::free_instance(self.component) }
+        unsafe { c::fmi2FreeInstance(self.component) }
     }
 }
 
-fn complaint(text: String) -> Message {
+fn error_message(text: String) -> Message {
     Message { status: Status::Error, category: "logStatusError".to_owned(), text }
 }

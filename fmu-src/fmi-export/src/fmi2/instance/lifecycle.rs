@@ -1,12 +1,13 @@
 //! Experiment, initialization, termination, reset, log settings.
 
 use super::{Instance, once};
-use crate::Status;
-use crate::access::BaseType;
-use crate::call_table::Function;
-use crate::logger::Category;
-use crate::memory::{Experiment, Memory};
-use crate::problem::Problem;
+use crate::fmi2::instance::state::{Experiment, InstanceState};
+use crate::fmi2::logger::Category;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
+use model_description::BaseType;
+use model_description::Status;
+use model_description::call_table::Function;
 
 impl Instance {
     /// `fmi2SetDebugLogging`: `categories` gives each named category, or `None` where the name is unknown.
@@ -49,26 +50,26 @@ impl Instance {
                 ),
             );
         }
-        self.memory.experiment = Some(Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) });
+        self.state.experiment = Some(Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) });
         Ok(())
     }
 
     /// `fmi2EnterInitializationMode`.
     pub(crate) fn enter_initialization_mode(&mut self) -> Result<(), Problem> {
         self.guard(Function::EnterInitializationMode)?;
-        let experiment = self.memory.experiment.ok_or(Problem::NoExperiment)?;
-        self.memory.time_s = experiment.start_s;
+        let experiment = self.state.experiment.ok_or(Problem::NoExperiment)?;
+        self.state.time_s = experiment.start_s;
         self.take_tolerance(experiment.tolerance);
-        self.memory.needs_initialization = true;
+        self.state.needs_initialization = true;
         Ok(())
     }
 
     /// The tolerance of the experiment becomes the value of the model's parameter, unless the master set that: so it is
     /// read, saved and restored like any value.
     fn take_tolerance(&mut self, tolerance: Option<f64>) {
-        let Some(at) = self.tolerance.filter(|_| !self.memory.tolerance_set) else { return };
+        let Some(at) = self.tolerance.filter(|_| !self.state.tolerance_set) else { return };
         let default = self.start.real(at);
-        let limits = self.access.real_limits.get(BaseType::Real.index(at.reference())).copied();
+        let limits = self.access.real_limits.get(references::index(BaseType::Real, at.reference())).copied();
         let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
         // Not `clamp`, which panics where the limits are no range.
         let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
@@ -82,7 +83,7 @@ impl Instance {
                 ),
             );
         }
-        self.memory.values.set_real(at, taken);
+        self.state.values.set_real(at, taken);
     }
 
     /// `fmi2ExitInitializationMode`.
@@ -95,10 +96,10 @@ impl Instance {
 
     /// Computes the outputs of Initialization Mode from what was set so far.
     pub(super) fn initialize_if_needed(&mut self) -> Result<(), Problem> {
-        if self.memory.needs_initialization {
-            self.runtime.initialize(&mut self.memory.values, self.memory.time_s, &self.logger)?;
+        if self.state.needs_initialization {
+            self.runtime.initialize(&mut self.state.values, self.state.time_s, &self.logger)?;
             self.check_finite(true)?;
-            self.memory.needs_initialization = false;
+            self.state.needs_initialization = false;
         }
         Ok(())
     }
@@ -113,21 +114,21 @@ impl Instance {
         self.guard(Function::Reset)?;
         self.runtime.clear();
         self.forget_last_step();
-        self.memory.copy_from(&Memory::new(&self.start));
+        self.state.copy_from(&InstanceState::new(&self.start));
         self.logger.reset();
-        self.said = 0;
-        self.promised_s = f64::NEG_INFINITY;
+        self.warned = 0;
+        self.earliest_s = f64::NEG_INFINITY;
         Ok(())
     }
 
     /// Notes that the master goes back behind a time it promised not to.
-    pub(crate) fn check_promise(&mut self, time_s: f64) {
-        let promised_s = self.promised_s;
-        if time_s < promised_s {
-            self.say_once(
-                once::BEHIND_PROMISE,
+    pub(crate) fn warn_of_broken_promise(&mut self, time_s: f64) {
+        let earliest_s = self.earliest_s;
+        if time_s < earliest_s {
+            self.warn_once(
+                once::STATE_BEFORE_PROMISED_TIME,
                 format_args!(
-                    "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {promised_s:?} s"
+                    "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {earliest_s:?} s"
                 ),
             );
         }

@@ -1,11 +1,13 @@
 //! All that changes in an instance beside the model's own state: one value, saved and restored as a whole.
 
+use crate::fmi2::references;
+use model_description::BaseType;
 use serde::{Deserialize, Serialize};
 
-use crate::access::{AccessTable, BaseType, CONTINUOUS, GIVEN, INPUT};
-use crate::call_table::State;
-use crate::problem::StateMismatch;
+use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
+use crate::fmi2::problem::StateMismatch;
 use crate::variables::Values;
+use model_description::call_table::State;
 
 /// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
 pub const MAX_INPUT_DERIVATIVE_ORDER: u32 = 170;
@@ -21,8 +23,9 @@ pub(crate) struct Experiment {
 
 /// The mutable part of an instance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Memory {
-    pub(crate) state: State,
+pub(crate) struct InstanceState {
+    #[serde(with = "mode_as_number")]
+    pub(crate) mode: State,
     pub(crate) experiment: Option<Experiment>,
     /// Where the last step ended.
     pub(crate) time_s: f64,
@@ -42,11 +45,11 @@ pub(crate) struct Memory {
     pub(crate) at_last_step: Option<Values>,
 }
 
-impl Memory {
+impl InstanceState {
     /// A fresh instance.
     pub(crate) fn new(start: &Values) -> Self {
         Self {
-            state: State::Instantiated,
+            mode: State::Instantiated,
             experiment: None,
             time_s: 0.0,
             terminated: false,
@@ -63,7 +66,7 @@ impl Memory {
     pub(crate) fn copy_from(&mut self, other: &Self) {
         // Without `..` a new field cannot be forgotten.
         let Self {
-            state,
+            mode,
             experiment,
             time_s,
             terminated,
@@ -74,7 +77,7 @@ impl Memory {
             values,
             at_last_step,
         } = other;
-        self.state = *state;
+        self.mode = *mode;
         self.experiment = *experiment;
         self.time_s = *time_s;
         self.terminated = *terminated;
@@ -103,8 +106,11 @@ impl Memory {
             self.check_finite(values, access)?;
         }
         for &(reference, order, value) in &self.input_derivatives {
-            let flags =
-                access.flags(BaseType::Real).get(BaseType::Real.index(reference)).copied().unwrap_or(0);
+            let flags = access
+                .flags(BaseType::Real)
+                .get(references::index(BaseType::Real, reference))
+                .copied()
+                .unwrap_or(0);
             let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
             if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !value.is_finite() {
                 return Err(content(format!(
@@ -118,7 +124,7 @@ impl Memory {
     /// What an instance in the error state holds is for debugging; all else may be read under OK.
     fn check_finite(&self, values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
         match access.first_not_finite(values) {
-            Some((reference, value)) if self.state != State::Error => {
+            Some((reference, value)) if self.mode != State::Error => {
                 let name = access.name(BaseType::Real, reference).unwrap_or_default();
                 Err(content(format!("`{name}` is {value:?}")))
             }
@@ -127,11 +133,11 @@ impl Memory {
     }
 
     fn check_clock(&self) -> Result<(), StateMismatch> {
-        if matches!(self.state, State::StepInProgress | State::StepCanceled | State::Fatal) {
-            return Err(content(format!("no instance is saved in the state {}", self.state.name())));
+        if matches!(self.mode, State::StepInProgress | State::StepCanceled | State::Fatal) {
+            return Err(content(format!("no instance is saved in the state {}", self.mode.name())));
         }
         let started = matches!(
-            self.state,
+            self.mode,
             State::InitializationMode | State::StepComplete | State::StepFailed | State::Terminated
         );
         match self.experiment {
@@ -184,19 +190,35 @@ fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismat
     }
     // What the model computes is its own affair; what a master sets obeys the same limits here.
     let reals = access.flags(BaseType::Real).iter().zip(&values.reals).zip(&access.real_limits);
-    for (reference, ((&flags, &value), &(min, max))) in (BaseType::Real.first_reference()..).zip(reals) {
-        if flags & GIVEN != 0 && !(value >= min && value <= max) {
+    for (reference, ((&flags, &value), &(min, max))) in (references::first(BaseType::Real)..).zip(reals) {
+        if flags & SET_BY_IMPORTER != 0 && !(value >= min && value <= max) {
             let name = access.name(BaseType::Real, reference).unwrap_or_default();
             return Err(content(format!("`{name}` is {value:?}")));
         }
     }
     for (index, &value) in values.integers.iter().enumerate() {
         let flags = access.flags(BaseType::Integer).get(index).copied().unwrap_or(0);
-        if flags & GIVEN != 0 && !access.admits_integer(index, value) {
-            let reference = BaseType::Integer.first_reference() + index as u32;
+        if flags & SET_BY_IMPORTER != 0 && !access.admits_integer(index, value) {
+            let reference = references::first(BaseType::Integer) + index as u32;
             let name = access.name(BaseType::Integer, reference).unwrap_or_default();
             return Err(content(format!("`{name}` is {value}")));
         }
     }
     Ok(())
+}
+
+/// The state of the state machine as its column in the call table.
+mod mode_as_number {
+    use model_description::call_table::State;
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub(super) fn serialize<S: Serializer>(state: &State, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(*state as u8)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<State, D::Error> {
+        let column = u8::deserialize(deserializer)?;
+        let state = State::ALL.get(usize::from(column)).copied();
+        state.ok_or_else(|| D::Error::custom(format_args!("no state has the number {column}")))
+    }
 }

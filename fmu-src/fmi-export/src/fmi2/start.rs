@@ -12,7 +12,7 @@ use model_description::{
     value::{self, Misfit, Value},
 };
 
-use crate::library::Entry;
+use crate::fmi2::library::Entry;
 use crate::panics::contain;
 use crate::variables::Values;
 

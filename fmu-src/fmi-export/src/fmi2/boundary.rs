@@ -6,14 +6,15 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use std::borrow::Cow;
 use std::ffi::CString;
 
-use super::LoggerCallback;
-use crate::Status;
-use crate::blob::SavedState;
-use crate::call_table::Function;
-use crate::instance::Instance;
-use crate::logger::LogSink;
+use model_description::Status;
+use model_description::call_table::Function;
+use model_description::functions::types::{CallbackLogger, Component, FmuState};
+
+use super::instance::Instance;
+use super::logger::LogSink;
+use super::problem::{Problem, Wrong};
+use super::state_bytes::SavedState;
 use crate::panics::contain;
-use crate::problem::{Complaint, Problem};
 
 /// Their addresses tell this library's handles from those of any other, another copy of this library
 /// included, and instances from states.
@@ -31,12 +32,12 @@ fn state_mark() -> *const u8 {
 #[repr(C)]
 struct Handle {
     mark: *const u8,
-    /// A call is running: the master calls from its logger, or from two threads at once.
+    /// A call is running. A second one comes from within the logger, or from another thread at once.
     busy: AtomicBool,
     inner: UnsafeCell<Inner>,
 }
 
-/// An instance and the strings it lent out.
+/// An instance and the strings of it that the importer reads.
 pub(super) struct Inner {
     pub(super) instance: Instance,
     pub(super) lent: Lent,
@@ -65,7 +66,7 @@ impl Lent {
 }
 
 /// A new handle.
-pub(super) fn handle_of(instance: Instance) -> *mut c_void {
+pub(super) fn handle_of(instance: Instance) -> Component {
     let inner = UnsafeCell::new(Inner { instance, lent: Lent(Vec::new()) });
     let handle = Handle { mark: instance_mark(), busy: AtomicBool::new(false), inner };
     Box::into_raw(Box::new(handle)).cast()
@@ -75,7 +76,7 @@ pub(super) fn handle_of(instance: Instance) -> *mut c_void {
 ///
 /// # Safety
 /// A `component` that is not NULL points to a live handle, of whatever FMU.
-unsafe fn own<'a>(component: *mut c_void) -> Option<&'a Handle> {
+unsafe fn own<'a>(component: Component) -> Option<&'a Handle> {
     // SAFETY: the caller's promise; a foreign handle is larger than the mark that is read.
     let ours = !component.is_null() && unsafe { component.cast::<*const u8>().read() } == instance_mark();
     // SAFETY: ours and live.
@@ -85,13 +86,13 @@ unsafe fn own<'a>(component: *mut c_void) -> Option<&'a Handle> {
 /// Runs one function on one instance: finds it, keeps panics inside, gives the status.
 ///
 /// NULL, a handle of another library, and a call from within a call answer `fmi2Error` without a message,
-/// for there is nobody safe to tell.
+/// for no logger can be called safely then.
 ///
 /// # Safety
 /// As [`own`].
 #[inline]
 pub(super) unsafe fn call(
-    component: *mut c_void,
+    component: Component,
     function: Function,
     body: impl FnOnce(&mut Inner) -> Result<(), Problem>,
 ) -> c_int {
@@ -136,7 +137,7 @@ fn panicked(inner: &mut Inner, function: Function, text: &str) -> Status {
 ///
 /// # Safety
 /// As [`own`]; the component is not used again.
-pub(super) unsafe fn free(component: *mut c_void) {
+pub(super) unsafe fn free(component: Component) {
     // SAFETY: the caller's promise.
     let Some(handle) = (unsafe { own(component) }) else { return };
     if handle.busy.load(Ordering::Relaxed) {
@@ -160,7 +161,7 @@ pub(super) struct StateHandle {
 }
 
 /// A new state handle.
-pub(super) fn state_handle_of(saved: SavedState) -> *mut c_void {
+pub(super) fn state_handle_of(saved: SavedState) -> FmuState {
     Box::into_raw(Box::new(StateHandle { mark: state_mark(), saved })).cast()
 }
 
@@ -168,16 +169,13 @@ pub(super) fn state_handle_of(saved: SavedState) -> *mut c_void {
 ///
 /// # Safety
 /// A `state` that is not NULL points to a live FMU state, of whatever FMU, that nobody else uses meanwhile.
-pub(super) unsafe fn saved<'a>(
-    state: *mut c_void,
-    name: &'static str,
-) -> Result<&'a mut SavedState, Problem> {
+pub(super) unsafe fn saved<'a>(state: FmuState, name: &'static str) -> Result<&'a mut SavedState, Problem> {
     if state.is_null() {
-        return Err(Problem::Argument { name, what: Complaint::Null });
+        return Err(Problem::Argument { name, what: Wrong::Null });
     }
     // SAFETY: the caller's promise; a foreign state is larger than the mark that is read.
     if unsafe { state.cast::<*const u8>().read() } != state_mark() {
-        return Err(Problem::Argument { name, what: Complaint::NotOurs });
+        return Err(Problem::Argument { name, what: Wrong::NotOurs });
     }
     // SAFETY: ours and live.
     Ok(unsafe { &mut (*state.cast::<StateHandle>()).saved })
@@ -187,7 +185,7 @@ pub(super) unsafe fn saved<'a>(
 ///
 /// # Safety
 /// As [`saved`]; the state is not used again.
-pub(super) unsafe fn free_state(state: *mut c_void) -> Result<(), Problem> {
+pub(super) unsafe fn free_state(state: FmuState) -> Result<(), Problem> {
     // SAFETY: the caller's promise.
     unsafe { saved(state, "FMUstate") }?;
     // SAFETY: ours, made by `state_handle_of`, and never used again.
@@ -195,17 +193,17 @@ pub(super) unsafe fn free_state(state: *mut c_void) -> Result<(), Problem> {
     Ok(())
 }
 
-/// The master's logger with its environment.
-pub(super) struct MasterLogger {
-    pub(super) logger: LoggerCallback,
+/// The importer's logger with its environment.
+pub(super) struct ImporterLogger {
+    pub(super) logger: CallbackLogger,
     pub(super) environment: *mut c_void,
 }
 
-// SAFETY: the environment is only handed back to the master's own logger, in calls that the master makes;
-// from which threads it makes them is its own choice.
-unsafe impl Send for MasterLogger {}
+// SAFETY: the environment is only handed back to the importer's own logger, in calls that the importer makes, from
+// threads that it chooses.
+unsafe impl Send for ImporterLogger {}
 
-impl LogSink for MasterLogger {
+impl LogSink for ImporterLogger {
     fn write(&self, instance_name: &CStr, status: Status, category: &CStr, message: &CStr) {
         // SAFETY: the pointer is valid until the instance is freed (2.1.5); the message holds no format
         // directive, so no further argument is read.

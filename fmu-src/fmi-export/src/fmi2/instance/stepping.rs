@@ -1,10 +1,10 @@
 //! The step, and what may be asked about it.
 
 use super::Instance;
-use crate::call_table::Function;
+use crate::fmi2::problem::Problem;
 use crate::model::Step;
-use crate::problem::Problem;
 use crate::time;
+use model_description::call_table::Function;
 
 /// What a `fmi2GetXXXStatus` asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +41,7 @@ impl Instance {
     /// communication point given differs by a rounding, and ends at `point_s + step_size_s`.
     pub(crate) fn do_step(&mut self, point_s: f64, step_size_s: f64, no_return: bool) -> Result<(), Problem> {
         self.guard(Function::DoStep)?;
-        let start_s = self.memory.time_s;
+        let start_s = self.state.time_s;
         if !(step_size_s > 0.0 && step_size_s.is_finite()) {
             return Err(Problem::StepSize { time_s: point_s, step_size_s });
         }
@@ -52,42 +52,42 @@ impl Instance {
         if !(end_s > start_s && end_s.is_finite()) {
             return Err(Problem::StepSize { time_s: point_s, step_size_s });
         }
-        if let Some(stop_s) = self.memory.experiment.and_then(|experiment| experiment.stop_s)
+        if let Some(stop_s) = self.state.experiment.and_then(|experiment| experiment.stop_s)
             && end_s > stop_s
             && !time::is_same(end_s, stop_s, step_size_s)
         {
             return Err(Problem::PastStop { end_s, stop_s });
         }
         if no_return {
-            self.promised_s = self.promised_s.max(point_s);
+            self.earliest_s = self.earliest_s.max(point_s);
         }
-        let memory = &mut self.memory;
+        let state = &mut self.state;
         // An input whose derivatives are 0 stays where it is.
-        memory.input_derivatives.retain(|(_, _, derivative)| *derivative != 0.0);
+        state.input_derivatives.retain(|(_, _, derivative)| *derivative != 0.0);
         let step = Step {
             start_s,
             end_s,
-            changed: memory.derivatives_ended || !memory.input_derivatives.is_empty() || memory.differs(),
-            input_derivatives: &memory.input_derivatives,
+            changed: state.derivatives_ended || !state.input_derivatives.is_empty() || state.differs(),
+            input_derivatives: &state.input_derivatives,
         };
-        let result = self.runtime.step(&mut memory.values, &step, &self.logger);
+        let result = self.runtime.step(&mut state.values, &step, &self.logger);
         let ended = matches!(&result, Err(Problem::Model(failure)) if failure.is_terminated());
         if result.is_ok() || ended {
             self.check_finite(false)?;
         }
-        let memory = &mut self.memory;
+        let state = &mut self.state;
         match &result {
-            Ok(()) => memory.time_s = end_s,
+            Ok(()) => state.time_s = end_s,
             Err(Problem::Model(failure)) if failure.is_terminated() => {
-                memory.terminated = true;
+                state.terminated = true;
                 // A time outside the step, or none, counts as nothing done.
-                memory.time_s =
+                state.time_s =
                     failure.last_time_s().filter(|t| (start_s..=end_s).contains(t)).unwrap_or(start_s);
             }
             Err(_) => return result,
         }
-        memory.derivatives_ended = !memory.input_derivatives.is_empty();
-        memory.input_derivatives.clear();
+        state.derivatives_ended = !state.input_derivatives.is_empty();
+        state.input_derivatives.clear();
         self.forget_last_step();
         result
     }
@@ -96,7 +96,7 @@ impl Instance {
     pub(crate) fn real_status(&mut self, kind: StatusKind) -> Result<f64, Problem> {
         self.guard(Function::GetRealStatus)?;
         match kind {
-            StatusKind::LastSuccessfulTime => Ok(self.memory.time_s),
+            StatusKind::LastSuccessfulTime => Ok(self.state.time_s),
             other => Err(Problem::NoStatus { kind: other.code() }),
         }
     }
@@ -105,7 +105,7 @@ impl Instance {
     pub(crate) fn boolean_status(&mut self, kind: StatusKind) -> Result<bool, Problem> {
         self.guard(Function::GetBooleanStatus)?;
         match kind {
-            StatusKind::Terminated => Ok(self.memory.terminated),
+            StatusKind::Terminated => Ok(self.state.terminated),
             other => Err(Problem::NoStatus { kind: other.code() }),
         }
     }

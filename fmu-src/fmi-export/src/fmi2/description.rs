@@ -7,12 +7,12 @@ use model_description::{
 };
 use uuid::Uuid;
 
-use crate::access::AccessTable;
-use crate::library::Entry;
-use crate::logger::Category;
+use crate::fmi2::access::AccessTable;
+use crate::fmi2::library::Entry;
+use crate::fmi2::logger::Category;
+use crate::fmi2::start::{self, Readers};
 use crate::model::{Model, SetupError};
 use crate::runtime::{Capabilities, Parts, Typed};
-use crate::start::{self, Readers};
 use crate::variables::{Declare, DeclareError, Table, Variables};
 
 /// Name space of the GUIDs: UUIDv5 of "https://fmi-standard.org/heliotorque" in the URL name space.
@@ -42,7 +42,7 @@ pub enum DescribeError {
 }
 
 /// The description of a model with this setup, GUID included.
-pub fn describe<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
+pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
     prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
 }
 

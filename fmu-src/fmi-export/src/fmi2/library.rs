@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use crate::describe::{DescribeError, Prepared, prepare, start_names};
-use crate::location::{self, Resources};
+use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
+use crate::fmi2::location::{self, Resources};
 use crate::model::{Model, Source};
 use crate::panics::contain;
 

@@ -1,15 +1,15 @@
 //! FMU states: kept in memory, and as bytes that another process can read.
 //!
 //! Layout of the bytes, little endian: mark (8), layout version (4), GUID digest (16), payload length (8),
-//! checksum of the payload (8), payload: [`Memory`] and the model's state in postcard's format.
+//! checksum of the payload (8), payload: [`InstanceState`] and the model's state in postcard's format.
 
 use uuid::Uuid;
 
-use crate::call_table::{Function, State};
-use crate::instance::Instance;
-use crate::memory::{Memory, content};
-use crate::problem::{Problem, StateMismatch};
+use crate::fmi2::instance::Instance;
+use crate::fmi2::instance::{InstanceState, content};
+use crate::fmi2::problem::{Problem, StateMismatch};
 use crate::runtime::{ErasedState, unencodable};
+use model_description::call_table::{Function, State};
 
 const MARK: [u8; 8] = *b"FMUSTATE";
 const LAYOUT: u32 = 2;
@@ -18,7 +18,7 @@ const HEADER: usize = 8 + 4 + 16 + 8 + 8;
 /// A saved instance.
 pub(crate) struct SavedState {
     digest: Uuid,
-    memory: Memory,
+    state: InstanceState,
     model: ErasedState,
 }
 
@@ -27,11 +27,11 @@ impl Instance {
     pub(crate) fn save(&mut self, reuse: Option<&mut SavedState>) -> Result<Option<SavedState>, Problem> {
         self.guard(Function::GetFmuState)?;
         let Some(saved) = reuse else {
-            let (digest, memory, model) = (self.digest, self.memory.clone(), self.runtime.save(None));
-            return Ok(Some(SavedState { digest, memory, model }));
+            let (digest, state, model) = (self.digest, self.state.clone(), self.runtime.save(None));
+            return Ok(Some(SavedState { digest, state, model }));
         };
         self.own(saved)?;
-        saved.memory.copy_from(&self.memory);
+        saved.state.copy_from(&self.state);
         let old = core::mem::replace(&mut saved.model, Box::new(()));
         saved.model = self.runtime.save(Some(old));
         Ok(None)
@@ -43,8 +43,8 @@ impl Instance {
         self.own(saved)?;
         self.runtime.restore(&saved.model)?;
         self.forget_last_step();
-        self.memory.copy_from(&saved.memory);
-        self.check_promise(saved.memory.time_s);
+        self.state.copy_from(&saved.state);
+        self.warn_of_broken_promise(saved.state.time_s);
         Ok(())
     }
 
@@ -56,9 +56,9 @@ impl Instance {
 
     fn size(&self, saved: &SavedState) -> Result<usize, Problem> {
         self.own(saved)?;
-        let memory = postcard::serialize_with_flavor(&saved.memory, postcard::ser_flavors::Size::default())
+        let state = postcard::serialize_with_flavor(&saved.state, postcard::ser_flavors::Size::default())
             .map_err(unencodable)?;
-        Ok(HEADER + memory + self.runtime.encoded_size(&saved.model)?)
+        Ok(HEADER + state + self.runtime.encoded_size(&saved.model)?)
     }
 
     /// `fmi2SerializeFMUstate`: `bytes` must hold [`Instance::serialized_size`]; what lies beyond is kept.
@@ -70,7 +70,7 @@ impl Instance {
         else {
             return Err(StateMismatch::Length { found: given as u64, expected: needed as u64 }.into());
         };
-        let used = postcard::to_slice(&saved.memory, payload).map_err(unencodable)?.len();
+        let used = postcard::to_slice(&saved.state, payload).map_err(unencodable)?.len();
         self.runtime.encode(&saved.model, &mut payload[used..])?;
         let length = payload.len() as u64;
         let parts: [&[u8]; 5] = [
@@ -91,20 +91,20 @@ impl Instance {
     pub(crate) fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Problem> {
         self.guard(Function::DeSerializeFmuState)?;
         let payload = self.unsealed(bytes)?;
-        let (memory, rest) = postcard::take_from_bytes::<Memory>(payload)
+        let (state, rest) = postcard::take_from_bytes::<InstanceState>(payload)
             .map_err(|error| content(format!("instance: {error}")))?;
-        memory.check(&self.access)?;
+        state.check(&self.access)?;
         let model = self.runtime.decode(rest)?;
-        let steps_next = memory.state == State::StepComplete
-            || (memory.state == State::InitializationMode && !memory.needs_initialization);
-        let needs_model = steps_next || matches!(memory.state, State::StepFailed | State::Terminated);
+        let steps_next = state.mode == State::StepComplete
+            || (state.mode == State::InitializationMode && !state.needs_initialization);
+        let needs_model = steps_next || matches!(state.mode, State::StepFailed | State::Terminated);
         if needs_model && !self.runtime.is_initialized(&model) {
-            return Err(content(format!("state {} without a model state", memory.state.name())).into());
+            return Err(content(format!("state {} without a model state", state.mode.name())).into());
         }
         if steps_next {
-            self.runtime.check_time(&model, memory.time_s)?;
+            self.runtime.check_time(&model, state.time_s)?;
         }
-        Ok(SavedState { digest: self.digest, memory, model })
+        Ok(SavedState { digest: self.digest, state, model })
     }
 
     /// The payload behind a valid header.

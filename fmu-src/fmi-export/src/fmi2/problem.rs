@@ -1,10 +1,13 @@
 //! Why a call is refused. Made without allocation; turned into text only when the log listens.
 
+use crate::fmi2::references;
 use core::fmt;
+use model_description::BaseType;
 
-use crate::access::{AccessTable, BaseType};
-use crate::call_table::{Access, Function, State, allowed};
-use crate::{Failure, Status};
+use crate::Failure;
+use crate::fmi2::access::AccessTable;
+use model_description::Status;
+use model_description::call_table::{Access, Function, State, allowed};
 
 /// Why a call was not carried out.
 #[derive(Debug)]
@@ -12,7 +15,7 @@ pub(crate) enum Problem {
     /// The table forbids the call.
     Illegal { function: Function, state: State },
     /// The caller broke the C contract: null pointer, bad flag, wrong size.
-    Argument { name: &'static str, what: Complaint },
+    Argument { name: &'static str, what: Wrong },
     /// No such variable.
     UnknownReference { base: BaseType, reference: u32, count: usize },
     /// The variable exists but may not be set now.
@@ -63,7 +66,7 @@ pub(crate) enum Problem {
 
 /// What is wrong with an argument.
 #[derive(Debug)]
-pub(crate) enum Complaint {
+pub(crate) enum Wrong {
     Null,
     NotZeroOrOne(i32),
     TooLong { given: usize },
@@ -162,13 +165,13 @@ impl Explained<'_> {
 
     /// The type of a variable that is there, but not of type `base`.
     fn of_another_type(&self, base: BaseType, reference: u32) -> Option<BaseType> {
-        BaseType::of_reference(reference)
+        references::base_type(reference)
             .filter(|other| *other != base && self.access.name(*other, reference).is_some())
     }
 
     fn when_settable(&self, base: BaseType, reference: u32) -> &'static str {
-        use crate::access::{INPUT, SET_INITIALIZATION, SET_INSTANTIATED, SET_STEP};
-        let flags = self.access.flags(base).get(base.index(reference)).copied().unwrap_or(0);
+        use crate::fmi2::access::{INPUT, SET_INITIALIZATION, SET_INSTANTIATED, SET_STEP};
+        let flags = self.access.flags(base).get(references::index(base, reference)).copied().unwrap_or(0);
         match flags {
             f if f & (SET_STEP | INPUT) != 0 => "before a step",
             f if f & (SET_INSTANTIATED | SET_INITIALIZATION) != 0 => "before the end of Initialization Mode",
@@ -187,12 +190,12 @@ impl fmt::Display for Explained<'_> {
                 write!(f, "not allowed in the state {}, only in: {states}", state.name())
             }
             Problem::Argument { name, what } => match what {
-                Complaint::Null => write!(f, "argument {name} is NULL"),
-                Complaint::NotZeroOrOne(value) => {
+                Wrong::Null => write!(f, "argument {name} is NULL"),
+                Wrong::NotZeroOrOne(value) => {
                     write!(f, "argument {name} is {value}, allowed are 0 (fmi2False) and 1 (fmi2True)")
                 }
-                Complaint::TooLong { given } => write!(f, "argument {name} cannot have {given} elements"),
-                Complaint::NotOurs => write!(f, "argument {name} was not made by this library"),
+                Wrong::TooLong { given } => write!(f, "argument {name} cannot have {given} elements"),
+                Wrong::NotOurs => write!(f, "argument {name} was not made by this library"),
             },
             Problem::UnknownReference { base, reference, .. }
                 if self.of_another_type(*base, *reference).is_some() =>
@@ -207,8 +210,8 @@ impl fmt::Display for Explained<'_> {
                 f,
                 "unknown {} value reference {reference}: this model has {} to {}",
                 base.name(),
-                base.first_reference(),
-                base.first_reference() as usize + count - 1
+                references::first(*base),
+                references::first(*base) as usize + count - 1
             ),
             Problem::NotSettable { base, reference, state } => write!(
                 f,
@@ -224,7 +227,7 @@ impl fmt::Display for Explained<'_> {
                 let (min, max) = self
                     .access
                     .real_limits
-                    .get(BaseType::Real.index(*reference))
+                    .get(references::index(BaseType::Real, *reference))
                     .copied()
                     .unwrap_or((f64::MIN, f64::MAX));
                 let name = self.named(BaseType::Real, *reference);
@@ -237,7 +240,7 @@ impl fmt::Display for Explained<'_> {
                 }
             }
             Problem::IntegerOutOfRange { reference, value } => {
-                let index = BaseType::Integer.index(*reference);
+                let index = references::index(BaseType::Integer, *reference);
                 let name = self.named(BaseType::Integer, *reference);
                 write!(f, "{name} was set to {value}, ")?;
                 if let Some(Some(items)) = self.access.integer_items.get(index) {
@@ -315,7 +318,7 @@ impl fmt::Display for Explained<'_> {
                 f,
                 "log category number {} is not declared; known are {}",
                 index + 1,
-                crate::logger::Category::names()
+                crate::fmi2::logger::Category::names()
             ),
             Problem::NotInitialized => {
                 write!(f, "nothing has been computed: the initialization failed or never ran")

@@ -6,8 +6,8 @@ use std::ffi::{CStr, CString};
 
 use model_description::LogCategory;
 
-use crate::Status;
 use crate::model::Log;
+use model_description::Status;
 
 /// A log category (2.2.4). Messages carry one of the first four; `logAll` stands for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,14 +138,14 @@ impl Logger {
 
     /// Whether a message with this status would be heard.
     #[inline]
-    pub fn hears(&self, status: Status) -> bool {
+    pub fn is_enabled(&self, status: Status) -> bool {
         let category = Category::of_status(status);
         matches!(category, Category::Error) || self.enabled.get() & category.bit() != 0
     }
 
     /// Sends a message in the category of `status`; formats nothing if nobody listens.
     pub fn log(&self, status: Status, message: fmt::Arguments<'_>) {
-        if !self.hears(status) {
+        if !self.is_enabled(status) {
             return;
         }
         // A sink that logs again finds the buffer taken and gets its own.
@@ -185,7 +185,7 @@ impl Write for Escaped<'_> {
 
 impl Log for Logger {
     fn events_enabled(&self) -> bool {
-        self.hears(Status::Ok)
+        self.is_enabled(Status::Ok)
     }
 
     fn event(&self, time_s: f64, message: &str) {

@@ -1,46 +1,19 @@
-//! `fmi_export_describe`: the one function beside FMI's, from which packers obtain descriptions.
-//!
-//! ```c
-//! int fmi_export_describe(const char* model, const char* setup_file, const char* setup_text, void* context,
-//!                         void (*receive)(void* context, int kind, const char* utf8, size_t length));
-//! ```
-//!
-//! With `model` NULL the models are listed: for each one its name, the name of its setup file under
-//! `resources/` (left out if it has none), its compiled-in setup text, and by what it computes, one `quantity TAB
-//! source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for the
-//! compiled-in text if that is NULL. `setup_file` names the text in errors; NULL means the model's own file name.
-//! Returns 0, or 1 after an error was received. The texts are UTF-8 of the given length, without a NUL at the end, and live until `receive` returns.
+//! The body of `fmi_export_describe`, see [`model_description::describe`].
 
 use core::ffi::{c_char, c_int, c_void};
 
+use model_description::describe::{Receive, kind};
+
 use super::arguments::text;
-use crate::describe::DescribeError;
-use crate::library::{Entry, Library};
+use super::description::DescribeError;
+use super::library::{Entry, Library};
 use crate::panics::contain;
-
-/// Takes one text; see the module.
-pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize);
-
-/// What a received text is.
-pub mod kind {
-    /// The `modelDescription.xml`.
-    pub const XML: i32 = 0;
-    /// Why there is none.
-    pub const ERROR: i32 = 1;
-    /// The compiled-in setup text.
-    pub const SETUP_TEXT: i32 = 2;
-    /// A model's name.
-    pub const MODEL: i32 = 3;
-    /// Name of the setup file under `resources/`.
-    pub const SETUP_FILE: i32 = 4;
-    /// A quantity, a tab and by what it is computed.
-    pub const SOURCE: i32 = 5;
-}
 
 /// `fmi_export_describe` over the models of a library.
 ///
 /// # Safety
-/// Every pointer is NULL or a NUL-terminated string; `receive` may be called with `context`.
+/// Every pointer is NULL or a NUL-terminated string that lives for the time of the call; `receive` may be called with
+/// `context`.
 pub unsafe fn describe(
     library: &Library,
     model: *const c_char,

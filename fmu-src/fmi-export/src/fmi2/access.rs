@@ -3,11 +3,12 @@
 //! The arrays run parallel to the flat value tables, so a get or set costs a subtraction, one byte and one pair of
 //! limits.
 
-use model_description::rules::{Phase, gettable, settable};
+use model_description::call_table::Condition;
 use model_description::{
-    Causality, Description, ScalarVariable, SimpleTypeKind, Unknown, Variability, VariableKind,
+    BaseType, Causality, Description, ScalarVariable, SimpleTypeKind, Unknown, Variability, VariableKind,
 };
 
+use super::references;
 use crate::variables::Values;
 
 /// Settable in `instantiated`.
@@ -20,75 +21,12 @@ pub(crate) const SET_STEP: u8 = 1 << 2;
 pub(crate) const GET_INITIALIZATION: u8 = 1 << 3;
 /// An input.
 pub(crate) const INPUT: u8 = 1 << 4;
-/// Written by the master only: what is read is what was set.
-pub(crate) const GIVEN: u8 = 1 << 5;
+/// Written by the importer only: what is read is what was set.
+pub(crate) const SET_BY_IMPORTER: u8 = 1 << 5;
 /// Continuous.
 pub(crate) const CONTINUOUS: u8 = 1 << 6;
 /// An output.
 pub(crate) const OUTPUT: u8 = 1 << 7;
-
-/// The four base types of the C interface; an enumeration is an Integer there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum BaseType {
-    /// `fmi2Real`.
-    Real,
-    /// `fmi2Integer`, enumerations included.
-    Integer,
-    /// `fmi2Boolean`.
-    Boolean,
-    /// `fmi2String`.
-    String,
-}
-
-impl BaseType {
-    /// Every base type.
-    pub const ALL: [Self; 4] = [Self::Real, Self::Integer, Self::Boolean, Self::String];
-
-    /// Value reference of the first variable of this type. Every type counts on from its own, so that no reference
-    /// means two variables; tools store results by reference alone.
-    pub const fn first_reference(self) -> u32 {
-        self as u32 * Self::MOST
-    }
-
-    /// The type whose variables have references like this one.
-    pub const fn of_reference(reference: u32) -> Option<Self> {
-        match reference / Self::MOST {
-            0 => Some(Self::Real),
-            1 => Some(Self::Integer),
-            2 => Some(Self::Boolean),
-            3 => Some(Self::String),
-            _ => None,
-        }
-    }
-
-    /// Most variables of one type.
-    pub(crate) const MOST: u32 = 1_000_000;
-
-    /// Where a reference stands in the table of this type; beyond its end for another type's reference.
-    #[inline]
-    pub(crate) const fn index(self, reference: u32) -> usize {
-        reference.wrapping_sub(self.first_reference()) as usize
-    }
-
-    /// The standard's word.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Real => "Real",
-            Self::Integer => "Integer",
-            Self::Boolean => "Boolean",
-            Self::String => "String",
-        }
-    }
-
-    pub(crate) fn of(variable: &ScalarVariable) -> Self {
-        match variable.kind {
-            VariableKind::Real { .. } => Self::Real,
-            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Self::Integer,
-            VariableKind::Boolean { .. } => Self::Boolean,
-            VariableKind::String { .. } => Self::String,
-        }
-    }
-}
 
 /// The access rules of every variable of one model.
 #[derive(Debug, Default)]
@@ -108,7 +46,7 @@ pub(crate) struct AccessTable {
 }
 
 impl AccessTable {
-    /// The table of a description whose value references are dense from [`BaseType::first_reference`] on.
+    /// The table of a description whose value references are dense from [`references::first`] on.
     ///
     /// The error names a variable out of order or an enumeration without its type.
     pub(crate) fn of(description: &Description) -> Result<Self, String> {
@@ -120,17 +58,19 @@ impl AccessTable {
         };
         let unknowns = &description.structure.initial_unknowns;
         for (index, variable) in (1..).zip(&description.variables) {
-            let base_type = BaseType::of(variable);
+            let base_type = variable.kind.base_type();
             let base = base_type as usize;
             let count = table.flags[base].len();
-            if base_type.index(variable.value_reference) != count || count >= BaseType::MOST as usize {
+            if references::index(base_type, variable.value_reference) != count
+                || count >= references::MOST as usize
+            {
                 return Err(format!(
                     "variable `{}` has value reference {}, expected {} of at most {} from {}",
                     variable.name,
                     variable.value_reference,
-                    base_type.first_reference() as usize + count,
-                    BaseType::MOST,
-                    base_type.first_reference(),
+                    references::first(base_type) as usize + count,
+                    references::MOST,
+                    references::first(base_type),
                 ));
             }
             // Listed in ascending order.
@@ -204,7 +144,7 @@ impl AccessTable {
 
     #[cold]
     fn find_not_finite(values: &Values) -> Option<(u32, f64)> {
-        let numbered = (BaseType::Real.first_reference()..).zip(&values.reals);
+        let numbered = (references::first(BaseType::Real)..).zip(&values.reals);
         numbered.map(|(reference, &value)| (reference, value)).find(|(_, value)| !value.is_finite())
     }
 
@@ -220,12 +160,12 @@ impl AccessTable {
 
     /// The name behind a value reference of whatever type.
     pub(crate) fn any_name(&self, reference: u32) -> Option<&str> {
-        self.name(BaseType::of_reference(reference)?, reference)
+        self.name(references::base_type(reference)?, reference)
     }
 
     /// The name behind a value reference.
     pub(crate) fn name(&self, base: BaseType, reference: u32) -> Option<&str> {
-        self.names[base as usize].get(base.index(reference)).map(String::as_str)
+        self.names[base as usize].get(references::index(base, reference)).map(String::as_str)
     }
 }
 
@@ -237,14 +177,15 @@ fn items_of(description: &Description, type_name: &str) -> Option<Vec<i32>> {
 }
 
 fn flags_of(variable: &ScalarVariable, initial_unknown: bool) -> u8 {
-    let given = matches!(variable.causality, Causality::Input | Causality::Parameter);
+    let meets = |condition: Condition| condition.admits(variable, initial_unknown);
+    let set_by_importer = matches!(variable.causality, Causality::Input | Causality::Parameter);
     [
-        (SET_INSTANTIATED, settable(variable, Phase::Instantiated)),
-        (SET_INITIALIZATION, settable(variable, Phase::InitializationMode)),
-        (SET_STEP, settable(variable, Phase::StepComplete)),
-        (GET_INITIALIZATION, gettable(variable, initial_unknown, Phase::InitializationMode)),
+        (SET_INSTANTIATED, meets(Condition::SettableBeforeInitialization)),
+        (SET_INITIALIZATION, meets(Condition::SettableInInitialization)),
+        (SET_STEP, meets(Condition::InputOrTunable)),
+        (GET_INITIALIZATION, meets(Condition::OutputOrInitialUnknown)),
         (INPUT, variable.causality == Causality::Input),
-        (GIVEN, given),
+        (SET_BY_IMPORTER, set_by_importer),
         (CONTINUOUS, variable.variability == Variability::Continuous),
         (OUTPUT, variable.causality == Causality::Output),
     ]

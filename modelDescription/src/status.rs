@@ -4,15 +4,15 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(i32)]
 pub enum Status {
-    /// All is well.
+    /// Done.
     Ok = 0,
-    /// Something odd, but the computation goes on.
+    /// Done, with a message in the log.
     Warning = 1,
     /// Not done (a value out of range, a step given up, a status that cannot be given); the instance lives.
     Discard = 2,
     /// Not done, and the instance is in the error state.
     Error = 3,
-    /// Every instance of the FMU is beyond use.
+    /// No instance of the FMU can be used any more.
     Fatal = 4,
     /// Still running.
     Pending = 5,
@@ -31,5 +31,19 @@ impl Status {
     /// The status of a C value, if it is one.
     pub fn from_code(code: i32) -> Option<Self> {
         usize::try_from(code).ok().and_then(|index| Self::ALL.get(index)).copied()
+    }
+}
+
+impl core::fmt::Display for Status {
+    /// The standard's name.
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Ok => "fmi2OK",
+            Self::Warning => "fmi2Warning",
+            Self::Discard => "fmi2Discard",
+            Self::Error => "fmi2Error",
+            Self::Fatal => "fmi2Fatal",
+            Self::Pending => "fmi2Pending",
+        })
     }
 }

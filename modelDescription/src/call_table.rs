@@ -1,9 +1,10 @@
 //! Which function may be called in which state, and what state it leads to: FMI 2.0.5 co-simulation, 4.2.4.
 //!
-//! One table serves the exporter's guard, the harness's call checker, the generated documentation and the
-//! tests. Nothing else in the workspace knows these rules.
+//! The rows stand in [`functions!`](crate::functions!), beside the signatures. One table serves the exporter's guard, the
+//! harness's call checker and the generated documentation; the tests hold it against a second one.
 
-use crate::Status;
+use crate::rules::effective_initial;
+use crate::{Causality, Initial, ScalarVariable, Status, Variability};
 use Access::{Allowed, Conditional, Forbidden};
 use Condition::{
     Debugging, DebuggingUnlessTerminated, InputOrTunable, OutputOrInitialUnknown,
@@ -11,7 +12,7 @@ use Condition::{
 };
 
 /// The state of a co-simulation slave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum State {
     /// After `fmi2Instantiate` or `fmi2Reset`.
@@ -107,6 +108,28 @@ impl Condition {
         }
     }
 
+    /// Whether a variable meets the condition; `initial_unknown` is whether `InitialUnknowns` lists it. The conditions on
+    /// debugging say what values are good for, not whose they are: every variable meets them.
+    pub fn admits(self, variable: &ScalarVariable, initial_unknown: bool) -> bool {
+        let changes = variable.variability != Variability::Constant;
+        let initial = effective_initial(variable);
+        match self {
+            SettableBeforeInitialization => {
+                changes && matches!(initial, Some(Initial::Exact | Initial::Approx))
+            }
+            OutputOrInitialUnknown => initial_unknown || variable.causality == Causality::Output,
+            SettableInInitialization => {
+                changes && (initial == Some(Initial::Exact) || variable.causality == Causality::Input)
+            }
+            InputOrTunable => match variable.causality {
+                Causality::Input => true,
+                Causality::Parameter => variable.variability == Variability::Tunable,
+                _ => false,
+            },
+            Debugging | DebuggingUnlessTerminated => true,
+        }
+    }
+
     /// The condition in words.
     pub const fn text(self) -> &'static str {
         match self {
@@ -124,8 +147,8 @@ impl Condition {
     }
 }
 
-macro_rules! functions {
-    ($($(#[$doc:meta])* $name:ident $c_name:literal: $access:expr;)*) => {
+macro_rules! declare {
+    ($($(#[$doc:meta])* $name:ident $symbol:ident $parameters:tt -> $result:ty: $access:expr;)*) => {
         /// The functions of FMI 2.0 co-simulation.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[repr(u8)]
@@ -138,7 +161,7 @@ macro_rules! functions {
 
             /// Name of the exported symbol.
             pub const fn symbol(self) -> &'static str {
-                match self { $(Self::$name => $c_name),* }
+                match self { $(Self::$name => stringify!($symbol)),* }
             }
         }
 
@@ -163,52 +186,7 @@ const SET: [Access; State::COUNT] = [N1, N3, N6, O, O, O, O, O, O];
 const STATUS: [Access; State::COUNT] = [O, O, X, X, X, O, X, O, O];
 const ANY: [Access; State::COUNT] = [X, X, X, X, X, X, X, X, O];
 
-// Columns:                      instantiated
-//                               |  Initialization Mode
-//                               |  |   stepComplete
-//                               |  |   |  stepInProgress
-//                               |  |   |  |  stepFailed
-//                               |  |   |  |  |   stepCanceled
-//                               |  |   |  |  |   |   terminated
-//                               |  |   |  |  |   |   |  error
-//                               |  |   |  |  |   |   |  |   fatal
-functions! {
-    GetTypesPlatform "fmi2GetTypesPlatform": ANY;
-    GetVersion "fmi2GetVersion": ANY;
-    SetDebugLogging "fmi2SetDebugLogging": ANY;
-    // Needs no instance: the states of other instances do not matter, unless one of them is fatal.
-    Instantiate "fmi2Instantiate": ANY;
-    FreeInstance "fmi2FreeInstance": IDLE;
-    SetupExperiment "fmi2SetupExperiment": [X, O, O, O, O, O, O, O, O];
-    EnterInitializationMode "fmi2EnterInitializationMode": [X, O, O, O, O, O, O, O, O];
-    ExitInitializationMode "fmi2ExitInitializationMode": [O, X, O, O, O, O, O, O, O];
-    Terminate "fmi2Terminate": [O, O, X, O, X, O, O, O, O];
-    Reset "fmi2Reset": IDLE;
-    GetReal "fmi2GetReal": GET;
-    GetInteger "fmi2GetInteger": GET;
-    GetBoolean "fmi2GetBoolean": GET;
-    GetString "fmi2GetString": GET;
-    SetReal "fmi2SetReal": SET;
-    SetInteger "fmi2SetInteger": SET;
-    SetBoolean "fmi2SetBoolean": SET;
-    SetString "fmi2SetString": SET;
-    GetFmuState "fmi2GetFMUstate": [X, X, X, O, N8, N7, X, N7, O];
-    SetFmuState "fmi2SetFMUstate": IDLE;
-    FreeFmuState "fmi2FreeFMUstate": IDLE;
-    SerializedFmuStateSize "fmi2SerializedFMUstateSize": IDLE;
-    SerializeFmuState "fmi2SerializeFMUstate": IDLE;
-    DeSerializeFmuState "fmi2DeSerializeFMUstate": IDLE;
-    GetDirectionalDerivative "fmi2GetDirectionalDerivative": [O, X, X, O, N8, N7, X, N7, O];
-    SetRealInputDerivatives "fmi2SetRealInputDerivatives": [X, X, X, O, O, O, O, O, O];
-    GetRealOutputDerivatives "fmi2GetRealOutputDerivatives": [O, O, X, O, N8, X, X, N7, O];
-    DoStep "fmi2DoStep": [O, O, X, O, O, O, O, O, O];
-    CancelStep "fmi2CancelStep": [O, O, O, X, O, O, O, O, O];
-    GetStatus "fmi2GetStatus": STATUS;
-    GetRealStatus "fmi2GetRealStatus": STATUS;
-    GetIntegerStatus "fmi2GetIntegerStatus": STATUS;
-    GetBooleanStatus "fmi2GetBooleanStatus": STATUS;
-    GetStringStatus "fmi2GetStringStatus": STATUS;
-}
+crate::functions!(declare);
 
 /// Whether `function` may be called in `state`.
 #[inline]
