@@ -2,14 +2,9 @@
 
 use std::cell::Cell;
 
-<<<<<<< HEAD
 use bitflags::bitflags;
-use fmi_export::call_table::{Access, Condition, Function, Next, State, after, allowed};
-use model_description::{Description, VariableKind, rules};
-=======
 use model_description::call_table::{Access, Condition, Function, Next, State, after, allowed};
 use model_description::{BaseType, Description};
->>>>>>> export
 
 use crate::{Fmu, Status, abi::StateKey};
 
@@ -23,38 +18,16 @@ pub enum Checking {
     Off,
 }
 
-<<<<<<< HEAD
-/// Base type at the C interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Base {
-    Real,
-    Integer,
-    Boolean,
-    Text,
-}
-
-impl Base {
-    pub fn of(kind: &VariableKind) -> Self {
-        match kind {
-            VariableKind::Real { .. } => Self::Real,
-            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Self::Integer,
-            VariableKind::Boolean { .. } => Self::Boolean,
-            VariableKind::String { .. } => Self::Text,
-        }
-    }
-}
-
 bitflags! {
-    /// Which of the call table's conditions a variable meets.
+    /// Which of the conditions that restrict variables a variable meets.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     struct Conditions: u8 {
         const SETTABLE_BEFORE_INITIALIZATION = 1;
         const OUTPUT_OR_INITIAL_UNKNOWN = 1 << 1;
         const SETTABLE_IN_INITIALIZATION = 1 << 2;
         const INPUT_OR_TUNABLE = 1 << 3;
-=======
-/// For every value reference, by base type and sorted: which of the table's conditions it meets.
-pub(crate) struct AccessTable([Vec<(u32, u8)>; 4]);
+    }
+}
 
 /// The conditions that restrict which variables may be set or read.
 const RESTRICTING: [Condition; 4] = [
@@ -63,18 +36,6 @@ const RESTRICTING: [Condition; 4] = [
     Condition::SettableInInitialization,
     Condition::InputOrTunable,
 ];
-
-const fn bit(condition: Condition) -> u8 {
-    match condition {
-        Condition::SettableBeforeInitialization => 1,
-        Condition::OutputOrInitialUnknown => 2,
-        Condition::SettableInInitialization => 4,
-        Condition::InputOrTunable => 8,
-        // These restrict what the values are good for, not which variables may be read.
-        Condition::Debugging | Condition::DebuggingUnlessTerminated => 0,
->>>>>>> export
-    }
-}
 
 impl From<Condition> for Conditions {
     fn from(condition: Condition) -> Self {
@@ -103,24 +64,9 @@ impl AccessTable {
         let mut tables: [Vec<(u32, Conditions)>; 4] = Default::default();
         for (position, variable) in description.variables.iter().enumerate() {
             let listed = initial_unknown[position + 1];
-<<<<<<< HEAD
-            let settable = |phase| rules::settable(variable, phase);
-            let mut met = Conditions::empty();
-            met.set(Conditions::SETTABLE_BEFORE_INITIALIZATION, settable(rules::Phase::Instantiated));
-            met.set(
-                Conditions::OUTPUT_OR_INITIAL_UNKNOWN,
-                rules::gettable(variable, listed, rules::Phase::InitializationMode),
-            );
-            met.set(Conditions::SETTABLE_IN_INITIALIZATION, settable(rules::Phase::InitializationMode));
-            met.set(Conditions::INPUT_OR_TUNABLE, settable(rules::Phase::StepComplete));
-            tables[Base::of(&variable.kind) as usize].push((variable.value_reference, met));
-=======
-            let bits = RESTRICTING
-                .iter()
-                .filter(|it| it.admits(variable, listed))
-                .fold(0, |bits, it| bits | bit(*it));
-            tables[variable.kind.base_type() as usize].push((variable.value_reference, bits));
->>>>>>> export
+            let met = RESTRICTING.into_iter().filter(|condition| condition.admits(variable, listed));
+            let met = met.map(Conditions::from).fold(Conditions::empty(), Conditions::union);
+            tables[variable.kind.base_type() as usize].push((variable.value_reference, met));
         }
         for table in &mut tables {
             // Aliases share a reference: what one of them may, all may.
@@ -136,11 +82,7 @@ impl AccessTable {
         Self(tables)
     }
 
-<<<<<<< HEAD
-    fn met(&self, base: Base, reference: u32) -> Option<Conditions> {
-=======
-    fn bits(&self, base: BaseType, reference: u32) -> Option<u8> {
->>>>>>> export
+    fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
         let table = &self.0[base as usize];
         table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
     }
@@ -182,16 +124,11 @@ impl Checker {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
         let needed = Conditions::from(condition);
         for &reference in references {
-<<<<<<< HEAD
             let Some(met) = self.fmu.access().met(base, reference) else {
-                return Err(format!("the description has no {base:?} with value reference {reference}"));
-=======
-            let Some(bits) = self.fmu.access().bits(base, reference) else {
                 return Err(format!(
                     "the description has no {} with value reference {reference}",
                     base.name()
                 ));
->>>>>>> export
             };
             if !met.contains(needed) {
                 return Err(format!(

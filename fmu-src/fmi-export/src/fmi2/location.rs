@@ -8,13 +8,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-<<<<<<< HEAD:fmu-src/fmi-export/src/location.rs
 use percent_encoding::percent_decode;
 
-use crate::library::shown;
-=======
 use crate::fmi2::library::shown;
->>>>>>> export:fmu-src/fmi-export/src/fmi2/location.rs
 
 /// No setup file is larger than this.
 const MAX_SETUP_BYTES: u64 = 64 << 20;

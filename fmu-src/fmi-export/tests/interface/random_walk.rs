@@ -2,14 +2,8 @@
 
 use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;
-<<<<<<< HEAD
-use fmi_export::Status::{self, Discard, Error, Ok};
-use fmi_export::abi::{InProcess, StatePointer};
-use probe::panicking::Fault;
-=======
 use fmi_export::model_description::Status::{self, Discard, Error, Ok};
-use probe::panicking::Accident;
->>>>>>> export
+use probe::panicking::Fault;
 
 use super::{Random, fresh, reference};
 

@@ -147,15 +147,9 @@ fn judge(case: &Case<'_>, status: Status) -> Option<Finding> {
     );
     match (case.expected, status) {
         (_, Status::Fatal) => Some(Finding::bad(format!("{call} condemns all instances by fmi2Fatal"))),
-<<<<<<< HEAD:harness/conformance/src/probes/calls.rs
-        (_, Status::Invalid(_) | Status::Pending) => Some(Finding::bad(format!("{call} answers {status}"))),
+        (_, Status::Pending) => Some(Finding::bad(format!("{call} answers {status}"))),
         (Expected::Either, _) => None,
         (Expected::Done, Status::Ok | Status::Warning) | (Expected::Refused, Status::Error) => None,
-=======
-        (_, Status::Pending) => Some(Finding::bad(format!("{call} answers {status}"))),
-        (Wanted::Either, _) => None,
-        (Wanted::Done, Status::Ok | Status::Warning) | (Wanted::Refused, Status::Error) => None,
->>>>>>> export:harness/cli/src/check/probes/calls.rs
         // "A status that cannot be given" is fmi2Discard.
         (Expected::Done, Status::Discard) if wants_status => None,
         (Expected::Done, _) => Some(Finding::bad(format!("{call} is allowed and answers {status}"))),

@@ -1,6 +1,6 @@
 //! States: saved, restored, serialised, reset, all to the bit.
 
-use fmi_export::call_table::State;
+use model_description::call_table::State;
 use loader::Fmu;
 
 use crate::{

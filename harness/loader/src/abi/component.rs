@@ -16,13 +16,8 @@ use model_description::functions::{
 };
 
 use super::{
-<<<<<<< HEAD
-    Binary, Handle,
-    logger::{CallbackFunctions, FixedLogger, Logger, MessageBuffer, log_message},
-=======
     Binary,
-    logger::{FixedLogger, LogBook, log_message},
->>>>>>> export
+    logger::{FixedLogger, MessageBuffer, log_message},
     text,
 };
 use crate::{LogMessage, Status, calls, error::Outcome};
@@ -56,13 +51,8 @@ pub(crate) type Answer = Result<Status, Outcome>;
 /// One instance. Dropping it frees its states and itself.
 pub(crate) struct Component {
     binary: Arc<Binary>,
-<<<<<<< HEAD
-    handle: Handle,
-    book: Arc<MessageBuffer>,
-=======
     handle: types::Component,
-    book: Arc<LogBook>,
->>>>>>> export
+    book: Arc<MessageBuffer>,
     // Old FMUs read the callbacks from the caller's struct for the whole of their life.
     callbacks: *mut CallbackFunctions,
     states: Vec<Slot>,

@@ -1,18 +1,11 @@
 //! A panic or failure in any callback ends as a status of the call that met it: the process, the other
 //! instances and freeing go on.
 
-<<<<<<< HEAD:tests/probe/tests/main/faults.rs
-use fmi_export::{BaseType, Enumeration, Status, abi::InProcess, abi::StatePointer};
-use probe::{LIBRARY, panicking::Fault};
-
-const FAULT: [u32; 1] = [BaseType::Integer.first_reference()];
-=======
 use client::{InProcess, StatePointer};
 use fmi_export::{BaseType, Enumeration, Status, fmi2::references};
-use probe::{LIBRARY, panicking::Accident};
+use probe::{LIBRARY, panicking::Fault};
 
-const ACCIDENT: [u32; 1] = [references::first(BaseType::Integer)];
->>>>>>> export:tests/probe/tests/main/accidents.rs
+const FAULT: [u32; 1] = [references::first(BaseType::Integer)];
 const INPUT: [u32; 1] = [0];
 const OUTPUT: [u32; 1] = [1];
 
