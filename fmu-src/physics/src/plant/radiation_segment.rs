@@ -1,5 +1,14 @@
 //! Segments of light and heat: they change slowly and cost more than everything else, so they are computed at a few nodes of
 //! a segment of their own and read from a polynomial in between. How the flight is stepped does not matter to them.
+//!
+//! Equation: force and torque of each effect as functions of time; temperatures of surfaces that store heat.
+//! Method: interpolation at 6 Chebyshev nodes, the segment shortened until its last terms are below the tolerance
+//! ([`crate::numerics::adaptive`]); it ends at an event. Stored heat is integrated along the segment between the nodes
+//! (`stored_heat`).
+//! Order: 6 in the length.
+//! Error measure: the last two terms of force and torque, relative to the largest force and torque of all effects in the
+//! segment; a torque counts against the largest force at an arm of 1 cm at least.
+//! Reference: see [`crate::numerics::adaptive`].
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
