@@ -27,9 +27,10 @@ pub(crate) mod problem;
 pub mod references;
 mod start;
 mod state_bytes;
+mod structure;
 
 pub use describe::describe;
-pub use description::{DescribeError, description_of};
+pub use description::{DescribeError, description_of, scalar_variables};
 pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;
 pub use library::{Entry, Library};

@@ -54,8 +54,10 @@ pub(crate) enum Problem {
     NoStatus { kind: i32 },
     /// A log category that is not declared; the others were taken.
     UnknownCategory { index: usize },
-    /// Nothing has been computed that could be asked for.
-    NotInitialized,
+    /// The model ended the simulation, for this reason.
+    Terminated(String),
+    /// The model left a step at a time that is not within it.
+    StepEnd { from_s: f64, end_s: f64, came_to_s: f64 },
     /// The model itself.
     Model(Failure),
     /// An FMU state that does not fit this instance.
@@ -114,8 +116,8 @@ pub enum StateMismatch {
 }
 
 impl Problem {
-    /// The status by which `function` reports the problem.
-    pub(crate) fn status(&self, function: Function) -> Status {
+    /// The status by which a function reports the problem.
+    pub(crate) fn status(&self) -> Status {
         match self {
             Self::RealOutOfRange { .. }
             | Self::IntegerOutOfRange { .. }
@@ -123,10 +125,7 @@ impl Problem {
             | Self::NoText { .. }
             | Self::DerivativeNotFinite { .. }
             | Self::NoStatus { .. } => Status::Discard,
-            // Only a step may end a simulation by itself.
-            Self::Model(failure) if failure.is_terminated() && function == Function::DoStep => {
-                Status::Discard
-            }
+            Self::Terminated(_) => Status::Discard,
             Self::UnknownCategory { .. } => Status::Warning,
             _ => Status::Error,
         }
@@ -147,6 +146,12 @@ impl From<Failure> for Problem {
 impl From<StateMismatch> for Problem {
     fn from(mismatch: StateMismatch) -> Self {
         Self::ForeignState(mismatch)
+    }
+}
+
+impl From<Failure> for StateMismatch {
+    fn from(failure: Failure) -> Self {
+        Self::Content(failure.to_string())
     }
 }
 
@@ -320,9 +325,11 @@ impl fmt::Display for Explained<'_> {
                 index + 1,
                 crate::fmi2::logger::Category::names()
             ),
-            Problem::NotInitialized => {
-                write!(f, "nothing has been computed: the initialization failed or never ran")
-            }
+            Problem::Terminated(reason) => write!(f, "{reason}"),
+            Problem::StepEnd { from_s, end_s, came_to_s } => write!(
+                f,
+                "the model left the step from {from_s:?} to {end_s:?} s at {came_to_s:?} s, which is not within it"
+            ),
             Problem::Model(failure) => write!(f, "{failure}"),
             Problem::ForeignState(mismatch) => write!(f, "{mismatch}"),
             Problem::Poisoned => write!(

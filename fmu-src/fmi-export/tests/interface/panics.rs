@@ -49,7 +49,7 @@ fn every_accident_stays_in_its_instance() {
     let (_, description) = started("Panicking");
     let at = |name| reference(&description, name);
     let mut time_s = 0.0;
-    for item in Accident::items() {
+    for item in Accident::TYPE.items {
         let accident = Accident::from_value(item.value).unwrap();
         if matches!(accident, Accident::Initialize | Accident::FailInitialize | Accident::TerminateStep) {
             continue;
@@ -59,8 +59,11 @@ fn every_accident_stays_in_its_instance() {
         let messages = instance.take_messages();
         let panicked = messages.iter().any(|message| message.text.contains("panic"));
         match accident {
-            Accident::Nowhere => assert_eq!((status, panicked), (Ok, false)),
-            Accident::FailStep | Accident::FailSerializeState | Accident::FailCheckState => {
+            Accident::Nowhere | Accident::StepShort => assert_eq!((status, panicked), (Ok, false)),
+            Accident::FailStep
+            | Accident::StepStill
+            | Accident::FailSerializeState
+            | Accident::FailCheckState => {
                 assert_eq!((status, panicked), (Error, false), "{accident:?}");
                 assert_eq!(instance.reset(), Ok);
             }

@@ -69,12 +69,13 @@ impl Instance {
     fn take_tolerance(&mut self, tolerance: Option<f64>) {
         let Some(at) = self.tolerance.filter(|_| !self.state.tolerance_set) else { return };
         let default = self.start.real(at);
-        let limits = self.access.real_limits.get(references::index(BaseType::Real, at.reference())).copied();
+        let limits =
+            self.access.real_limits.get(references::index(BaseType::Real, references::of(at))).copied();
         let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
         // Not `clamp`, which panics where the limits are no range.
         let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
         if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance != taken) {
-            let name = self.access.any_name(at.reference()).unwrap_or_default();
+            let name = self.access.any_name(references::of(at)).unwrap_or_default();
             self.logger.log(
                 Status::Warning,
                 format_args!(

@@ -14,7 +14,7 @@ use crate::fmi2::description::Prepared;
 use crate::fmi2::logger::Logger;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
-use crate::runtime::{Capabilities, Parts, Runtime};
+use crate::runtime::Runtime;
 use crate::variables::{Real, Values};
 use model_description::BaseType;
 use model_description::Status;
@@ -31,7 +31,6 @@ mod once {
     pub(super) const READ_IN_INITIALIZATION: u8 = 1 << 1;
     pub(super) const OUTPUT_AFTER_SET: u8 = 1 << 2;
     pub(super) const STATE_BEFORE_PROMISED_TIME: u8 = 1 << 3;
-    pub(super) const NO_INTERPOLATION: u8 = 1 << 4;
 }
 
 /// One instance of one model.
@@ -41,7 +40,6 @@ pub(crate) struct Instance {
     pub(super) access: AccessTable,
     pub(super) start: Values,
     pub(super) digest: uuid::Uuid,
-    pub(super) capabilities: Capabilities,
     pub(super) logger: Logger,
     /// What has been said already.
     warned: u8,
@@ -57,7 +55,7 @@ pub(crate) struct Instance {
 impl Instance {
     /// A fresh instance.
     pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
-        let Parts { access, start, runtime, digest, capabilities } = prepared.parts;
+        let Prepared { access, start, runtime, digest, description: _ } = prepared;
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
         Self {
@@ -68,7 +66,6 @@ impl Instance {
             access,
             start,
             digest,
-            capabilities,
             logger,
             warned: 0,
             earliest_s: f64::NEG_INFINITY,
@@ -121,7 +118,7 @@ impl Instance {
 
     #[cold]
     fn refuse(&mut self, function: Function, problem: &Problem) -> Status {
-        let status = problem.status(function);
+        let status = problem.status();
         self.logger.log(status, format_args!("{}: {}", function.symbol(), problem.explain(&self.access)));
         self.follow(function, status);
         status

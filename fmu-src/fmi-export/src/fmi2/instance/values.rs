@@ -219,7 +219,7 @@ impl Instance {
     /// What the master sets of the tolerance goes before the experiment's.
     #[cold]
     fn note_tolerance(&mut self, references: &[u32]) {
-        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&at.reference()));
+        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&references::of(at)));
     }
 
     #[cold]
