@@ -21,7 +21,7 @@ pub mod variables;
 
 pub use dependencies::{Dependencies, Knowns};
 pub use fmi_export_derive::{Enumeration, Variables};
-pub use fmi2::{Entry, Given, Library, StartValue};
+pub use fmi2::{Entry, Library, SetupValue, StartValue};
 pub use model::{
     About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Model, OutputRates,
     SetupError, Source, Step, StepEnd,

@@ -35,7 +35,7 @@ pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;
 pub use library::{Entry, Library};
 pub use problem::StateMismatch;
-pub use start::{Given, StartValue};
+pub use start::{SetupValue, StartValue};
 
 /// For a shared library: its panics, which are all contained, write nothing to standard error.
 pub fn silence_panics() {

@@ -15,7 +15,7 @@ pub(crate) enum Problem {
     /// The table forbids the call.
     Illegal { function: Function, state: State },
     /// The caller broke the C contract: null pointer, bad flag, wrong size.
-    Argument { name: &'static str, what: Wrong },
+    Argument { name: &'static str, what: ArgumentError },
     /// No such variable.
     UnknownReference { base: BaseType, reference: u32, count: usize },
     /// The variable exists but may not be set now.
@@ -34,8 +34,8 @@ pub(crate) enum Problem {
     DerivativeNotFinite { reference: u32, value: f64 },
     /// A seed of a directional derivative that is not finite.
     SeedNotFinite { reference: u32, value: f64 },
-    /// A Real that the model computed, and what is behind it where that is declared.
-    NotFinite { reference: u32, value: f64, behind: Option<String> },
+    /// A Real that the model computed, and what it depends on where that is declared.
+    NotFinite { reference: u32, value: f64, depends_on: Option<String> },
     /// A derivative that the model computed, and what it is along.
     SlopeNotFinite { of: u32, along: Option<String>, value: f64 },
     /// A derivative order that is not offered.
@@ -66,9 +66,9 @@ pub(crate) enum Problem {
     Poisoned,
 }
 
-/// What is wrong with an argument.
+/// Why an argument is refused.
 #[derive(Debug)]
-pub(crate) enum Wrong {
+pub(crate) enum ArgumentError {
     Null,
     NotZeroOrOne(i32),
     TooLong { given: usize },
@@ -195,12 +195,12 @@ impl fmt::Display for Explained<'_> {
                 write!(f, "not allowed in the state {}, only in: {states}", state.name())
             }
             Problem::Argument { name, what } => match what {
-                Wrong::Null => write!(f, "argument {name} is NULL"),
-                Wrong::NotZeroOrOne(value) => {
+                ArgumentError::Null => write!(f, "argument {name} is NULL"),
+                ArgumentError::NotZeroOrOne(value) => {
                     write!(f, "argument {name} is {value}, allowed are 0 (fmi2False) and 1 (fmi2True)")
                 }
-                Wrong::TooLong { given } => write!(f, "argument {name} cannot have {given} elements"),
-                Wrong::NotOurs => write!(f, "argument {name} was not made by this library"),
+                ArgumentError::TooLong { given } => write!(f, "argument {name} cannot have {given} elements"),
+                ArgumentError::NotOurs => write!(f, "argument {name} was not made by this library"),
             },
             Problem::UnknownReference { base, reference, .. }
                 if self.of_another_type(*base, *reference).is_some() =>
@@ -273,11 +273,11 @@ impl fmt::Display for Explained<'_> {
                 "the seed of {} is {value:?}, allowed is any finite value",
                 self.named(BaseType::Real, *reference)
             ),
-            Problem::NotFinite { reference, value, behind } => {
+            Problem::NotFinite { reference, value, depends_on } => {
                 let name = self.named(BaseType::Real, *reference);
                 write!(f, "{name} came out as {value:?}, which is no finite number")?;
-                match behind {
-                    Some(behind) => write!(f, "; it depends on {behind}"),
+                match depends_on {
+                    Some(depends_on) => write!(f, "; it depends on {depends_on}"),
                     None => write!(f, "; look for inputs or parameters beyond what can be"),
                 }
             }

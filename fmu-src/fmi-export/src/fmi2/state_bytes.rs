@@ -44,7 +44,7 @@ impl Instance {
         self.runtime.restore(&saved.model).map_err(StateMismatch::from)?;
         self.forget_last_step();
         self.state.copy_from(&saved.state);
-        self.warn_of_broken_promise(saved.state.time_s);
+        self.warn_of_early_state(saved.state.time_s);
         Ok(())
     }
 

@@ -81,8 +81,8 @@ impl Lists<'_> {
         }
         // An exact output is no unknown of initialization; its row says so by an empty list.
         left.retain(|key| rows.get(key).is_some_and(|knowns| knowns.elements().next().is_some()));
-        let Some(stranger) = left.first() else { return Ok(()) };
-        let name = &self.variables[self.index(**stranger)? as usize - 1].name;
+        let Some(extra) = left.first() else { return Ok(()) };
+        let name = &self.variables[self.index(**extra)? as usize - 1].name;
         Err(format!("the model's dependencies have a row for `{name}`, which is no unknown there"))
     }
 

@@ -91,7 +91,7 @@ impl Instance {
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
         self.guard(Function::ExitInitializationMode)?;
         self.initialize_if_needed()?;
-        self.warm_up();
+        self.allocate_spare();
         Ok(())
     }
 
@@ -122,12 +122,12 @@ impl Instance {
         Ok(())
     }
 
-    /// Notes that the master goes back behind a time it promised not to.
-    pub(crate) fn warn_of_broken_promise(&mut self, time_s: f64) {
+    /// Warns where a state from before `noSetFMUStatePriorToCurrentPoint` is set.
+    pub(crate) fn warn_of_early_state(&mut self, time_s: f64) {
         let earliest_s = self.earliest_s;
         if time_s < earliest_s {
             self.warn_once(
-                once::STATE_BEFORE_PROMISED_TIME,
+                once::EARLY_STATE,
                 format_args!(
                     "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {earliest_s:?} s"
                 ),

@@ -190,7 +190,7 @@ fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismat
             return Err(content(format!("{length} {} values, the model has {expected}", base.name())));
         }
     }
-    // What the model computes is its own affair; what a master sets obeys the same limits here.
+    // Limits are for what a master sets, here as at the C functions.
     let reals = access.flags(BaseType::Real).iter().zip(&values.reals).zip(&access.real_limits);
     for (reference, ((&flags, &value), &(min, max))) in (references::first(BaseType::Real)..).zip(reals) {
         if flags & SET_BY_IMPORTER != 0 && !(value >= min && value <= max) {
