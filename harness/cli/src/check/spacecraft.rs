@@ -9,8 +9,8 @@ use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
 use toml::{Table, de::DeTable};
 
 use crate::{
-    app::Outcome,
     args::{Check, DEFAULT_TEMPLATE},
+    outcome::Outcome,
     pack::{read_text, source},
 };
 

@@ -2,6 +2,7 @@
 //!
 //! A surface given by its outline is drawn as that polygon, any other as a square of its area; panels stand at angle 0.
 
+mod canvas;
 mod spinner;
 
 use std::fmt::Write;
@@ -12,17 +13,13 @@ use physics::{
 };
 use resvg::{tiny_skia, usvg};
 
-const WIDTH: f64 = 480.0;
-const HEIGHT: f64 = 320.0;
-const MARGIN: f64 = 28.0;
+use canvas::{HEIGHT, MARGIN, Vector, WIDTH, cross, dot, unit};
 
 /// From the spacecraft to the viewer, body frame; -Y points to the Sun and -Z is drawn upwards.
 const VIEW: [f64; 3] = [0.52, -0.78, -0.35];
 const UP: [f64; 3] = [0.0, 0.0, -1.0];
 /// Where the light comes from in the picture.
 const LIGHT: [f64; 3] = [-0.25, -0.85, -0.46];
-
-type Vector = [f64; 3];
 
 /// A flat polygon in space.
 struct Surface {
@@ -196,19 +193,6 @@ fn cell_lines(surface: &Surface, screen: &dyn Fn(Vector) -> (f64, f64)) -> Strin
     format!(
         "<path d=\"{path}\" stroke=\"#c9d8f0\" stroke-opacity=\"0.55\" stroke-width=\"0.8\" fill=\"none\"/>"
     )
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(a: Vector) -> Option<Vector> {
-    let length = dot(a, a).sqrt();
-    (length.is_finite() && length > 1e-9).then(|| a.map(|x| x / length))
 }
 
 #[cfg(test)]

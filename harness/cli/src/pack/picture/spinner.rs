@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::{HEIGHT, MARGIN, Vector, WIDTH, dot, unit};
+use super::canvas::{HEIGHT, MARGIN, Vector, WIDTH, dot, unit};
 
 /// Lengths as parts of the cylinder's radius.
 const NOZZLE: f64 = 0.16;
