@@ -12,7 +12,10 @@ use crate::sources::{is_for_tests, workspace};
 const CRATES: &[(&str, &[&[&str]])] = &[
     ("harness/files", &[]),
     ("harness/terminal", &[]),
-    ("harness/loader", &[]),
+    (
+        "harness/loader",
+        &[&["abi/component.rs", "abi/describe.rs", "abi/logger.rs", "abi/mod.rs", "calls.rs"]],
+    ),
     ("harness/conformance", &[]),
     ("harness/studies", &[]),
     ("harness/planner", &[]),

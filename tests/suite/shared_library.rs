@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use fmi_export::Enumeration;
-use loader::{Fmu, InstanceOptions, Value, platform_folders};
+use loader::{Fmu, Instance, InstanceOptions, Value, platform_folders};
 use probe::panicking::Fault;
 
 use crate::support::{LIBRARY, built, description};
@@ -26,7 +26,7 @@ pub fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
 }
 
 fn running(fmu: &Fmu, name: &str) -> loader::Instance {
-    let mut instance = fmu.instantiate(name, &InstanceOptions::default()).unwrap();
+    let mut instance = Instance::new(fmu, name, &InstanceOptions::default()).unwrap();
     instance.setup_experiment(None, 0.0, None).unwrap();
     instance.enter_initialization_mode().unwrap();
     instance.exit_initialization_mode().unwrap();

@@ -25,7 +25,7 @@ pub fn run(arguments: &Info) -> Outcome {
         } else {
             let mut positions = Vec::new();
             for pattern in &arguments.only {
-                positions.extend(loader::select(&fmu, pattern)?);
+                positions.extend(fmu.select(pattern)?);
             }
             positions
         };

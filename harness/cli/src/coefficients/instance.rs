@@ -6,7 +6,7 @@ use model_description::{Causality, Variability};
 /// An instance just initialised with these values: from then on parameters can be read too.
 pub fn started(fmu: &Fmu, sets: &[(String, Value)]) -> Result<Instance, Error> {
     let times = Times::of(fmu, None, None, None)?;
-    let mut instance = fmu.instantiate("info", &InstanceOptions::default())?;
+    let mut instance = Instance::new(fmu, "info", &InstanceOptions::default())?;
     instance.setup_experiment(None, times.start_s, None)?;
     let mut inputs = Vec::new();
     for (name, value) in sets {

@@ -10,7 +10,8 @@ use fmi_export::call_table::Function;
 use crate::{
     CallError, Callbacks, Checking, Error, Fmu, LogMessage, Status,
     abi::{Answer, Component, Start, StateKey},
-    checker::{Base, Checker},
+    access::Base,
+    checker::Checker,
     error::{MESSAGES_SHOWN, Outcome},
     uri::file_uri,
 };
@@ -69,7 +70,8 @@ impl std::fmt::Debug for Instance {
 }
 
 impl Instance {
-    pub(crate) fn new(fmu: &Fmu, name: &str, options: &InstanceOptions) -> Result<Self, Error> {
+    /// Instantiates the FMU; its library is loaded if it is not yet.
+    pub fn new(fmu: &Fmu, name: &str, options: &InstanceOptions) -> Result<Self, Error> {
         let binary = fmu.binary()?;
         let resources = match &options.resources {
             Resources::Folder => Some(file_uri(&fmu.folder().join("resources"))),

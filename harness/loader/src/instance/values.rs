@@ -4,7 +4,7 @@ use fmi_export::call_table::Function;
 use model_description::{ScalarVariable, VariableKind};
 
 use super::Instance;
-use crate::{Error, Value, checker::Base};
+use crate::{Error, Value, access::Base};
 
 impl Instance {
     /// `fmi2GetReal`.
