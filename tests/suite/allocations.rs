@@ -1,8 +1,8 @@
 //! Real, Integer and Boolean get and set and doStep ask for no memory once an instance has simulated a while.
 
-use fmi_export::Status;
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use heliotorque_tests::counting::{Count, counted};
+use model_description::Status;
 
 use crate::scenarios::{Scenario, Simulation};
 use crate::support::{Base, LIBRARY, Names, library, names, ok, silent};

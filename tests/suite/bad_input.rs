@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fmi_export::abi::{InProcess, Message};
+use client::{InProcess, Message};
 use fmi_export::{Library, Model, Status};
 use models::MomentumPlant;
 

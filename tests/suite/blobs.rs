@@ -1,8 +1,8 @@
 //! Whatever bytes reach fmi2DeSerializeFMUstate, the answer is a status and the instance lives.
 
-use fmi_export::Status;
-use fmi_export::abi::{InProcess, StatePointer};
+use client::{InProcess, StatePointer};
 use heliotorque_tests::counting::counted;
+use model_description::Status;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 

@@ -1,6 +1,6 @@
 //! The plant at the edges of what a master may ask for.
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 
 use crate::support::{Base, Names, fresh, names, ok, real_bits, silent};
 

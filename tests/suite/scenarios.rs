@@ -1,6 +1,6 @@
 //! Ways to simulate a model that exercise all of it: inputs that change, derivatives, requests, tunables, odd steps.
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 
 use crate::support::Base::{Boolean, Integer};
 use crate::support::{Names, RandomNumbers, names, ok, silent};

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fmi_export::abi::{InProcess, StatePointer};
+use client::{InProcess, StatePointer};
 
 use crate::scenarios::{Scenario, Simulation};
 use crate::support::{self, Base, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok};
@@ -184,7 +184,7 @@ fn reset_is_a_fresh_instance_from_every_mode() {
         }
         // Out of the error state.
         let mut instance = fresh(model);
-        assert_ne!(instance.terminate(), fmi_export::Status::Ok);
+        assert_ne!(instance.terminate(), model_description::Status::Ok);
         ok(instance.reset());
         assert_eq!(instance.state_bytes(), expected, "{model} after an error");
     }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library, Status};
 use model_description::{Description, VariableKind};
 use models::{DisturbanceTorque, MomentumPlant, SpinPlant};

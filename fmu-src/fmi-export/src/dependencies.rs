@@ -9,9 +9,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use model_description::{Causality, Initial, ModelStructure, ScalarVariable, Unknown, Variability, rules};
+use model_description::{
+    BaseType, Causality, Initial, ModelStructure, ScalarVariable, Unknown, Variability, rules,
+};
 
-use crate::access::BaseType;
 use crate::variables::{Boolean, Choice, Integer, Real, RealMatrix, RealVector, Text};
 
 /// A scalar variable: base type and value reference.
@@ -127,7 +128,7 @@ impl Dependencies {
     ///
     /// The error names an unknown without a row, a row without an unknown, or a known that the standard does not admit.
     pub(crate) fn structure(&self, variables: &[ScalarVariable]) -> Result<ModelStructure, String> {
-        let keys: Vec<Key> = variables.iter().map(|v| (BaseType::of(v), v.value_reference)).collect();
+        let keys: Vec<Key> = variables.iter().map(|v| (v.kind.base_type(), v.value_reference)).collect();
         let index_of: BTreeMap<Key, u32> = keys.iter().copied().zip(1..).collect();
         let lists = Lists { variables, keys: &keys, index_of: &index_of };
         let mut structure = rules::structure(variables);

@@ -10,37 +10,19 @@
 #[cfg(test)]
 extern crate self as fmi_export;
 
-pub mod abi;
-mod access;
-mod blob;
-pub mod call_table;
 mod dependencies;
-mod describe;
-mod instance;
-mod library;
-mod location;
-pub mod logger;
-mod memory;
+pub mod fmi2;
 pub mod model;
 mod panics;
-mod problem;
 mod runtime;
-mod start;
-mod status;
 pub mod time;
 pub mod variables;
 
-pub use access::BaseType;
 pub use dependencies::{Dependencies, Knowns};
-pub use describe::{DescribeError, describe};
 pub use fmi_export_derive::{Enumeration, Variables};
-pub use library::{Entry, Library};
-pub use memory::MAX_INPUT_DERIVATIVE_ORDER;
+pub use fmi2::{Entry, Given, Library, StartValue};
 pub use model::{About, Context, Failure, Model, SetupError, Source, Step};
-pub use model_description;
-pub use problem::StateMismatch;
-pub use start::{Given, StartValue};
-pub use status::Status;
+pub use model_description::{self, BaseType, Status};
 pub use variables::{
     Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Real, RealMatrix, RealVector, Text, Values,
     Variables,

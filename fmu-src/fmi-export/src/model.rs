@@ -3,7 +3,7 @@
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::dependencies::Dependencies;
-use crate::start::StartValue;
+use crate::fmi2::StartValue;
 use crate::variables::{Real, RealVector, Values, Variables};
 
 /// A co-simulation model.

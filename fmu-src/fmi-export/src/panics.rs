@@ -1,4 +1,4 @@
-//! A panic stays inside: caught, turned into text, and its payload buried.
+//! A panic stays inside: caught, turned into text, and its payload dropped.
 
 use core::cell::Cell;
 use std::any::Any;
@@ -23,7 +23,7 @@ thread_local! {
 
 /// For a shared library, whose every panic is contained: nothing goes to standard error, where the usual hook, if
 /// RUST_BACKTRACE is set, also maps the library's file into memory for good.
-pub(crate) fn keep_quiet() {
+pub(crate) fn silence() {
     static ONCE: Once = Once::new();
     // Neither captures anything: nothing is allocated that nobody could free.
     ONCE.call_once(|| set_hook(Box::new(note)));
@@ -47,12 +47,12 @@ fn note(info: &PanicHookInfo<'_>) {
 /// drop it or to read plain data.
 #[inline]
 pub(crate) fn contain<T>(body: impl FnOnce() -> T) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(body)).map_err(bury)
+    catch_unwind(AssertUnwindSafe(body)).map_err(text_of)
 }
 
 /// The text of a panic. Dropping the payload may panic in turn; then that payload is dropped if it is text, else leaked.
 #[cold]
-fn bury(payload: Box<dyn Any + Send>) -> String {
+fn text_of(payload: Box<dyn Any + Send>) -> String {
     let mut text = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
         (Some(text), _) => (*text).to_owned(),
         (_, Some(text)) => text.clone(),

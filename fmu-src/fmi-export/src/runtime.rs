@@ -2,10 +2,10 @@
 
 use std::any::Any;
 
-use crate::access::AccessTable;
-use crate::memory::content;
+use crate::fmi2::access::AccessTable;
+use crate::fmi2::instance::content;
+use crate::fmi2::problem::{Problem, StateMismatch};
 use crate::model::{Context, Failure, Log, Model, Step};
-use crate::problem::{Problem, StateMismatch};
 use crate::variables::{Real, Values};
 
 /// A model's state, its type erased: an `Option<M::State>`, `None` before initialization.

@@ -1,7 +1,7 @@
 //! What the probes share: an instance brought to a state, and everything it says as bits.
 
-use fmi_export::call_table::State;
 use loader::{Checking, Error, Fmu, Instance, InstanceOptions, Times};
+use model_description::call_table::State;
 use model_description::{Causality, VariableKind};
 
 /// Steps of a short simulation.

@@ -1,28 +1,7 @@
 //! Which conditions of the call table the variables of an FMU meet.
 
 use bitflags::bitflags;
-use fmi_export::call_table::Condition;
-use model_description::{Description, VariableKind, rules};
-
-/// Base type at the C interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Base {
-    Real,
-    Integer,
-    Boolean,
-    Text,
-}
-
-impl Base {
-    pub fn of(kind: &VariableKind) -> Self {
-        match kind {
-            VariableKind::Real { .. } => Self::Real,
-            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Self::Integer,
-            VariableKind::Boolean { .. } => Self::Boolean,
-            VariableKind::String { .. } => Self::Text,
-        }
-    }
-}
+use model_description::{BaseType, Description, call_table::Condition};
 
 bitflags! {
     /// Which of the call table's conditions a variable meets.
@@ -48,6 +27,14 @@ impl From<Condition> for Conditions {
     }
 }
 
+/// The conditions that restrict which variables may be set or read.
+const RESTRICTING: [Condition; 4] = [
+    Condition::SettableBeforeInitialization,
+    Condition::OutputOrInitialUnknown,
+    Condition::SettableInInitialization,
+    Condition::InputOrTunable,
+];
+
 /// For every value reference, by base type and sorted: which of the table's conditions it meets.
 pub(crate) struct AccessTable([Vec<(u32, Conditions)>; 4]);
 
@@ -62,16 +49,12 @@ impl AccessTable {
         let mut tables: [Vec<(u32, Conditions)>; 4] = Default::default();
         for (position, variable) in description.variables.iter().enumerate() {
             let listed = initial_unknown[position + 1];
-            let settable = |phase| rules::settable(variable, phase);
-            let mut met = Conditions::empty();
-            met.set(Conditions::SETTABLE_BEFORE_INITIALIZATION, settable(rules::Phase::Instantiated));
-            met.set(
-                Conditions::OUTPUT_OR_INITIAL_UNKNOWN,
-                rules::gettable(variable, listed, rules::Phase::InitializationMode),
-            );
-            met.set(Conditions::SETTABLE_IN_INITIALIZATION, settable(rules::Phase::InitializationMode));
-            met.set(Conditions::INPUT_OR_TUNABLE, settable(rules::Phase::StepComplete));
-            tables[Base::of(&variable.kind) as usize].push((variable.value_reference, met));
+            let met = RESTRICTING
+                .into_iter()
+                .filter(|condition| condition.admits(variable, listed))
+                .map(Conditions::from)
+                .collect();
+            tables[variable.kind.base_type() as usize].push((variable.value_reference, met));
         }
         for table in &mut tables {
             // Aliases share a reference: what one of them may, all may.
@@ -87,7 +70,7 @@ impl AccessTable {
         Self(tables)
     }
 
-    pub fn met(&self, base: Base, reference: u32) -> Option<Conditions> {
+    pub fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
         let table = &self.0[base as usize];
         table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
     }

@@ -2,13 +2,10 @@
 
 use std::cell::Cell;
 
-use fmi_export::call_table::{Access, Function, Next, State, after, allowed};
+use model_description::BaseType;
+use model_description::call_table::{Access, Function, Next, State, after, allowed};
 
-use crate::{
-    Fmu, Status,
-    abi::StateKey,
-    access::{Base, Conditions},
-};
+use crate::{Fmu, Status, abi::StateKey, access::Conditions};
 
 /// Whether forbidden calls are refused by the harness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -47,12 +44,20 @@ impl Checker {
     }
 
     /// As [`Checker::allow`], and every variable meets the condition of the state.
-    pub fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), String> {
+    pub fn allow_variables(
+        &self,
+        function: Function,
+        references: &[u32],
+        base: BaseType,
+    ) -> Result<(), String> {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
         let needed = Conditions::from(condition);
         for &reference in references {
             let Some(met) = self.fmu.access().met(base, reference) else {
-                return Err(format!("the description has no {base:?} with value reference {reference}"));
+                return Err(format!(
+                    "the description has no {} with value reference {reference}",
+                    base.name()
+                ));
             };
             if !met.contains(needed) {
                 return Err(format!(
@@ -80,10 +85,10 @@ impl Checker {
         Ok(access)
     }
 
-    fn name_of(&self, base: Base, reference: u32) -> String {
+    fn name_of(&self, base: BaseType, reference: u32) -> String {
         let mut variables = self.fmu.description().variables.iter();
         variables
-            .find(|variable| variable.value_reference == reference && Base::of(&variable.kind) == base)
+            .find(|variable| variable.value_reference == reference && variable.kind.base_type() == base)
             .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
     }
 
@@ -96,14 +101,6 @@ impl Checker {
                 _ => {}
             }
         }
-        let status = match status {
-            Status::Ok => fmi_export::Status::Ok,
-            Status::Warning => fmi_export::Status::Warning,
-            Status::Discard => fmi_export::Status::Discard,
-            Status::Error | Status::Invalid(_) => fmi_export::Status::Error,
-            Status::Fatal => fmi_export::Status::Fatal,
-            Status::Pending => fmi_export::Status::Pending,
-        };
         // From an unknown state, what happens next tells as if the steps were complete.
         let known = self.state.get();
         let next = after(function, known.unwrap_or(State::StepComplete), status);
@@ -135,8 +132,8 @@ impl Checker {
 }
 
 /// Whether the call's answer fixes the state whatever it was before.
-fn tells_state(function: Function, status: fmi_export::Status) -> bool {
-    use fmi_export::Status::{Discard, Error, Fatal, Ok, Warning};
+fn tells_state(function: Function, status: model_description::Status) -> bool {
+    use model_description::Status::{Discard, Error, Fatal, Ok, Warning};
     match status {
         Error | Fatal => true,
         Ok | Warning | Discard => matches!(

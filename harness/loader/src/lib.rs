@@ -30,12 +30,13 @@ pub use error::{CallError, Error, Outcome};
 pub use fmu::{Fmu, platform_folders};
 pub use inputs::InputTable;
 pub use instance::{Instance, InstanceOptions, Resources, State};
+pub use model_description::Status;
 pub use model_description::value::{Value, display_unit, unit};
 pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
 pub use simulate::{
     Ended, Options, Simulation, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
 };
-pub use status::{LogMessage, Status};
+pub use status::LogMessage;
 pub use uri::file_uri;
 pub use values::{Assigned, assignment, parse_assignment, parse_value};

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use model_description::call_table::Condition;
 use model_description::{Causality, Initial, Variability, rules};
 
 use crate::{
@@ -297,7 +298,7 @@ impl<'a> InputSetter<'a> {
     fn set(&mut self, instance: &mut Instance, time_s: f64, initializing: bool) -> Result<(), Error> {
         for (column, variable) in self.variables.iter().enumerate() {
             // A tunable parameter keeps its start value through initialization mode if it is not exact.
-            if initializing && !rules::settable(variable, rules::Phase::InitializationMode) {
+            if initializing && !Condition::SettableInInitialization.admits(variable, false) {
                 continue;
             }
             let value = self.table.value(column, time_s);

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use fmi_export::Status;
+use fmi_export::model_description::Status;
 use heliotorque_fuzz::{HEADER, MODELS, Subject};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library, Status};
 use model_description::VariableKind;
 use models::{DisturbanceTorque, MomentumPlant, SpinPlant};

@@ -1,7 +1,7 @@
 //! Any bytes under a right seal are refused or usable: the first byte picks the model, the others are the payload.
 #![no_main]
 
-use fmi_export::Status;
+use fmi_export::model_description::Status;
 use heliotorque_fuzz::Subject;
 use libfuzzer_sys::{Corpus, fuzz_target};
 

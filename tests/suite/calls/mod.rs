@@ -8,8 +8,8 @@ mod variables;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use fmi_export::Status;
-use fmi_export::abi::{InProcess, Message, StatePointer};
+use client::{InProcess, Message, StatePointer};
+use model_description::Status;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngSeed, TestRunner};

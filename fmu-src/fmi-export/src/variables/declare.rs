@@ -4,14 +4,14 @@ use core::marker::PhantomData;
 use std::collections::BTreeSet;
 
 use model_description::{
-    Causality, Initial, RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind, Variability,
+    BaseType, Causality, Initial, RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind, Variability,
     VariableKind, rules, units,
 };
 
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 use super::values::Values;
-use crate::access::BaseType;
+use crate::fmi2::references;
 
 /// Why a declaration is wrong; names the variable.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -301,12 +301,13 @@ impl Declare {
             can_handle_multiple_set_per_time_instant: None,
             kind,
         };
-        let base = BaseType::of(&variable);
-        if index >= BaseType::MOST {
-            let problem = format!("is one {} too many; at most {} are allowed", base.name(), BaseType::MOST);
+        let base = variable.kind.base_type();
+        if index >= references::MOST {
+            let problem =
+                format!("is one {} too many; at most {} are allowed", base.name(), references::MOST);
             return Err(self.error(name, problem));
         }
-        variable.value_reference = base.first_reference() + index;
+        variable.value_reference = references::first(base) + index;
         let is_real = base == BaseType::Real;
         self.checked(name, check::name(&full))?;
         self.checked(name, check::role(role, is_real, rules::has_start(&variable)))?;

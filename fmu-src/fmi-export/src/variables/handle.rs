@@ -2,9 +2,9 @@
 
 use core::marker::PhantomData;
 
-use model_description::EnumerationItem;
+use model_description::{BaseType, EnumerationItem};
 
-use crate::access::BaseType;
+use crate::fmi2::references;
 
 macro_rules! scalar_handle {
     ($(#[$doc:meta])* $name:ident, $base:ident) => {
@@ -15,7 +15,7 @@ macro_rules! scalar_handle {
         impl $name {
             /// The FMI value reference.
             pub fn reference(self) -> u32 {
-                BaseType::$base.first_reference() + self.0
+                references::first(BaseType::$base) + self.0
             }
         }
     };
@@ -45,7 +45,7 @@ scalar_handle!(
 impl Real {
     /// The handle of a value reference, for code that walks references.
     pub fn from_reference(reference: u32) -> Self {
-        Self(reference.wrapping_sub(BaseType::Real.first_reference()))
+        Self(reference.wrapping_sub(references::first(BaseType::Real)))
     }
 }
 
@@ -56,7 +56,7 @@ pub struct RealVector<const N: usize>(pub(super) u32);
 impl<const N: usize> RealVector<N> {
     /// Reference of the first element.
     pub fn reference(self) -> u32 {
-        BaseType::Real.first_reference() + self.0
+        references::first(BaseType::Real) + self.0
     }
 
     /// Element `index`, 0-based, below `N`.
@@ -73,7 +73,7 @@ pub struct RealMatrix<const R: usize, const C: usize>(pub(super) u32);
 impl<const R: usize, const C: usize> RealMatrix<R, C> {
     /// Reference of element (1,1).
     pub fn reference(self) -> u32 {
-        BaseType::Real.first_reference() + self.0
+        references::first(BaseType::Real) + self.0
     }
 
     /// Element at 0-based `row` and `column`.
@@ -98,7 +98,7 @@ impl<E> Copy for Choice<E> {}
 impl<E> Choice<E> {
     /// The FMI value reference, one of the Integers'.
     pub fn reference(self) -> u32 {
-        BaseType::Integer.first_reference() + self.0
+        references::first(BaseType::Integer) + self.0
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use fmi_export::{
     BaseType, Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Real, RealMatrix, RealVector,
-    Text, Variables,
+    Text, Variables, fmi2::references,
 };
 use model_description::{ScalarVariable, SimpleTypeKind, VariableKind};
 
@@ -147,7 +147,7 @@ fn references_are_unique_and_dense_for_each_base_type_in_order() {
     let (variables, table) = craft();
     let all: BTreeSet<_> = table.variables.iter().map(|variable| variable.value_reference).collect();
     assert_eq!(all.len(), table.variables.len());
-    let mut next = BaseType::ALL.map(BaseType::first_reference);
+    let mut next = BaseType::ALL.map(references::first);
     for variable in &table.variables {
         let base = match variable.kind {
             VariableKind::Real { .. } => 0,

@@ -1,8 +1,8 @@
 //! A panic in any callback ends its instance with an error and a message; everybody else lives.
 
+use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;
-use fmi_export::Status::{self, Error, Ok};
-use fmi_export::abi::{InProcess, StatePointer};
+use fmi_export::model_description::Status::{self, Error, Ok};
 use probe::panicking::Fault;
 
 use super::{reference, started};

@@ -1,8 +1,8 @@
 //! Random legal and illegal calls are answered as the standard's text says, state by state.
 
+use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;
-use fmi_export::Status::{self, Discard, Error, Ok};
-use fmi_export::abi::{InProcess, StatePointer};
+use fmi_export::model_description::Status::{self, Discard, Error, Ok};
 use probe::panicking::Fault;
 
 use super::{Random, fresh, reference};

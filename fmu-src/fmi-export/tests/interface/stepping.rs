@@ -1,7 +1,7 @@
 //! Steps end where they should, whatever roundings the master's clock has; wrong times are errors.
 
-use fmi_export::Status::{Discard, Error, Ok, Warning};
-use fmi_export::abi::StatePointer;
+use client::StatePointer;
+use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
 
 use super::{fresh, only_message, real, reference, started};
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use fmi_export::abi::{InProcess, StatePointer};
+use client::{InProcess, StatePointer};
 use fmi_export::{Entry, Library, Status};
 use models::MomentumPlant;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};

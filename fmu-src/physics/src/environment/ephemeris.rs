@@ -18,7 +18,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::{Matrix3, SVector, Vector3};
 
-use super::{State, orbit::kepler::eccentric_anomaly_rad, time::julian_date};
+use super::{CartesianState, orbit::kepler::eccentric_anomaly_rad, time::julian_date};
 use crate::{
     bodies::Body,
     constants::{ASTRONOMICAL_UNIT_M, DAY_S},
@@ -55,7 +55,7 @@ impl Ephemeris {
     ///
     /// The velocity is the derivative of the position, within 0.01 m/s, or 0.5 m/s for the Earth. Beyond
     /// [`VALID_EPOCH_S`] the series loses its meaning; an epoch that is not finite gives NaN.
-    pub fn state(&mut self, body: Body, epoch_s: f64) -> State {
+    pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
         let (position_m, velocity_m_s) = match body {
             Body::Sun => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
             Body::Mercury => self.mercury.state(epoch_s, vsop87::mercury, 26_087.903_141_574_2),
@@ -67,7 +67,7 @@ impl Ephemeris {
                 self.earth.segment(epoch_s, LONG_S, position).value_and_derivative(epoch_s)
             }
         };
-        State { position_m, velocity_m_s }
+        CartesianState { position_m, velocity_m_s }
     }
 
     /// How often VSOP87 itself was evaluated so far, which takes some 100 to 200 microseconds each time.
@@ -342,7 +342,7 @@ mod tests {
     fn keplers_laws() {
         // Semi-major axes 0.38710 and 0.72333 AU: vis-viva energy, within what other planets do to it.
         let mut ephemeris = Ephemeris::default();
-        let semi_major_axis_au = |state: State| {
+        let semi_major_axis_au = |state: CartesianState| {
             let inverse = 2.0 / state.position_m.norm() - state.velocity_m_s.norm_squared() / GM_SUN_M3_S2;
             1.0 / (inverse * ASTRONOMICAL_UNIT_M)
         };

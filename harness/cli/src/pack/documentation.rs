@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use fmi_export::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
+use model_description::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
 use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind, escape};
 
 use crate::info;

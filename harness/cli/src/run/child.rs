@@ -165,7 +165,7 @@ impl<'a> Inbox<'a> {
 }
 
 fn message(payload: &mut Payload<'_>) -> Option<LogMessage> {
-    let status = Status::from(payload.word()? as u32 as i32);
+    let status = Status::from_code(payload.word()? as u32 as i32).unwrap_or(Status::Error);
     let category = if payload.word()? == 0 { None } else { Some(payload.text()?) };
     Some(LogMessage { status, category, text: payload.text()? })
 }

@@ -1,7 +1,7 @@
 //! Times that test how an FMU compares times: those masters really give, and wrong ones.
 
-use fmi_export::call_table::State;
 use loader::{Error, Fmu, Times};
+use model_description::call_table::State;
 
 use crate::{
     Finding,

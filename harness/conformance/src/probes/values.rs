@@ -1,7 +1,7 @@
 //! Variables: start values, limits, references, and derivatives.
 
-use fmi_export::call_table::State;
 use loader::{Fmu, Instance, Value};
+use model_description::call_table::{Condition, State};
 use model_description::{Causality, Initial, ScalarVariable, Variability, VariableKind, rules};
 
 use crate::{
@@ -54,7 +54,7 @@ fn start_values(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Er
 fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
     let mut tried = 0;
     for variable in &fmu.description().variables {
-        if tried >= 20 || !rules::settable(variable, rules::Phase::InitializationMode) {
+        if tried >= 20 || !Condition::SettableInInitialization.admits(variable, false) {
             continue;
         }
         let outside = match &variable.kind {

@@ -7,22 +7,12 @@ use std::{
 };
 
 use super::text;
+use model_description::Status;
+
 use crate::LogMessage;
 
-pub(super) type Logger =
-    unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
 pub(super) type FixedLogger =
     unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
-
-/// `fmi2CallbackFunctions`.
-#[repr(C)]
-pub(super) struct CallbackFunctions {
-    pub(super) logger: Option<Logger>,
-    pub(super) allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
-    pub(super) free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
-    pub(super) step_finished: Option<unsafe extern "C" fn(*mut c_void, c_int)>,
-    pub(super) component_environment: *mut c_void,
-}
 
 /// Messages kept per instance; older ones go first.
 const MESSAGES_KEPT: usize = 1000;
@@ -55,7 +45,11 @@ pub(super) unsafe extern "C" fn log_message(
     unsafe {
         let Some(book) = environment.cast::<MessageBuffer>().as_ref() else { return };
         let text = unescape(&text(message).unwrap_or_default());
-        let message = LogMessage { status: status.into(), category: self::text(category), text };
+        let message = LogMessage {
+            status: Status::from_code(status).unwrap_or(Status::Error),
+            category: self::text(category),
+            text,
+        };
         let mut messages = book.messages();
         if messages.len() >= MESSAGES_KEPT {
             messages.pop_front();

@@ -5,7 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use loader::{Column, Fmu, Value};
 use model_description::VariableKind;
 use physics::spin::{
-    forecast::{Flight, Timing},
+    forecast::{ForecastCase, Timing},
     nutation::Spin,
     train::Shape,
 };
@@ -95,7 +95,7 @@ pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verifica
             } else if task.flight.timing == Timing::Clock {
                 continue;
             } else {
-                Flight { spin, ..task.flight }.forecast(&row.train).moved_rad
+                ForecastCase { spin, ..task.flight }.forecast(&row.train).moved_rad
             };
             seen.miss = seen.miss.max((simulated.moved_rad / meant_rad - 1.0).abs());
         }

@@ -1,10 +1,11 @@
 //! A panic or failure in any callback ends as a status of the call that met it: the process, the other
 //! instances and freeing go on.
 
-use fmi_export::{BaseType, Enumeration, Status, abi::InProcess, abi::StatePointer};
+use client::{InProcess, StatePointer};
+use fmi_export::{BaseType, Enumeration, Status, fmi2::references};
 use probe::{LIBRARY, panicking::Fault};
 
-const FAULT: [u32; 1] = [BaseType::Integer.first_reference()];
+const FAULT: [u32; 1] = [references::first(BaseType::Integer)];
 const INPUT: [u32; 1] = [0];
 const OUTPUT: [u32; 1] = [1];
 

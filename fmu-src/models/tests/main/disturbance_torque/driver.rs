@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library, Status};
 use model_description::{Causality, Description};
 use models::DisturbanceTorque;
@@ -175,9 +175,9 @@ impl Disturbance {
 }
 
 /// Numbers in [0, 1) that are the same every time.
-pub struct Dice(pub u64);
+pub struct RandomNumbers(pub u64);
 
-impl Dice {
+impl RandomNumbers {
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use fmi_export::abi::{InProcess, Message};
+use client::{InProcess, Message};
 use fmi_export::{Entry, Library, Status};
 use model_description::{Causality, Description, VariableKind};
 use models::SpinPlant;
