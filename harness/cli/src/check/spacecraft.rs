@@ -83,7 +83,7 @@ fn without_start_values(text: &str) -> Option<String> {
 
 /// How many keys two files have in common, tables inside of tables left out.
 fn common_keys(one: &str, other: &str) -> usize {
-    // What can be read of a torn file tells its kind too.
+    // What can be read of a damaged file tells its kind too.
     let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
     one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }

@@ -26,14 +26,14 @@ pub fn callbacks(fmu: &Fmu) -> Findings {
     };
     try_with(
         "runs on after the struct of callbacks is overwritten",
-        Callbacks { scribbled: true, ..Callbacks::default() },
+        Callbacks { overwritten: true, ..Callbacks::default() },
     );
     if may_be_null {
         try_with(
             "runs with NULL for allocateMemory and freeMemory, as it claims",
             Callbacks { null_memory: true, ..Callbacks::default() },
         );
-        try_with("runs with both", Callbacks { null_memory: true, scribbled: true });
+        try_with("runs with both", Callbacks { null_memory: true, overwritten: true });
     } else {
         findings.push(Finding::skipped("NULL memory functions: it claims to need them"));
     }

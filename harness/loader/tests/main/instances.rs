@@ -5,7 +5,7 @@ use loader::{Callbacks, Checking, Error, Fmu, Instance, InstanceOptions, Outcome
 use crate::probe;
 
 fn ready(fmu: &Fmu) -> Instance {
-    let mut instance = Instance::new(&fmu, "it", &InstanceOptions::default()).unwrap();
+    let mut instance = Instance::new(fmu, "it", &InstanceOptions::default()).unwrap();
     instance.setup_experiment(None, 0.0, None).unwrap();
     instance.enter_initialization_mode().unwrap();
     instance.exit_initialization_mode().unwrap();
@@ -199,7 +199,7 @@ fn callbacks_may_be_rubbish_after_instantiation() {
     let options = InstanceOptions {
         logging: true,
         checking: Checking::Off,
-        callbacks: Callbacks { null_memory: true, scribbled: true },
+        callbacks: Callbacks { null_memory: true, overwritten: true },
         ..InstanceOptions::default()
     };
     let mut instance = Instance::new(&fmu, "it", &options).unwrap();
