@@ -67,13 +67,13 @@ static void simulate(const Library *library, const char *xml, const char *model,
     if (panicking) {
         const char *faults[] = {"step", "stepPayload", "stepPayloadDrop", "stepIndex"};
         for (int i = 0; i < 4; i++) {
-            fmi2Component unlucky = start(library, xml);
+            fmi2Component failing = start(library, xml);
             fmi2ValueReference fault = reference_of(xml, "fault");
             fmi2Integer item = item_of(xml, faults[i]);
-            CHECK(library->ExitInitializationMode(unlucky) == fmi2OK);
-            CHECK(library->SetInteger(unlucky, &fault, 1, &item) == fmi2OK);
-            CHECK(library->DoStep(unlucky, 0.0, 1.0, fmi2True) == fmi2Error);
-            library->FreeInstance(unlucky);
+            CHECK(library->ExitInitializationMode(failing) == fmi2OK);
+            CHECK(library->SetInteger(failing, &fault, 1, &item) == fmi2OK);
+            CHECK(library->DoStep(failing, 0.0, 1.0, fmi2True) == fmi2Error);
+            library->FreeInstance(failing);
         }
     }
     CHECK(library->Terminate(c) == fmi2OK);

@@ -34,7 +34,7 @@ def split(path):
     return component, name
 
 
-def simulate_ssp(folder, components, connections, step_s, stop_s, outputs=(), zeros=()):
+def run_ssp(folder, components, connections, step_s, stop_s, outputs=(), zeros=()):
     """Runs an SSP and records what is connected and `outputs`; inputs in `zeros` are set to 0 each step."""
     connectors = {component: {} for component in components}
     for source, target in connections:

@@ -5,7 +5,7 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 
 from simulation import vector
-from masters import container, elements, simulate_ssp, wires
+from masters import container, elements, run_ssp, wires
 from spacecraft import RESOURCES, call
 
 LIGHT_W_M2 = 1361.0
@@ -74,7 +74,7 @@ def test_an_ssp_of_plant_and_torque_runs_as_the_plant_alone(light_loop, tmp_path
     for step_s in (STEP_S, 2.0 * STEP_S):
         folder = tmp_path / f"{step_s:.0f}"
         folder.mkdir()
-        result = simulate_ssp(folder, components, connections, step_s, STOP_S, outputs=elements("plant.momentum.body", 3))
+        result = run_ssp(folder, components, connections, step_s, STOP_S, outputs=elements("plant.momentum.body", 3))
         momentum = np.array([result[name][-1] for name in elements("plant.momentum.body", 3)])
         lags.append(assert_close(momentum, alone, step_s))
         # Both were sent zeros before the first exchange, and answered with none.
@@ -126,7 +126,7 @@ def assert_followed(plant, spinner, lag):
 
 def test_an_ssp_of_all_three_runs(ring, tmp_path):
     components, connections = ring
-    result = simulate_ssp(tmp_path, components, connections, 1.0, 60.0, outputs=elements("plant.attitude.q", 4))
+    result = run_ssp(tmp_path, components, connections, 1.0, 60.0, outputs=elements("plant.attitude.q", 4))
     plant, spinner = stack(result, "plant.attitude.q", 4), stack(result, "spinner.attitude.q", 4)
     # A command of zeros is none: the plant holds the attitude that it began with.
     assert plant[0].tolist() == [0.0, 0.0, 0.0, 1.0]
@@ -164,7 +164,7 @@ def test_every_input_may_be_zero_for_ever(heliotorque, dist, tmp_path, model):
     fmu = packed(heliotorque, dist, tmp_path, model, "zero", spacecraft, *settings)
     inputs = [f"it.{variable.name}" for variable in inputs_of(fmu)]
     assert len(inputs) >= 10
-    result = simulate_ssp(tmp_path, {"it": fmu}, [], step_s, 20 * step_s, zeros=inputs, outputs=elements(f"it.{held}", size))
+    result = run_ssp(tmp_path, {"it": fmu}, [], step_s, 20 * step_s, zeros=inputs, outputs=elements(f"it.{held}", size))
     kept = stack(result, f"it.{held}", size)
     assert np.isfinite(kept).all()
     if model == "DisturbanceTorque":

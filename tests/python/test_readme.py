@@ -1,6 +1,7 @@
 """The README's validation tables say what the studies print."""
 
 import pathlib
+import re
 
 import pytest
 
@@ -103,3 +104,86 @@ def test_gaps_are_those_of_the_study(studied):
 @pytest.mark.parametrize("name", ["thermal/table7", "thermal/table8"])
 def test_light_and_heat_are_those_of_the_studies(studied, name):
     block(light_rows(rows_of(studied, name)))
+
+
+def found(text, pattern):
+    """The groups of the one place where this stands."""
+    [match] = re.findall(pattern, text)
+    return match
+
+
+def test_numbers_of_the_spinner_are_those_of_its_study(studied):
+    ours = {row["quantity"]: row["ours"] for row in rows_of(studied, "spin/numbers")}
+    second = found(ours["axis moved by one 1 s pulse (eq 3)"], r"([\d.]+) rad simulated")
+    pulse = found(ours["axis moved by one 32 ms pulse"], r"^([\d.]+) deg$")
+    assert line(
+        "002, eq 3", "axis moved by a 1 s and a 32 ms pulse", "0.0095 rad, 0.0176 deg",
+        f"{second} rad, {pulse} deg (simulated)", "same",
+    ) in README
+    counts = [ours[f"32 ms pulses for 2 deg, {deck}"].split()[0] for deck in ("lower radial", "upper axial")]
+    assert line("002", "32 ms pulses for 2 deg, radial and axial", "114, about 58", ", ".join(counts), "same") in README
+    once, twice = (found(ours[f"duration, {often} a turn"], r"^([\d.]+) min$") for often in ("once", "twice"))
+    assert line(
+        "002", "duration once and twice a turn", "22.6, 11.6 min", f"{once}, {twice} min",
+        "11.6 is a slip: 113 half turns are 11.3 min",
+    ) in README
+    envelopes = [
+        found(ours[f"envelope, {deck}, {often} a turn"], r"([\d.]+) deg exact")
+        for deck in ("radial", "axial") for often in ("twice", "once")
+    ]
+    exact = ", ".join(f"{float(envelope):.4f}" for envelope in envelopes)
+    assert any(f"same as printed; exact {exact} deg |" in row for row in README)
+    observation = found(ours["observation time at 5 rpm, ratio 1.483"], r"^([\d.]+) min by eq 20")
+    assert line(
+        "002, eq 20", "observation time at 5 rpm, 1.483", "11.2 min", f"{observation} min",
+        "11.2 min is the span of 8 samples",
+    ) in README
+    final, minutes = found(
+        ours["train 1 2 2 ... 2 1, worst of 1.471 to 1.494"], r"final ([\d.]+) deg, peak [\d.]+ deg, ([\d.]+) min"
+    )
+    [row] = [row for row in README if row.startswith("| beyond 002 | tapered train")]
+    assert float(final) <= float(found(row, r"final under ([\d.]+) deg")) <= float(final) + 1e-4
+    assert f"| {float(minutes):.1f} min, " in row
+
+
+def test_histories_of_nutation_are_those_of_the_study(studied):
+    text = studied("spin/figure4")[0]
+    axisymmetric, about_x, about_y = (
+        found(text, rf"{re.escape(case)}.*? ([\d.]+ to [\d.]+), final ([\d.]+) to ")
+        for case in ("axisymmetric, ratio 1.483", "triaxial, I1/I2 = 1.44", "triaxial, I2/I1 = 1.44")
+    )
+    assert any(f"| axisymmetric: {axisymmetric[0]}; {axisymmetric[1]} deg |" in row for row in README)
+    assert any(f"| greater about X: {about_x[0]}; about Y: {about_y[0]} deg |" in row for row in README)
+
+
+def test_a_mercury_year_is_that_of_the_study(studied):
+    text = studied("thermal/figure13")[0]
+    orbits = found(text, r"orbits in a year +172 +([\d.]+)")
+    infrared = found(text, r"greatest infrared, of solar +about 25 % +([\d.]+ %)")
+    total = found(text, r"greatest total +order of 1e-6 m/s2 +([\d.e-]+ m/s2)")
+    assert any(f"| {orbits}, {infrared}, {total} |" in row for row in README)
+
+
+TESTS = pathlib.Path(__file__).parents[1]
+MODELS = ("MomentumPlant", "SpinPlant", "DisturbanceTorque")
+# Client as the README names it: the tests in which it works with every model.
+CLIENTS = {
+    "FMPy 0.3.32": ["python/test_momentum_plant.py", "python/test_spin_plant.py", "python/test_disturbance_torque.py"],
+    "libcosim (libcosimpy 0.0.6)": ["python/test_libcosim.py"],
+    "C against the FMI headers": ["c/client.c"],
+    "`heliotorque run`, `check`": ["suite/conformance.rs", "suite/support.rs"],
+    "FMPy's container FMU and SSP, loops that begin with zeros": ["python/test_loops.py"],
+}
+
+
+def test_every_client_that_works_has_a_test_with_every_model():
+    start = next(k for k, row in enumerate(README) if row.startswith("| client |"))
+    rows = [row.strip("| ").split(" | ") for row in README[start + 2:start + 2 + README[start + 2:].index("")]]
+    in_test_runs = {row[0] for row in rows if "every test run" in row[-1]}
+    assert in_test_runs == set(CLIENTS), "a row of the README without a test, or a test without its row"
+    assert {row[0] for row in rows if row[1].startswith("yes")} - in_test_runs == {"PyFMI, OMSimulator, built from source"}
+    for client, files in CLIENTS.items():
+        text = "".join((TESTS / file).read_text(encoding="utf-8") for file in files)
+        assert all(model in text for model in MODELS), client
+    pins = (TESTS / "python" / "requirements.txt").read_text(encoding="utf-8").lower()
+    assert "fmpy==0.3.32" in pins.replace("[complete]", "") and "libcosimpy==0.0.6" in pins

@@ -2,7 +2,7 @@
 
 use heliotorque_tests::counting::counted;
 #[cfg(target_os = "linux")]
-use loader::{Fmu, InstanceOptions};
+use loader::{Fmu, Instance, InstanceOptions};
 
 use crate::scenarios::{Scenario, Simulation};
 #[cfg(target_os = "linux")]
@@ -123,7 +123,7 @@ fn memory_stays_flat_over_many_instances() {
             _ => Fmu::open(dist.join(format!("{model}.fmu"))).unwrap(),
         };
         let many = |cycles| {
-            (0..cycles).for_each(|_| drop(fmu.instantiate("one", &InstanceOptions::default()).unwrap()));
+            (0..cycles).for_each(|_| drop(Instance::new(&fmu, "one", &InstanceOptions::default()).unwrap()));
         };
         many(cycles / 20);
         let before = anonymous_kb();

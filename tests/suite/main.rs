@@ -3,18 +3,21 @@
 #![allow(missing_docs, reason = "tests")]
 
 mod allocations;
+mod arithmetic;
 mod bad_input;
 mod blobs;
 mod calls;
 mod conformance;
 mod foreign;
 mod golden;
+mod imports;
 mod instances;
 mod plant;
 mod public_names;
 mod reference;
 mod scenarios;
 mod shared_library;
+mod sources;
 mod states;
 mod support;
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use fmi_export::Enumeration;
-use loader::{Fmu, InstanceOptions, Value, platform_folders};
+use loader::{Fmu, Instance, InstanceOptions, Value, platform_folders};
 use probe::panicking::Fault;
 
 use crate::support::{LIBRARY, built, description};
@@ -26,7 +26,7 @@ pub fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
 }
 
 fn running(fmu: &Fmu, name: &str) -> loader::Instance {
-    let mut instance = fmu.instantiate(name, &InstanceOptions::default()).unwrap();
+    let mut instance = Instance::new(fmu, name, &InstanceOptions::default()).unwrap();
     instance.setup_experiment(None, 0.0, None).unwrap();
     instance.enter_initialization_mode().unwrap();
     instance.exit_initialization_mode().unwrap();
@@ -39,21 +39,21 @@ fn panics_stay_inside_the_library() {
     let base = tempfile::tempdir().unwrap();
     let fmu = folder(base.path(), "Panicking", &library);
     let other = folder(base.path(), "AllTypes", &library);
-    let (mut neighbour, mut stranger) = (running(&fmu, "neighbour"), running(&other, "stranger"));
+    let (mut neighbour, mut other_model) = (running(&fmu, "neighbour"), running(&other, "other_model"));
     let in_step = [Fault::Step, Fault::StepPayload, Fault::StepPayloadDrop, Fault::StepIndex];
     for (number, fault) in in_step.into_iter().enumerate() {
-        let mut unlucky = running(&fmu, "unlucky");
+        let mut failing = running(&fmu, "failing");
         let value = Value::Integer(fault.value());
-        unlucky.set("fault", &value).unwrap();
-        let error = unlucky.do_step(0.0, 0.5, true).unwrap_err().to_string();
+        failing.set("fault", &value).unwrap();
+        let error = failing.do_step(0.0, 0.5, true).unwrap_err().to_string();
         assert!(error.contains("fmi2DoStep"), "{fault:?}: {error}");
-        assert!(unlucky.messages().iter().any(|it| it.text.contains("panic")), "{fault:?}");
+        assert!(failing.messages().iter().any(|it| it.text.contains("panic")), "{fault:?}");
         // Nothing but freeing works, and that does.
-        assert!(unlucky.reset().is_err(), "{fault:?}");
-        drop(unlucky);
+        assert!(failing.reset().is_err(), "{fault:?}");
+        drop(failing);
         let time_s = 0.5 * number as f64;
         neighbour.do_step(time_s, 0.5, true).unwrap();
-        stranger.do_step(time_s, 0.5, true).unwrap();
+        other_model.do_step(time_s, 0.5, true).unwrap();
         assert_eq!(neighbour.get_real("clock").unwrap(), time_s + 0.5);
     }
 }

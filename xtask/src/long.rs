@@ -234,7 +234,7 @@ fn on_a_full_disk(
             .output()
             .map_err(|error| format!("{named}: {error}"))?;
         if output.status.success() {
-            eprintln!("{named}: {} writes failed in turn, each told and none torn", write - 1);
+            eprintln!("{named}: {} writes failed in turn, each told and none damaged", write - 1);
             return if write > 1 { Ok(()) } else { Err(format!("{named}: wrote nothing that could fail")) };
         }
         let stderr = String::from_utf8_lossy(&output.stderr);
@@ -250,7 +250,7 @@ fn on_a_full_disk(
             return fault("no file is named");
         }
         if fs::read(&target).ok().as_deref() != Some(OLD.as_bytes()) {
-            return fault("the old file is torn or gone");
+            return fault("the old file is damaged or gone");
         }
         if fs::read_dir(&unpacked).map_err(at_target)?.next().is_some() {
             return fault("it left what it unpacked");

@@ -6,14 +6,13 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command},
-    check, info, interrupt, pack, plan, run as simulation, study,
+    check, info, interrupt,
+    outcome::Outcome,
+    pack, plan, run as simulation, study,
 };
 
 /// JSON Schema of the spacecraft file, kept in step with its reader by a test of `physics`.
 const SPACECRAFT_SCHEMA: &str = include_str!("../../../fmu-src/resources/spacecraft.schema.json");
-
-/// What every command ends with.
-pub type Outcome = Result<ExitCode, Box<dyn std::error::Error>>;
 
 /// Parses the arguments and runs the command.
 pub fn run() -> Outcome {

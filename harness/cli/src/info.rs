@@ -7,7 +7,7 @@ use model_description::{
     Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind,
 };
 
-use crate::{app::Outcome, args::Info, coefficients};
+use crate::{args::Info, coefficients, outcome::Outcome};
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
@@ -25,7 +25,7 @@ pub fn run(arguments: &Info) -> Outcome {
         } else {
             let mut positions = Vec::new();
             for pattern in &arguments.only {
-                positions.extend(loader::select(&fmu, pattern)?);
+                positions.extend(fmu.select(pattern)?);
             }
             positions
         };

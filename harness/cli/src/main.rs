@@ -10,6 +10,7 @@ mod child;
 mod coefficients;
 mod info;
 mod interrupt;
+mod outcome;
 mod pack;
 mod plan;
 mod plot;

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use crate::{app::Outcome, args::Plan};
+use crate::{args::Plan, outcome::Outcome};
 
 /// Prints the plan asked for.
 pub fn run(arguments: &Plan) -> Outcome {

@@ -7,16 +7,19 @@ use std::{
 };
 
 use files::{Destination, Growing};
-use loader::{Collector, Ended, Fmu, InputTable, LogMessage, Recording, Times};
+use loader::{Collector, Ended, Fmu, LogMessage, Recording};
 
 use crate::{
-    app::Outcome,
     args::{Run, RunInChild},
     interrupt::INTERRUPTED,
+    outcome::Outcome,
     plot,
 };
 
 mod child;
+mod settings;
+
+use settings::Settings;
 
 /// Runs the FMU in a child process.
 pub fn run(arguments: &Run) -> Outcome {
@@ -92,62 +95,6 @@ pub fn run(arguments: &Run) -> Outcome {
 /// Runs the FMU in this process for the parent.
 pub fn run_in_child(arguments: &RunInChild) -> Outcome {
     child::run(arguments)
-}
-
-/// What the arguments mean for an FMU.
-struct Settings {
-    times: Times,
-    sets: Vec<(String, loader::Value)>,
-    inputs: Option<InputTable>,
-    positions: Vec<usize>,
-}
-
-impl Settings {
-    fn of(fmu: &Fmu, arguments: &Run) -> Result<Self, Box<dyn std::error::Error>> {
-        let times = Times::of(fmu, arguments.start, arguments.stop, arguments.step)?;
-        let mut sets = Vec::new();
-        for setting in &arguments.set {
-            sets.extend(loader::parse_assignment(fmu, setting)?);
-        }
-        let inputs = arguments.input.as_deref().map(|path| read_table(fmu, path)).transpose()?;
-        let positions = selection(fmu, &arguments.record)?.unwrap_or_else(|| loader::outputs(fmu));
-        Ok(Self { times, sets, inputs, positions })
-    }
-}
-
-/// Positions of the variables to record; `None` for all outputs.
-fn selection(fmu: &Fmu, patterns: &[String]) -> Result<Option<Vec<usize>>, loader::Error> {
-    if patterns.is_empty() {
-        return Ok(None);
-    }
-    let mut positions = Vec::new();
-    for pattern in patterns {
-        for position in loader::select(fmu, pattern)? {
-            if !positions.contains(&position) {
-                positions.push(position);
-            }
-        }
-    }
-    Ok(Some(positions))
-}
-
-/// Reads an input table.
-fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::Error>> {
-    let in_file =
-        |error: &dyn std::error::Error| format!("{}: {}", path.display(), loader::Error::chain(error));
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(files::open(path).map_err(|error| format!("{}: see --input", in_file(&error)))?);
-    let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| in_file(&error))?;
-        rows.push(record.iter().map(str::to_owned).collect::<Vec<_>>());
-    }
-    let header = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
-    Ok(InputTable::parse(fmu, &header, &rows).map_err(|error| in_file(&error))?)
 }
 
 /// Rows of a table that are written at once.

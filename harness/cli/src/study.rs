@@ -4,7 +4,7 @@ use std::{io::IsTerminal, process::ExitCode};
 
 use studies::{Options, STUDIES};
 
-use crate::{app::Outcome, args::Study};
+use crate::{args::Study, outcome::Outcome};
 
 /// Runs a study, or lists them.
 pub fn run(arguments: &Study) -> Outcome {

@@ -77,7 +77,7 @@ pub fn outputs(instance: &mut Instance) -> Result<Bits, Error> {
 
 /// Brings a fresh instance to `state`; `None` where the FMU cannot be brought there.
 pub fn at(fmu: &Fmu, options: &InstanceOptions, state: State) -> Result<Option<Instance>, Error> {
-    let mut instance = fmu.instantiate("probe", options)?;
+    let mut instance = Instance::new(fmu, "probe", options)?;
     Ok(advance(&mut instance, state)?.then_some(instance))
 }
 
@@ -105,7 +105,7 @@ pub fn advance(instance: &mut Instance, state: State) -> Result<bool, Error> {
 
 /// A ready instance between steps.
 pub fn ready(fmu: &Fmu, options: &InstanceOptions) -> Result<Instance, Error> {
-    let mut instance = fmu.instantiate("probe", options)?;
+    let mut instance = Instance::new(fmu, "probe", options)?;
     advance(&mut instance, State::StepComplete)?;
     Ok(instance)
 }

@@ -26,7 +26,7 @@ const LICENSE_ENTRIES: [&str; 2] =
 /// The archive's layout.
 pub fn archive(fmu: &Fmu) -> Vec<Finding> {
     let mut findings = vec![Finding::good(
-        "opens: no path leaves the folder, no link, no size beyond reason, no torn entry",
+        "opens: no path leaves the folder, no link, no size beyond reason, no damaged entry",
     )];
     match fmu.binary_path() {
         Ok(path) => {

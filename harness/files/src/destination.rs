@@ -310,7 +310,7 @@ mod tests {
         let old = scratch.path().join("old");
         fs::write(&old, "precious").unwrap();
         let message = open(&old).unwrap().fill(|file| {
-            file.write_all(b"torn")?;
+            file.write_all(b"damaged")?;
             Err(io::Error::other("the disk is full"))
         });
         assert!(message.unwrap_err().ends_with("old: the disk is full: see --output"));

@@ -30,7 +30,7 @@ impl Default for Limits {
 ///
 /// Refused: a path that is absolute, leaves the folder or has a drive or backslash root; a symbolic link; an
 /// encrypted entry; the same path twice; more entries or bytes than `limits`, counted while unpacking, so
-/// that an archive which lies about its sizes gains nothing; a torn or corrupted archive.
+/// that an archive which lies about its sizes gains nothing; a damaged or corrupted archive.
 ///
 /// Gives the paths of the entries as the archive writes them.
 pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>, Error> {
@@ -81,7 +81,7 @@ pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>
     Ok(names)
 }
 
-/// Which side of a copy failed: a torn archive is not a full disk.
+/// Which side of a copy failed: a damaged archive is not a full disk.
 enum CopyError {
     Read(io::Error),
     Write(io::Error),
@@ -125,7 +125,7 @@ fn inside(name: &str) -> Option<PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    //! A full disk is told as such, not as a torn archive.
+    //! A full disk is told as such, not as a damaged archive.
 
     use super::*;
 

@@ -9,7 +9,12 @@ use std::{
 use files::Scratch;
 use model_description::{CoSimulation, Description, Parsed, ScalarVariable};
 
-use crate::{Binary, Error, Instance, InstanceOptions, archive, checker::AccessTable, select::unknown};
+use crate::{
+    Binary, Error,
+    access::AccessTable,
+    archive,
+    select::{select, unknown},
+};
 
 /// An opened FMU. Cheap to clone; instances may be made and simulated on many threads.
 #[derive(Clone)]
@@ -37,7 +42,7 @@ impl std::fmt::Debug for Fmu {
 impl Fmu {
     /// Opens an `.fmu` file, or a folder that one was unpacked into.
     ///
-    /// The shared library is loaded by [`Fmu::binary`] or the first [`Fmu::instantiate`], so FMUs for other
+    /// The shared library is loaded by [`Fmu::binary`] or the first instance, so FMUs for other
     /// platforms can be looked at.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let source = path.as_ref().to_owned();
@@ -194,9 +199,15 @@ impl Fmu {
         &self.0.access
     }
 
-    /// Makes an instance; see [`Instance`].
-    pub fn instantiate(&self, name: &str, options: &InstanceOptions) -> Result<Instance, Error> {
-        Instance::new(self, name, options)
+    /// Positions in `ModelVariables` of everything `pattern` means, in declaration order.
+    ///
+    /// An exact name means itself; `torque.solar` all elements `torque.solar[1]`, `torque.solar[2]`, …; a `*` stands
+    /// for any text, so `torque.*` and `momentum.body[*]` work. Brackets and dots are plain text.
+    pub fn select(&self, pattern: &str) -> Result<Vec<usize>, Error> {
+        match self.position(pattern.trim()) {
+            Some(index) => Ok(vec![index]),
+            None => select(self.description(), pattern),
+        }
     }
 }
 

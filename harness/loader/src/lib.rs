@@ -1,11 +1,12 @@
 //! Loads and steps any FMI 2.0 co-simulation FMU.
 //!
-//! [`Fmu::open`] unpacks and reads an FMU, [`Fmu::instantiate`] makes a safe [`Instance`], and [`simulate`] runs
+//! [`Fmu::open`] unpacks and reads an FMU, [`Instance::new`] makes a safe instance of it, and [`simulate`] runs
 //! one from start to stop. Everything this crate knows of an FMU it reads from the FMU; no model is linked here.
 //!
 //! All unsafe code of the harness stands in one folder, `abi/`.
 
 mod abi;
+mod access;
 mod archive;
 mod calls;
 mod checker;
@@ -33,7 +34,6 @@ pub use model_description::Status;
 pub use model_description::value::{Value, display_unit, unit};
 pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
-pub use select::select;
 pub use simulate::{
     Ended, Options, Simulation, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
 };

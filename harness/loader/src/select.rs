@@ -2,21 +2,10 @@
 
 use model_description::{Description, names::similar};
 
-use crate::{Error, Fmu};
+use crate::Error;
 
-/// Positions in `ModelVariables` of everything `pattern` means, in declaration order.
-///
-/// An exact name means itself; `torque.solar` all elements `torque.solar[1]`, `torque.solar[2]`, …; a `*` stands
-/// for any text, so `torque.*` and `momentum.body[*]` work. Brackets and dots are plain text.
-pub fn select(fmu: &Fmu, pattern: &str) -> Result<Vec<usize>, Error> {
-    match fmu.position(pattern.trim()) {
-        Some(index) => Ok(vec![index]),
-        None => select_in(fmu.description(), pattern),
-    }
-}
-
-/// As [`select`], of a description alone.
-pub(crate) fn select_in(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
+/// Positions in `ModelVariables` of everything `pattern` means: see [`crate::Fmu::select`].
+pub(crate) fn select(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
     let pattern = pattern.trim();
     if let Some(index) = description.variables.iter().position(|variable| variable.name == pattern) {
         return Ok(vec![index]);

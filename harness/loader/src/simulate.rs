@@ -166,7 +166,7 @@ pub fn simulate_into(
     let every = steps_between_points(&times, options.record_every_s)?;
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu));
     let mut reader = Reader::new(fmu, &positions);
-    let mut instance = fmu.instantiate("run", &options.instance)?;
+    let mut instance = Instance::new(fmu, "run", &options.instance)?;
     let mut record = |instance: &mut Instance, time_s: f64| reader.read(instance, time_s, rows);
     let ended = run_steps(fmu, &mut instance, (&times, every), &mut options, &mut record)?;
     Ok((ended, instance.messages()))

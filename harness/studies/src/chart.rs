@@ -3,74 +3,19 @@
 //! Used by `heliotorque run --plot` and by the studies. The text is SVG text, so no font is needed to draw it.
 
 mod legend;
+mod series;
+mod style;
 #[cfg(test)]
 mod tests;
 
 use plotters::{
-    coord::Shift,
     prelude::*,
     style::text_anchor::{HPos, Pos, VPos},
 };
 
-/// How a series is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Mark {
-    /// Straight lines from point to point.
-    #[default]
-    Line,
-    /// Dots.
-    Dots,
-    /// Rings, in which the dots of another series can sit.
-    Rings,
-    /// A dashed line, as for a limit.
-    Dashed,
-}
-
-/// One line of a panel.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Series {
-    /// What the legend says; empty for no entry.
-    pub label: String,
-    /// Points in ascending x; a point that is not finite interrupts the line.
-    pub points: Vec<(f64, f64)>,
-    /// Line or dots.
-    pub mark: Mark,
-}
-
-impl Series {
-    /// A line through `points`.
-    pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Line }
-    }
-
-    /// Dots at `points`.
-    pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Dots }
-    }
-
-    /// Rings about `points`.
-    pub fn rings(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Rings }
-    }
-
-    /// A dashed line through `points`.
-    pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Dashed }
-    }
-}
-
-/// One of a chart's stacked panels.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Panel {
-    /// Label of the vertical axis, with its unit in brackets.
-    pub y_label: String,
-    /// The lines.
-    pub series: Vec<Series>,
-    /// Vertical range; otherwise that of the data with a little room.
-    pub y_range: Option<(f64, f64)>,
-    /// Values marked by a dashed horizontal line, such as limits.
-    pub marks: Vec<f64>,
-}
+pub use series::{Mark, Panel, Series};
+pub use style::COLOURS;
+use style::*;
 
 /// A chart: panels over one horizontal axis.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -98,41 +43,6 @@ pub enum ChartError {
         reason: String,
     },
 }
-
-/// Drawing units per pixel at which the picture shows: the library rounds coordinates to whole units, and a curve drawn
-/// in whole pixels is a staircase.
-const FINE: u32 = 4;
-
-const WIDTH: u32 = 960 * FINE;
-const PANEL_HEIGHT: u32 = 210 * FINE;
-const SINGLE_HEIGHT: u32 = 420 * FINE;
-const TITLE_HEIGHT: u32 = 44 * FINE;
-const TOP: u32 = 14 * FINE;
-const X_AXIS_HEIGHT: u32 = 52 * FINE;
-const Y_AXIS_WIDTH: u32 = 74 * FINE;
-const LEFT: u32 = 14 * FINE;
-const BOTTOM: u32 = 12 * FINE;
-const RIGHT: u32 = 24 * FINE;
-
-const FONT: &str = "'Source Sans 3','Segoe UI','Helvetica Neue',Arial,sans-serif";
-const INK: RGBColor = RGBColor(0x26, 0x2b, 0x33);
-const QUIET: RGBColor = RGBColor(0x5c, 0x65, 0x70);
-const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
-const FRAME: RGBColor = RGBColor(0x9a, 0xa2, 0xac);
-
-/// Colours of a panel's lines in their order; told apart by people with any colour vision (Okabe and Ito).
-pub const COLOURS: [RGBColor; 7] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xe6, 0x9f, 0x00),
-    RGBColor(0x56, 0xb4, 0xe9),
-    RGBColor(0x6b, 0x6b, 0x6b),
-];
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 impl Chart {
     /// The chart as SVG text.
@@ -281,10 +191,6 @@ impl Panel {
             None => (0.0, 1.0),
         }
     }
-}
-
-fn pixel(length: u32) -> i32 {
-    i32::try_from(length).unwrap_or(i32::MAX)
 }
 
 fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {

@@ -86,7 +86,7 @@ fn a_setup_file_changed_after_packing_is_named() {
     assert!(text.contains(&guid("AllTypes", TWO)), "{text}");
     // Nobody else matters then, and what is wrong with the file does.
     assert!(!text.contains("Empty") && !text.contains("Panicking"), "{text}");
-    let folder = Folder::new("changed-and-torn", &[("all-types.toml", "label = 'x\n")]);
+    let folder = Folder::new("changed-and-damaged", &[("all-types.toml", "label = 'x\n")]);
     let text = refused(&described("AllTypes").guid, Some(&folder.uri()));
     assert!(
         text.starts_with("fmi2Instantiate: all-types.toml: the file was changed after packing"),
@@ -99,7 +99,7 @@ fn a_setup_file_changed_after_packing_is_named() {
 fn a_bad_setup_file_or_folder_is_named() {
     let asked = guid("AllTypes", TWO);
     for (name, files, words) in [
-        ("torn", vec![("all-types.toml", "label = 'x\n")], ["all-types.toml", "cannot be set up"]),
+        ("damaged", vec![("all-types.toml", "label = 'x\n")], ["all-types.toml", "cannot be set up"]),
         ("key", vec![("all-types.toml", "label = ''\nlabl = ''\n")], ["labl", "all-types.toml"]),
         ("none", vec![], ["all-types.toml", "cannot read"]),
     ] {

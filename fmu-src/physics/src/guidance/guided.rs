@@ -58,6 +58,11 @@ impl Guided {
         if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
             return held;
         }
+        // No turn takes longer than half a revolution.
+        let elapsed_s = time_s - window.since_s;
+        if elapsed_s >= core::f64::consts::PI / self.slew_rate_rad_s {
+            return held;
+        }
         let before = match window.activity {
             Activity::Science => Activity::Downlink,
             Activity::Downlink => Activity::Science,
@@ -68,7 +73,6 @@ impl Guided {
         // The rotation that leads back from the new attitude to the old one, shrinking to nothing.
         let back_body_rad = rotation_vector(&to.inertial_from_body, &from.inertial_from_body);
         let duration_s = back_body_rad.norm() / self.slew_rate_rad_s;
-        let elapsed_s = time_s - window.since_s;
         if elapsed_s >= duration_s {
             return held;
         }

@@ -9,6 +9,8 @@
 //! Reference: Boyd, Solving Transcendental Equations, 2014, ch. 3 (Chebyshev proxy); Shampine and Thompson, Event location
 //! for ordinary differential equations, Computers and Mathematics with Applications 39, 2000.
 
+use core::ops::ControlFlow;
+
 use nalgebra::{SVector, Vector1};
 
 use super::{
@@ -44,8 +46,22 @@ pub fn sign_changes<const R: usize>(
     mut function: impl FnMut(f64) -> f64,
 ) -> Result<Roots<R>, RootError> {
     let mut found = Roots::default();
+    visit_sign_changes(from, to, &mut function, |at, _| {
+        found.push(at);
+        ControlFlow::Continue(())
+    })?;
+    Ok(found)
+}
+
+/// Hands the roots of [`sign_changes`] to `visit`, rising, until it breaks off.
+fn visit_sign_changes<F: FnMut(f64) -> f64>(
+    from: f64,
+    to: f64,
+    function: &mut F,
+    mut visit: impl FnMut(f64, &mut F) -> ControlFlow<()>,
+) -> Result<(), RootError> {
     if from.is_nan() || to.is_nan() || to <= from {
-        return Ok(found);
+        return Ok(());
     }
     // Depth first, left before right: at most one right half waits per level.
     let mut waiting = [(from, to, 0); DEPTH + 2];
@@ -80,10 +96,12 @@ pub fn sign_changes<const R: usize>(
             continue;
         }
         for at in segment.sign_changes(start, end).iter() {
-            found.push(at);
+            if visit(at, function).is_break() {
+                return Ok(());
+            }
         }
     }
-    Ok(found)
+    Ok(())
 }
 
 /// How much a fit through a few nodes may miss, in its last two coefficients.
@@ -116,14 +134,18 @@ pub fn first_event<const K: usize, const N: usize>(
         if terms[0].abs() > swing + missed {
             continue;
         }
-        let mut function = |at: f64| values(at)[k];
-        let Ok(roots) = sign_changes::<8>(from, to, &mut function) else { continue };
         let limit = first.unwrap_or(to);
-        first = roots
-            .iter()
-            .filter(|&root| root > after && root < limit)
-            .find_map(|root| change_near(root, from.max(after), to, &mut function))
-            .or(first);
+        let mut earlier = None;
+        let searched = visit_sign_changes(from, limit, &mut |at: f64| values(at)[k], |root, function| {
+            if root >= limit {
+                return ControlFlow::Break(());
+            }
+            earlier = (root > after).then(|| change_near(root, from.max(after), to, function)).flatten();
+            if earlier.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        if searched.is_ok() {
+            first = earlier.or(first);
+        }
     }
     first
 }

@@ -8,6 +8,9 @@ use serde::Serialize;
 pub struct Thruster {
     /// Name.
     pub name: String,
+    /// Where it stands from the centre of mass, body frame, in m; for pictures, the torque is what acts.
+    #[serde(skip)]
+    pub position_body_m: Vector3<f64>,
     /// Force on the spacecraft, body components, in N.
     pub force_body_n: Vector3<f64>,
     /// Torque about the centre of mass, body components, in N m.

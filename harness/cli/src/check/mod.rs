@@ -12,9 +12,9 @@ use conformance::{Finding, PROBES, Probe, Trial, Verdict};
 use loader::Fmu;
 
 use crate::{
-    app::Outcome,
     args::{self, Check},
     child::Link,
+    outcome::Outcome,
 };
 
 /// A group of findings under one heading.

@@ -5,11 +5,12 @@
 use std::{path::Path, process::ExitCode};
 
 use loader::Described;
-use toml::{Table, Value, de::DeTable};
+use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
+use toml::{Table, de::DeTable};
 
 use crate::{
-    app::Outcome,
     args::{Check, DEFAULT_TEMPLATE},
+    outcome::Outcome,
     pack::{read_text, source},
 };
 
@@ -80,41 +81,39 @@ fn without_start_values(text: &str) -> Option<String> {
     Some(file.to_string())
 }
 
-/// EndReason many keys two files have in common, tables inside of tables left out.
+/// How many keys two files have in common, tables inside of tables left out.
 fn common_keys(one: &str, other: &str) -> usize {
-    // What can be read of a torn file tells its kind too.
+    // What can be read of a damaged file tells its kind too.
     let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
     one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }
 
-/// EndReason many of each part the file describes: its lists of tables, and what its sunshade is given as.
+/// How many of each part the file describes.
 fn contents(text: &str) -> String {
-    let Ok(file) = text.parse::<Table>() else { return String::new() };
-    let mut parts = lists(&file);
-    if let Some(shade) = file.get("sunshade").and_then(Value::as_table) {
-        let cylinder = shade.contains_key("cylinder").then(|| "a cylinder".to_owned());
-        let given = lists(shade).into_iter().chain(cylinder).collect::<Vec<_>>().join(" and ");
-        parts.push(format!("a sunshade of {given}"));
+    let mut parts = Vec::new();
+    let mut count = |of: &str, count: usize| match count {
+        0 => {}
+        1 => parts.push(format!("1 {of}")),
+        _ => parts.push(format!("{count} {of}s")),
+    };
+    if let Ok(spacecraft) = Spacecraft::from_toml("", text) {
+        count("panel", spacecraft.panels.len());
+        count("plate", spacecraft.plates.len());
+        count("wheel", spacecraft.wheels.len());
+        if let Some(shade) = spacecraft.sunshade {
+            count("sunshade plate", shade.plates.len());
+            count("sunshade cylinder", usize::from(shade.cylinder.is_some()));
+        }
+    } else if let Ok(spinner) = Spinner::parse("", text) {
+        count("group", spinner.groups.len());
+        count("thruster", spinner.thrusters.len());
     }
     parts.join(", ")
 }
 
-fn lists(table: &Table) -> Vec<String> {
-    let tables =
-        |value: &Value| value.as_array().filter(|list| list.iter().all(Value::is_table)).map(Vec::len);
-    let counted = table.iter().filter_map(|(key, value)| tables(value).map(|count| (key, count)));
-    counted.map(|(key, count)| format!("{count} {}", counted_word(key, count))).collect()
-}
-
-/// A list's key as a word; some keys are singular, as in `[[thruster]]`.
-fn counted_word(key: &str, count: usize) -> String {
-    let singular = key.trim_end_matches('s').replace('_', " ");
-    if count == 1 { singular } else { singular + "s" }
-}
-
 #[cfg(test)]
 mod tests {
-    //! Parts are counted wherever they stand, and only parts.
+    //! Parts are counted as the reader of the file gives them.
 
     use super::*;
 
@@ -127,13 +126,11 @@ mod tests {
     }
 
     #[test]
-    fn lists_of_tables_are_counted() {
-        let text =
-            "center = [1, 2]\n[[panels]]\n[[panels]]\n[[wheels]]\n[[sunshade.plates]]\n[optics.foil]\n";
-        assert_eq!(contents(text), "2 panels, 1 wheel, a sunshade of 1 plate");
-        let keys_in_singular = "[[group]]\n[[group]]\n[[thruster]]\n";
-        assert_eq!(contents(keys_in_singular), "2 groups, 1 thruster");
-        assert_eq!(contents("[sunshade.cylinder]"), "a sunshade of a cylinder");
+    fn parts_are_counted() {
+        let messenger = include_str!("../../../../fmu-src/resources/messenger.toml");
+        assert_eq!(contents(messenger), "2 panels, 4 wheels, 8 sunshade plates, 1 sunshade cylinder");
+        let ace = include_str!("../../../../fmu-src/resources/ace.toml");
+        assert_eq!(contents(ace), "8 groups, 10 thrusters");
         assert_eq!(contents("no toml"), "");
     }
 }

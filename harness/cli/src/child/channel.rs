@@ -31,7 +31,7 @@ const RING: usize = 64;
 pub const RING_WORDS: usize = 1 << 19;
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;
-/// EndReason often a child looks whether a full ring has room again, and how much has to be free before it goes on.
+/// How often a child looks whether a full ring has space again, and how much has to be free before it goes on.
 const PAUSE: Duration = Duration::from_millis(1);
 const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
 

@@ -16,11 +16,11 @@ use super::{
 };
 use crate::interrupt;
 
-/// EndReason often the parent looks: from often, while much comes, to seldom.
+/// How often the parent looks: from often, while much comes, to seldom.
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(5)];
 /// Words at a time that are much.
 const MUCH: usize = RING_WORDS / 8;
-/// EndReason long a child that is asked to end, or has told its end, may take.
+/// How long a child that is asked to end, or has told its end, may take.
 const GRACE: Duration = Duration::from_secs(2);
 
 /// What the child's process may take of the computer.
@@ -43,7 +43,7 @@ pub struct Bounds {
     pub printed: Option<u64>,
 }
 
-/// EndReason a child came to its end.
+/// How a child came to its end.
 #[derive(Debug)]
 pub enum EndReason {
     /// By itself.
@@ -65,7 +65,7 @@ pub enum EndReason {
 /// A child that was supervised to its end.
 #[derive(Debug)]
 pub struct Supervised {
-    /// EndReason it ended.
+    /// How it ended.
     pub how: EndReason,
     /// The call it was in.
     pub mark: Marked,

@@ -1,10 +1,13 @@
 //! `heliotorque info --coefficients`: what an FMU computes from its parameters, before any step.
 
+mod instance;
 mod spacecraft;
 mod wheels;
 
-use loader::{Error, Fmu, Instance, InstanceOptions, Times, Value};
-use model_description::{Causality, ScalarVariable, Variability};
+use loader::{Error, Fmu, Instance, Value};
+use model_description::{Causality, ScalarVariable};
+
+use instance::started;
 
 /// One row of a table: the elements of a vector, or of one row of a matrix.
 struct Row {
@@ -26,34 +29,6 @@ pub fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
         return Ok(format!("{} has no calculated parameters.", fmu.name()));
     }
     Ok(parts.join("\n\n"))
-}
-
-/// An instance just initialised with these values: from then on parameters can be read too.
-fn started(fmu: &Fmu, sets: &[(String, Value)]) -> Result<Instance, Error> {
-    let times = Times::of(fmu, None, None, None)?;
-    let mut instance = fmu.instantiate("info", &InstanceOptions::default())?;
-    instance.setup_experiment(None, times.start_s, None)?;
-    let mut inputs = Vec::new();
-    for (name, value) in sets {
-        let variable = fmu.variable(name)?;
-        if variable.causality == Causality::Input {
-            inputs.push((name, value));
-        } else if variable.causality == Causality::Parameter && variable.variability != Variability::Constant
-        {
-            instance.set(name, value)?;
-        } else {
-            return Err(Error::Value {
-                variable: name.clone(),
-                what: "it cannot be set: only parameters and inputs can".to_owned(),
-            });
-        }
-    }
-    instance.enter_initialization_mode()?;
-    for (name, value) in inputs {
-        instance.set(name, value)?;
-    }
-    instance.exit_initialization_mode()?;
-    Ok(instance)
 }
 
 /// The calculated parameters that no table of a spacecraft shows; `None` if there are none.

@@ -7,7 +7,8 @@
 
 use loader::{Error, Fmu, Value};
 
-use super::started;
+use super::instance::started;
+
 /// Wheel capacities and the dump thresholds paper 000 states for them, in N m s.
 const PAPER_THRESHOLDS_N_M_S: [(f64, f64); 3] = [(4.0, 4.0), (8.0, 5.5), (12.0, 7.0)];
 

@@ -20,7 +20,7 @@ use model_description::Description;
 
 use files::Destination;
 
-use crate::{app::Outcome, args::Pack};
+use crate::{args::Pack, outcome::Outcome};
 use source::Source;
 use writer::Entries;
 

@@ -2,24 +2,24 @@
 //!
 //! A surface given by its outline is drawn as that polygon, any other as a square of its area; panels stand at angle 0.
 
+mod canvas;
 mod spinner;
 
 use std::fmt::Write;
 
+use physics::{
+    spacecraft::{Polygon, Spacecraft, SunshadeModel},
+    spin::spinner::Spinner,
+};
 use resvg::{tiny_skia, usvg};
-use toml::{Table, Value};
 
-const WIDTH: f64 = 480.0;
-const HEIGHT: f64 = 320.0;
-const MARGIN: f64 = 28.0;
+use canvas::{HEIGHT, MARGIN, Vector, WIDTH, cross, dot, unit};
 
 /// From the spacecraft to the viewer, body frame; -Y points to the Sun and -Z is drawn upwards.
 const VIEW: [f64; 3] = [0.52, -0.78, -0.35];
 const UP: [f64; 3] = [0.0, 0.0, -1.0];
 /// Where the light comes from in the picture.
 const LIGHT: [f64; 3] = [-0.25, -0.85, -0.46];
-
-type Vector = [f64; 3];
 
 /// A flat polygon in space.
 struct Surface {
@@ -33,58 +33,55 @@ struct Surface {
 
 /// Draws the spacecraft; `None` if the text describes no surface and no thruster.
 pub fn png(spacecraft_toml: &str) -> Option<Vec<u8>> {
-    let spacecraft: Table = spacecraft_toml.parse().ok()?;
-    let svg = svg(&surfaces(&spacecraft)).or_else(|| spinner::svg(&spacecraft))?;
+    // A file that no reader takes has no picture; the library that packs it says what is wrong.
+    let svg = match Spacecraft::from_toml("", spacecraft_toml) {
+        Ok(spacecraft) => svg(&surfaces(&spacecraft)),
+        Err(_) => spinner::svg(&Spinner::parse("", spacecraft_toml).ok()?.thrusters),
+    }?;
     let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).ok()?;
     let mut pixels = tiny_skia::Pixmap::new(WIDTH as u32, HEIGHT as u32)?;
     resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
     pixels.encode_png().ok()
 }
 
-fn surfaces(spacecraft: &Table) -> Vec<Surface> {
-    let mut surfaces = Vec::new();
-    let shade = spacecraft.get("sunshade");
-    let shade_turn = shade.map_or(UNTURNED, |shade| turn(shade, "dcm_body_from_shade"));
-    for plate in rows(shade.and_then(|shade| shade.get("plates"))) {
-        surfaces.extend(surface(plate, vector_of(plate, "normal"), shade_turn, false));
-    }
-    for plate in rows(spacecraft.get("plates")) {
-        surfaces.extend(surface(plate, vector_of(plate, "normal"), UNTURNED, false));
-    }
-    for panel in rows(spacecraft.get("panels")) {
-        let normal = vector_of(panel, "zero_normal").unwrap_or([0.0, -1.0, 0.0]);
-        surfaces.extend(surface(panel, Some(normal), turn(panel, "dcm_body_from_panel"), true));
-    }
-    surfaces
-}
-
-fn rows(array: Option<&Value>) -> impl Iterator<Item = &Value> {
-    array.and_then(Value::as_array).into_iter().flatten()
-}
-
-fn surface(row: &Value, normal: Option<Vector>, turn: [Vector; 3], cells: bool) -> Option<Surface> {
-    let outline = row.get("polygon_m").and_then(polygon);
-    let across_outline = outline.as_deref().and_then(|outline| unit(area_vector(outline)));
-    let normal = normal.and_then(unit).or(across_outline)?;
-    // One edge of a square lies along the panel's axis, or across the plane of normal and Z.
-    let along = vector_of(row, "axis").or(cells.then_some([1.0, 0.0, 0.0]));
-    let along = along.or_else(|| Some(cross(normal, UP))).and_then(unit);
-    let along = along.or_else(|| unit(cross(normal, [1.0, 0.0, 0.0])))?;
-    let across = unit(cross(normal, along))?;
-    let corners = match outline {
-        Some(outline) => outline,
-        None => square(number(row.get("area_m2")?)?, vector_of(row, "center_m")?, along, across)?,
+fn surfaces(spacecraft: &Spacecraft) -> Vec<Surface> {
+    let outline = |polygon: &Option<Polygon>| {
+        let polygon = polygon.as_ref()?;
+        Some(polygon.vertices_m().iter().map(|vertex| (*vertex).into()).collect())
     };
-    let share = 1.0 / corners.len() as f64;
-    let center = std::array::from_fn(|i| corners.iter().map(|corner| corner[i] * share).sum());
-    let turned = |v: Vector| turn.map(|row| dot(row, v));
-    Some(Surface {
-        corners: corners.into_iter().map(turned).collect(),
-        center: turned(center),
-        normal: turned(normal),
-        grid: [turned(along), turned(across)],
-        cells,
-    })
+    let plates = spacecraft.plates_body(SunshadeModel::Plates);
+    let plates = plates.iter().filter_map(|plate| {
+        let square = (plate.area_m2, plate.center_m.into());
+        Surface::new(outline(&plate.polygon), square, plate.normal.into(), None)
+    });
+    let panels = spacecraft.panels.iter().filter_map(|panel| {
+        let square = (panel.area_m2, panel.center_body_m.into());
+        let (normal, axis) = (panel.zero_normal_body.into(), panel.axis_body.into());
+        Surface::new(outline(&panel.polygon), square, normal, Some(axis))
+    });
+    plates.chain(panels).collect()
+}
+
+impl Surface {
+    /// With its outline, else a square of this area about this centre. Only a panel has an axis, and solar cells.
+    fn new(
+        outline: Option<Vec<Vector>>,
+        (area_m2, center_m): (f64, Vector),
+        normal: Vector,
+        axis: Option<Vector>,
+    ) -> Option<Self> {
+        // One edge of a square lies along the panel's axis, or across the plane of normal and Z.
+        let along =
+            axis.or_else(|| unit(cross(normal, UP))).or_else(|| unit(cross(normal, [1.0, 0.0, 0.0])))?;
+        let across = unit(cross(normal, along))?;
+        let corners = match outline {
+            Some(outline) => outline,
+            None => square(area_m2, center_m, along, across)?,
+        };
+        let share = 1.0 / corners.len() as f64;
+        let center = std::array::from_fn(|i| corners.iter().map(|corner| corner[i] * share).sum());
+        Some(Self { corners, center, normal, grid: [along, across], cells: axis.is_some() })
+    }
 }
 
 fn square(area_m2: f64, center: Vector, along: Vector, across: Vector) -> Option<Vec<Vector>> {
@@ -94,40 +91,6 @@ fn square(area_m2: f64, center: Vector, along: Vector, across: Vector) -> Option
     };
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner);
     (half.is_finite() && half > 0.0).then(|| corners.to_vec())
-}
-
-/// At least three points with an area.
-fn polygon(value: &Value) -> Option<Vec<Vector>> {
-    let corners: Vec<Vector> = value.as_array()?.iter().map(vector).collect::<Option<_>>()?;
-    (corners.len() >= 3 && unit(area_vector(&corners)).is_some()).then_some(corners)
-}
-
-/// Area times normal, for corners that run counter-clockwise seen from where it points.
-fn area_vector(corners: &[Vector]) -> Vector {
-    let mut sum = [0.0; 3];
-    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-        let part = cross(*a, *b);
-        sum = std::array::from_fn(|i| sum[i] + part[i] / 2.0);
-    }
-    sum
-}
-
-const UNTURNED: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-/// Rows of the matrix from the frame of a shade or panel to the body: as given, or turns about X, then Y, then Z.
-fn turn(row: &Value, matrix_key: &str) -> [Vector; 3] {
-    let given = row.get(matrix_key).and_then(Value::as_array);
-    let given: Option<Vec<Vector>> = given.and_then(|rows| rows.iter().map(vector).collect());
-    if let Some(rows) = given.and_then(|rows| rows.try_into().ok()) {
-        return rows;
-    }
-    let Some(degrees) = vector_of(row, "rotation_deg") else { return UNTURNED };
-    let [(sx, cx), (sy, cy), (sz, cz)] = degrees.map(|angle| angle.to_radians().sin_cos());
-    [
-        [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx],
-        [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx],
-        [-sy, cy * sx, cy * cx],
-    ]
 }
 
 fn svg(surfaces: &[Surface]) -> Option<String> {
@@ -232,32 +195,6 @@ fn cell_lines(surface: &Surface, screen: &dyn Fn(Vector) -> (f64, f64)) -> Strin
     )
 }
 
-fn number(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|integer| integer as f64)).filter(|x| x.is_finite())
-}
-
-fn vector(value: &Value) -> Option<Vector> {
-    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(number).collect();
-    numbers?.try_into().ok()
-}
-
-fn vector_of(row: &Value, key: &str) -> Option<Vector> {
-    vector(row.get(key)?)
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(a: Vector) -> Option<Vector> {
-    let length = dot(a, a).sqrt();
-    (length.is_finite() && length > 1e-9).then(|| a.map(|x| x / length))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -278,14 +215,9 @@ mod tests {
         }
     }
 
-    fn drawn(text: &str) -> Vec<Surface> {
-        surfaces(&text.parse().unwrap())
-    }
-
     #[test]
     fn a_square_has_its_area_and_faces_its_normal() {
-        let surfaces = drawn("[[plates]]\narea_m2 = 2.25\ncenter_m = [1, 2, 3]\nnormal = [0.0, 3.0, 4.0]");
-        let [surface] = surfaces.as_slice() else { panic!("one surface") };
+        let surface = Surface::new(None, (2.25, [1.0, 2.0, 3.0]), [0.0, 0.6, 0.8], None).unwrap();
         let [a, b, c, d] = surface.corners[..] else { panic!("four corners") };
         let edge = |from: Vector, to: Vector| -> Vector { std::array::from_fn(|i| to[i] - from[i]) };
         let normal = cross(edge(a, b), edge(a, d));
@@ -298,33 +230,26 @@ mod tests {
 
     #[test]
     fn an_outline_is_drawn_as_it_is() {
-        // An L in the plane y = -1, counter-clockwise seen from -Y; nothing but the outline is given.
-        let l = "[[0, -1, 0], [2, -1, 0], [2, -1, 1], [1, -1, 1], [1, -1, 2], [0, -1, 2]]";
-        let surfaces = drawn(&format!(
-            "[[plates]]\npolygon_m = {l}\n[[panels]]\npolygon_m = {l}\nrotation_deg = [0, 0, 90]"
-        ));
-        let [plate, panel] = surfaces.as_slice() else { panic!("two surfaces") };
-        assert_eq!(plate.corners.len(), 6);
-        assert_eq!(plate.corners[3], [1.0, -1.0, 1.0]);
-        assert_eq!(plate.normal, [0.0, -1.0, 0.0]);
-        // A quarter turn about Z takes X to Y and -Y to X.
-        for i in 0..3 {
-            assert!((panel.corners[3][i] - [1.0, 1.0, 1.0][i]).abs() < 1e-15, "{:?}", panel.corners);
-            assert!((panel.normal[i] - [1.0, 0.0, 0.0][i]).abs() < 1e-15, "{:?}", panel.normal);
+        let text = include_str!("../../../../fmu-src/resources/examples/mercury-orbiter.toml");
+        let file = physics::spacecraft::Spacecraft::from_toml("", text).unwrap();
+        let drawn = surfaces(&file);
+        assert_eq!(drawn.len(), file.plates_body(SunshadeModel::Plates).len() + file.panels.len());
+        for (surface, panel) in drawn[drawn.len() - file.panels.len()..].iter().zip(&file.panels) {
+            let vertices = panel.polygon.as_ref().unwrap().vertices_m();
+            assert!(
+                surface
+                    .corners
+                    .iter()
+                    .zip(vertices)
+                    .all(|(corner, vertex)| *corner == [vertex.x, vertex.y, vertex.z])
+            );
+            assert!(surface.cells && surface.corners.len() == vertices.len(), "{}", panel.name);
         }
-        assert!(!plate.cells && panel.cells);
     }
 
     #[test]
     fn anything_else_gives_no_picture() {
-        for text in [
-            "",
-            "plates = 3",
-            "[[plates]]\narea_m2 = -1",
-            "not toml [",
-            "[[plates]]\narea_m2 = nan",
-            "[[plates]]\npolygon_m = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]",
-        ] {
+        for text in ["", "plates = 3", "not toml [", "[[plates]]\narea_m2 = -1", "[[thruster]]"] {
             assert!(png(text).is_none(), "{text}");
         }
     }

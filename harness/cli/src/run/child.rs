@@ -10,11 +10,11 @@ use loader::{
     Collector, Ended, Error, Fmu, InstanceOptions, LogMessage, Options, Recording, Row, Rows, Status,
 };
 
-use super::Settings;
+use super::settings::Settings;
 use crate::{
-    app::Outcome,
     args::RunInChild,
     child::{BYTES_FORWARDED, Bounds, ChildProcess, EndReason, Limits, Link, Payload, push_text},
+    outcome::Outcome,
 };
 
 /// Kinds of frames: a row, a message of the log, the end of the simulation, its failure.

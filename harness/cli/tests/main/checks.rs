@@ -278,7 +278,7 @@ fn a_spacecraft_is_judged_by_the_model_it_is_for() {
         "{text}"
     );
     assert!(text.contains("2 problems, judged as a file of SpinPlant"), "{text}");
-    // Torn at its end, it is still a spinner's.
+    // Cut off at its end, it is still a spinner's.
     assert!(check(&format!("{ace}\n[[[")).contains("1 problem, judged as a file of SpinPlant"));
     // Of the models that take the same file, the template's.
     let orbiter = fs::read_to_string(format!("{RESOURCES}/messenger-thermal.toml")).unwrap();

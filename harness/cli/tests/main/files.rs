@@ -67,7 +67,7 @@ fn a_killed_program_leaves_the_old_file_or_the_new_one() {
             child.kill().unwrap();
             kills += u32::from(!child.wait().unwrap().success());
             let found = fs::read(target).unwrap();
-            assert!(found == b"old" || found == whole, "torn after {part}/40 of {whole_run:?}");
+            assert!(found == b"old" || found == whole, "damaged after {part}/40 of {whole_run:?}");
         }
         assert!(kills > 10, "it was too fast to be killed: {kills}");
     }

@@ -124,7 +124,7 @@ fn processes(folder: &Path) -> Vec<u32> {
 
 fn rows(path: &Path) -> Vec<String> {
     let text = fs::read_to_string(path).unwrap_or_default();
-    assert!(text.is_empty() || text.ends_with('\n'), "a torn row: {text}");
+    assert!(text.is_empty() || text.ends_with('\n'), "a damaged row: {text}");
     text.lines().skip(1).map(str::to_owned).collect()
 }
 

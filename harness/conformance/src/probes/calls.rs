@@ -160,7 +160,7 @@ fn judge(case: &Case<'_>, status: Status) -> Option<Finding> {
 /// Makes the call in a fresh instance.
 fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
     let flags = fmu.co_simulation()?;
-    let mut instance = fmu.instantiate("probe", &experiment::unchecked())?;
+    let mut instance = Instance::new(fmu, "probe", &experiment::unchecked())?;
     let needs_saved = matches!(
         case.function,
         Function::SetFmuState

@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use loader::{Callbacks, Error, Fmu, InstanceOptions, LogMessage, Resources, Status};
+use loader::{Callbacks, Error, Fmu, Instance, InstanceOptions, LogMessage, Resources, Status};
 
 use crate::{
     Finding,
@@ -26,14 +26,14 @@ pub fn callbacks(fmu: &Fmu) -> Findings {
     };
     try_with(
         "runs on after the struct of callbacks is overwritten",
-        Callbacks { scribbled: true, ..Callbacks::default() },
+        Callbacks { overwritten: true, ..Callbacks::default() },
     );
     if may_be_null {
         try_with(
             "runs with NULL for allocateMemory and freeMemory, as it claims",
             Callbacks { null_memory: true, ..Callbacks::default() },
         );
-        try_with("runs with both", Callbacks { null_memory: true, scribbled: true });
+        try_with("runs with both", Callbacks { null_memory: true, overwritten: true });
     } else {
         findings.push(Finding::skipped("NULL memory functions: it claims to need them"));
     }
@@ -120,7 +120,7 @@ pub fn paths(fmu: &Fmu) -> Findings {
     ] {
         let options = InstanceOptions { resources, ..experiment::strict() };
         let runs =
-            if fmu.instantiate("probe", &options).is_ok() { "instantiates" } else { "gives no instance" };
+            if Instance::new(fmu, "probe", &options).is_ok() { "instantiates" } else { "gives no instance" };
         findings.push(Finding::good(format!("{runs} with {what} for the resource location, and lives")));
     }
     Ok(findings)
@@ -146,7 +146,7 @@ pub fn identity(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
     for guid in ["", "{00000000-0000-0000-0000-000000000000}", "100 %s %n #r1#"] {
         let options = InstanceOptions { guid: Some(guid.to_owned()), ..experiment::unchecked() };
-        findings.push(match fmu.instantiate("probe", &options) {
+        findings.push(match Instance::new(fmu, "probe", &options) {
             Ok(_) => Finding::bad(format!("gives an instance for the GUID {guid:?}, which is not its own")),
             Err(Error::Call(call)) if !call.messages.is_empty() => {
                 Finding::good(format!("refuses the GUID {guid:?} and says: {}", text(&call.messages)))
@@ -158,10 +158,10 @@ pub fn identity(fmu: &Fmu) -> Findings {
     {
         let shown: String = name.chars().take(20).collect();
         let what = format!("takes the instance name {shown:?}");
-        findings.push(verdict(&what, fmu.instantiate(name, &experiment::strict()).map(|_| ())));
+        findings.push(verdict(&what, Instance::new(fmu, name, &experiment::strict()).map(|_| ())));
     }
     for name in ["", "   "] {
-        let outcome = fmu.instantiate(name, &experiment::unchecked());
+        let outcome = Instance::new(fmu, name, &experiment::unchecked());
         findings.push(match outcome {
             Err(_) => Finding::good(format!("refuses the instance name {name:?}")),
             Ok(_) => Finding::note(format!("takes the instance name {name:?}, which says nothing (2.1.5)")),
@@ -266,7 +266,7 @@ pub fn instances(fmu: &Fmu) -> Findings {
         findings.push(Finding::expect(alike, "16 instances stepped in turn give the bits of one"));
     }
     for _ in 0..100 {
-        drop(fmu.instantiate("probe", &InstanceOptions::default())?);
+        drop(Instance::new(fmu, "probe", &InstanceOptions::default())?);
     }
     let after = experiment::short_simulation(fmu, &experiment::strict())?;
     findings.push(Finding::expect(after == expected, "after 100 instances came and went it runs as before"));

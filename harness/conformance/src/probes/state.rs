@@ -1,7 +1,7 @@
 //! States: saved, restored, serialised, reset, all to the bit.
 
-use model_description::call_table::State;
 use loader::Fmu;
+use model_description::call_table::State;
 
 use crate::{
     Finding,
@@ -68,7 +68,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
             .push(Finding::expect(there == at_end, "another instance runs on from the bytes, to the bit"));
         let back = other.serialize_state(state)?;
         findings.push(Finding::expect(back == bytes, "the bytes read and written again are the same"));
-        torn(fmu, &bytes, &mut findings)?;
+        damaged(fmu, &bytes, &mut findings)?;
     } else {
         findings.push(Finding::skipped("serialising: not claimed"));
     }
@@ -78,7 +78,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
 }
 
 /// Bytes that were cut or changed.
-fn torn(fmu: &Fmu, bytes: &[u8], findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
+fn damaged(fmu: &Fmu, bytes: &[u8], findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
     let mut damaged = bytes.to_vec();
     if let Some(middle) = damaged.get_mut(bytes.len() / 2) {
         *middle ^= 0x10;

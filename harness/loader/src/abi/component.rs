@@ -33,7 +33,7 @@ pub struct Callbacks {
     /// NULL for `allocateMemory` and `freeMemory`.
     pub null_memory: bool,
     /// The struct is overwritten with rubbish right after `fmi2Instantiate` (2.0.5 lets it die there).
-    pub scribbled: bool,
+    pub overwritten: bool,
 }
 
 /// Everything `fmi2Instantiate` takes.
@@ -129,7 +129,7 @@ impl Component {
             )
         };
         drop(under_way);
-        if start.callbacks.scribbled {
+        if start.callbacks.overwritten {
             // SAFETY: the struct is ours; from here on nobody may read it as a struct, and we never do.
             unsafe { ptr::write_bytes(callbacks.cast::<u8>(), 0xA5, size_of::<CallbackFunctions>()) };
         }

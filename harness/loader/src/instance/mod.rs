@@ -70,7 +70,8 @@ impl std::fmt::Debug for Instance {
 }
 
 impl Instance {
-    pub(crate) fn new(fmu: &Fmu, name: &str, options: &InstanceOptions) -> Result<Self, Error> {
+    /// Instantiates the FMU; its library is loaded if it is not yet.
+    pub fn new(fmu: &Fmu, name: &str, options: &InstanceOptions) -> Result<Self, Error> {
         let binary = fmu.binary()?;
         let resources = match &options.resources {
             Resources::Folder => Some(file_uri(&fmu.folder().join("resources"))),

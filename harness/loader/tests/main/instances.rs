@@ -5,7 +5,7 @@ use loader::{Callbacks, Checking, Error, Fmu, Instance, InstanceOptions, Outcome
 use crate::probe;
 
 fn ready(fmu: &Fmu) -> Instance {
-    let mut instance = fmu.instantiate("it", &InstanceOptions::default()).unwrap();
+    let mut instance = Instance::new(fmu, "it", &InstanceOptions::default()).unwrap();
     instance.setup_experiment(None, 0.0, None).unwrap();
     instance.enter_initialization_mode().unwrap();
     instance.exit_initialization_mode().unwrap();
@@ -45,7 +45,7 @@ fn every_type_goes_there_and_back() {
 #[test]
 fn forbidden_calls_never_reach_the_fmu() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
-    let mut instance = fmu.instantiate("it", &InstanceOptions::default()).unwrap();
+    let mut instance = Instance::new(&fmu, "it", &InstanceOptions::default()).unwrap();
     assert!(refused(instance.do_step(0.0, 1.0, true)).contains("instantiated"));
     assert!(refused(instance.enter_initialization_mode()).contains("fmi2SetupExperiment"));
     let text = refused(instance.set_real("input.real", 1.0));
@@ -90,7 +90,7 @@ fn lengths_are_checked_before_the_call() {
 fn an_error_shows_call_status_and_log() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     let options = InstanceOptions { logging: true, checking: Checking::Off, ..InstanceOptions::default() };
-    let mut instance = fmu.instantiate("my % ship", &options).unwrap();
+    let mut instance = Instance::new(&fmu, "my % ship", &options).unwrap();
     let error = instance.do_step(0.0, 1.0, true).unwrap_err();
     assert_eq!(error.status(), Some(Status::Error));
     let text = error.to_string();
@@ -107,19 +107,19 @@ fn an_error_shows_call_status_and_log() {
 fn an_fmu_that_is_not_made_says_why() {
     let Some((folder, fmu)) = probe("AllTypes") else { return };
     let options = InstanceOptions { guid: Some("{wrong}".to_owned()), ..InstanceOptions::default() };
-    let text = fmu.instantiate("it", &options).unwrap_err().to_string();
+    let text = Instance::new(&fmu, "it", &options).unwrap_err().to_string();
     assert!(text.contains("fmi2Instantiate: gave no instance") && text.contains("{wrong}"), "{text}");
     let options = InstanceOptions {
         resources: Resources::Uri("file:///no/such/place".to_owned()),
         ..InstanceOptions::default()
     };
-    assert!(fmu.instantiate("it", &options).is_err());
-    assert!(fmu.instantiate("a\0b", &InstanceOptions::default()).is_err());
+    assert!(Instance::new(&fmu, "it", &options).is_err());
+    assert!(Instance::new(&fmu, "a\0b", &InstanceOptions::default()).is_err());
 
     // No library for this computer.
     std::fs::rename(folder.path().join("binaries"), folder.path().join("binaries.old")).unwrap();
     let bare = Fmu::open(folder.path()).unwrap();
-    let text = bare.instantiate("it", &InstanceOptions::default()).unwrap_err().to_string();
+    let text = Instance::new(&bare, "it", &InstanceOptions::default()).unwrap_err().to_string();
     assert!(
         text.contains("no shared library for this computer") && text.contains(loader::platform_folders()[0])
     );
@@ -157,7 +157,7 @@ fn states_come_back_to_the_bit_here_and_elsewhere() {
     instance.restore_state(saved).unwrap();
     assert_eq!(advance(&mut instance, 7, 19), first);
 
-    let mut other = fmu.instantiate("other", &InstanceOptions::default()).unwrap();
+    let mut other = Instance::new(&fmu, "other", &InstanceOptions::default()).unwrap();
     let there = other.deserialize_state(&bytes).unwrap();
     other.restore_state(there).unwrap();
     assert_eq!(advance(&mut other, 7, 19), first);
@@ -199,10 +199,10 @@ fn callbacks_may_be_rubbish_after_instantiation() {
     let options = InstanceOptions {
         logging: true,
         checking: Checking::Off,
-        callbacks: Callbacks { null_memory: true, scribbled: true },
+        callbacks: Callbacks { null_memory: true, overwritten: true },
         ..InstanceOptions::default()
     };
-    let mut instance = fmu.instantiate("it", &options).unwrap();
+    let mut instance = Instance::new(&fmu, "it", &options).unwrap();
     assert!(instance.do_step(0.0, 1.0, true).is_err());
     assert!(!instance.messages().is_empty(), "the logger was lost with the struct");
     for (name, answer) in instance.probe_nulls() {

@@ -1,6 +1,6 @@
 //! People's names and values: vectors, patterns, units, items; and errors that help.
 
-use loader::{Value, parse_assignment, select};
+use loader::{Value, parse_assignment};
 
 use crate::{description, folder};
 
@@ -66,7 +66,7 @@ fn a_vector_is_set_whole() {
 fn patterns_keep_declaration_order() {
     let (_folder, fmu) = folder(&description());
     let names = |pattern: &str| -> Vec<&str> {
-        let positions = select(&fmu, pattern).unwrap();
+        let positions = fmu.select(pattern).unwrap();
         positions.into_iter().map(|it| fmu.description().variables[it].name.as_str()).collect()
     };
     assert_eq!(names("position"), ["position[1]", "position[2]"]);
@@ -74,7 +74,7 @@ fn patterns_keep_declaration_order() {
     assert_eq!(names("position[2]"), ["position[2]"]);
     assert_eq!(names("*.m*"), ["ship.mass", "drive.mode"]);
     assert_eq!(names("*").len(), 12);
-    assert!(select(&fmu, "nothing.*").is_err());
+    assert!(fmu.select("nothing.*").is_err());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use loader::{Column, Ended, InputTable, Options, Value, select, simulate};
+use loader::{Column, Ended, InputTable, Options, Value, simulate};
 
 use crate::probe;
 
@@ -55,7 +55,7 @@ fn an_input_table_drives_the_simulation() {
                 step_s: Some(0.5),
                 inputs: Some(&table),
                 input_derivatives,
-                record: Some(select(&fmu, "output.*").unwrap()),
+                record: Some(fmu.select("output.*").unwrap()),
                 ..Options::default()
             },
         )

@@ -5,9 +5,10 @@ use std::{fmt::Write, path::Path};
 use loader::Fmu;
 use physics::spin::{geometry::L1Phases, spinner::Spinner};
 
+use super::options::ACE;
 use super::{
-    ACE, Options, PlanError, Row, Task, Verification, best, campaign, frontier, longest_interval_s,
-    paper_plan, timing_label, trade, verify, windows,
+    Options, PlanError, Row, Task, Verification, best, campaign, frontier, longest_interval_s, paper_plan,
+    timing_label, trade, verify, windows,
 };
 
 const DAY_S: f64 = 86_400.0;

@@ -4,7 +4,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{
-    Area, COLOURS, Drawn, FINE, FONT, INK, LEFT, Mark, Panel, RIGHT, Series, WIDTH, Y_AXIS_WIDTH, pixel,
+    series::{Mark, Panel, Series},
+    style::{Area, COLOURS, Drawn, FINE, FONT, INK, LEFT, RIGHT, WIDTH, Y_AXIS_WIDTH, pixel},
 };
 
 /// Height of a row in drawing units.

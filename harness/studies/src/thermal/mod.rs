@@ -13,6 +13,7 @@ use crate::{Options, Report, StudyError};
 
 use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
 use paper::{Row, TABLE_7, TABLE_8};
+use table::Simulated;
 pub use year::figure13;
 
 /// "One revolution of the orbiter (i.e. 12 hours)", from periapsis, in s.
@@ -111,14 +112,6 @@ and these count as lit.";
 fn series(effect: usize, suffix: &str, samples: &[Sample]) -> Series {
     let point = |sample: &Sample| (sample.time_s / 3600.0, sample.effects[effect] * 1e7);
     Series::line(format!("{}{suffix}", EFFECTS[effect]), samples.iter().map(point).collect())
-}
-
-/// One row, simulated.
-struct Simulated {
-    row: Row,
-    samples: Vec<Sample>,
-    /// Where asked for.
-    by_cells: Option<Vec<Sample>>,
 }
 
 /// Runs the rows that `options` leaves, on all cores.

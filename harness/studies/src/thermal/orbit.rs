@@ -179,7 +179,7 @@ struct DisturbanceRun {
 
 impl DisturbanceRun {
     fn start(fmu: &Fmu, case: &Case) -> Result<Self, loader::Error> {
-        let mut instance = fmu.instantiate("disturbance", &InstanceOptions::default())?;
+        let mut instance = Instance::new(fmu, "disturbance", &InstanceOptions::default())?;
         let eclipse = if case.planet == Planet::Still { 3 } else { 2 };
         instance.set("eclipse.method", &Value::Integer(eclipse))?;
         if let Some(belts) = case.belts {

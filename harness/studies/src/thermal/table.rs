@@ -1,9 +1,17 @@
 //! Tables 7 and 8: extremes around the orbit beside the paper's.
 
-use super::Simulated;
 use super::orbit::{EFFECTS, Sample};
+use super::paper::Row;
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
+
+/// One row of the paper, simulated.
+pub(super) struct Simulated {
+    pub(super) row: Row,
+    pub(super) samples: Vec<Sample>,
+    /// By the planet's cells, where asked for.
+    pub(super) by_cells: Option<Vec<Sample>>,
+}
 
 /// How far the greatest of solar, albedo, infrared and recoil may be off the printed one, relative to it.
 pub(super) type Tolerances = [f64; 4];

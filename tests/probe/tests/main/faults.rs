@@ -60,10 +60,10 @@ fn every_fault_is_a_status_of_its_call() {
             // Restoring drops the state there was.
             Fault::DropState => Err(("setState", Status::Error)),
         };
-        let mut unlucky = instance(fault);
-        assert_eq!(use_everything(&mut unlucky), expected, "{fault:?}");
+        let mut failing = instance(fault);
+        assert_eq!(use_everything(&mut failing), expected, "{fault:?}");
         if expected.is_err() {
-            let messages = unlucky.take_messages();
+            let messages = failing.take_messages();
             assert!(messages.iter().any(|it| !it.text.is_empty()), "{fault:?} is not reported");
         }
         let time_s = step as f64 * 0.5;
@@ -74,12 +74,12 @@ fn every_fault_is_a_status_of_its_call() {
 #[test]
 fn a_panic_poisons_but_a_failure_can_be_reset() {
     for (fault, after_reset) in [(Fault::Step, Status::Error), (Fault::FailStep, Status::Ok)] {
-        let mut unlucky = instance(fault);
-        assert_eq!(unlucky.start(0.0, None), Status::Ok);
-        assert_eq!(unlucky.do_step(0.0, 1.0), Status::Error);
-        assert!(unlucky.take_messages().iter().any(|it| it.text.contains("100 %% deliberate")), "{fault:?}");
-        assert_eq!(unlucky.do_step(0.0, 1.0), Status::Error, "{fault:?}");
-        assert_eq!(unlucky.reset(), after_reset, "{fault:?}");
+        let mut failing = instance(fault);
+        assert_eq!(failing.start(0.0, None), Status::Ok);
+        assert_eq!(failing.do_step(0.0, 1.0), Status::Error);
+        assert!(failing.take_messages().iter().any(|it| it.text.contains("100 %% deliberate")), "{fault:?}");
+        assert_eq!(failing.do_step(0.0, 1.0), Status::Error, "{fault:?}");
+        assert_eq!(failing.reset(), after_reset, "{fault:?}");
     }
 }
 

@@ -232,6 +232,7 @@ impl Builder<'_> {
             thrusters.push(Thruster {
                 name: entry.name,
                 force_body_n,
+                position_body_m: position_m,
                 torque_body_n_m: position_m.cross(&force_body_n),
                 flow_kg_s: entry.force_n / exhaust_m_s,
             });

@@ -5,9 +5,7 @@
 
 use std::fmt::Write;
 
-use toml::Table;
-
-use super::{HEIGHT, MARGIN, Vector, WIDTH, dot, rows, unit, vector_of};
+use super::canvas::{HEIGHT, MARGIN, Vector, WIDTH, dot, unit};
 
 /// Lengths as parts of the cylinder's radius.
 const NOZZLE: f64 = 0.16;
@@ -48,12 +46,13 @@ impl View {
     }
 }
 
-/// Draws it; `None` if the file has no thruster, or one without position or direction.
-pub fn svg(spacecraft: &Table) -> Option<String> {
-    let thrusters: Vec<Thruster> = rows(spacecraft.get("thruster"))
-        .map(|row| {
-            let force = vector_of(row, "direction").and_then(unit)?;
-            Some(Thruster { position_m: vector_of(row, "position_m")?, jet: force.map(|x| -x) })
+/// Draws it; `None` where no thruster is aside of the axis.
+pub fn svg(thrusters: &[physics::spacecraft::Thruster]) -> Option<String> {
+    let thrusters: Vec<Thruster> = thrusters
+        .iter()
+        .map(|thruster| {
+            let force = unit(thruster.force_body_n.into())?;
+            Some(Thruster { position_m: thruster.position_body_m.into(), jet: force.map(|x| -x) })
         })
         .collect::<Option<_>>()?;
     let cylinder = Cylinder::through(&thrusters)?;
@@ -202,10 +201,14 @@ mod tests {
     //! Thrusters stand where the file has them, and only a whole file gives a picture.
     use super::*;
 
-    const THRUSTER: &str = "[[thruster]]\nposition_m = [0.5, 0.0, 0.2]\ndirection = [-2.0, 0.0, 0.0]\n";
-
-    fn drawn(text: &str) -> Option<String> {
-        svg(&text.parse().unwrap())
+    fn thruster(position_m: [f64; 3], force_n: [f64; 3]) -> physics::spacecraft::Thruster {
+        physics::spacecraft::Thruster {
+            name: String::new(),
+            position_body_m: position_m.into(),
+            force_body_n: force_n.into(),
+            torque_body_n_m: [0.0; 3].into(),
+            flow_kg_s: 0.0,
+        }
     }
 
     /// The corners of the polygons of a fill, in order.
@@ -221,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_thruster_blows_against_its_force() {
-        let svg = drawn(&format!("{THRUSTER}{}", THRUSTER.replace("0.2]", "-0.2]"))).unwrap();
+        let svg = svg(&[0.2, -0.2].map(|z_m| thruster([0.5, 0.0, z_m], [-2.0, 0.0, 0.0]))).unwrap();
         let nozzles = polygons(&svg, "#4a525c");
         // Two from aside, one above the other; two along the axis, one behind the other.
         let [upper, lower, hidden, shown] = nozzles.as_slice() else { panic!("{} nozzles", nozzles.len()) };
@@ -246,15 +249,14 @@ mod tests {
 
     #[test]
     fn anything_else_gives_no_picture() {
-        for text in [
-            "",
-            "thruster = 3",
-            "[[thruster]]\nposition_m = [0.0, 0.0, 1.0]\ndirection = [1.0, 0.0, 0.0]",
-            "[[thruster]]\nposition_m = [1.0, 0.0, nan]\ndirection = [1.0, 0.0, 0.0]",
-            "[[thruster]]\nposition_m = [1.0, 0.0, 0.0]\ndirection = [0.0, 0.0, 0.0]",
-            &format!("{THRUSTER}[[thruster]]\n"),
+        let good = thruster([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+        for thrusters in [
+            vec![],
+            vec![thruster([0.0, 0.0, 1.0], [1.0, 0.0, 0.0])],
+            vec![thruster([1.0, 0.0, f64::NAN], [1.0, 0.0, 0.0])],
+            vec![good, thruster([1.0, 0.0, 0.0], [0.0; 3])],
         ] {
-            assert!(drawn(text).is_none(), "{text}");
+            assert!(svg(&thrusters).is_none(), "{thrusters:?}");
         }
     }
 }

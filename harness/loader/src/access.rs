@@ -1,0 +1,77 @@
+//! Which conditions of the call table the variables of an FMU meet.
+
+use bitflags::bitflags;
+use model_description::{BaseType, Description, call_table::Condition};
+
+bitflags! {
+    /// Which of the call table's conditions a variable meets.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Conditions: u8 {
+        const SETTABLE_BEFORE_INITIALIZATION = 1;
+        const OUTPUT_OR_INITIAL_UNKNOWN = 1 << 1;
+        const SETTABLE_IN_INITIALIZATION = 1 << 2;
+        const INPUT_OR_TUNABLE = 1 << 3;
+    }
+}
+
+impl From<Condition> for Conditions {
+    fn from(condition: Condition) -> Self {
+        match condition {
+            Condition::SettableBeforeInitialization => Self::SETTABLE_BEFORE_INITIALIZATION,
+            Condition::OutputOrInitialUnknown => Self::OUTPUT_OR_INITIAL_UNKNOWN,
+            Condition::SettableInInitialization => Self::SETTABLE_IN_INITIALIZATION,
+            Condition::InputOrTunable => Self::INPUT_OR_TUNABLE,
+            // These restrict what the values are good for, not which variables may be read.
+            Condition::Debugging | Condition::DebuggingUnlessTerminated => Self::empty(),
+        }
+    }
+}
+
+/// The conditions that restrict which variables may be set or read.
+const RESTRICTING: [Condition; 4] = [
+    Condition::SettableBeforeInitialization,
+    Condition::OutputOrInitialUnknown,
+    Condition::SettableInInitialization,
+    Condition::InputOrTunable,
+];
+
+/// For every value reference, by base type and sorted: which of the table's conditions it meets.
+pub(crate) struct AccessTable([Vec<(u32, Conditions)>; 4]);
+
+impl AccessTable {
+    pub fn of(description: &Description) -> Self {
+        let mut initial_unknown = vec![false; description.variables.len() + 1];
+        for unknown in &description.structure.initial_unknowns {
+            if let Some(flag) = initial_unknown.get_mut(unknown.index as usize) {
+                *flag = true;
+            }
+        }
+        let mut tables: [Vec<(u32, Conditions)>; 4] = Default::default();
+        for (position, variable) in description.variables.iter().enumerate() {
+            let listed = initial_unknown[position + 1];
+            let met = RESTRICTING
+                .into_iter()
+                .filter(|condition| condition.admits(variable, listed))
+                .map(Conditions::from)
+                .collect();
+            tables[variable.kind.base_type() as usize].push((variable.value_reference, met));
+        }
+        for table in &mut tables {
+            // Aliases share a reference: what one of them may, all may.
+            table.sort_unstable_by_key(|row| row.0);
+            table.dedup_by(|next, kept| {
+                let alias = next.0 == kept.0;
+                if alias {
+                    kept.1 |= next.1;
+                }
+                alias
+            });
+        }
+        Self(tables)
+    }
+
+    pub fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
+        let table = &self.0[base as usize];
+        table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
+    }
+}

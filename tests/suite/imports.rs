@@ -1,0 +1,226 @@
+//! Imports run one way between files: no file of a crate uses a second one that uses the first, however far around.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use syn::visit::{self, Visit};
+
+use crate::sources::{is_for_tests, workspace};
+
+/// Crates whose files are held to it, with the circles that are still there: the files of a circle, sorted.
+const CRATES: &[(&str, &[&[&str]])] = &[
+    ("harness/files", &[]),
+    ("harness/terminal", &[]),
+    (
+        "harness/loader",
+        &[&["abi/component.rs", "abi/describe.rs", "abi/logger.rs", "abi/mod.rs", "calls.rs"]],
+    ),
+    ("harness/conformance", &[]),
+    ("harness/studies", &[]),
+    ("harness/planner", &[]),
+    ("harness/cli", &[]),
+];
+
+/// Names from the root of a crate to a module.
+type Module = Vec<String>;
+
+/// What a file says of modules and names.
+struct Source {
+    file: PathBuf,
+    syntax: syn::File,
+}
+
+/// Every module of a crate that has a file of its own.
+fn modules(root: &Path) -> BTreeMap<Module, Source> {
+    let mut found = BTreeMap::new();
+    for (name, folder) in [("lib.rs", root), ("main.rs", root)] {
+        if folder.join(name).exists() {
+            read(folder.join(name), folder, Vec::new(), &mut found);
+        }
+    }
+    found
+}
+
+fn read(file: PathBuf, folder: &Path, module: Module, found: &mut BTreeMap<Module, Source>) {
+    let syntax = syn::parse_file(&fs::read_to_string(&file).unwrap()).unwrap();
+    for item in &syntax.items {
+        let syn::Item::Mod(child) = item else { continue };
+        if child.content.is_some() || is_for_tests(&child.attrs) {
+            continue;
+        }
+        let name = child.ident.to_string();
+        let beside = folder.join(format!("{name}.rs"));
+        let inside = folder.join(&name).join("mod.rs");
+        let path = if beside.exists() { beside } else { inside };
+        let child_module = [module.clone(), vec![name.clone()]].concat();
+        read(path, &folder.join(&name), child_module, found);
+    }
+    found.insert(module, Source { file, syntax });
+}
+
+/// The names that a module's `use` declarations bring in, each with where it comes from.
+fn imported(source: &Source) -> Vec<(String, Vec<String>)> {
+    fn walk(tree: &syn::UseTree, path: &[String], found: &mut Vec<(String, Vec<String>)>) {
+        let with = |name: String| [path, &[name]].concat();
+        match tree {
+            syn::UseTree::Path(step) => walk(&step.tree, &with(step.ident.to_string()), found),
+            syn::UseTree::Group(group) => group.items.iter().for_each(|tree| walk(tree, path, found)),
+            syn::UseTree::Glob(_) => found.push(("*".to_owned(), path.to_vec())),
+            syn::UseTree::Name(name) if name.ident == "self" => {
+                found.push((path.last().cloned().unwrap_or_default(), path.to_vec()));
+            }
+            syn::UseTree::Name(name) => found.push((name.ident.to_string(), with(name.ident.to_string()))),
+            syn::UseTree::Rename(name) => found.push((name.rename.to_string(), with(name.ident.to_string()))),
+        }
+    }
+    let mut found = Vec::new();
+    for item in &source.syntax.items {
+        if let syn::Item::Use(item) = item
+            && !is_for_tests(&item.attrs)
+        {
+            walk(&item.tree, &[], &mut found);
+        }
+    }
+    found
+}
+
+/// The paths that stand in the code of a file, tests left out.
+#[derive(Default)]
+struct Paths(Vec<Vec<String>>);
+
+impl<'ast> Visit<'ast> for Paths {
+    fn visit_item_mod(&mut self, item: &'ast syn::ItemMod) {
+        if !is_for_tests(&item.attrs) {
+            visit::visit_item_mod(self, item);
+        }
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        if path.segments.len() > 1 {
+            self.0.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
+        }
+        visit::visit_path(self, path);
+    }
+}
+
+/// A crate's modules with what each imports.
+struct Crate {
+    modules: BTreeMap<Module, Source>,
+    imports: BTreeMap<Module, Vec<(String, Vec<String>)>>,
+}
+
+impl Crate {
+    /// The module in which a path's last name is declared, if that is in this crate; `None` for a bare module too.
+    fn declared_in(&self, from: &Module, path: &[String], depth: u32) -> Option<Module> {
+        let (first, mut rest) = path.split_first()?;
+        let mut at = match first.as_str() {
+            "crate" => Vec::new(),
+            "self" => from.clone(),
+            "super" => from[..from.len().checked_sub(1)?].to_vec(),
+            name => {
+                let child = [from.clone(), vec![name.to_owned()]].concat();
+                if self.modules.contains_key(&child) {
+                    child
+                } else {
+                    let (_, origin) = self.imports[from].iter().find(|(known, _)| known == name)?;
+                    let whole = [origin, rest].concat();
+                    // The import itself was counted where it stands.
+                    return (depth < 8 && origin != path)
+                        .then(|| self.declared_in(from, &whole, depth + 1))?;
+                }
+            }
+        };
+        while let Some((name, more)) = rest.split_first() {
+            if name == "super" {
+                at.pop()?;
+            } else {
+                let child = [at.clone(), vec![name.clone()]].concat();
+                if !self.modules.contains_key(&child) {
+                    let exported = self.imports[&at].iter().find(|(known, _)| known == name);
+                    return match exported {
+                        Some((_, origin)) if depth < 8 => {
+                            self.declared_in(&at, &[origin, more].concat(), depth + 1)
+                        }
+                        _ => Some(at),
+                    };
+                }
+                at = child;
+            }
+            rest = more;
+        }
+        None
+    }
+
+    /// Which module uses which others.
+    fn uses(&self) -> BTreeMap<&Module, BTreeSet<Module>> {
+        let mut uses = BTreeMap::new();
+        for (module, source) in &self.modules {
+            let mut paths = Paths::default();
+            paths.visit_file(&source.syntax);
+            let imports = self.imports[module].iter().map(|(_, path)| path);
+            let used: BTreeSet<Module> = imports
+                .chain(&paths.0)
+                .filter_map(|path| self.declared_in(module, path, 0))
+                .filter(|used| used != module)
+                .collect();
+            uses.insert(module, used);
+        }
+        uses
+    }
+}
+
+/// Files that use one another around a circle, each circle sorted.
+fn circles(root: &Path) -> BTreeSet<Vec<String>> {
+    let modules = modules(root);
+    let imports = modules.iter().map(|(module, source)| (module.clone(), imported(source))).collect();
+    let it = Crate { modules, imports };
+    let uses = it.uses();
+    let reached = |from: &Module| {
+        let (mut reached, mut open) = (BTreeSet::new(), vec![from.clone()]);
+        while let Some(module) = open.pop() {
+            for next in &uses[&module] {
+                if reached.insert(next.clone()) {
+                    open.push(next.clone());
+                }
+            }
+        }
+        reached
+    };
+    let all: BTreeMap<&Module, BTreeSet<Module>> =
+        uses.keys().map(|module| (*module, reached(module))).collect();
+    let name = |module: &Module| {
+        it.modules[module].file.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/")
+    };
+    let circle = |module: &Module| -> Vec<String> {
+        let mut files: Vec<String> =
+            all[module].iter().filter(|other| all[*other].contains(module)).map(name).collect();
+        files.sort();
+        files
+    };
+    all.keys().map(|module| circle(module)).filter(|files| !files.is_empty()).collect()
+}
+
+#[test]
+fn no_file_uses_one_that_uses_it() {
+    let owned = |files: &[&str]| files.iter().map(|file| (*file).to_owned()).collect::<Vec<_>>();
+    let known: BTreeMap<&str, BTreeSet<Vec<String>>> = CRATES
+        .iter()
+        .map(|(folder, circles)| (*folder, circles.iter().map(|files| owned(files)).collect()))
+        .collect();
+    let found: BTreeMap<&str, BTreeSet<Vec<String>>> =
+        known.keys().map(|folder| (*folder, circles(&workspace().join(folder).join("src")))).collect();
+    assert_eq!(found, known);
+}
+
+#[test]
+fn a_circle_is_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("lib.rs", "mod a;\nmod b;\nmod c;\npub use a::A;\n");
+    write("a.rs", "use crate::b;\npub struct A;\nfn f() { b::g() }\n");
+    write("b.rs", "pub fn g() { let _ = super::A; }\n");
+    write("c.rs", "use crate::{A, b::g};\n#[cfg(test)]\nmod tests { use super::*; }\n");
+    let expected = BTreeSet::from([vec!["a.rs".to_owned(), "b.rs".to_owned()]]);
+    assert_eq!(circles(folder.path()), expected);
+}
