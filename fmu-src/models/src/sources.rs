@@ -145,7 +145,7 @@ pub const SPIN_PLANT: &[Source] = &[
     ),
     source(
         "work of a step",
-        "solver.workLimit bounds it: 16 units for a cell of the motion, 64 with a damper, 4 for a crossing of Sun or star, an edge of a pulse or a panel of the impulse, 2 \
+        "solver.workLimit bounds it: 16 units for a segment of the motion, 64 with a damper, 4 for a crossing of Sun or star, an edge of a pulse or a panel of the impulse, 2 \
          for a clock sample or a direction on the L1 orbit; where a step is cut changes nothing but that",
     ),
     source(

@@ -35,10 +35,10 @@ const EVALUATIONS: usize = 200;
 type Failure = Box<dyn std::error::Error>;
 
 fn main() -> Result<(), Failure> {
-    let craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML)?;
+    let spacecraft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML)?;
     let orbit = orbit()?;
-    planet_light(&craft, &orbit)?;
-    evaluations(&craft, &orbit)?;
+    planet_light(&spacecraft, &orbit)?;
+    evaluations(&spacecraft, &orbit)?;
     for (hull, shaded) in [(30, 10), (108, 36)] {
         shadows(hull, shaded)?;
     }
@@ -88,9 +88,9 @@ fn value(name: &str, value: f64, unit: &str) {
 type Cell = (usize, f64, Optics);
 
 /// The twelve cells and their distinct normals, panels at angle 0.
-fn cells(craft: &Spacecraft) -> (Vec<Cell>, Vec<Vector3<f64>>) {
-    let plates = craft.plates.iter().map(|plate| (plate.normal, plate.area_m2, plate.optics));
-    let panels = craft.panels.iter().flat_map(|panel| {
+fn cells(spacecraft: &Spacecraft) -> (Vec<Cell>, Vec<Vector3<f64>>) {
+    let plates = spacecraft.plates.iter().map(|plate| (plate.normal, plate.area_m2, plate.optics));
+    let panels = spacecraft.panels.iter().flat_map(|panel| {
         let normal = panel.normal_body(0.0);
         let rear = panel.rear_optics.map(|optics| (-normal, panel.area_m2, optics));
         core::iter::once((normal, panel.area_m2, panel.optics)).chain(rear)
@@ -132,10 +132,10 @@ fn force(
 }
 
 fn planet_light(
-    craft: &Spacecraft,
+    spacecraft: &Spacecraft,
     (positions_m, flux_w_m2): &(Vec<Vector3<f64>>, f64),
 ) -> Result<(), Failure> {
-    let (cells, normals) = cells(craft);
+    let (cells, normals) = cells(spacecraft);
     let surface = MERCURY;
     let sun = -Vector3::y();
     let by_rings = |rule: &RingRule, position_m: &Vector3<f64>| -> Result<[Vector3<f64>; 2], Failure> {
@@ -199,10 +199,10 @@ fn planet_light(
 
 /// All effects in one call, and parts of it.
 fn evaluations(
-    craft: &Spacecraft,
+    spacecraft: &Spacecraft,
     (positions_m, flux_w_m2): &(Vec<Vector3<f64>>, f64),
 ) -> Result<(), Failure> {
-    let model = DisturbanceModel::new(craft, &Options { planet: Some(MERCURY), ..Options::default() })?;
+    let model = DisturbanceModel::new(spacecraft, &Options { planet: Some(MERCURY), ..Options::default() })?;
     fn evaluate<T: Scalar>(
         model: &DisturbanceModel,
         position_m: Option<&Vector3<f64>>,
@@ -267,9 +267,9 @@ fn shadows(hull: usize, shaded: usize) -> Result<(), Failure> {
     let polygons = drum(hull, shaded)?;
     let count = polygons.len();
     let optics = Optics::from_reflectivities(0.1, 0.2);
-    let mut craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML)?;
-    craft.panels.clear();
-    craft.plates = polygons
+    let mut spacecraft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML)?;
+    spacecraft.panels.clear();
+    spacecraft.plates = polygons
         .iter()
         .enumerate()
         .map(|(i, polygon)| {
@@ -312,7 +312,7 @@ fn shadows(hull: usize, shaded: usize) -> Result<(), Failure> {
         workspace.lit(hull).map_or(0.0, |lit| lit.0)
     });
     value(&format!("shadow_drum_{count}_scenes_per_second"), 1.0 / scene_s, "1/s");
-    let model = DisturbanceModel::new(&craft, &Options::default())?;
+    let model = DisturbanceModel::new(&spacecraft, &Options::default())?;
     let mut workspace = Workspace::default();
     let all_s = report(&format!("shadow_drum_{count}_force_torque_recoil"), |i| {
         let geometry = Geometry {

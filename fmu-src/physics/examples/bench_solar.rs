@@ -55,10 +55,10 @@ fn total<T: Scalar>(model: &SolarModel, i: usize) -> f64 {
 
 /// MESSENGER's front plate in many directions, half of them lit.
 fn hedgehog(plates: usize) -> Result<Spacecraft, SpacecraftError> {
-    let mut craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML)?;
-    let pattern = craft.sunshade.take().and_then(|shade| shade.plates.into_iter().next());
-    craft.panels.clear();
-    craft.plates = pattern
+    let mut spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML)?;
+    let pattern = spacecraft.sunshade.take().and_then(|shade| shade.plates.into_iter().next());
+    spacecraft.panels.clear();
+    spacecraft.plates = pattern
         .into_iter()
         .flat_map(|plate| {
             (0..plates).map(move |i| {
@@ -71,7 +71,7 @@ fn hedgehog(plates: usize) -> Result<Spacecraft, SpacecraftError> {
             })
         })
         .collect();
-    Ok(craft)
+    Ok(spacecraft)
 }
 
 fn report(name: &str, faces: usize, mut evaluate: impl FnMut(usize) -> f64) {

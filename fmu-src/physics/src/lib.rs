@@ -1,7 +1,7 @@
 //! Spacecraft disturbance physics: what sunlight, planet light, heat, wheels and thrusters do to force, torque
 //! and stored momentum. Knows nothing of FMI.
 //!
-//! A module uses only modules listed before it. All quantities are SI, angles in
+//! A module uses only modules listed before it, and no file uses one that uses it. All quantities are SI, angles in
 //! radians; frames and units stand in the identifiers.
 
 #![forbid(unsafe_code)]
@@ -11,17 +11,17 @@ pub mod numerics;
 
 pub mod bodies;
 
+pub mod attitude;
+
 pub mod spacecraft;
 
 pub mod environment;
 
 pub mod radiation;
 
-pub mod attitude;
+pub mod guidance;
 
 pub mod momentum;
-
-pub mod guidance;
 
 pub mod plant;
 

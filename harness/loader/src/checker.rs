@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use bitflags::bitflags;
 use model_description::call_table::{Access, Condition, Function, Next, State, after, allowed};
 use model_description::{BaseType, Description};
 
@@ -17,8 +18,16 @@ pub enum Checking {
     Off,
 }
 
-/// For every value reference, by base type and sorted: which of the table's conditions it meets.
-pub(crate) struct AccessTable([Vec<(u32, u8)>; 4]);
+bitflags! {
+    /// Which of the conditions that restrict variables a variable meets.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    struct Conditions: u8 {
+        const SETTABLE_BEFORE_INITIALIZATION = 1;
+        const OUTPUT_OR_INITIAL_UNKNOWN = 1 << 1;
+        const SETTABLE_IN_INITIALIZATION = 1 << 2;
+        const INPUT_OR_TUNABLE = 1 << 3;
+    }
+}
 
 /// The conditions that restrict which variables may be set or read.
 const RESTRICTING: [Condition; 4] = [
@@ -28,16 +37,21 @@ const RESTRICTING: [Condition; 4] = [
     Condition::InputOrTunable,
 ];
 
-const fn bit(condition: Condition) -> u8 {
-    match condition {
-        Condition::SettableBeforeInitialization => 1,
-        Condition::OutputOrInitialUnknown => 2,
-        Condition::SettableInInitialization => 4,
-        Condition::InputOrTunable => 8,
-        // These restrict what the values are good for, not which variables may be read.
-        Condition::Debugging | Condition::DebuggingUnlessTerminated => 0,
+impl From<Condition> for Conditions {
+    fn from(condition: Condition) -> Self {
+        match condition {
+            Condition::SettableBeforeInitialization => Self::SETTABLE_BEFORE_INITIALIZATION,
+            Condition::OutputOrInitialUnknown => Self::OUTPUT_OR_INITIAL_UNKNOWN,
+            Condition::SettableInInitialization => Self::SETTABLE_IN_INITIALIZATION,
+            Condition::InputOrTunable => Self::INPUT_OR_TUNABLE,
+            // These restrict what the values are good for, not which variables may be read.
+            Condition::Debugging | Condition::DebuggingUnlessTerminated => Self::empty(),
+        }
     }
 }
+
+/// For every value reference, by base type and sorted: which of the table's conditions it meets.
+pub(crate) struct AccessTable([Vec<(u32, Conditions)>; 4]);
 
 impl AccessTable {
     pub fn of(description: &Description) -> Self {
@@ -47,18 +61,16 @@ impl AccessTable {
                 *flag = true;
             }
         }
-        let mut tables: [Vec<(u32, u8)>; 4] = Default::default();
+        let mut tables: [Vec<(u32, Conditions)>; 4] = Default::default();
         for (position, variable) in description.variables.iter().enumerate() {
             let listed = initial_unknown[position + 1];
-            let bits = RESTRICTING
-                .iter()
-                .filter(|it| it.admits(variable, listed))
-                .fold(0, |bits, it| bits | bit(*it));
-            tables[variable.kind.base_type() as usize].push((variable.value_reference, bits));
+            let met = RESTRICTING.into_iter().filter(|condition| condition.admits(variable, listed));
+            let met = met.map(Conditions::from).fold(Conditions::empty(), Conditions::union);
+            tables[variable.kind.base_type() as usize].push((variable.value_reference, met));
         }
         for table in &mut tables {
             // Aliases share a reference: what one of them may, all may.
-            table.sort_unstable();
+            table.sort_unstable_by_key(|row| row.0);
             table.dedup_by(|next, kept| {
                 let alias = next.0 == kept.0;
                 if alias {
@@ -70,7 +82,7 @@ impl AccessTable {
         Self(tables)
     }
 
-    fn bits(&self, base: BaseType, reference: u32) -> Option<u8> {
+    fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
         let table = &self.0[base as usize];
         table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
     }
@@ -110,15 +122,15 @@ impl Checker {
         base: BaseType,
     ) -> Result<(), String> {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
-        let needed = bit(condition);
+        let needed = Conditions::from(condition);
         for &reference in references {
-            let Some(bits) = self.fmu.access().bits(base, reference) else {
+            let Some(met) = self.fmu.access().met(base, reference) else {
                 return Err(format!(
                     "the description has no {} with value reference {reference}",
                     base.name()
                 ));
             };
-            if bits & needed != needed {
+            if !met.contains(needed) {
                 return Err(format!(
                     "in state {} it takes only {}, and {} is none",
                     self.state.get().map_or("unknown", State::name),

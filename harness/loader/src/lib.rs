@@ -1,6 +1,6 @@
-//! Loads, steps and watches any FMI 2.0 co-simulation FMU.
+//! Loads and steps any FMI 2.0 co-simulation FMU.
 //!
-//! [`Fmu::open`] unpacks and reads an FMU, [`Fmu::instantiate`] makes a safe [`Instance`], and [`simulate`] flies
+//! [`Fmu::open`] unpacks and reads an FMU, [`Fmu::instantiate`] makes a safe [`Instance`], and [`simulate`] runs
 //! one from start to stop. Everything this crate knows of an FMU it reads from the FMU; no model is linked here.
 //!
 //! All unsafe code of the harness stands in one folder, `abi/`.
@@ -35,7 +35,7 @@ pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
 pub use select::select;
 pub use simulate::{
-    Ended, Flight, Options, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
+    Ended, Options, Simulation, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
 };
 pub use status::LogMessage;
 pub use uri::file_uri;

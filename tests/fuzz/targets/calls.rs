@@ -147,12 +147,12 @@ impl Master<'_> {
                 instance.reset()
             }
         };
-        self.subject.heard(status);
+        self.subject.check_messages(status);
         self.failed |= status == Status::Error;
         if !self.failed {
             let status = self.subject.read_reals();
             self.failed |= status == Status::Error;
-            self.subject.heard(status);
+            self.subject.check_messages(status);
         }
         Ok(())
     }

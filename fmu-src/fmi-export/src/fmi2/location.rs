@@ -8,6 +8,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use percent_encoding::percent_decode;
+
 use crate::fmi2::library::shown;
 
 /// No setup file is larger than this.
@@ -41,7 +43,7 @@ pub(crate) fn resolve(location: &[u8]) -> Result<Resources, String> {
 /// The text of `file` in `folder`.
 pub(crate) fn read_setup(folder: &Path, file: &str) -> Result<String, String> {
     let path = folder.join(file);
-    // Opening a pipe waits until a process writes to it.
+    // Opening a pipe waits until somebody writes to it.
     if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
         return Err(format!("`{}` is no regular file", shown(&path)));
     }
@@ -60,8 +62,9 @@ pub(crate) fn read_setup(folder: &Path, file: &str) -> Result<String, String> {
 /// Every reading of a location, the standard's first.
 fn paths(location: &[u8], windows: bool) -> Result<Vec<PathBuf>, String> {
     let encoded = local_part(location, windows)?;
-    let once = percent_decoded(&encoded);
-    let twice = percent_decoded(&once);
+    // `%41` becomes `A`; `+` stays, and so does a `%` that two hexadecimal digits do not follow.
+    let once: Vec<u8> = percent_decode(&encoded).collect();
+    let twice = percent_decode(&once).collect();
     let mut found: Vec<PathBuf> = Vec::new();
     for reading in [once, encoded, twice] {
         if reading.contains(&0) {
@@ -119,30 +122,6 @@ fn is_drive(path: &[u8]) -> bool {
 fn strip_scheme(location: &[u8]) -> Option<&[u8]> {
     let (scheme, rest) = location.split_at_checked(5)?;
     scheme.eq_ignore_ascii_case(b"file:").then_some(rest)
-}
-
-/// `%41` becomes `A`; `+` stays, and so does a `%` that two hexadecimal digits do not follow.
-fn percent_decoded(encoded: &[u8]) -> Vec<u8> {
-    let digit = |byte: &u8| char::from(*byte).to_digit(16);
-    let mut decoded = Vec::with_capacity(encoded.len());
-    let mut rest = encoded;
-    while let [first, tail @ ..] = rest {
-        let pair = match (first, tail) {
-            (b'%', [high, low, ..]) => digit(high).zip(digit(low)),
-            _ => None,
-        };
-        match pair {
-            Some((high, low)) => {
-                decoded.push((high * 16 + low) as u8);
-                rest = &tail[2..];
-            }
-            None => {
-                decoded.push(*first);
-                rest = tail;
-            }
-        }
-    }
-    decoded
 }
 
 /// `/C:/x` becomes `C:/x` on Windows.

@@ -11,7 +11,7 @@ use crate::shared::{
 
 /// One row an output.
 pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies {
-    let craft = &setup.spacecraft;
+    let spacecraft = &setup.spacecraft;
     let (light, planet, torque, force) = (&v.planet_light, &v.planet, &v.torque, &v.force);
 
     // Inputs.
@@ -21,8 +21,8 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
     let planet_lit = &knowns![sunlit, planet.pole];
 
     // Parameters.
-    let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(craft));
-    let shadows = &knowns![v.shadowing.enabled].only_if(can_shadow(craft));
+    let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(spacecraft));
+    let shadows = &knowns![v.shadowing.enabled].only_if(can_shadow(spacecraft));
     let eclipse = &knowns![planet.present, planet.radius, v.eclipse.method];
     let by_sun = &knowns![v.solar.flux, eclipse, shadows];
     let over_planet =
@@ -41,10 +41,10 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
     let mut table = Dependencies::new();
     table.output(v.sun.lit_fraction, places, knowns![places, eclipse]);
     for axis in 0..3 {
-        let panels = v.panel.iter().enumerate().filter(|(k, _)| turns_out_of(craft, *k, axis));
+        let panels = v.panel.iter().enumerate().filter(|(k, _)| turns_out_of(spacecraft, *k, axis));
         let panels = panels.map(|(_, panel)| panel.angle).collect::<Knowns>();
         let inputs = &knowns![places, planet.pole, panels];
-        let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(craft, axis));
+        let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(spacecraft, axis));
         table.output(force.thermal.element(axis), inputs, knowns![inputs, all, shape]);
     }
     let forces = [

@@ -30,7 +30,7 @@ type Plan<'a> = Context<'a, DisturbanceTorque>;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DisturbanceState {
     inputs: Inputs<f64>,
-    /// Whether it was said which inputs are not set yet.
+    /// Whether the warning was given which inputs are not set yet.
     said_unset: bool,
     #[serde(skip)]
     prepared: Option<Arc<Prepared>>,

@@ -4,14 +4,16 @@ use fmi_export::{Failure, Values};
 use physics::bodies::surface::MERCURY;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
-use physics::environment::State;
+use physics::environment::CartesianState;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
 use physics::guidance::{self, Guided, Schedule};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
-use physics::plant::{self, Configuration, LightEffects, LightModel, Motion, PanelSetting, SunLight};
+use physics::plant::{
+    self, Configuration, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
+};
 use physics::spacecraft;
 
 use super::center::Center;
@@ -94,7 +96,7 @@ pub fn refreshed(
             SunLight::Distance { flux_w_m2: values.real(variables.solar.flux) }
         },
         shadow: shadow(variables, values, data.radius_m)?,
-        light_and_heat: LightEffects {
+        light_and_heat: RadiationSettings {
             planet_light: values.boolean(variables.planet_light.enabled),
             recoil: values.boolean(variables.thermal.enabled),
             storage: values.boolean(variables.thermal.storage),
@@ -124,7 +126,7 @@ pub fn light(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
-) -> Result<Option<LightModel>, Failure> {
+) -> Result<Option<RadiationSolver>, Failure> {
     let variables = context.variables;
     if !configuration.light_and_heat.any() && variables.plate.is_empty() {
         return Ok(None);
@@ -138,7 +140,7 @@ pub fn light(
             "sunshade.shape: found another than the spacecraft file's, allowed: the file's, whose faces plate[k] are",
         ));
     }
-    LightModel::new(spacecraft, configuration, &surface, nodes)
+    RadiationSolver::new(spacecraft, configuration, &surface, nodes)
         .map(Some)
         .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.shape: {error}")))
 }
@@ -165,7 +167,7 @@ fn orbit(
         // Nothing is computed on it before position and velocity are set.
         Some(OrbitSource::Inputs) if state.waiting => {
             let distance_m = 1e10;
-            let start = State {
+            let start = CartesianState {
                 position_m: nalgebra::Vector3::x() * distance_m,
                 velocity_m_s: nalgebra::Vector3::y() * (data.gm_m3_s2 / distance_m).sqrt(),
             };
@@ -173,7 +175,7 @@ fn orbit(
                 .map_err(|error| Failure::new(format!("planet.gravitationalParameter: {error}")))
         }
         Some(OrbitSource::Inputs) => {
-            let start = State {
+            let start = CartesianState {
                 position_m: physics_vector(values.vector(orbit.position)),
                 velocity_m_s: physics_vector(values.vector(orbit.velocity)),
             };
@@ -201,7 +203,12 @@ fn motion(variables: &PlantVariables, values: &Values, center: &BodyData) -> Mot
         tide_mu_m3_s2: tide.then_some(constants::GM_SUN_M3_S2),
     };
     let feedback = values.boolean(orbit.radiation_feedback);
-    Motion::Disturbed { gravity, cell_s: values.real(orbit.step), radius_m: center.radius_m, feedback }
+    Motion::Disturbed {
+        gravity,
+        segment_length_s: values.real(orbit.step),
+        radius_m: center.radius_m,
+        feedback,
+    }
 }
 
 fn ephemeris(

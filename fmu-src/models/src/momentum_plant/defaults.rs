@@ -69,10 +69,10 @@ pub(super) fn keep_in(setup: &PlantSetup) -> SunKeepIn {
 /// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
 /// 000's for small wheels.
 pub(super) fn dump_threshold_n_m_s(setup: &PlantSetup) -> [f64; 3] {
-    let craft = &setup.spacecraft;
+    let spacecraft = &setup.spacecraft;
     let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
-    let capacities_n_m_s = craft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
+    let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
     let array = setup.wheel_array.as_ref();
     let guaranteed_n_m_s = array.map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
-    craft.dump_threshold_n_m_s.map_or([guaranteed_n_m_s.unwrap_or(smallest_n_m_s); 3], Into::into)
+    spacecraft.dump_threshold_n_m_s.map_or([guaranteed_n_m_s.unwrap_or(smallest_n_m_s); 3], Into::into)
 }

@@ -34,10 +34,14 @@ struct Start {
     begun: Knowns,
     /// The same without position and velocity.
     awaited: Knowns,
-    /// Elements of the orbit and their frame.
+    /// Elements of the orbit and their frame, without the pole's right ascension.
     elements: Knowns,
+    /// The right ascension of the pole turns the orbit about EME2000's Z axis.
+    turned_about_z: Knowns,
     /// Where the Sun is from the spacecraft.
     sun: Knowns,
+    /// The same along Z of EME2000.
+    sun_z: Knowns,
     attitude: Knowns,
     /// What the attitude's rate follows, but for command.rate.
     rate: Knowns,
@@ -52,9 +56,15 @@ impl Start {
         let awaited = knowns![orbit.source, orbit.center, ephemeris.source, v.sun.position];
         let begun = knowns![&awaited, orbit.position, orbit.velocity];
         let shape = knowns![orbit.semi_major_axis, orbit.eccentricity, orbit.true_anomaly];
-        let orientation =
-            knowns![orbit.frame, orbit.inclination, orbit.ascending_node, orbit.periapsis_argument];
+        let orientation = knowns![
+            orbit.frame,
+            orbit.inclination,
+            orbit.ascending_node,
+            orbit.periapsis_argument,
+            v.planet.pole_declination,
+        ];
         let elements = knowns![shape, orientation];
+        let turned_about_z = knowns![v.planet.pole_right_ascension];
         let ephemeris = knowns![
             v.start.epoch,
             ephemeris.semi_major_axis,
@@ -64,7 +74,8 @@ impl Start {
             ephemeris.periapsis_argument,
             ephemeris.true_anomaly,
         ];
-        let sun = knowns![&begun, &elements, &ephemeris];
+        let sun_z = knowns![&begun, &elements, &ephemeris];
+        let sun = knowns![&sun_z, &turned_about_z];
         let schedule =
             knowns![guided.downlink_start, guided.downlink_end, guided.downlink_every, guided.slew_rate];
         let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation];
@@ -79,7 +90,18 @@ impl Start {
         let dump = &v.dump;
         let momentum =
             knowns![v.start.momentum, dump.threshold, dump.reinit_to, dump.reinit_fraction, dump.target];
-        Self { begun, awaited, elements, sun, attitude, rate, panels: panels.collect(), momentum }
+        Self {
+            begun,
+            awaited,
+            elements,
+            turned_about_z,
+            sun,
+            sun_z,
+            attitude,
+            rate,
+            panels: panels.collect(),
+            momentum,
+        }
     }
 }
 
@@ -99,11 +121,13 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
     let (orbit, gm) = (&v.orbit, v.planet.gravitational_parameter);
     for axis in 0..3 {
         let [position, velocity] = [orbit.position, orbit.velocity].map(|vector| vector.element(axis));
-        let position = knowns![&start.awaited, &start.elements, orbit.velocity, position];
-        let velocity = knowns![&start.awaited, &start.elements, orbit.position, velocity, gm];
+        let turned = &start.turned_about_z.clone().only_if(axis < 2);
+        let position = knowns![&start.awaited, &start.elements, turned, orbit.velocity, position];
+        let velocity = knowns![&start.awaited, &start.elements, turned, orbit.position, velocity, gm];
+        let from_sun = if axis < 2 { &start.sun } else { &start.sun_z };
         table.output(v.position.element(axis), &inputs.places, position);
         table.output(v.velocity.element(axis), &inputs.places, velocity);
-        table.output(v.heliocentric.position.element(axis), &inputs.places, &start.sun);
+        table.output(v.heliocentric.position.element(axis), &inputs.places, from_sun);
         let rate = v.command.rate.element(axis);
         let others = knowns![v.command.kind, v.command.q, v.command.error, v.earth.position];
         table.output(

@@ -16,8 +16,8 @@ use fmi_export::{
     StartValue, Step, StepEnd, Values,
 };
 use physics::constants::RADIUS_SUN_M;
-use physics::momentum::{Accumulator, Event, Flight, Totals};
-use physics::plant::{Cost, Course, ExternalLoad, Plant, PlantError, Snapshot};
+use physics::momentum::{DumpEvent, MomentumIntegrator, TorqueModel, Totals};
+use physics::plant::{Cost, Evaluation, ExternalLoad, Plant, PlantError, PropagatorState};
 
 use choices::OrbitSource;
 pub use setup::PlantSetup;
@@ -98,7 +98,7 @@ impl Model for MomentumPlant {
             return Ok(StepEnd::at(step.end_s));
         }
         if changed {
-            state.accumulator.cut(step.start_s);
+            state.integrator.cut(step.start_s);
         }
         let configuration = match state.configuration.take() {
             Some(configuration) if !changed => configuration,
@@ -109,11 +109,11 @@ impl Model for MomentumPlant {
             }
         };
         if changed {
-            state.course.cut(&configuration, step.start_s, changes.light);
+            state.propagator.cut(&configuration, step.start_s, changes.light);
             if changes.orbit
                 && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
             {
-                state.course.move_to(&configuration, step.start_s).map_err(ended)?;
+                state.propagator.move_to(&configuration, step.start_s).map_err(ended)?;
             }
         }
         let load = |time_s| ExternalLoad {
@@ -124,28 +124,28 @@ impl Model for MomentumPlant {
                 time_s,
             )),
         };
-        let craft = context.setup.craft(configuration.sunshade)?;
+        let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
         if state.light.is_none() {
             state.light = configure::light(context, values, &configuration)?;
         }
         let limit = context.variables.solver.work.units(values);
-        let (course, ephemeris) = (&mut state.course, &mut state.ephemeris);
+        let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
         let mut plant =
-            Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), load, limit);
-        let (accumulator, spacing) = (&mut state.accumulator, &mut state.spacing);
+            Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), load, limit);
+        let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
         if state.request.rises(values.boolean(context.variables.dump.request)) {
             let target = physics_vector(values.vector(context.variables.dump.target));
-            let event = accumulator.dump_to(&mut plant, &configuration.momentum, step.start_s, target);
+            let event = integrator.dump_to(&mut plant, &configuration.momentum, step.start_s, target);
             spacing.dumped(context, &event);
         }
-        accumulator
+        integrator
             .advance(&mut plant, &configuration.momentum, step.end_s, |event| spacing.dumped(context, event))
             .map_err(ended)?;
-        let snapshot = plant.snapshot(step.end_s);
-        flyable(&snapshot, &state.accumulator.totals(step.end_s), step.end_s)?;
+        let evaluation = plant.evaluate(step.end_s);
+        flyable(&evaluation, &state.integrator.totals(step.end_s), step.end_s)?;
         outputs::write_plates(context, values, state, &configuration, step.end_s)?;
-        let totals = state.accumulator.totals(step.end_s);
-        outputs::write(context, values, state, &configuration, &snapshot, &totals, step.end_s);
+        let totals = state.integrator.totals(step.end_s);
+        outputs::write(context, values, state, &configuration, &evaluation, &totals, step.end_s);
         state.configuration = Some(configuration);
         Ok(StepEnd::at(step.end_s))
     }
@@ -159,13 +159,13 @@ impl Model for MomentumPlant {
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
-        if !state.course.light.as_ref().is_none_or(|light| light.covers(time_s)) {
+        if !state.propagator.light.as_ref().is_none_or(|light| light.covers(time_s)) {
             return Err(Failure::new(format!("light and heat were computed elsewhere than at {time_s:?} s")));
         }
-        if !state.course.trajectory.covers(time_s) {
+        if !state.propagator.trajectory.covers(time_s) {
             return Err(Failure::new(format!("the orbit was integrated elsewhere than at {time_s:?} s")));
         }
-        if state.accumulator.covers(time_s) {
+        if state.integrator.covers(time_s) {
             return Ok(());
         }
         Err(Failure::new(format!("the momentum was accumulated elsewhere than at {time_s:?} s")))
@@ -187,26 +187,26 @@ fn begin(
 ) -> Result<(), Failure> {
     let configuration = configure::configuration(context, values, state)?;
     let load = applied(context, values);
-    let craft = context.setup.craft(configuration.sunshade)?;
+    let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
     let limit = context.variables.solver.work.units(values);
-    state.course = Course::new(&configuration, time_s).map_err(ended)?;
+    state.propagator = PropagatorState::new(&configuration, time_s).map_err(ended)?;
     state.light = configure::light(context, values, &configuration)?;
-    let (course, ephemeris) = (&mut state.course, &mut state.ephemeris);
+    let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
     let mut plant =
-        Plant::new(craft, &configuration, course, ephemeris, state.light.as_mut(), |_| load, limit);
+        Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), |_| load, limit);
     plant.prepare(time_s).map_err(ended)?;
-    let totals = start_totals(context, values, &plant.snapshot(time_s));
-    state.accumulator = Accumulator::new(time_s, totals);
-    let (accumulator, spacing) = (&mut state.accumulator, &mut state.spacing);
-    accumulator
+    let totals = start_totals(context, values, &plant.evaluate(time_s));
+    state.integrator = MomentumIntegrator::new(time_s, totals);
+    let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
+    integrator
         .advance(&mut plant, &configuration.momentum, time_s, |event| spacing.dumped(context, event))
         .map_err(ended)?;
-    let snapshot = plant.snapshot(time_s);
-    flyable(&snapshot, &state.accumulator.totals(time_s), time_s)?;
+    let evaluation = plant.evaluate(time_s);
+    flyable(&evaluation, &state.integrator.totals(time_s), time_s)?;
     outputs::write_plates(context, values, state, &configuration, time_s)?;
-    let totals = state.accumulator.totals(time_s);
+    let totals = state.integrator.totals(time_s);
     outputs::write_calculated(context, values, &configuration);
-    outputs::write(context, values, state, &configuration, &snapshot, &totals, time_s);
+    outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
     state.configuration = Some(configuration);
     Ok(())
 }
@@ -214,20 +214,20 @@ fn begin(
 /// At `time_s` the flight still waits for inputs: the attitude is held as commanded, and nothing acts.
 fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s: f64) -> Result<(), Failure> {
     let configuration = configure::configuration(context, values, state)?;
-    let snapshot = Snapshot::nowhere(state.command.frame_at(time_s));
-    let totals = start_totals(context, values, &snapshot);
-    state.accumulator = Accumulator::new(time_s, totals);
+    let evaluation = Evaluation::nowhere(state.command.frame_at(time_s));
+    let totals = start_totals(context, values, &evaluation);
+    state.integrator = MomentumIntegrator::new(time_s, totals);
     outputs::write_plates(context, values, state, &configuration, time_s)?;
     outputs::write_calculated(context, values, &configuration);
-    outputs::write(context, values, state, &configuration, &snapshot, &totals, time_s);
+    outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
     Ok(())
 }
 
 /// What the flight starts with: start.momentum in the body frame.
-fn start_totals(context: &Plan<'_>, values: &Values, snapshot: &Snapshot) -> Totals {
+fn start_totals(context: &Plan<'_>, values: &Values, evaluation: &Evaluation) -> Totals {
     let momentum_body_n_m_s = physics_vector(values.vector(context.variables.start.momentum));
     Totals {
-        momentum_inertial_n_m_s: snapshot.instant.frame.inertial_from_body * momentum_body_n_m_s,
+        momentum_inertial_n_m_s: evaluation.instant.frame.inertial_from_body * momentum_body_n_m_s,
         torque_integral_body_n_m_s: momentum_body_n_m_s,
         ..Totals::default()
     }
@@ -239,7 +239,7 @@ fn ended(error: PlantError) -> Failure {
         PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
         PlantError::Work(exceeded) => {
             let most = match exceeded.most {
-                Cost::Cell => {
+                Cost::Segment => {
                     "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
                 }
                 Cost::Refinement => {
@@ -270,14 +270,14 @@ fn ended(error: PlantError) -> Failure {
 }
 
 /// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
-fn flyable(snapshot: &Snapshot, totals: &Totals, time_s: f64) -> Result<(), Failure> {
+fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<(), Failure> {
     if !totals.is_finite() {
         return Err(Failure::new(format!(
             "at {time_s} s momentum.inertial, momentum.body or deltaV is no finite number; see start.momentum, torque.applied, \
              force.applied, spacecraft.mass and spacecraft.centerOfMass"
         )));
     }
-    let (instant, total) = (&snapshot.instant, snapshot.loads.total());
+    let (instant, total) = (&evaluation.instant, evaluation.loads.total());
     let numbers = total.torque_body_n_m + total.force_body_n;
     let outside_the_sun = instant.sun_distance_m > RADIUS_SUN_M;
     if outside_the_sun && instant.lit_fraction.is_finite() && numbers.iter().all(|x| x.is_finite()) {
@@ -302,7 +302,7 @@ fn physics_vector(value: [f64; 3]) -> nalgebra::Vector3<f64> {
     value.into()
 }
 
-fn log_dump(context: &Plan<'_>, event: &Event) {
+fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
     if context.log.events_enabled() {
         let message = format!(
             "thruster dump: momentum {:?} -> {:?} N.m.s (body)",

@@ -1,10 +1,10 @@
-//! From a snapshot to the output variables.
+//! From an evaluation to the output variables.
 
 use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
 use physics::momentum::{Convention, Totals};
-use physics::plant::{Configuration, ExternalLoad, PanelSetting, Plant, Snapshot};
+use physics::plant::{Configuration, Evaluation, ExternalLoad, PanelSetting, Plant};
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
 use super::state::PlantState;
@@ -16,12 +16,12 @@ pub fn write(
     values: &mut Values,
     state: &PlantState,
     configuration: &Configuration,
-    snapshot: &Snapshot,
+    evaluation: &Evaluation,
     totals: &Totals,
     time_s: f64,
 ) {
     let variables = context.variables;
-    let Snapshot { instant, loads } = snapshot;
+    let Evaluation { instant, loads } = evaluation;
     let rotation = &instant.frame.inertial_from_body;
     values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
     values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
@@ -65,7 +65,7 @@ pub fn write(
     let since_s = if state.waiting {
         0.0
     } else {
-        state.course.trajectory.time_since_periapsis_s(configuration, time_s)
+        state.propagator.trajectory.time_since_periapsis_s(configuration, time_s)
     };
     values.set_real(variables.orbit.time_since_periapsis, since_s);
     values.set_real(variables.mass, configuration.mass_kg);
@@ -88,7 +88,7 @@ pub fn write(
         totals.momentum_body_n_m_s(configuration.momentum.convention, rotation).into(),
     );
     values.set_vector(variables.momentum.inertial, totals.momentum_inertial_n_m_s.into());
-    write_wheels(context, values, configuration, totals, snapshot);
+    write_wheels(context, values, configuration, totals, evaluation);
     write_dumps(context, values, state);
 }
 
@@ -113,9 +113,9 @@ pub fn write_plates(
     let left_out = |panel: usize| configuration.panels.get(panel) == Some(&PanelSetting::Disabled);
     let faces = context.variables.plate.iter().zip(&context.setup.reported_faces);
     let mut flown = faces.filter(|(_, face)| !face.panel.is_some_and(left_out)).map(|(plate, _)| plate);
-    let craft = context.setup.craft(configuration.sunshade)?;
-    let (course, ephemeris, light) = (&mut state.course, &mut state.ephemeris, state.light.as_mut());
-    Plant::new(craft, configuration, course, ephemeris, light, |_| ExternalLoad::default(), u32::MAX)
+    let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
+    let (propagator, ephemeris, light) = (&mut state.propagator, &mut state.ephemeris, state.light.as_mut());
+    Plant::new(prepared, configuration, propagator, ephemeris, light, |_| ExternalLoad::default(), u32::MAX)
         .faces(time_s, |temperature_k, force_body_n| {
             if let Some(plate) = flown.next() {
                 values.set_real(plate.temperature, temperature_k);
@@ -146,10 +146,10 @@ fn write_wheels(
     values: &mut Values,
     configuration: &Configuration,
     totals: &Totals,
-    snapshot: &Snapshot,
+    evaluation: &Evaluation,
 ) {
     let Some(array) = &context.setup.wheel_array else { return };
-    let frame = &snapshot.instant.frame;
+    let frame = &evaluation.instant.frame;
     let system = totals.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
     let wheels_body_n_m_s = system - configuration.inertia_body_kg_m2 * frame.rate_body_rad_s;
     for (number, variables) in context.variables.wheel.iter().enumerate() {
@@ -161,7 +161,7 @@ fn write_wheels(
 
 fn write_dumps(context: &Plan<'_>, values: &mut Values, state: &PlantState) {
     let dump = &context.variables.dump;
-    let dumps = state.accumulator.dumps();
+    let dumps = state.integrator.dumps();
     values.set_integer(dump.count, dumps.count);
     values.set_real(dump.last_time, dumps.last.map_or(-1.0, |event| event.time_s));
     values.set_real(dump.closest, state.spacing.closest_s.unwrap_or(-1.0));

@@ -4,7 +4,7 @@ use fmi_export::{Failure, SetupError};
 use nalgebra::Vector3;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
-use physics::plant::Craft;
+use physics::plant::PreparedSpacecraft;
 use physics::radiation::{SolarModel, TorquePolynomial};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
@@ -48,8 +48,8 @@ impl PlantSetup {
     }
 
     /// What flies, with its shade modelled as asked for.
-    pub fn craft(&self, model: SunshadeModel) -> Result<Craft<'_>, Failure> {
-        Ok(Craft {
+    pub fn prepared_spacecraft(&self, model: SunshadeModel) -> Result<PreparedSpacecraft<'_>, Failure> {
+        Ok(PreparedSpacecraft {
             panels: &self.spacecraft.panels,
             solar: self.solar(model)?,
             orbit_method: &self.orbit_method,

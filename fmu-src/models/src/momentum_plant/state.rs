@@ -3,8 +3,8 @@
 use fmi_export::{Enumeration, Failure, Values};
 use physics::attitude::Attitude;
 use physics::environment::ephemeris::Ephemeris;
-use physics::momentum::{Accumulator, Event, Totals};
-use physics::plant::{Command, Configuration, Course, LightModel};
+use physics::momentum::{DumpEvent, MomentumIntegrator, Totals};
+use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
 use serde::{Deserialize, Serialize};
 
 use super::choices::{AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource};
@@ -16,12 +16,12 @@ pub struct PlantState {
     /// Start time of the flight, in s.
     pub start_s: f64,
     /// The orbit and the stretch of flight at hand.
-    pub course: Course,
+    pub propagator: PropagatorState,
     /// Momentum, delta-v and dumps.
-    pub accumulator: Accumulator,
+    pub integrator: MomentumIntegrator,
     /// Whether the flight waits for inputs that are not set yet: nothing acts, and the attitude is held.
     pub waiting: bool,
-    /// Whether it was said which inputs are not set yet.
+    /// Whether the warning was given which inputs are not set yet.
     said_unset: bool,
     /// The command in effect and the inputs it came from.
     pub command: Command,
@@ -45,7 +45,7 @@ pub struct PlantState {
     pub configuration: Option<Configuration>,
     /// Cache of what light and heat need; absent where direct sunlight is all there is.
     #[serde(skip)]
-    pub light: Option<LightModel>,
+    pub light: Option<RadiationSolver>,
 }
 
 /// What a change of inputs and tunables touches.
@@ -93,7 +93,7 @@ impl Spacing {
     }
 
     /// Counts a dump and reports it.
-    pub fn dumped(&mut self, context: &Plan<'_>, event: &Event) {
+    pub fn dumped(&mut self, context: &Plan<'_>, event: &DumpEvent) {
         log_dump(context, event);
         if let Some(last_s) = self.last_s.replace(event.time_s) {
             let gap_s = event.time_s - last_s;
@@ -112,8 +112,8 @@ impl PlantState {
         let parts = [
             ("the times and inputs", inputs.chain(&self.light_inputs).chain(times).all(finite)),
             ("the command", self.command.is_sound()),
-            ("the momentum and dumps", self.accumulator.is_sound() && self.spacing.is_sound()),
-            ("the orbit, light and heat", self.course.is_sound()),
+            ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
+            ("the orbit, light and heat", self.propagator.is_sound()),
         ];
         match parts.iter().find(|(_, is_sound)| !is_sound) {
             None => Ok(()),
@@ -131,8 +131,8 @@ impl PlantState {
         let rate_body_rad_s = physics_vector([0.0; 3]);
         let mut state = Self {
             start_s,
-            course: Course::default(),
-            accumulator: Accumulator::new(start_s, Totals::default()),
+            propagator: PropagatorState::default(),
+            integrator: MomentumIntegrator::new(start_s, Totals::default()),
             waiting: !unset_places(context, values).is_empty(),
             said_unset: false,
             command: Command { attitude, rate_body_rad_s, since_s: start_s },

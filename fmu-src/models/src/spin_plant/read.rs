@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use physics::spin::{
     burn::BurnRequest,
     forecast::Timing,
-    geometry::{L1Flight, L1Phases},
+    geometry::{L1Ephemeris, L1Phases},
     plant::{self, Commands, Directions, PulseCommand, Start},
     series::{BodyTorque, TORQUE_TERMS},
     train::Shape,
@@ -37,7 +37,7 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
         l1: match values.choice(v.geometry.source) {
             Some(GeometrySource::L1Orbit) => {
                 let (line_rate, amplitude) = (v.geometry.line_rate, v.geometry.amplitude);
-                Some(L1Flight {
+                Some(L1Ephemeris {
                     orbit: context.setup.l1_orbit.changed(values.real(line_rate), values.vector(amplitude)),
                     phases: L1Phases {
                         longitude_rad: values.real(v.geometry.longitude),

@@ -4,7 +4,7 @@
 mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;
-mod pilot;
+mod named_model;
 mod plant_changes;
 mod plant_commands;
 mod plant_cuts;

@@ -3,12 +3,12 @@
 use models::{DisturbanceTorque, MomentumPlant};
 use nalgebra::Vector3;
 
-use super::pilot::{Hangar, Pilot};
-use super::plant_light::{EFFECTS, memoryless, warm};
+use super::named_model::{NamedInstance, NamedModel};
+use super::plant_light::{EFFECTS, memoryless, radiating};
 
 /// A Sun that stands at a given place, seen from the planet.
 const SUN_M: [f64; 3] = [3e10, -2e10, 1e10];
-const GIVEN_SUN: &[(&str, f64)] = &[
+const SUN_INPUTS: &[(&str, f64)] = &[
     ("ephemeris.source", 3.0),
     ("sun.position[1]", SUN_M[0]),
     ("sun.position[2]", SUN_M[1]),
@@ -18,13 +18,13 @@ const COMMANDED: &[(&str, f64)] = &[("attitude.source", 2.0)];
 
 #[test]
 fn light_follows_what_is_set_on_the_way_at_once() {
-    let plants = warm::<MomentumPlant>();
-    let models = warm::<DisturbanceTorque>();
+    let plants = radiating::<MomentumPlant>();
+    let models = radiating::<DisturbanceTorque>();
     let flux = ("solar.flux", 1365.0);
-    let sets = [EFFECTS, COMMANDED, GIVEN_SUN, &[flux, ("thermal.storage", 0.0)]].concat();
+    let sets = [EFFECTS, COMMANDED, SUN_INPUTS, &[flux, ("thermal.storage", 0.0)]].concat();
     let mut plant = plants.fly(0.0, &sets).unwrap();
     let mut center_m = [0.1, 0.05, -0.2];
-    let check = |plant: &Pilot<'_, MomentumPlant>, center_m: [f64; 3], what: &str| {
+    let check = |plant: &NamedInstance<'_, MomentumPlant>, center_m: [f64; 3], what: &str| {
         let center = [1, 2, 3].map(|i| format!("spacecraft.centerOfMass[{i}]"));
         let center: Vec<(&str, f64)> = center.iter().map(String::as_str).zip(center_m).collect();
         let model = memoryless(&models, plant, &[&[flux], center.as_slice()].concat());
@@ -56,7 +56,7 @@ fn light_follows_what_is_set_on_the_way_at_once() {
 
 #[test]
 fn an_orbit_given_on_the_way_begins_when_it_was_given() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
+    let named = NamedModel::<MomentumPlant>::shipped();
     // A circle in the X-Y plane: 1e-3 rad/s.
     let (radius_m, rate_rad_s) = (4e6_f64, 1e-3);
     let gm_m3_s2 = rate_rad_s * rate_rad_s * radius_m.powi(3);
@@ -73,8 +73,8 @@ fn an_orbit_given_on_the_way_begins_when_it_was_given() {
             ("planet.j2", 0.0),
             ("orbit.radiationFeedback", 0.0),
         ];
-        let mut flight = hangar.fly(-500.0, &[sets.as_slice(), &disturbed].concat()).unwrap();
-        let on_circle = |flight: &Pilot<'_, MomentumPlant>, since_s: f64, from_rad: f64| {
+        let mut flight = named.fly(-500.0, &[sets.as_slice(), &disturbed].concat()).unwrap();
+        let on_circle = |flight: &NamedInstance<'_, MomentumPlant>, since_s: f64, from_rad: f64| {
             let (sin, cos) = (from_rad + rate_rad_s * (flight.time_s() - since_s)).sin_cos();
             let expected = Vector3::new(cos, sin, 0.0) * radius_m;
             let apart_m = (flight.vector("position") - expected).norm();
@@ -107,9 +107,9 @@ fn after_a_minute(sets: &[(&str, f64)]) -> Vector3<f64> {
 
 /// Where a disturbed orbit begins and where it is after a minute.
 fn a_minute(sets: &[(&str, f64)]) -> [Vector3<f64>; 2] {
-    let hangar = Hangar::<MomentumPlant>::shipped();
+    let named = NamedModel::<MomentumPlant>::shipped();
     let still = [("orbit.dynamics", 2.0), ("orbit.radiationFeedback", 0.0)];
-    let mut flight = hangar.fly(0.0, &[GIVEN_SUN, &still, sets].concat()).unwrap();
+    let mut flight = named.fly(0.0, &[SUN_INPUTS, &still, sets].concat()).unwrap();
     let start = flight.vector("position");
     flight.step_to(60.0).unwrap();
     [start, flight.vector("position")]

@@ -3,7 +3,7 @@
 
 use models::MomentumPlant;
 
-use super::pilot::{Hangar, assert_same};
+use super::named_model::{NamedModel, assert_same};
 
 const DAY_S: f64 = 86_400.0;
 
@@ -27,10 +27,10 @@ fn sets() -> Vec<(&'static str, f64)> {
 
 #[test]
 fn the_cut_changes_no_bit() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
-    let mut coarse = hangar.fly(0.0, &sets()).unwrap();
-    let mut fine = hangar.fly(0.0, &sets()).unwrap();
-    let mut odd = hangar.fly(0.0, &sets()).unwrap();
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut coarse = named.fly(0.0, &sets()).unwrap();
+    let mut fine = named.fly(0.0, &sets()).unwrap();
+    let mut odd = named.fly(0.0, &sets()).unwrap();
     let mut shaded = 0;
     while coarse.time_s() < 2.0 * DAY_S {
         let end_s = coarse.time_s() + 3600.0;
@@ -46,9 +46,9 @@ fn the_cut_changes_no_bit() {
 
 #[test]
 fn a_restored_flight_goes_on_to_the_bit() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
-    let mut whole = hangar.fly(0.0, &sets()).unwrap();
-    let mut relay = hangar.fly(0.0, &sets()).unwrap();
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut whole = named.fly(0.0, &sets()).unwrap();
+    let mut relay = named.fly(0.0, &sets()).unwrap();
     let mut shaded = 0;
     while whole.time_s() < DAY_S {
         let end_s = whole.time_s() + 130.0;
@@ -63,9 +63,9 @@ fn a_restored_flight_goes_on_to_the_bit() {
 
 #[test]
 fn setting_what_was_set_changes_nothing_and_a_new_value_does() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
-    let mut held = hangar.fly(0.0, &sets()).unwrap();
-    let mut pushed = hangar.fly(0.0, &sets()).unwrap();
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut held = named.fly(0.0, &sets()).unwrap();
+    let mut pushed = named.fly(0.0, &sets()).unwrap();
     held.fly_to(5_000.0, 500.0).unwrap();
     while pushed.time_s() < 5_000.0 {
         let end_s = pushed.time_s() + 250.0;

@@ -6,14 +6,14 @@ use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::constants::STEFAN_BOLTZMANN_W_M2_K4;
 
-use super::pilot::{Hangar, Pilot, assert_same};
+use super::named_model::{NamedInstance, NamedModel, assert_same};
 
 const DAY_S: f64 = 86_400.0;
 /// Torn states tried, with and without feedback each.
 const CASES: usize = 700;
 
 /// A shade that shadows one of two panels, surfaces that store heat, and one that does not.
-const CRAFT: &str = r#"
+const SPACECRAFT: &str = r#"
 name = "Warm"
 per_plate_outputs = true
 [mass_properties]
@@ -58,7 +58,7 @@ control = "sun_offset"
 sun_offset_deg = 30.0
 "#;
 
-/// Faces of the craft: shade front and rear, radiator, inner panel front and rear, outer panel.
+/// Faces of the spacecraft: shade front and rear, radiator, inner panel front and rear, outer panel.
 const FACES: usize = 6;
 const RADIATOR: usize = 3;
 
@@ -79,17 +79,17 @@ const BUSY: &[(&str, f64)] = &[
     ("dump.threshold[3]", 0.02),
 ];
 
-pub fn warm<M: fmi_export::Model>() -> Hangar<M> {
-    Hangar::with("warm.toml", CRAFT)
+pub fn radiating<M: fmi_export::Model>() -> NamedModel<M> {
+    NamedModel::with("radiating.toml", SPACECRAFT)
 }
 
 #[test]
 fn the_cut_changes_no_bit() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let sets = [EFFECTS, SHADOWED, BUSY].concat();
-    let mut coarse = hangar.fly(0.0, &sets).unwrap();
-    let mut fine = hangar.fly(0.0, &sets).unwrap();
-    let mut odd = hangar.fly(0.0, &sets).unwrap();
+    let mut coarse = named.fly(0.0, &sets).unwrap();
+    let mut fine = named.fly(0.0, &sets).unwrap();
+    let mut odd = named.fly(0.0, &sets).unwrap();
     let (mut shaded, mut felt) = (0, [0; 3]);
     while coarse.time_s() < DAY_S {
         let end_s = coarse.time_s() + 1800.0;
@@ -109,10 +109,10 @@ fn the_cut_changes_no_bit() {
 
 #[test]
 fn a_restored_flight_goes_on_to_the_bit() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let sets = [EFFECTS, SHADOWED, BUSY].concat();
-    let mut whole = hangar.fly(0.0, &sets).unwrap();
-    let mut relay = hangar.fly(0.0, &sets).unwrap();
+    let mut whole = named.fly(0.0, &sets).unwrap();
+    let mut relay = named.fly(0.0, &sets).unwrap();
     let (mut shaded, mut steps) = (0, 0);
     while whole.time_s() < DAY_S / 2.0 {
         let end_s = whole.time_s() + 130.0;
@@ -133,10 +133,10 @@ fn a_restored_flight_goes_on_to_the_bit() {
 
 /// The memoryless model at the plant's own Sun, planet and panels.
 pub fn memoryless<'a>(
-    hangar: &'a Hangar<DisturbanceTorque>,
-    plant: &Pilot<'_, MomentumPlant>,
+    named: &'a NamedModel<DisturbanceTorque>,
+    plant: &NamedInstance<'_, MomentumPlant>,
     sets: &[(&str, f64)],
-) -> Pilot<'a, DisturbanceTorque> {
+) -> NamedInstance<'a, DisturbanceTorque> {
     let q = [1, 2, 3, 4].map(|i| plant.real(&format!("attitude.q[{i}]")));
     let to_body = Attitude::from_quaternion(q).unwrap().inertial_from_body().inverse();
     let position_m = plant.vector("position");
@@ -150,13 +150,13 @@ pub fn memoryless<'a>(
         (1..=2).map(|k| (format!("panel[{k}].angle"), plant.real(&format!("panel[{k}].angleActual")))),
     );
     let all: Vec<(&str, f64)> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    hangar.fly(0.0, &all).unwrap()
+    named.fly(0.0, &all).unwrap()
 }
 
 #[test]
 fn in_balance_every_source_is_that_of_the_memoryless_model() {
-    let plants = warm::<MomentumPlant>();
-    let models = warm::<DisturbanceTorque>();
+    let plants = radiating::<MomentumPlant>();
+    let models = radiating::<DisturbanceTorque>();
     let sets = [EFFECTS, SHADOWED, &[("thermal.storage", 0.0), ("solar.flux", 1365.0)]].concat();
     let mut plant = plants.fly(0.0, &sets).unwrap();
     let (mut shaded, mut worst) = (0, 0.0_f64);
@@ -181,10 +181,10 @@ fn in_balance_every_source_is_that_of_the_memoryless_model() {
 
 #[test]
 fn momentum_does_not_depend_on_how_light_is_resolved() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let flown = |step_s: f64, tolerance: f64| {
         let solver = [("solver.disturbanceStep", step_s), ("solver.disturbanceTolerance", tolerance)];
-        let mut plant = hangar.fly(0.0, &[EFFECTS, SHADOWED, &solver].concat()).unwrap();
+        let mut plant = named.fly(0.0, &[EFFECTS, SHADOWED, &solver].concat()).unwrap();
         plant.step_to(DAY_S).unwrap();
         plant.vector("momentum.inertial")
     };
@@ -197,9 +197,10 @@ fn momentum_does_not_depend_on_how_light_is_resolved() {
 
 #[test]
 fn in_the_dark_a_radiator_cools_by_the_closed_form() {
-    let hangar = warm::<MomentumPlant>();
-    let mut plant = hangar.fly(0.0, &[&[("thermal.enabled", 1.0)], SHADOWED].concat()).unwrap();
-    let kelvin = |plant: &Pilot<'_, MomentumPlant>| plant.real(&format!("plate[{RADIATOR}].temperature"));
+    let named = radiating::<MomentumPlant>();
+    let mut plant = named.fly(0.0, &[&[("thermal.enabled", 1.0)], SHADOWED].concat()).unwrap();
+    let kelvin =
+        |plant: &NamedInstance<'_, MomentumPlant>| plant.real(&format!("plate[{RADIATOR}].temperature"));
     plant.step_to(3.0 * 3600.0).unwrap();
     assert_eq!(plant.real("sun.litFraction"), 1.0);
     while plant.real("sun.litFraction") > 0.0 {
@@ -225,10 +226,10 @@ fn in_the_dark_a_radiator_cools_by_the_closed_form() {
 
 #[test]
 fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let sets = [EFFECTS, SHADOWED].concat();
-    let mut still = hangar.fly(0.0, &sets).unwrap();
-    let mut disturbed = hangar.fly(0.0, &sets).unwrap();
+    let mut still = named.fly(0.0, &sets).unwrap();
+    let mut disturbed = named.fly(0.0, &sets).unwrap();
     let mut steps = 0;
     while still.time_s() < DAY_S / 2.0 {
         let end_s = still.time_s() + 77.0;
@@ -249,11 +250,11 @@ fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
 
 #[test]
 fn a_torque_from_outside_leaves_light_and_heat_alone() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let sets = [EFFECTS, SHADOWED].concat();
-    let mut still = hangar.fly(0.0, &sets).unwrap();
-    let mut pushed = hangar.fly(0.0, &sets).unwrap();
-    let mut relay = hangar.fly(0.0, &sets).unwrap();
+    let mut still = named.fly(0.0, &sets).unwrap();
+    let mut pushed = named.fly(0.0, &sets).unwrap();
+    let mut relay = named.fly(0.0, &sets).unwrap();
     for step in 1..=600 {
         for flight in [&mut pushed, &mut relay] {
             flight.set("torque.applied[2]", 1e-7 * f64::from(step));
@@ -272,10 +273,10 @@ fn a_torque_from_outside_leaves_light_and_heat_alone() {
 
 #[test]
 fn faces_add_up_to_the_total_and_a_panel_left_out_has_none() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     for panel_on in [1.0, 0.0] {
         let sets = [EFFECTS, SHADOWED, &[("panel[1].enabled", panel_on)]].concat();
-        let mut plant = hangar.fly(0.0, &sets).unwrap();
+        let mut plant = named.fly(0.0, &sets).unwrap();
         for _ in 0..100 {
             plant.step_to(plant.time_s() + 211.0).unwrap();
             let forces: Vec<Vector3<f64>> =
@@ -292,9 +293,9 @@ fn faces_add_up_to_the_total_and_a_panel_left_out_has_none() {
 
 #[test]
 fn effects_that_are_off_are_zero_and_change_nothing() {
-    let hangar = warm::<MomentumPlant>();
-    let mut bare = hangar.fly(0.0, &[("planetLight.enabled", 0.0)]).unwrap();
-    let mut odd = hangar
+    let named = radiating::<MomentumPlant>();
+    let mut bare = named.fly(0.0, &[("planetLight.enabled", 0.0)]).unwrap();
+    let mut odd = named
         .fly(0.0, &[("solver.disturbanceStep", 7.0), ("thermal.storage", 0.0), ("planet.emissivity", 0.1)])
         .unwrap();
     for _ in 0..50 {
@@ -309,16 +310,16 @@ fn effects_that_are_off_are_zero_and_change_nothing() {
 
 #[test]
 fn impossible_settings_are_refused_by_name() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let sets =
         [("planetLight.enabled", 1.0), ("planet.absorptivity", 0.9), ("planet.diffuseReflectivity", 0.2)];
-    let Err(failure) = hangar.fly(0.0, &sets) else { panic!("flown") };
+    let Err(failure) = named.fly(0.0, &sets) else { panic!("flown") };
     assert!(failure.to_string().contains("planet.*") && failure.to_string().contains("1.1"), "{failure}");
 }
 
 #[test]
 fn states_torn_at_random_are_refused_or_flown_on() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let mut seed = 1_u64;
     let mut random = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -327,7 +328,7 @@ fn states_torn_at_random_are_refused_or_flown_on() {
     let (mut refused, mut flown, mut failed) = (0, 0, 0);
     for feedback in [0.0, 1.0] {
         let sets = [EFFECTS, SHADOWED, BUSY, &[("orbit.radiationFeedback", feedback)]].concat();
-        let mut start = hangar.fly(0.0, &sets).unwrap();
+        let mut start = named.fly(0.0, &sets).unwrap();
         start.step_to(5_000.0).unwrap();
         let bytes = start.state_bytes();
         for _ in 0..CASES {
@@ -361,11 +362,11 @@ fn states_torn_at_random_are_refused_or_flown_on() {
 
 #[test]
 fn a_flight_that_ends_in_the_planet_says_where() {
-    let hangar = warm::<MomentumPlant>();
+    let named = radiating::<MomentumPlant>();
     let place = |position_m: f64, velocity_m_s: f64| {
         let state =
             [("orbit.source", 2.0), ("orbit.position[1]", position_m), ("orbit.velocity[2]", velocity_m_s)];
-        hangar.fly(0.0, &[EFFECTS, &state].concat())
+        named.fly(0.0, &[EFFECTS, &state].concat())
     };
     let Err(failure) = place(1e6, 3000.0) else { panic!("flown") };
     let text = failure.to_string();

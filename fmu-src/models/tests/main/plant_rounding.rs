@@ -5,7 +5,7 @@
 use models::{DisturbanceTorque, MomentumPlant};
 use nalgebra::Vector3;
 
-use super::pilot::Hangar;
+use super::named_model::NamedModel;
 
 unsafe extern "C" {
     safe fn fesetround(mode: i32) -> i32;
@@ -45,8 +45,8 @@ const EVERYTHING: &[(&str, f64)] = &[
 #[test]
 fn every_rounding_mode_flies_the_same_two_days() {
     let fly = |options: &[(&str, f64)]| -> (Vec<Vector3<f64>>, i32) {
-        let hangar = Hangar::<MomentumPlant>::with("mercury-orbiter.toml", ORBITER);
-        let mut flight = hangar.fly(0.0, &[EVERYTHING, options].concat()).unwrap();
+        let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", ORBITER);
+        let mut flight = named.fly(0.0, &[EVERYTHING, options].concat()).unwrap();
         flight.fly_to(172_800.0, 7_200.0).unwrap();
         assert_eq!(flight.not_finite(), None);
         let names = ["momentum.inertial", "torque.total", "force.total", "position", "deltaV"];
@@ -69,12 +69,12 @@ fn every_rounding_mode_flies_the_same_two_days() {
 #[test]
 fn every_rounding_mode_gives_the_same_disturbance() {
     let evaluate = || {
-        let hangar = Hangar::<DisturbanceTorque>::with("mercury-orbiter.toml", ORBITER);
+        let named = NamedModel::<DisturbanceTorque>::with("mercury-orbiter.toml", ORBITER);
         (0..40)
             .map(|k| {
                 let (sin, cos) = (f64::from(k) * 0.7).sin_cos();
                 let sun = [("sun.positionBody[1]", 5e10 * sin), ("sun.positionBody[2]", -5e10 * cos)];
-                let model = hangar.fly(0.0, &sun).unwrap();
+                let model = named.fly(0.0, &sun).unwrap();
                 assert_eq!(model.not_finite(), None);
                 model.vector("torque.total")
             })

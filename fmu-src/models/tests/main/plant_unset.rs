@@ -3,7 +3,7 @@
 use models::{DisturbanceTorque, MomentumPlant};
 use nalgebra::Vector3;
 
-use super::pilot::{Hangar, Pilot};
+use super::named_model::{NamedInstance, NamedModel};
 
 /// Everything from inputs.
 const FED: &[(&str, f64)] = &[
@@ -26,11 +26,11 @@ const CONNECTED: &[(&str, f64)] = &[
     ("earth.position[2]", 1.1e11),
 ];
 
-fn zero<'h>(hangar: &'h Hangar<MomentumPlant>, options: &[(&'h str, f64)]) -> Vec<(&'h str, f64)> {
-    options.iter().copied().chain(hangar.inputs().into_iter().map(|name| (name, 0.0))).collect()
+fn zero<'h>(named: &'h NamedModel<MomentumPlant>, options: &[(&'h str, f64)]) -> Vec<(&'h str, f64)> {
+    options.iter().copied().chain(named.inputs().into_iter().map(|name| (name, 0.0))).collect()
 }
 
-fn connect(flight: &mut Pilot<'_, MomentumPlant>) {
+fn connect(flight: &mut NamedInstance<'_, MomentumPlant>) {
     for (name, value) in CONNECTED {
         flight.set(name, *value);
     }
@@ -38,11 +38,11 @@ fn connect(flight: &mut Pilot<'_, MomentumPlant>) {
 
 #[test]
 fn zero_on_every_input_holds_the_attitude_and_nothing_acts() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
+    let named = NamedModel::<MomentumPlant>::shipped();
     for dynamics in [1.0, 2.0] {
         let options = [FED, &[("orbit.dynamics", dynamics)]].concat();
-        let before = hangar.warnings().len();
-        let mut flight = hangar.fly(0.0, &zero(&hangar, &options)).unwrap();
+        let before = named.warnings().len();
+        let mut flight = named.fly(0.0, &zero(&named, &options)).unwrap();
         for time_s in [60.0, 600.0, 90_000.0] {
             flight.step_to(time_s).unwrap();
             assert_eq!(flight.not_finite(), None);
@@ -52,33 +52,33 @@ fn zero_on_every_input_holds_the_attitude_and_nothing_acts() {
             assert!((flight.vector("attitude.q") - Vector3::new(0.6, 0.0, 0.0)).norm() < 1e-15);
             assert_eq!(flight.vector("momentum.body"), Vector3::new(0.0, 1.5, 0.0));
         }
-        let said = hangar.warnings()[before..].to_vec();
-        assert_eq!(said.len(), 1, "{said:?}");
+        let warnings = named.warnings()[before..].to_vec();
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
         for name in ["orbit.position", "orbit.velocity", "sun.position", "command.kind"] {
-            assert!(said[0].contains(name), "{said:?}");
+            assert!(warnings[0].contains(name), "{warnings:?}");
         }
         // The first values that are not zero start the flight: the same as one that has them from the start.
         connect(&mut flight);
         let mut restored = flight.restored();
         flight.step_to(91_000.0).unwrap();
         restored.step_to(91_000.0).unwrap();
-        super::pilot::assert_same(&flight, &restored);
+        super::named_model::assert_same(&flight, &restored);
         assert!(flight.vector("torque.total").norm() > 1e-8);
         let epoch_s = flight.real("start.epoch") + 90_000.0;
-        let known = [&zero(&hangar, &options)[..], CONNECTED, &[("start.epoch", epoch_s)]].concat();
-        let mut known = hangar.fly(90_000.0, &known).unwrap();
+        let known = [&zero(&named, &options)[..], CONNECTED, &[("start.epoch", epoch_s)]].concat();
+        let mut known = named.fly(90_000.0, &known).unwrap();
         known.step_to(91_000.0).unwrap();
         for name in ["torque.total", "momentum.body", "sun.positionBody", "position", "deltaV"] {
             let (a, b) = (flight.vector(name), known.vector(name));
             assert!((a - b).norm() <= 1e-9 * b.norm(), "{name}: {a} {b}");
         }
-        assert_eq!(hangar.warnings().len(), before + 2, "the second flight has no command either");
+        assert_eq!(named.warnings().len(), before + 2, "the second flight has no command either");
     }
 }
 
 #[test]
 fn a_quaternion_of_zero_is_no_command_yet() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
+    let named = NamedModel::<MomentumPlant>::shipped();
     for (kind, quaternion) in [(1.0, "command.q"), (2.0, "command.error")] {
         let sets = [
             ("attitude.source", 2.0),
@@ -89,8 +89,8 @@ fn a_quaternion_of_zero_is_no_command_yet() {
             ("command.error[4]", 0.0),
             ("command.rate[1]", 1e-3),
         ];
-        let before = hangar.warnings().len();
-        let mut flight = hangar.fly(0.0, &sets).unwrap();
+        let before = named.warnings().len();
+        let mut flight = named.fly(0.0, &sets).unwrap();
         flight.step_to(100.0).unwrap();
         assert!((flight.real("attitude.q[1]") - 0.6).abs() < 1e-15);
         assert!(flight.vector("torque.solar").norm() > 0.0, "the Sun is known");
@@ -98,15 +98,15 @@ fn a_quaternion_of_zero_is_no_command_yet() {
         flight.step_to(101.0).unwrap();
         let turned_rad = if kind == 1.0 { 1e-3 } else { 2.0 * 0.6_f64.asin() + 1e-3 };
         assert!((flight.real("attitude.q[1]") - (0.5 * turned_rad).sin()).abs() < 1e-14);
-        let said = hangar.warnings()[before..].to_vec();
-        assert!(said.len() == 1 && said[0].contains(quaternion), "{said:?}");
+        let warnings = named.warnings()[before..].to_vec();
+        assert!(warnings.len() == 1 && warnings[0].contains(quaternion), "{warnings:?}");
     }
 }
 
 #[test]
 fn a_sun_that_goes_back_to_zero_is_named() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
-    let mut flight = hangar.fly(0.0, &[FED, CONNECTED].concat()).unwrap();
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut flight = named.fly(0.0, &[FED, CONNECTED].concat()).unwrap();
     flight.step_to(60.0).unwrap();
     flight.set("sun.position[1]", 0.0);
     flight.set("sun.position[2]", 0.0);
@@ -116,18 +116,18 @@ fn a_sun_that_goes_back_to_zero_is_named() {
 
 #[test]
 fn the_memoryless_model_takes_zero_on_every_input() {
-    let hangar = Hangar::<DisturbanceTorque>::shipped();
-    let zero: Vec<(&str, f64)> = hangar.inputs().into_iter().map(|name| (name, 0.0)).collect();
+    let named = NamedModel::<DisturbanceTorque>::shipped();
+    let zero: Vec<(&str, f64)> = named.inputs().into_iter().map(|name| (name, 0.0)).collect();
     for method in [1.0, 2.0] {
-        let before = hangar.warnings().len();
+        let before = named.warnings().len();
         let options = [("planetLight.method", method)];
-        let mut model = hangar.fly(0.0, &[&zero[..], &options].concat()).unwrap();
+        let mut model = named.fly(0.0, &[&zero[..], &options].concat()).unwrap();
         model.step_to(1.0).unwrap();
         model.step_to(2.0).unwrap();
         assert_eq!(model.not_finite(), None);
         assert_eq!(model.vector("torque.total"), Vector3::zeros());
         assert_eq!(model.vector("force.total"), Vector3::zeros());
-        assert_eq!(hangar.warnings().len(), before + 1);
+        assert_eq!(named.warnings().len(), before + 1);
         // The Sun alone: sunlight and heat, no planet.
         model.set("sun.positionBody[2]", -5e10);
         model.step_to(3.0).unwrap();
@@ -137,17 +137,17 @@ fn the_memoryless_model_takes_zero_on_every_input() {
         model.set("planet.positionBody[3]", 9e6);
         model.step_to(4.0).unwrap();
         assert!(model.vector("force.infrared").norm() > 0.0);
-        assert_eq!(hangar.warnings().len(), before + 1);
+        assert_eq!(named.warnings().len(), before + 1);
     }
 }
 
 #[test]
 fn sun_and_planet_in_the_body_frame_are_the_inputs_of_the_memoryless_model() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
+    let named = NamedModel::<MomentumPlant>::shipped();
     let sets = [("planetLight.enabled", 1.0), ("solar.flux", 1365.0), ("gravityGradient.enabled", 1.0)];
-    let mut flight = hangar.fly(0.0, &sets).unwrap();
+    let mut flight = named.fly(0.0, &sets).unwrap();
     let text = <MomentumPlant as fmi_export::Model>::DEFAULT_SETUP;
-    let memoryless = Hangar::<DisturbanceTorque>::with("messenger.toml", text);
+    let memoryless = NamedModel::<DisturbanceTorque>::with("messenger.toml", text);
     for time_s in [100.0, 9_000.0, 20_000.0] {
         flight.step_to(time_s).unwrap();
         let mut inputs = vec![("shadowing.enabled".to_owned(), 0.0), ("solar.flux".to_owned(), 1365.0)];
@@ -168,7 +168,7 @@ fn sun_and_planet_in_the_body_frame_are_the_inputs_of_the_memoryless_model() {
         }
     }
     let sun = [("orbit.center", 2.0), ("orbit.semiMajorAxis", 6e10), ("orbit.eccentricity", 0.1)];
-    let mut about_the_sun = hangar.fly(0.0, &sun).unwrap();
+    let mut about_the_sun = named.fly(0.0, &sun).unwrap();
     about_the_sun.step_to(60.0).unwrap();
     assert_eq!(about_the_sun.vector("planet.positionBody"), Vector3::zeros());
     let distance_m = about_the_sun.vector("sun.positionBody").norm();

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use models::MomentumPlant;
 
-use super::pilot::{Hangar, Pilot};
+use super::named_model::{NamedInstance, NamedModel};
 
 /// Time this thread spent computing, so that a busy machine does not count; where that is not told, all time.
 fn busy(since: Instant) -> Duration {
@@ -14,9 +14,9 @@ fn busy(since: Instant) -> Duration {
 }
 
 /// A generator of Knuth's, enough to scatter.
-struct Dice(u64);
+struct RandomNumbers(u64);
 
-impl Dice {
+impl RandomNumbers {
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
@@ -57,8 +57,8 @@ const OTHERWISE: Duration = Duration::from_millis(400);
 type Asked<'a> = (&'a [(&'a str, f64)], f64, &'a [&'a str]);
 
 fn asked(sets: &[(&str, f64)], step_s: f64) -> Result<f64, String> {
-    let hangar = Hangar::<MomentumPlant>::shipped();
-    let mut flight = hangar.fly(0.0, sets).map_err(|failure| failure.to_string())?;
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut flight = named.fly(0.0, sets).map_err(|failure| failure.to_string())?;
     flight.step_to(step_s).map_err(|failure| failure.to_string())?;
     Ok(flight.time_s())
 }
@@ -87,7 +87,7 @@ fn what_asks_for_too_much_is_named_with_how_far_it_came() {
 #[test]
 fn a_mercury_year_with_every_effect_is_far_within_the_default() {
     let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
-    let hangar = Hangar::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
+    let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
     let everything = [
         ("planetLight.enabled", 1.0),
         ("thermal.enabled", 1.0),
@@ -97,31 +97,31 @@ fn a_mercury_year_with_every_effect_is_far_within_the_default() {
         // Half of the default.
         ("solver.workLimit", 1e7),
     ];
-    let mut flight = hangar.fly(0.0, &everything).unwrap();
+    let mut flight = named.fly(0.0, &everything).unwrap();
     flight.step_to(87.969 * 86_400.0).unwrap();
     assert_eq!(flight.not_finite(), None);
 }
 
 /// Scattered options, parameters and inputs: how long the answer took, and what it was.
-fn scattered(hangar: &Hangar<MomentumPlant>, seed: u64, limit: f64) -> (Duration, String) {
-    let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    let given = hangar.given();
+fn scattered(named: &NamedModel<MomentumPlant>, seed: u64, limit: f64) -> (Duration, String) {
+    let mut random = RandomNumbers(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    let given = named.given();
     let mut sets: Vec<(&str, f64)> = Vec::new();
     for (name, limits, whole) in &given {
         let is_option = *whole && limits.1 - limits.0 < 8.0;
         let chance = if is_option { 0.3 } else { 0.02 };
-        if dice.unit() < chance {
-            sets.push((name, dice.within(*limits, *whole)));
+        if random.unit() < chance {
+            sets.push((name, random.within(*limits, *whole)));
         }
     }
     sets.retain(|(name, _)| *name != "solver.workLimit");
     // Guided or commanded; the others are refused.
-    let source = 1.0 + dice.below(2) as f64;
+    let source = 1.0 + random.below(2) as f64;
     sets.extend([("attitude.source", source), ("solver.workLimit", limit)]);
-    let step_s = [1.0, 1e3, 1e6, 1e9, 1e12][dice.below(5)];
+    let step_s = [1.0, 1e3, 1e6, 1e9, 1e12][random.below(5)];
     let now = Instant::now();
     let before = busy(now);
-    let answer = match hangar.fly(0.0, &sets) {
+    let answer = match named.fly(0.0, &sets) {
         Err(failure) => failure.to_string(),
         Ok(mut flight) => match flight.step_to(step_s) {
             Err(failure) => failure.to_string(),
@@ -133,14 +133,14 @@ fn scattered(hangar: &Hangar<MomentumPlant>, seed: u64, limit: f64) -> (Duration
 
 #[test]
 fn any_legal_parameters_get_an_answer() {
-    let hangar = Hangar::<MomentumPlant>::shipped();
+    let named = NamedModel::<MomentumPlant>::shipped();
     let trials =
         std::env::var("HELIOTORQUE_WORK_TRIALS").ok().and_then(|text| text.parse().ok()).unwrap_or(200);
     let limit =
         std::env::var("HELIOTORQUE_WORK_LIMIT").ok().and_then(|text| text.parse().ok()).unwrap_or(LIMIT);
     let (mut flown, mut exhausted, mut worst) = (0, 0, Duration::ZERO);
     for seed in 1..=trials {
-        let (took, answer) = scattered(&hangar, seed, limit);
+        let (took, answer) = scattered(&named, seed, limit);
         let allowed = LONGEST_UNIT.mul_f64(limit) + OTHERWISE;
         assert!(took < allowed, "{took:?} where {allowed:?} is allowed, trial {seed}: {answer}");
         flown += u32::from(answer.ends_with("finite"));
@@ -155,14 +155,14 @@ fn any_legal_parameters_get_an_answer() {
 #[test]
 fn forged_states_are_refused_or_fly_on_with_finite_numbers() {
     let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
-    let hangar = Hangar::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
+    let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
     let options = [
         ("orbit.dynamics", 2.0),
         ("planetLight.enabled", 1.0),
         ("thermal.enabled", 1.0),
         ("solver.workLimit", 2e4),
     ];
-    let mut flight = hangar.fly(0.0, &options).unwrap();
+    let mut flight = named.fly(0.0, &options).unwrap();
     flight.fly_to(40_000.0, 1_000.0).unwrap();
     let bytes = flight.state_bytes();
     let strange = [
@@ -179,13 +179,13 @@ fn forged_states_are_refused_or_fly_on_with_finite_numbers() {
         1e20,
         4e4,
     ];
-    let mut dice = Dice(7);
+    let mut random = RandomNumbers(7);
     let (mut refused, mut flown) = (0, 0);
     for _ in 0..1500 {
         let mut forged = bytes.clone();
-        let at = dice.below(bytes.len() - 8);
-        forged[at..at + 8].copy_from_slice(&strange[dice.below(strange.len())].to_le_bytes());
-        let Some(mut other): Option<Pilot<'_, MomentumPlant>> = flight.with_state(&forged) else {
+        let at = random.below(bytes.len() - 8);
+        forged[at..at + 8].copy_from_slice(&strange[random.below(strange.len())].to_le_bytes());
+        let Some(mut other): Option<NamedInstance<'_, MomentumPlant>> = flight.with_state(&forged) else {
             refused += 1;
             continue;
         };

@@ -1,4 +1,4 @@
-//! Start values in a setup file: what they become, for which models, and what is said of those that nothing takes.
+//! Start values in a setup file: what they become, for which models, and the error for those that nothing takes.
 
 use std::path::Path;
 
@@ -147,7 +147,7 @@ fn the_guid_follows_the_values_and_not_how_they_are_written() {
     assert_eq!(guid("[start]\n\"planetLight.belts\" = 9"), plain, "of another model");
 }
 
-/// File lines, and what is said of them; the shipped file's own lines are left out of the number.
+/// File lines, and the error for each; the shipped file's own lines are left out of the number.
 const REFUSALS: &[(&str, &str)] = &[
     (
         "[start]\n\"orbit.centre\" = \"sun\"",

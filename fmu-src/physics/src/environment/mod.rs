@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 /// Position and velocity in one inertial frame relative to one centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct State {
+pub struct CartesianState {
     /// Position, m.
     pub position_m: Vector3<f64>,
     /// Velocity, m/s.

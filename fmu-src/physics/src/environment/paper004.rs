@@ -10,7 +10,7 @@ use core::f64::consts::PI;
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
-    State,
+    CartesianState,
     frames::{dcm_eme2000_from_ecliptic, dcm_reference_from_node_frame, rotation_z},
     orbit::{Elements, OrbitError, TwoBodyOrbit},
 };
@@ -76,7 +76,7 @@ impl Frames {
     ///
     /// # Errors
     /// See [`Elements::from_state`].
-    pub fn from_state(planet_hci: &State) -> Result<Self, OrbitError> {
+    pub fn from_state(planet_hci: &CartesianState) -> Result<Self, OrbitError> {
         Self::from_elements(&Elements::from_state(planet_hci, GM_SUN_M3_S2)?)
     }
 
@@ -140,14 +140,14 @@ impl KeplerPlanet {
     }
 
     /// Heliocentric position and velocity in HCI.
-    pub fn state_hci(&self, epoch_s: f64) -> State {
+    pub fn state_hci(&self, epoch_s: f64) -> CartesianState {
         self.orbit_hci.state_at(epoch_s)
     }
 
     /// Heliocentric position and velocity in EME2000.
-    pub fn state(&self, epoch_s: f64) -> State {
+    pub fn state(&self, epoch_s: f64) -> CartesianState {
         let hci = self.state_hci(epoch_s);
-        State {
+        CartesianState {
             position_m: self.dcm_eme2000_from_hci * hci.position_m,
             velocity_m_s: self.dcm_eme2000_from_hci * hci.velocity_m_s,
         }
@@ -163,7 +163,7 @@ mod tests {
     use crate::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2};
     use crate::environment::frames::Frame;
 
-    fn case(true_anomaly_deg: f64) -> (State, Frames) {
+    fn case(true_anomaly_deg: f64) -> (CartesianState, Frames) {
         let planet = KeplerPlanet::mercury_as_printed(true_anomaly_deg.to_radians(), 0.0).unwrap();
         let state = planet.state_hci(0.0);
         (state, Frames::from_state(&state).unwrap())

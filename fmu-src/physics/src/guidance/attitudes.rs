@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::{MovingFrame, MovingUnit};
-use crate::environment::State;
+use crate::environment::CartesianState;
 
 /// Directions from the spacecraft, in EME2000, with their rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct LinesOfSight {
     /// To the Earth.
     pub earth: MovingUnit,
     /// From the centre of that planet to the Sun, position and velocity.
-    pub sun_from_planet: Option<State>,
+    pub sun_from_planet: Option<CartesianState>,
 }
 
 /// How far science observations pitch the spacecraft, as Sun elevation over (Sun-nadir angle - 90 deg).
@@ -149,7 +149,7 @@ mod tests {
                 sun: unit(t.cos(), t.sin(), 0.4 * (2.0 * t).sin()),
                 planet: Some(unit((3.0 * t).sin(), 0.7, (1.7 * t).cos())),
                 earth: unit((0.9 * t).cos(), (1.3 * t).sin(), 0.2),
-                sun_from_planet: Some(State {
+                sun_from_planet: Some(CartesianState {
                     position_m: Vector3::new(t.cos(), t.sin(), 0.1 * t.sin()) * 5e10,
                     velocity_m_s: Vector3::new(-t.sin(), t.cos(), 0.1 * t.cos()) * 4e4,
                 }),
@@ -228,7 +228,7 @@ mod tests {
             let blind = LinesOfSight {
                 planet: Some(lines.sun),
                 earth: lines.sun,
-                sun_from_planet: Some(State::default()),
+                sun_from_planet: Some(CartesianState::default()),
                 ..lines
             };
             all.push(science(&blind, ScienceRule::Nadir, LIMIT_RAD));

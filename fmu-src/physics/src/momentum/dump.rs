@@ -1,6 +1,9 @@
 //! When thrusters take momentum off the wheels, and what they leave (paper 000, "Simulation").
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// A component re-initialised exactly at the opposite threshold hovers there within rounding; only more than this
 /// counts as exceeding, in N m s.
@@ -54,6 +57,79 @@ impl DumpPolicy {
                 Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
             }
         })
+    }
+}
+
+/// No thruster dumps this often within [`DUMP_WINDOW_S`].
+const MOST_DUMPS_IN_WINDOW: u32 = 1_000;
+/// See [`MOST_DUMPS_IN_WINDOW`], in s.
+pub(super) const DUMP_WINDOW_S: f64 = 1.0;
+
+/// Dumps so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Dumps {
+    /// How many.
+    pub count: i32,
+    /// The last one, once there was one.
+    pub last: Option<DumpEvent>,
+    /// The first of those that followed one another within [`DUMP_WINDOW_S`], and how many followed.
+    window: (f64, u32),
+}
+
+/// Dumps without end: the torque outruns what a dump leaves.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "{MOST_DUMPS_IN_WINDOW} dumps between {from_s:?} s and {to_s:?} s, allowed: fewer within {DUMP_WINDOW_S} s; the thresholds are too low \
+     for the torque"
+)]
+pub struct TooManyDumps {
+    /// The first of them, in s.
+    pub from_s: f64,
+    /// The last of them, in s.
+    pub to_s: f64,
+}
+
+/// A dump as it happens; instantaneous.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DumpEvent {
+    /// When, in s.
+    pub time_s: f64,
+    /// Momentum before, body frame, in the watched convention, in N m s.
+    pub before_body_n_m_s: Vector3<f64>,
+    /// Momentum after, likewise.
+    pub after_body_n_m_s: Vector3<f64>,
+}
+
+impl DumpEvent {
+    /// Angular impulse of the thrusters, body frame, in N m s.
+    pub fn impulse_body_n_m_s(&self) -> Vector3<f64> {
+        self.after_body_n_m_s - self.before_body_n_m_s
+    }
+}
+
+impl Dumps {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub(super) fn is_sound(&self) -> bool {
+        let event = |event: &DumpEvent| {
+            let numbers =
+                event.before_body_n_m_s.iter().chain(&event.after_body_n_m_s).chain([&event.time_s]);
+            numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+        };
+        self.count >= 0 && self.last.as_ref().is_none_or(event) && self.window.0.abs() <= GREATEST_IN_STATE
+    }
+
+    pub(super) fn with(self, event: DumpEvent) -> Self {
+        let (from_s, count) = self.window;
+        // Written so that a restored NaN begins anew.
+        let goes_on = event.time_s - from_s < DUMP_WINDOW_S;
+        let window = if goes_on && count > 0 { (from_s, count.saturating_add(1)) } else { (event.time_s, 1) };
+        Self { count: self.count.saturating_add(1), last: Some(event), window }
+    }
+
+    pub(super) fn check(&self) -> Result<(), TooManyDumps> {
+        let (from_s, count) = self.window;
+        let to_s = self.last.map_or(from_s, |event| event.time_s);
+        if count < MOST_DUMPS_IN_WINDOW { Ok(()) } else { Err(TooManyDumps { from_s, to_s }) }
     }
 }
 

@@ -76,18 +76,18 @@ mod tests {
     }
 
     fn shipped(text: &str) -> (Spacecraft, f64) {
-        let craft = Spacecraft::from_toml("shipped.toml", text).unwrap();
-        let axes: Vec<Vector3<f64>> = craft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+        let spacecraft = Spacecraft::from_toml("shipped.toml", text).unwrap();
+        let axes: Vec<Vector3<f64>> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let array = WheelArray::new(&axes).unwrap();
         let threshold_n_m_s =
-            array.guaranteed_threshold_n_m_s(craft.wheels.iter().map(|wheel| wheel.capacity_n_m_s));
+            array.guaranteed_threshold_n_m_s(spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s));
         // Any corner of the cube can be held, one a little beyond cannot.
         let loads = |scale: f64| {
             let corners = (0..8_u32).map(move |corner| {
                 Vector3::from_fn(|i, _| if corner >> i & 1 == 0 { scale } else { -scale } * threshold_n_m_s)
             });
             let share = |corner: Vector3<f64>| {
-                let wheels = craft.wheels.iter().enumerate();
+                let wheels = spacecraft.wheels.iter().enumerate();
                 wheels
                     .map(|(k, wheel)| array.momentum_n_m_s(k, &corner).abs() / wheel.capacity_n_m_s)
                     .fold(0.0, f64::max)
@@ -95,20 +95,20 @@ mod tests {
             corners.map(share).fold(0.0, f64::max)
         };
         assert!(loads(1.0 - 1e-9) <= 1.0 && loads(1.0 + 1e-9) > 1.0);
-        (craft, threshold_n_m_s)
+        (spacecraft, threshold_n_m_s)
     }
 
     #[test]
     fn shipped_thresholds_are_guaranteed() {
         // MESSENGER's corner along a wheel's axis loads it by sqrt 3 x 3/4.
-        let (craft, guaranteed) = shipped(MESSENGER_TOML);
+        let (spacecraft, guaranteed) = shipped(MESSENGER_TOML);
         assert_relative_eq!(guaranteed, 8.0 / (0.75 * 3.0_f64.sqrt()), max_relative = 1e-5);
-        assert!(craft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
-        assert_eq!(craft.dump_threshold_n_m_s, Some(Vector3::repeat(PAPER_DUMP_THRESHOLDS_N_M_S[1].1)));
+        assert!(spacecraft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
+        assert_eq!(spacecraft.dump_threshold_n_m_s, Some(Vector3::repeat(PAPER_DUMP_THRESHOLDS_N_M_S[1].1)));
         // Three wheels along the axes hold their own capacity.
-        let (craft, guaranteed) = shipped(include_str!("../../../resources/examples/solar-sailer.toml"));
+        let (spacecraft, guaranteed) = shipped(include_str!("../../../resources/examples/solar-sailer.toml"));
         assert_relative_eq!(guaranteed, 2.0, epsilon = 1e-12);
-        assert!(craft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
+        assert!(spacecraft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
     }
 
     #[test]

@@ -1,14 +1,14 @@
 //! Gauss collocation: an implicit Runge-Kutta integrator of any order whose dense output is the solution itself.
 //!
-//! On one cell the solution is the polynomial of degree `S` whose derivative equals the right-hand side at the `S`
-//! Gauss-Legendre nodes. At the cell's end the order is `2 S`; within the cell the error is of order `h^(S+1)`,
+//! On one segment the solution is the polynomial of degree `S` whose derivative equals the right-hand side at the `S`
+//! Gauss-Legendre nodes. At the segment's end the order is `2 S`; within the segment the error is of order `h^(S+1)`,
 //! uniformly. Quadratic invariants (the norm of a quaternion, angular momentum, rotational energy) are kept to
-//! rounding for any cell length (Hairer, Lubich, Wanner, Geometric Numerical Integration, IV.2). The equations are
-//! solved by Gauss-Seidel sweeps, which suits smooth, non-stiff motion: cells should be shorter than the time in which the
+//! rounding for any segment length (Hairer, Lubich, Wanner, Geometric Numerical Integration, IV.2). The equations are
+//! solved by Gauss-Seidel sweeps, which suits smooth, non-stiff motion: segments should be shorter than the time in which the
 //! motion changes direction.
 //!
-//! [`Collocation`] holds the method's coefficients (computed, no state). [`Cells`] is the state of one integration:
-//! a chain of cells with edges at whole multiples of their length, serialisable, of which the last is kept.
+//! [`Collocation`] holds the method's coefficients (computed, no state). [`SegmentChain`] is the state of one integration:
+//! a chain of segments with edges at whole multiples of their length, serialisable, of which the last is kept.
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
@@ -19,18 +19,18 @@ use super::{
     quadrature::Rule,
 };
 
-/// Why a cell could not be integrated.
+/// Why a segment could not be integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum IntegrationError {
     /// The sweeps do not converge.
     #[error(
         "the integration from {from_s} s to {to_s} s does not converge (last relative change {change:e}): \
-         the motion is too fast for a cell of this length, make it shorter"
+         the motion is too fast for a segment of this length, make it shorter"
     )]
     NotConverged {
-        /// Start of the cell, s.
+        /// Start of the segment, s.
         from_s: f64,
-        /// End of the cell, s.
+        /// End of the segment, s.
         to_s: f64,
         /// Last change of a stage relative to its size.
         change: f64,
@@ -85,7 +85,7 @@ impl<const S: usize, const M: usize> Collocation<S, M> {
 
     /// The solution of `y' = rhs(t, y)`, `y(start_s) = start`, on `[start_s, end_s]`, and its value at the end.
     ///
-    /// `guess`, usually the cell before, is extrapolated as the first approximation; it changes the result by
+    /// `guess`, usually the segment before, is extrapolated as the first approximation; it changes the result by
     /// rounding only. Costs `S` evaluations a sweep, 3 to 8 sweeps.
     ///
     /// # Errors
@@ -195,15 +195,15 @@ fn is_finite<const D: usize>(vector: &SVector<f64, D>) -> bool {
     vector.iter().all(|x| x.is_finite())
 }
 
-/// A chain of cells with edges at `k * length_s`, of which the last one is kept with its dense output: the state of an
+/// A chain of segments with edges at `k * length_s`, of which the last one is kept with its dense output: the state of an
 /// integration. Everything a restored copy needs is in here.
 ///
-/// The first cell starts wherever the integration starts, and a [`Cells::cut`] ends a cell early; after both, edges
-/// are whole multiples again. Cells depend on nothing but their start: asking more or less often changes no bit.
+/// The first segment starts wherever the integration starts, and a [`SegmentChain::cut`] ends a segment early; after both, edges
+/// are whole multiples again. Segments depend on nothing but their start: asking more or less often changes no bit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Cells<const D: usize, const M: usize> {
+pub struct SegmentChain<const D: usize, const M: usize> {
     length_s: f64,
-    /// Number of the edge the last cell ends at.
+    /// Number of the edge the last segment ends at.
     edge: i64,
     start_s: f64,
     end_s: f64,
@@ -211,8 +211,8 @@ pub struct Cells<const D: usize, const M: usize> {
     segment: Segment<D, M>,
 }
 
-impl<const D: usize, const M: usize> Cells<D, M> {
-    /// An integration that stands at `start` at `start_s`, with cells of `length_s` (above 0, like all times finite).
+impl<const D: usize, const M: usize> SegmentChain<D, M> {
+    /// An integration that stands at `start` at `start_s`, with segments of `length_s` (above 0, like all times finite).
     pub fn new(length_s: f64, start_s: f64, start: SVector<f64, D>) -> Self {
         let mut coefficients = SMatrix::<f64, D, M>::zeros();
         if M > 0 {
@@ -239,12 +239,12 @@ impl<const D: usize, const M: usize> Cells<D, M> {
             && self.segment.spans(self.start_s, self.end_s)
     }
 
-    /// Length of the cells, s.
+    /// Length of the segments, s.
     pub fn length_s(&self) -> f64 {
         self.length_s
     }
 
-    /// Where the cell at hand starts, s.
+    /// Where the present segment starts, s.
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
@@ -254,25 +254,25 @@ impl<const D: usize, const M: usize> Cells<D, M> {
         self.end_s
     }
 
-    /// The solution at [`Cells::end_s`].
+    /// The solution at [`SegmentChain::end_s`].
     pub fn end(&self) -> &SVector<f64, D> {
         &self.end
     }
 
-    /// Dense output between [`Cells::start_s`] and [`Cells::end_s`].
+    /// Dense output between [`SegmentChain::start_s`] and [`SegmentChain::end_s`].
     pub fn segment(&self) -> &Segment<D, M> {
         &self.segment
     }
 
-    /// The solution at a time of the cell at hand.
+    /// The solution at a time of the present segment.
     pub fn value(&self, at_s: f64) -> SVector<f64, D> {
         if at_s >= self.end_s { self.end } else { self.segment.value(at_s) }
     }
 
-    /// Integrates one more cell, to the next edge.
+    /// Integrates one more segment, to the next edge.
     ///
     /// # Errors
-    /// See [`Collocation::solve`]; the cells stay as they were.
+    /// See [`Collocation::solve`]; the segments stay as they were.
     pub fn advance<const S: usize>(
         &mut self,
         method: &Collocation<S, M>,
@@ -281,18 +281,18 @@ impl<const D: usize, const M: usize> Cells<D, M> {
         self.advance_to(method, f64::INFINITY, rhs)
     }
 
-    /// Integrates one more cell, to the next edge or to `limit_s` if that comes first; later cells end at the edges
+    /// Integrates one more segment, to the next edge or to `limit_s` if that comes first; later segments end at the edges
     /// again.
     ///
     /// # Errors
-    /// See [`Collocation::solve`]; the cells stay as they were.
+    /// See [`Collocation::solve`]; the segments stay as they were.
     pub fn advance_to<const S: usize>(
         &mut self,
         method: &Collocation<S, M>,
         limit_s: f64,
         rhs: impl FnMut(f64, &SVector<f64, D>) -> SVector<f64, D>,
     ) -> Result<(), IntegrationError> {
-        // Counted from where the cells end, not from the number kept: restored bytes may hold any number.
+        // Counted from where the segments end, not from the number kept: restored bytes may hold any number.
         let mut edge = ((self.end_s / self.length_s).floor() as i64).saturating_add(1);
         // A start within rounding of an edge is that edge.
         if edge as f64 * self.length_s - self.end_s <= 1e-12 * self.end_s.abs().max(self.length_s) {
@@ -302,7 +302,7 @@ impl<const D: usize, const M: usize> Cells<D, M> {
         if limit_s < end_s {
             (edge, end_s) = (edge.saturating_sub(1), limit_s);
         }
-        // A short cell says nothing of a long one.
+        // A short segment says nothing of a long one.
         let known = self.end_s - self.start_s >= 0.1 * (end_s - self.end_s);
         let guess = (self.end_s > self.start_s && known).then_some(&self.segment);
         let (segment, end) = method.solve(self.end_s, end_s, &self.end, guess, rhs)?;
@@ -310,7 +310,7 @@ impl<const D: usize, const M: usize> Cells<D, M> {
         Ok(())
     }
 
-    /// Ends the cell at hand at `at_s`, within it: what was computed beyond is void because the right-hand side
+    /// Ends the present segment at `at_s`, within it: what was computed beyond is void because the right-hand side
     /// changes there, or the state jumps to `value`.
     pub fn cut(&mut self, at_s: f64, value: SVector<f64, D>) {
         *self = Self::new(self.length_s, at_s, value);
@@ -356,16 +356,16 @@ mod tests {
     #[test]
     fn dense_output_is_the_solution_between() {
         let method = Collocation::<10, 11>::new();
-        let mut cells = Cells::new(0.5, 0.2, Vector2::new(0.2_f64.cos(), -(0.2_f64.sin())));
+        let mut chain = SegmentChain::new(0.5, 0.2, Vector2::new(0.2_f64.cos(), -(0.2_f64.sin())));
         let mut edges = vec![];
-        while cells.end_s() < 20.0 {
-            cells.advance(&method, oscillator).unwrap();
-            edges.push(cells.end_s());
+        while chain.end_s() < 20.0 {
+            chain.advance(&method, oscillator).unwrap();
+            edges.push(chain.end_s());
             for i in 0..=10 {
-                let t = cells.start_s() + (cells.end_s() - cells.start_s()) * f64::from(i) / 10.0;
-                let (value, rate) = cells.segment().value_and_derivative(t);
+                let t = chain.start_s() + (chain.end_s() - chain.start_s()) * f64::from(i) / 10.0;
+                let (value, rate) = chain.segment().value_and_derivative(t);
                 assert!((value - Vector2::new(t.cos(), -t.sin())).norm() < 1e-13);
-                assert!((cells.value(t) - value).norm() < 1e-14);
+                assert!((chain.value(t) - value).norm() < 1e-14);
                 assert!((rate - oscillator(t, &value)).norm() < 1e-12);
             }
         }
@@ -373,22 +373,22 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_ends_a_cell_and_the_next_one_ends_at_the_edge() {
+    fn a_limit_ends_a_segment_and_the_next_one_ends_at_the_edge() {
         let method = Collocation::<10, 11>::new();
-        let mut cells = Cells::new(0.5, 0.0, Vector2::new(1.0, 0.0));
+        let mut chain = SegmentChain::new(0.5, 0.0, Vector2::new(1.0, 0.0));
         let mut edges = vec![];
         for limit in [0.7, 0.7, 0.7 + 1e-15, 9.0, 1.5, f64::INFINITY] {
-            cells.advance_to(&method, limit, oscillator).unwrap();
-            let t = cells.end_s();
+            chain.advance_to(&method, limit, oscillator).unwrap();
+            let t = chain.end_s();
             edges.push(t);
-            assert!((cells.end() - Vector2::new(t.cos(), -t.sin())).norm() < 1e-13);
+            assert!((chain.end() - Vector2::new(t.cos(), -t.sin())).norm() < 1e-13);
         }
         assert_eq!(edges, [0.5, 0.7, 0.7 + 1e-15, 1.0, 1.5, 2.0]);
     }
 
     #[test]
-    fn quadratic_invariants_survive_coarse_cells() {
-        // A tumbling triaxial body with its quaternion: |q|, |H| and the energy are quadratic, cells are far too long
+    fn quadratic_invariants_survive_coarse_segments() {
+        // A tumbling triaxial body with its quaternion: |q|, |H| and the energy are quadratic, segments are far too long
         // for accuracy.
         let inertia = Vector3::new(1.0, 2.0, 3.0);
         let rhs = |_: f64, y: &SVector<f64, 7>| {
@@ -401,7 +401,7 @@ mod tests {
         };
         let method = Collocation::<3, 4>::new();
         let start = SVector::from([0.3, 1.0, 0.4, 0.0, 0.0, 0.0, 1.0]);
-        let mut cells = Cells::new(0.4, 0.0, start);
+        let mut chain = SegmentChain::new(0.4, 0.0, start);
         let invariants = |y: &SVector<f64, 7>| {
             let w = Vector3::new(y[0], y[1], y[2]);
             let h = inertia.component_mul(&w);
@@ -409,9 +409,9 @@ mod tests {
         };
         let before = invariants(&start);
         for _ in 0..5000 {
-            cells.advance(&method, rhs).unwrap();
+            chain.advance(&method, rhs).unwrap();
         }
-        let after = invariants(cells.end());
+        let after = invariants(chain.end());
         assert!((after.0 / before.0 - 1.0).abs() < 1e-12);
         assert!((after.1 / before.1 - 1.0).abs() < 1e-12);
         assert!((after.2 - 1.0).abs() < 1e-12);
@@ -420,44 +420,44 @@ mod tests {
     #[test]
     fn saved_and_restored_to_the_bit() {
         let method = Collocation::<6, 7>::new();
-        let mut cells = Cells::new(0.3, 0.1, Vector2::new(1.0, 0.0));
+        let mut chain = SegmentChain::new(0.3, 0.1, Vector2::new(1.0, 0.0));
         for _ in 0..5 {
-            cells.advance(&method, oscillator).unwrap();
+            chain.advance(&method, oscillator).unwrap();
         }
-        let text = toml::to_string(&cells).unwrap();
-        let mut restored: Cells<2, 7> = toml::from_str(&text).unwrap();
-        assert_eq!(restored, cells);
+        let text = toml::to_string(&chain).unwrap();
+        let mut restored: SegmentChain<2, 7> = toml::from_str(&text).unwrap();
+        assert_eq!(restored, chain);
         for _ in 0..20 {
-            cells.advance(&method, oscillator).unwrap();
+            chain.advance(&method, oscillator).unwrap();
             restored.advance(&method, oscillator).unwrap();
         }
-        assert_eq!(restored, cells);
+        assert_eq!(restored, chain);
     }
 
     #[test]
     fn edges_are_whole_multiples_after_a_cut() {
         let method = Collocation::<6, 7>::new();
-        let mut cells = Cells::new(60.0, 0.0, Vector2::new(1.0, 0.0));
+        let mut chain = SegmentChain::new(60.0, 0.0, Vector2::new(1.0, 0.0));
         let rhs = |_: f64, y: &Vector2<f64>| -y * 0.01;
-        cells.advance(&method, rhs).unwrap();
-        let at = cells.value(17.0);
-        // Within a cell the error of degree 6 is about 0.3^7 / (2^6 7!), at its end next to none.
+        chain.advance(&method, rhs).unwrap();
+        let at = chain.value(17.0);
+        // Within a segment the error of degree 6 is about 0.3^7 / (2^6 7!), at its end next to none.
         assert!((at[0] - (-0.17_f64).exp()).abs() < 1e-9);
-        cells.cut(17.0, at);
-        assert_eq!((cells.end_s(), cells.value(17.0)), (17.0, at));
-        cells.advance(&method, rhs).unwrap();
-        assert_eq!((cells.start_s(), cells.end_s()), (17.0, 60.0));
-        cells.cut(60.0, cells.value(60.0));
-        cells.advance(&method, rhs).unwrap();
-        assert_eq!(cells.end_s(), 120.0);
-        assert!((cells.end()[0] - (-1.2_f64).exp()).abs() < 1e-9);
+        chain.cut(17.0, at);
+        assert_eq!((chain.end_s(), chain.value(17.0)), (17.0, at));
+        chain.advance(&method, rhs).unwrap();
+        assert_eq!((chain.start_s(), chain.end_s()), (17.0, 60.0));
+        chain.cut(60.0, chain.value(60.0));
+        chain.advance(&method, rhs).unwrap();
+        assert_eq!(chain.end_s(), 120.0);
+        assert!((chain.end()[0] - (-1.2_f64).exp()).abs() < 1e-9);
         // A start a hair before an edge, and negative times.
-        let mut cells = Cells::new(0.1, 0.3, Vector2::new(1.0, 0.0));
-        cells.advance(&method, rhs).unwrap();
-        assert_eq!(cells.end_s(), 0.4);
-        let mut cells = Cells::new(60.0, -30.0, Vector2::new(1.0, 0.0));
-        cells.advance(&method, rhs).unwrap();
-        assert_eq!(cells.end_s(), 0.0);
+        let mut chain = SegmentChain::new(0.1, 0.3, Vector2::new(1.0, 0.0));
+        chain.advance(&method, rhs).unwrap();
+        assert_eq!(chain.end_s(), 0.4);
+        let mut chain = SegmentChain::new(60.0, -30.0, Vector2::new(1.0, 0.0));
+        chain.advance(&method, rhs).unwrap();
+        assert_eq!(chain.end_s(), 0.0);
     }
 
     #[test]

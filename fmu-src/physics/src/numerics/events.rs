@@ -4,8 +4,8 @@ use nalgebra::{SVector, Vector1};
 
 use super::{
     chebyshev::Segment,
+    intervals::first_change_s,
     roots::{RootError, Roots},
-    stretches::first_change_s,
 };
 
 /// Coefficients of one fit.

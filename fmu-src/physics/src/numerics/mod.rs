@@ -3,9 +3,9 @@
 pub mod chebyshev;
 pub mod collocation;
 pub mod events;
+pub mod intervals;
 pub mod quadrature;
 pub mod roots;
 pub mod scalar;
 pub mod spacing;
-pub mod stretches;
 pub mod work;

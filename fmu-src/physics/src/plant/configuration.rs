@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, MovingFrame};
 use crate::bodies::{Body, BodyData};
-use crate::environment::State;
+use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
 use crate::environment::frames::Frame;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
@@ -16,7 +16,7 @@ use crate::momentum::Settings;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::spacecraft::{Panel, SunshadeModel};
 
-use super::light::LightEffects;
+use super::radiation::RadiationSettings;
 
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,8 +84,8 @@ pub enum Motion {
     Disturbed {
         /// The centre's gravity with its flattening and the Sun's tide.
         gravity: Gravity,
-        /// Length of the integrator's cells, in s.
-        cell_s: f64,
+        /// Length of the integrator's segments, in s.
+        segment_length_s: f64,
         /// Radius of the centre, in m: a flight below it ends.
         radius_m: f64,
         /// Whether light, heat and external forces accelerate the spacecraft.
@@ -160,8 +160,10 @@ pub fn orbit_from_elements(
 ) -> Result<TwoBodyOrbit, OrbitError> {
     let to_eme2000 = frame.dcm_eme2000_from_frame(center);
     let state = elements.state(gm_m3_s2)?;
-    let state =
-        State { position_m: to_eme2000 * state.position_m, velocity_m_s: to_eme2000 * state.velocity_m_s };
+    let state = CartesianState {
+        position_m: to_eme2000 * state.position_m,
+        velocity_m_s: to_eme2000 * state.velocity_m_s,
+    };
     TwoBodyOrbit::from_state(&state, gm_m3_s2, epoch_s)
 }
 
@@ -183,7 +185,7 @@ pub struct Configuration {
     /// Shadow of the planet.
     pub shadow: Shadow,
     /// Light and heat beyond direct sunlight.
-    pub light_and_heat: LightEffects,
+    pub light_and_heat: RadiationSettings,
     /// Attitude.
     pub attitude: AttitudeSource,
     /// Model of the shade.
@@ -198,6 +200,6 @@ pub struct Configuration {
     pub inertia_body_kg_m2: Matrix3<f64>,
     /// Gravitational parameter whose gradient turns the body, in m3/s2; 0 = left out.
     pub gravity_gradient_m3_s2: f64,
-    /// Accumulation of momentum.
+    /// Integration of momentum.
     pub momentum: Settings,
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::MovingUnit;
 use crate::bodies::Body;
-use crate::environment::State;
+use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::LinesOfSight;
 
@@ -14,13 +14,13 @@ use super::configuration::{Configuration, EphemerisSource};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
     /// Spacecraft about the orbit's centre.
-    pub spacecraft: State,
+    pub spacecraft: CartesianState,
     /// From the spacecraft to the Sun.
-    pub to_sun: State,
+    pub to_sun: CartesianState,
     /// From the spacecraft to the planet, if it orbits one.
-    pub to_planet: Option<State>,
+    pub to_planet: Option<CartesianState>,
     /// From the spacecraft to the Earth.
-    pub to_earth: State,
+    pub to_earth: CartesianState,
 }
 
 impl Geometry {
@@ -29,7 +29,7 @@ impl Geometry {
         configuration: &Configuration,
         ephemeris: &mut Ephemeris,
         time_s: f64,
-        spacecraft: State,
+        spacecraft: CartesianState,
     ) -> Self {
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let (sun, earth) = sun_and_earth(configuration, ephemeris, epoch_s);
@@ -44,7 +44,7 @@ impl Geometry {
 
     /// Directions with their rates; a body at zero distance counts as lying toward +X.
     pub fn lines_of_sight(&self) -> LinesOfSight {
-        let unit = |to: &State| {
+        let unit = |to: &CartesianState| {
             MovingUnit::of(to.position_m, to.velocity_m_s)
                 .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
         };
@@ -62,7 +62,7 @@ pub(super) fn sun_and_earth(
     configuration: &Configuration,
     ephemeris: &mut Ephemeris,
     epoch_s: f64,
-) -> (State, State) {
+) -> (CartesianState, CartesianState) {
     let planet = match configuration.ephemeris {
         EphemerisSource::Given { sun_m, earth_m } => return (fixed(sun_m), fixed(earth_m)),
         EphemerisSource::Vsop87 => None,
@@ -81,10 +81,10 @@ pub(super) fn sun_and_earth(
     (difference(&fixed(Vector3::zeros()), &center), difference(&earth, &center))
 }
 
-fn fixed(position_m: Vector3<f64>) -> State {
-    State { position_m, velocity_m_s: Vector3::zeros() }
+fn fixed(position_m: Vector3<f64>) -> CartesianState {
+    CartesianState { position_m, velocity_m_s: Vector3::zeros() }
 }
 
-fn difference(a: &State, b: &State) -> State {
-    State { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
+fn difference(a: &CartesianState, b: &CartesianState) -> CartesianState {
+    CartesianState { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
 }

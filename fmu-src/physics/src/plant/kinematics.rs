@@ -7,16 +7,16 @@
 use nalgebra::{Rotation3, Vector3};
 
 use crate::attitude::MovingFrame;
-use crate::environment::State;
+use crate::environment::CartesianState;
 use crate::guidance::Activity;
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
+use crate::numerics::intervals::first_change_s;
 use crate::numerics::spacing::spacing;
-use crate::numerics::stretches::first_change_s;
 
 use super::configuration::AttitudeSource;
-use super::flight::{ExternalLoad, Plant};
+use super::evaluation::{ExternalLoad, Plant};
 use super::geometry::Geometry;
 
 /// Nodes at which a span is looked through for events.
@@ -53,10 +53,10 @@ impl Instant {
     /// Of a spacecraft of which nothing is known but how it stands.
     pub fn nowhere(frame: MovingFrame) -> Self {
         let geometry = Geometry {
-            spacecraft: State::default(),
-            to_sun: State::default(),
+            spacecraft: CartesianState::default(),
+            to_sun: CartesianState::default(),
             to_planet: None,
-            to_earth: State::default(),
+            to_earth: CartesianState::default(),
         };
         Self {
             geometry,
@@ -151,7 +151,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
 
     /// Where everything is at `time_s`.
     fn geometry(&mut self, time_s: f64) -> Geometry {
-        let spacecraft = self.course.trajectory.state_at(self.configuration, time_s);
+        let spacecraft = self.propagator.trajectory.state_at(self.configuration, time_s);
         Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
     }
 
@@ -160,7 +160,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         match &self.configuration.attitude {
             AttitudeSource::Guided(guided) => {
                 let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-                let trajectory = &self.course.trajectory;
+                let trajectory = &self.propagator.trajectory;
                 let epoch_s = time_s + configuration.epoch_minus_time_s;
                 let window = trajectory
                     .window(configuration, time_s)

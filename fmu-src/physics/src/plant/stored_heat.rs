@@ -1,19 +1,19 @@
-//! Temperatures of surfaces that store heat, along one cell of light and heat.
+//! Temperatures of surfaces that store heat, along one segment of light and heat.
 
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::disturbance::DisturbanceModel;
 
-use super::light::Moment;
-use super::light_cell::NODES;
+use super::radiation::RadiationNode;
+use super::radiation_segment::NODES;
 
-/// Pieces between two neighbouring nodes, and between the outer nodes and the cell's ends.
+/// Pieces between two neighbouring nodes, and between the outer nodes and the segment's ends.
 const PIECES: usize = 2;
 
-/// How to walk from a cell's start over its nodes to its end: along each piece heat runs on a straight line between
+/// How to integrate from a segment's start over its nodes to its end: along each piece heat runs on a straight line between
 /// values of the polynomial through the nodes.
 #[derive(Clone, Debug)]
 pub(super) struct HeatRule {
-    /// The walk's points in rising order; the first is the cell's start.
+    /// The points in rising order; the first is the segment's start.
     points: Vec<Point>,
     from_w: Vec<f64>,
     to_w: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct HeatRule {
 
 #[derive(Clone, Debug)]
 struct Point {
-    /// From -1 at the cell's start to 1 at its end.
+    /// From -1 at the segment's start to 1 at its end.
     at: f64,
     /// Shares of the nodes' values in the polynomial's value here.
     shares: [f64; NODES],
@@ -47,8 +47,14 @@ impl HeatRule {
         Self { points, from_w: Vec::new(), to_w: Vec::new(), temperatures_k: Vec::new() }
     }
 
-    /// Temperatures at every moment (the cell's nodes, whose heat is known) and at the cell's end.
-    pub fn warm(&mut self, model: &DisturbanceModel, moments: &mut [Moment], start_k: &[f64], length_s: f64) {
+    /// Temperatures at every node (the segment's nodes, whose heat is known) and at the segment's end.
+    pub fn integrate(
+        &mut self,
+        model: &DisturbanceModel,
+        nodes: &mut [RadiationNode],
+        start_k: &[f64],
+        length_s: f64,
+    ) {
         self.temperatures_k.clear();
         self.temperatures_k.extend_from_slice(start_k);
         self.from_w.resize(start_k.len(), 0.0);
@@ -57,19 +63,19 @@ impl HeatRule {
         for point in &self.points {
             core::mem::swap(&mut self.from_w, &mut self.to_w);
             for (face, heat_w) in self.to_w.iter_mut().enumerate() {
-                let values = moments.iter().zip(point.shares);
-                *heat_w = values.map(|(moment, share)| share * moment.heat_w[face]).sum();
+                let values = nodes.iter().zip(point.shares);
+                *heat_w = values.map(|(node, share)| share * node.heat_w[face]).sum();
             }
             let duration_s = 0.5 * (point.at - from) * length_s;
             model.advance_temperatures(&mut self.temperatures_k, &self.from_w, &self.to_w, duration_s);
-            if let Some(moment) = point.node.and_then(|node| moments.get_mut(node)) {
-                moment.temperatures_k.copy_from_slice(&self.temperatures_k);
+            if let Some(node) = point.node.and_then(|node| nodes.get_mut(node)) {
+                node.temperatures_k.copy_from_slice(&self.temperatures_k);
             }
             from = point.at;
         }
     }
 
-    /// Temperatures at the end of the cell last walked.
+    /// Temperatures at the end of the segment last integrated.
     pub fn end_k(&self) -> &[f64] {
         &self.temperatures_k
     }

@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::environment::State;
+use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
-use crate::environment::orbit::{DisturbedOrbit, FlightError, OrbitMethod};
+use crate::environment::orbit::{DisturbedOrbit, OrbitIntegrationError, OrbitMethod};
 use crate::guidance::Window;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::roots;
@@ -27,8 +27,8 @@ pub struct Trajectory {
     orbit: Option<DisturbedOrbit>,
     periapses: Periapses,
     /// Where the spacecraft was when the present science or downlink window began, once that time is behind the
-    /// cell at hand: a slew starts from the attitude there.
-    window_start: Option<(f64, State)>,
+    /// segment at hand: a slew starts from the attitude there.
+    window_start: Option<(f64, CartesianState)>,
 }
 
 /// Periapses an integrated orbit has passed, counted as the two-body orbit at the start counts them (number 0 is the
@@ -54,14 +54,14 @@ impl Trajectory {
     ///
     /// # Errors
     /// A start below the surface.
-    pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, FlightError> {
-        let Motion::Disturbed { cell_s, radius_m, .. } = configuration.motion else {
+    pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, OrbitIntegrationError> {
+        let Motion::Disturbed { segment_length_s, radius_m, .. } = configuration.motion else {
             return Ok(Self::default());
         };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let start = configuration.orbit.state_at(epoch_s);
         Ok(Self {
-            orbit: Some(DisturbedOrbit::new(&start, time_s, cell_s, radius_m)?),
+            orbit: Some(DisturbedOrbit::new(&start, time_s, segment_length_s, radius_m)?),
             periapses: Periapses::before(configuration, epoch_s),
             window_start: None,
         })
@@ -70,7 +70,7 @@ impl Trajectory {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
-        let state = |state: &State| state.position_m.iter().chain(&state.velocity_m_s).all(sound);
+        let state = |state: &CartesianState| state.position_m.iter().chain(&state.velocity_m_s).all(sound);
         let Periapses { last_s, number, scheduled_s } = &self.periapses;
         self.orbit.as_ref().is_none_or(DisturbedOrbit::is_sound)
             && last_s.iter().all(sound)
@@ -80,16 +80,18 @@ impl Trajectory {
             && self.window_start.as_ref().is_none_or(|(since_s, at)| sound(since_s) && state(at))
     }
 
-    /// Whether it has come to `time_s` and no cell further; so in every flight, not in every sequence of bytes.
+    /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
     pub fn covers(&self, time_s: f64) -> bool {
         self.orbit.as_ref().is_none_or(|orbit| {
             let (start_s, end_s) = (orbit.start_s(), orbit.end_s());
-            orbit.cell_s() >= 1e-3 && start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= end_s
+            orbit.segment_length_s() >= 1e-3
+                && start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs()
+                && time_s <= end_s
         })
     }
 
     /// Position and velocity about the centre at `time_s`, in EME2000.
-    pub fn state_at(&self, configuration: &Configuration, time_s: f64) -> State {
+    pub fn state_at(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
         match &self.orbit {
             Some(orbit) => orbit.state_at(time_s),
             None => configuration.orbit.state_at(time_s + configuration.epoch_minus_time_s),
@@ -123,7 +125,7 @@ impl Trajectory {
     }
 
     /// Position and velocity at the beginning of a window, which may be past.
-    pub(super) fn state_at_window_start(&self, configuration: &Configuration, time_s: f64) -> State {
+    pub(super) fn state_at_window_start(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
         match (&self.orbit, &self.window_start) {
             (Some(orbit), _) if time_s >= orbit.start_s() => orbit.state_at(time_s),
             (Some(_), Some((since_s, state))) if is_same_window(configuration, *since_s, time_s) => *state,
@@ -139,7 +141,7 @@ impl Trajectory {
         }
     }
 
-    /// Leaves the cell at hand, which ends at `time_s`: remembers what the next one cannot know.
+    /// Leaves the present segment, which ends at `time_s`: remembers what the next one cannot know.
     pub(super) fn leave(&mut self, configuration: &Configuration, time_s: f64) {
         let Some(orbit) = &self.orbit else { return };
         if let Some(window) = self.window(configuration, time_s) {
@@ -158,10 +160,10 @@ impl Trajectory {
         self.periapses.forget_after(time_s, radial(&orbit.state_at(time_s)));
     }
 
-    /// Integrates one more cell, at most to `limit_s`, under gravity and `extra_m_s2(t)`, an acceleration in EME2000.
+    /// Integrates one more segment, at most to `limit_s`, under gravity and `extra_m_s2(t)`, an acceleration in EME2000.
     ///
     /// # Errors
-    /// See [`FlightError`].
+    /// See [`OrbitIntegrationError`].
     pub(super) fn advance(
         &mut self,
         configuration: &Configuration,
@@ -169,7 +171,7 @@ impl Trajectory {
         method: &OrbitMethod,
         limit_s: f64,
         mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
-    ) -> Result<(), FlightError> {
+    ) -> Result<(), OrbitIntegrationError> {
         let (Some(mut orbit), Motion::Disturbed { gravity, .. }) = (self.orbit, &configuration.motion) else {
             return Ok(());
         };
@@ -203,7 +205,7 @@ impl Periapses {
         }
     }
 
-    /// Takes note of a periapsis in the cell at hand.
+    /// Takes note of a periapsis in the present segment.
     fn look_in(&mut self, orbit: &DisturbedOrbit, configuration: &Configuration) {
         let period_s = configuration.orbit.period_s();
         let (from_s, to_s) = (orbit.start_s(), orbit.end_s());
@@ -245,6 +247,6 @@ fn every(configuration: &Configuration) -> i64 {
 }
 
 /// Position times velocity: it rises through zero at periapsis.
-fn radial(state: &State) -> f64 {
+fn radial(state: &CartesianState) -> f64 {
     state.position_m.dot(&state.velocity_m_s)
 }

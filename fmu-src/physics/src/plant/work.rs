@@ -6,31 +6,38 @@ use crate::numerics;
 /// What work is spent on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
-    /// Cells of momentum as long as their grid.
-    Cell,
-    /// Cells shortened for the tolerance of momentum.
+    /// Segments of momentum as long as their grid.
+    Segment,
+    /// Segments shortened for the tolerance of momentum.
     Refinement,
     /// Searches for abrupt changes of attitude, light and shadow.
     Search,
     /// Dumps.
     Dump,
-    /// Cells of light and heat.
+    /// Segments of light and heat.
     Light,
-    /// Integrated cells of the orbit.
+    /// Integrated segments of the orbit.
     Orbit,
     /// Planets' positions fitted anew.
     Ephemeris,
 }
 
 impl Cost {
-    const ALL: [Self; 7] =
-        [Self::Cell, Self::Refinement, Self::Search, Self::Dump, Self::Light, Self::Orbit, Self::Ephemeris];
+    const ALL: [Self; 7] = [
+        Self::Segment,
+        Self::Refinement,
+        Self::Search,
+        Self::Dump,
+        Self::Light,
+        Self::Orbit,
+        Self::Ephemeris,
+    ];
 }
 
 impl From<Effort> for Cost {
     fn from(effort: Effort) -> Self {
         match effort {
-            Effort::Cell => Self::Cell,
+            Effort::Segment => Self::Segment,
             Effort::Refinement => Self::Refinement,
             Effort::Search => Self::Search,
             Effort::Dump => Self::Dump,
@@ -87,7 +94,7 @@ impl Work {
         if !self.spent.is_exhausted() {
             return Ok(());
         }
-        let most = Cost::ALL.get(self.spent.greatest()).copied().unwrap_or(Cost::Cell);
+        let most = Cost::ALL.get(self.spent.greatest()).copied().unwrap_or(Cost::Segment);
         Err(WorkExceeded { limit: self.spent.limit(), reached_s: time_s, most })
     }
 }
@@ -102,9 +109,9 @@ mod tests {
         let mut work = Work::new(1000, 7);
         work.spend(Cost::Orbit, 300, 7, 10.0).unwrap();
         work.spend(Cost::Dump, 500, 7, 20.0).unwrap();
-        let exceeded = work.spend(Cost::Cell, 201, 7, 30.0).unwrap_err();
+        let exceeded = work.spend(Cost::Segment, 201, 7, 30.0).unwrap_err();
         assert_eq!((exceeded.most, exceeded.reached_s, exceeded.limit), (Cost::Dump, 30.0, 1000));
-        let theory = Work::new(1000, 7).spend(Cost::Cell, 1, 13, 5.0).unwrap_err();
+        let theory = Work::new(1000, 7).spend(Cost::Segment, 1, 13, 5.0).unwrap_err();
         assert_eq!(theory.most, Cost::Ephemeris);
     }
 }

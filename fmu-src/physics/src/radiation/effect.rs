@@ -2,7 +2,7 @@
 
 use core::ops::{Index, IndexMut};
 
-use super::ForceTorque;
+use super::force_torque::ForceTorque;
 use crate::numerics::scalar::Scalar;
 
 /// An effect that exerts force or torque. A new one is a line here and a file of its own.

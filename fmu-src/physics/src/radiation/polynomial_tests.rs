@@ -14,8 +14,8 @@ fn messenger() -> Spacecraft {
     Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap()
 }
 
-fn shade(craft: &Spacecraft) -> &Sunshade {
-    craft.sunshade.as_ref().unwrap()
+fn shade(spacecraft: &Spacecraft) -> &Sunshade {
+    spacecraft.sunshade.as_ref().unwrap()
 }
 
 fn sun(azimuth: f64, elevation: f64) -> Vector3<f64> {
@@ -66,9 +66,10 @@ fn printed_coefficients_of_the_cylinder() {
 
 #[test]
 fn validity_ends_where_the_first_part_goes_dark() {
-    let craft = messenger();
-    let valid =
-        |model, azimuth_deg: f64| polynomial_valid(shade(&craft), model, &sun(azimuth_deg.to_radians(), 0.2));
+    let spacecraft = messenger();
+    let valid = |model, azimuth_deg: f64| {
+        polynomial_valid(shade(&spacecraft), model, &sun(azimuth_deg.to_radians(), 0.2))
+    };
     // Side plates face 45 deg off, the cylinder reaches 61 deg round.
     assert!(valid(SunshadeModel::Plates, 44.9) && !valid(SunshadeModel::Plates, 45.1));
     assert!(valid(SunshadeModel::Cylinder, -28.9) && !valid(SunshadeModel::Cylinder, -29.1));
@@ -93,8 +94,8 @@ proptest! {
         specular in prop::array::uniform8(0.0..0.5_f64),
         diffuse in prop::array::uniform8(0.0..0.5_f64),
     ) {
-        let mut craft = messenger();
-        let shade = craft.sunshade.as_mut().unwrap();
+        let mut spacecraft = messenger();
+        let shade = spacecraft.sunshade.as_mut().unwrap();
         shade.dcm_body_from_shade = Rotation3::from_euler_angles(turn[0], turn[1], turn[2]).into_inner();
         for ((plate, s), d) in shade.plates.iter_mut().zip(specular).zip(diffuse) {
             plate.optics = Optics::from_reflectivities(s, d);
@@ -106,7 +107,7 @@ proptest! {
         for model in MODELS {
             let polynomial = TorquePolynomial::of_sunshade(shade, model, &center_of_mass).unwrap();
             let beam = |source_body| Beam { source_body, pressure_pa: 0.7 };
-            let direct = SolarModel::with_sunshade_model(&craft, model)
+            let direct = SolarModel::with_sunshade_model(&spacecraft, model)
                 .unwrap()
                 .sunshade(&beam(sun_body), &center_of_mass)
                 .torque_body_n_m;

@@ -18,9 +18,9 @@ fn messenger() -> Spacecraft {
 
 /// MESSENGER with everything the format offers in use: backs, a bus plate, misaligned and unequal parts.
 fn crooked() -> Spacecraft {
-    let mut craft = messenger();
+    let mut spacecraft = messenger();
     let white = Optics::from_reflectivities(0.1, 0.7);
-    craft.plates.push(Plate {
+    spacecraft.plates.push(Plate {
         name: "bus".to_owned(),
         area_m2: 1.7,
         center_m: Vector3::new(0.1, 0.6, -0.2),
@@ -30,17 +30,17 @@ fn crooked() -> Spacecraft {
         thermal: Thermal::insulated(&white, Some(&Optics::from_reflectivities(0.4, 0.1))),
         polygon: None,
     });
-    let shade = craft.sunshade.as_mut().unwrap();
+    let shade = spacecraft.sunshade.as_mut().unwrap();
     shade.dcm_body_from_shade = Rotation3::from_euler_angles(0.02, -0.05, 0.1).into_inner();
     shade.plates[3].optics = white;
-    craft.panels[1].rear_optics = Some(white);
-    craft.panels[1].axis_body = Vector3::new(0.8, 0.0, 0.6);
-    craft
+    spacecraft.panels[1].rear_optics = Some(white);
+    spacecraft.panels[1].axis_body = Vector3::new(0.8, 0.0, 0.6);
+    spacecraft
 }
 
-fn rotate(craft: &Spacecraft, rotation: &Matrix3<f64>) -> Spacecraft {
-    let mut turned = craft.clone();
-    turned.plates = craft.plates.iter().map(|plate| plate.rotated(rotation)).collect();
+fn rotate(spacecraft: &Spacecraft, rotation: &Matrix3<f64>) -> Spacecraft {
+    let mut turned = spacecraft.clone();
+    turned.plates = spacecraft.plates.iter().map(|plate| plate.rotated(rotation)).collect();
     if let Some(shade) = &mut turned.sunshade {
         shade.dcm_body_from_shade = rotation * shade.dcm_body_from_shade;
     }
@@ -61,9 +61,9 @@ fn beam(source_body: Vector3<f64>) -> Beam<f64> {
     Beam { source_body, pressure_pa: 1.0 }
 }
 
-fn models(craft: &Spacecraft) -> [SolarModel; 2] {
+fn models(spacecraft: &Spacecraft) -> [SolarModel; 2] {
     [SunshadeModel::Plates, SunshadeModel::Cylinder]
-        .map(|model| SolarModel::with_sunshade_model(craft, model).unwrap())
+        .map(|model| SolarModel::with_sunshade_model(spacecraft, model).unwrap())
 }
 
 fn assert_close(found: &ForceTorque<f64>, expected: &ForceTorque<f64>, tolerance: f64) {
@@ -105,10 +105,10 @@ fn pressure_at_mercury_is_the_published_one() {
 /// A closed black box hides exactly its shadow from the Sun, whatever the direction.
 #[test]
 fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
-    let mut craft = messenger();
-    (craft.sunshade, craft.panels) = (None, Vec::new());
+    let mut spacecraft = messenger();
+    (spacecraft.sunshade, spacecraft.panels) = (None, Vec::new());
     let sizes = Vector3::new(1.0, 2.0, 3.0);
-    craft.plates = (0..6)
+    spacecraft.plates = (0..6)
         .map(|i| {
             let axis = i / 2;
             let normal = Vector3::ith(axis, if i % 2 == 0 { 1.0 } else { -1.0 });
@@ -124,7 +124,7 @@ fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
             }
         })
         .collect();
-    let model = SolarModel::new(&craft);
+    let model = SolarModel::new(&spacecraft);
     for sun in [direction(0.3, 0.2), direction(-2.0, -0.9), direction(1.6, 0.0)] {
         let shadow = sun.x.abs() * 6.0 + sun.y.abs() * 3.0 + sun.z.abs() * 2.0;
         let found = model.total(&beam(sun), &[], &Vector3::zeros());
@@ -136,8 +136,8 @@ fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
 
 #[test]
 fn a_panel_facing_the_sun_is_a_plate() {
-    let craft = messenger();
-    let model = SolarModel::new(&craft);
+    let spacecraft = messenger();
+    let model = SolarModel::new(&spacecraft);
     let center_of_mass = Vector3::new(0.1, 0.2, -0.3);
     let found = model.panel(0, &beam(-Vector3::y()), 0.0, &center_of_mass);
     // P A (1 + C_s + 2/3 C_d) along +Y, 2.18 m outboard and 0.3 m above.
@@ -169,12 +169,12 @@ fn torque_goes_to_nothing_as_a_plate_goes_dark() {
 
 #[test]
 fn a_sunshade_in_a_form_the_file_does_not_give_is_refused() {
-    let mut craft = messenger();
-    craft.sunshade.as_mut().unwrap().cylinder = None;
-    let error = SolarModel::with_sunshade_model(&craft, SunshadeModel::Cylinder).unwrap_err();
+    let mut spacecraft = messenger();
+    spacecraft.sunshade.as_mut().unwrap().cylinder = None;
+    let error = SolarModel::with_sunshade_model(&spacecraft, SunshadeModel::Cylinder).unwrap_err();
     assert!(error.to_string().contains("Cylinder"));
-    craft.sunshade = None;
-    assert!(SolarModel::with_sunshade_model(&craft, SunshadeModel::Cylinder).is_ok());
+    spacecraft.sunshade = None;
+    assert!(SolarModel::with_sunshade_model(&spacecraft, SunshadeModel::Cylinder).is_ok());
 }
 
 /// Derivatives with respect to Sun direction, panel angle and centre of mass at once.
@@ -188,10 +188,10 @@ fn along_seed<T: Scalar>(model: &SolarModel, sun: &Vector3<f64>, seed: T) -> For
 proptest! {
     #[test]
     fn multiplied_out_sum_equals_the_law_face_by_face(a in -PI..PI, z in -1.0..1.0_f64) {
-        let craft = crooked();
+        let spacecraft = crooked();
         let beam = beam(direction(a, z));
-        let expected = face_by_face(&craft.plates_body(SunshadeModel::Plates), &beam);
-        let [model, _] = models(&craft);
+        let expected = face_by_face(&spacecraft.plates_body(SunshadeModel::Plates), &beam);
+        let [model, _] = models(&spacecraft);
         let origin = Vector3::zeros();
         assert_close(&(model.sunshade(&beam, &origin) + model.body(&beam, &origin)), &expected, 1e-14);
     }
@@ -215,10 +215,10 @@ proptest! {
     fn turning_everything_turns_the_result(
         a in -PI..PI, z in -1.0..1.0_f64, turn in prop::array::uniform3(-3.0..3.0_f64),
     ) {
-        let craft = crooked();
+        let spacecraft = crooked();
         let rotation = Rotation3::from_euler_angles(turn[0], turn[1], turn[2]).into_inner();
         let center_of_mass = Vector3::new(0.3, -0.1, 0.2);
-        for (model, turned) in models(&craft).iter().zip(&models(&rotate(&craft, &rotation))) {
+        for (model, turned) in models(&spacecraft).iter().zip(&models(&rotate(&spacecraft, &rotation))) {
             let still = model.total(&beam(direction(a, z)), &[0.3, -1.0], &center_of_mass);
             let moved = turned.total(&beam(rotation * direction(a, z)), &[0.3, -1.0], &(rotation * center_of_mass));
             let expected = ForceTorque {

@@ -1,40 +1,97 @@
-//! From the file's shape to a spacecraft: checks every value, resolves materials, turns parts into their frames.
+//! The spacecraft, from its file: checks every value, resolves materials, turns parts into their frames.
 
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
 
-use super::build_thermal::Material;
+use super::build_thermal::{
+    Material, checked_area, checked_center, checked_normal, checked_outline, face_thermal, thermal,
+};
 use super::checker::Checker;
 use super::description::{
     CylinderDescription, Description, MassDescription, OpticsDescription, PanelDescription,
     PlanetMapDescription, PlateDescription, SunshadeDescription, WheelDescription,
 };
-use super::document::{Document, Place, nearest};
+use super::document::Document;
 use super::error::SpacecraftError;
 use super::mass::{MassProperties, check_inertia};
+use super::optics::Optics;
 use super::panel::{Panel, PanelControl};
+use super::place::Place;
 use super::planet_map::{HOTTEST_K, MOST_BELTS, PlanetCell, PlanetMap};
-use super::start::start_entries;
-use super::surface::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
+use super::spelling::nearest;
+use super::start::{StartEntry, start_entries};
+use super::surface::{Cylinder, Plate, Sunshade, SunshadeModel};
 use super::wheels::Wheel;
-use super::{Spacecraft, SunKeepIn};
 
 /// How far absorptivity + specular + diffuse may be off 1.
 const OPTICS_SUM_TOLERANCE: f64 = 1e-9;
 
-/// Reads and checks a spacecraft file.
-pub(super) fn spacecraft(file: &str, text: &str) -> Result<Spacecraft, SpacecraftError> {
-    let document = Document::parse(file, text)?;
-    let (description, findings) = document.read::<Description>()?;
-    let mut builder = Builder { check: Checker::new(&document, findings), materials: BTreeMap::new() };
-    let spacecraft = builder.spacecraft(&description);
-    builder.check.finish(spacecraft)
+/// A validated spacecraft.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spacecraft {
+    /// Name of the spacecraft.
+    pub name: String,
+    /// Mass, centre of mass, inertia.
+    pub mass_properties: MassProperties,
+    /// Plates fixed in the body frame, other than the sunshade's.
+    pub plates: Vec<Plate>,
+    /// The sunshade, if it has one.
+    pub sunshade: Option<Sunshade>,
+    /// Panels that turn.
+    pub panels: Vec<Panel>,
+    /// Reaction wheels.
+    pub wheels: Vec<Wheel>,
+    /// Magnitude of each body component of the momentum at which thrusters dump it, in N m s.
+    pub dump_threshold_n_m_s: Option<Vector3<f64>>,
+    /// Directions the Sun may have.
+    pub sun_keep_in: Option<SunKeepIn>,
+    /// Whether models report temperature and force of every face.
+    pub per_plate_outputs: bool,
+    /// The planet it flies about, cell by cell.
+    pub planet_map: Option<PlanetMap>,
+    /// Start values of the models' variables, handed on as they were written.
+    #[serde(skip)]
+    pub start: Vec<StartEntry>,
+}
+
+/// The Sun keep-in zone: azimuth from -Y toward +X in the XY plane, elevation from that plane toward -Z.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SunKeepIn {
+    /// Greatest magnitude of the azimuth, in rad.
+    pub azimuth_rad: f64,
+    /// Greatest magnitude of the elevation, in rad.
+    pub elevation_rad: f64,
+}
+
+impl Spacecraft {
+    /// Reads a spacecraft from TOML text; `file_name` only names it in errors.
+    ///
+    /// # Errors
+    ///
+    /// Text that is not TOML, or all unknown, missing and ill-typed keys and all values no spacecraft can have, each
+    /// with line, key, what was found and what is allowed.
+    pub fn from_toml(file_name: &str, text: &str) -> Result<Self, SpacecraftError> {
+        let document = Document::parse(file_name, text)?;
+        let (description, findings) = document.read::<Description>()?;
+        let mut builder = Builder { check: Checker::new(&document, findings), materials: BTreeMap::new() };
+        let spacecraft = builder.spacecraft(&description);
+        builder.check.finish(spacecraft)
+    }
+
+    /// The plates of body and sunshade in the body frame, the body's first; a cylindrical shade adds none.
+    pub fn plates_body(&self, sunshade_model: SunshadeModel) -> Vec<Plate> {
+        let shade = self.sunshade.iter().filter(|_| sunshade_model == SunshadeModel::Plates);
+        let shade_plates =
+            shade.flat_map(|shade| shade.plates.iter().map(|p| p.rotated(&shade.dcm_body_from_shade)));
+        self.plates.iter().cloned().chain(shade_plates).collect()
+    }
 }
 
 /// Gathers problems and materials on the way through the file.
-pub(super) struct Builder<'d> {
-    pub(super) check: Checker<'d>,
+struct Builder<'d> {
+    check: Checker<'d>,
     materials: BTreeMap<String, Material>,
 }
 
@@ -47,7 +104,7 @@ impl Builder<'_> {
         for (name, optics) in &description.optics {
             let place = root.key("optics").key(name);
             let sunlight = self.optics(&place, optics);
-            let thermal = self.face_thermal(&place, optics, &sunlight);
+            let thermal = face_thermal(&mut self.check, &place, optics, &sunlight);
             self.materials.insert(name.clone(), Material { optics: sunlight, thermal });
         }
         let surfaces = [
@@ -232,15 +289,15 @@ impl Builder<'_> {
         let front = self.material(&at.key("optics"), &description.optics);
         let rear = description.rear_optics.as_ref().map(|name| self.material(&at.key("rear_optics"), name));
         let normal = description.normal.map(|normal| self.check.unit_vector(&at.key("normal"), normal));
-        let outline = self.outline(at, description.polygon_m.as_deref(), normal.as_ref());
+        let outline = checked_outline(&mut self.check, at, description.polygon_m.as_deref(), normal.as_ref());
         Plate {
             name: name_or_number(description.name.as_deref(), "plate", index),
-            area_m2: self.area(at, description.area_m2, outline.as_ref()),
-            center_m: self.center(at, description.center_m, outline.as_ref()),
-            normal: self.normal(at, normal, outline.as_ref()),
+            area_m2: checked_area(&mut self.check, at, description.area_m2, outline.as_ref()),
+            center_m: checked_center(&mut self.check, at, description.center_m, outline.as_ref()),
+            normal: checked_normal(&mut self.check, at, normal, outline.as_ref()),
             optics: front.optics,
             rear_optics: rear.map(|rear| rear.optics),
-            thermal: self.thermal(at, description.thermal.as_ref(), front, rear),
+            thermal: thermal(&mut self.check, at, description.thermal.as_ref(), front, rear),
             polygon: outline,
         }
     }
@@ -298,16 +355,18 @@ impl Builder<'_> {
         }
         let front = self.material(&at.key("optics"), &description.optics);
         let rear = description.rear_optics.as_ref().map(|name| self.material(&at.key("rear_optics"), name));
-        let outline = self.outline(at, description.polygon_m.as_deref(), Some(&zero_normal));
+        let outline =
+            checked_outline(&mut self.check, at, description.polygon_m.as_deref(), Some(&zero_normal));
         Panel {
             name: name_or_number(description.name.as_deref(), "panel", index),
-            area_m2: self.area(at, description.area_m2, outline.as_ref()),
-            center_body_m: dcm_body_from_panel * self.center(at, description.center_m, outline.as_ref()),
+            area_m2: checked_area(&mut self.check, at, description.area_m2, outline.as_ref()),
+            center_body_m: dcm_body_from_panel
+                * checked_center(&mut self.check, at, description.center_m, outline.as_ref()),
             axis_body: dcm_body_from_panel * axis,
             zero_normal_body: dcm_body_from_panel * zero_normal,
             optics: front.optics,
             rear_optics: rear.map(|rear| rear.optics),
-            thermal: self.thermal(at, description.thermal.as_ref(), front, rear),
+            thermal: thermal(&mut self.check, at, description.thermal.as_ref(), front, rear),
             polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
             control: description.control.unwrap_or(PanelControl::SunOffset),
             sun_offset_rad: self.check.angle(

@@ -1,12 +1,12 @@
-//! From the file's shape to outlines and heat: what [`super::build`] needs beside optics and places.
+//! From the file's shape to outlines and heat: surfaces of the spacecraft.
 
 use nalgebra::Vector3;
 
-use super::build::Builder;
+use super::checker::Checker;
 use super::description::{ConductionDescription, OpticsDescription, ThermalDescription};
-use super::document::Place;
+use super::optics::Optics;
+use super::place::Place;
 use super::polygon::Polygon;
-use super::surface::Optics;
 use super::thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
 };
@@ -29,219 +29,210 @@ impl Material {
     };
 }
 
-impl Builder<'_> {
-    pub(super) fn face_thermal(
-        &mut self,
-        at: &Place,
-        description: &OpticsDescription,
-        sunlight: &Optics,
-    ) -> FaceThermal {
-        let infrared_optics = description.infrared_absorptivity.map_or(*sunlight, |absorptivity| {
-            sunlight.with_absorptivity(self.check.fraction(&at.key("infrared_absorptivity"), absorptivity))
-        });
-        let like_sunlight = FaceThermal::like_sunlight(sunlight).emission.emissivity;
-        let emissivity = description.emissivity.map_or(like_sunlight, |emissivity| {
-            self.check.within(&at.key("emissivity"), emissivity, 1e-3, 1.0, "a number from 0.001 to 1")
-        });
-        let slope = at.key("emissivity_per_k");
-        let emission = Emission {
-            emissivity,
-            slope_per_k: self.check.finite(&slope, description.emissivity_per_k.unwrap_or(0.0)),
-            reference_temperature_k: self.check.within(
-                &at.key("emissivity_temperature_k"),
-                description.emissivity_temperature_k.unwrap_or(EMISSIVITY_REFERENCE_TEMPERATURE_K),
-                0.0,
-                2000.0,
-                "0 to 2000 K",
-            ),
-        };
-        if !emission.grows() {
-            self.check.report_across(
+pub(super) fn face_thermal(
+    check: &mut Checker<'_>,
+    at: &Place,
+    description: &OpticsDescription,
+    sunlight: &Optics,
+) -> FaceThermal {
+    let infrared_optics = description.infrared_absorptivity.map_or(*sunlight, |absorptivity| {
+        sunlight.with_absorptivity(check.fraction(&at.key("infrared_absorptivity"), absorptivity))
+    });
+    let like_sunlight = FaceThermal::like_sunlight(sunlight).emission.emissivity;
+    let emissivity = description.emissivity.map_or(like_sunlight, |emissivity| {
+        check.within(&at.key("emissivity"), emissivity, 1e-3, 1.0, "a number from 0.001 to 1")
+    });
+    let slope = at.key("emissivity_per_k");
+    let emission = Emission {
+        emissivity,
+        slope_per_k: check.finite(&slope, description.emissivity_per_k.unwrap_or(0.0)),
+        reference_temperature_k: check.within(
+            &at.key("emissivity_temperature_k"),
+            description.emissivity_temperature_k.unwrap_or(EMISSIVITY_REFERENCE_TEMPERATURE_K),
+            0.0,
+            2000.0,
+            "0 to 2000 K",
+        ),
+    };
+    if !emission.grows() {
+        check.report_across(
+            at,
+            &slope,
+            emission.slope_per_k,
+            "a slope so small that up to 2000 K a hotter face emits more power",
+        );
+    }
+    FaceThermal { infrared_optics, emission }
+}
+
+pub(super) fn thermal(
+    check: &mut Checker<'_>,
+    at: &Place,
+    description: Option<&ThermalDescription>,
+    front: Material,
+    rear: Option<Material>,
+) -> Thermal {
+    let nothing = ThermalDescription::default();
+    let (surface, at) = (at, at.key("thermal"));
+    let description = description.unwrap_or(&nothing);
+    if rear.is_none() && !check.is_stand_in(&surface.key("rear_optics")) {
+        let needs_rear = [
+            ("conduction", description.conduction.is_some()),
+            ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
+        ];
+        for (key, _) in needs_rear.into_iter().filter(|(_, given)| *given) {
+            check.report(&at.key(key), "a surface without `rear_optics`", "a surface with both faces");
+        }
+    }
+    let mut heat = |key: &str, value: Option<f64>| {
+        let value = value.unwrap_or(0.0);
+        check.not_negative(&at.key(key), value)
+    };
+    Thermal {
+        front: front.thermal,
+        rear: rear.map(|rear| rear.thermal),
+        internal_heat_w: [
+            heat("internal_heat_w", description.internal_heat_w),
+            heat("rear_internal_heat_w", description.rear_internal_heat_w),
+        ],
+        heat_capacity_j_m2_k: heat("heat_capacity_j_m2_k", description.heat_capacity_j_m2_k),
+        conduction: description.conduction.as_ref().map(|c| conduction(check, &at.key("conduction"), c)),
+    }
+}
+
+fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescription) -> Conduction {
+    let conductance = at.key("conductance_w_m2_k");
+    let Some(honeycomb) = &description.honeycomb else {
+        if (description.conductance_w_m2_k, description.radiative_exchange) == (None, None) {
+            check.report(
                 at,
-                &slope,
-                emission.slope_per_k,
-                "a slope so small that up to 2000 K a hotter face emits more power",
+                "no conduction",
+                "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them",
             );
         }
-        FaceThermal { infrared_optics, emission }
-    }
-
-    pub(super) fn thermal(
-        &mut self,
-        at: &Place,
-        description: Option<&ThermalDescription>,
-        front: Material,
-        rear: Option<Material>,
-    ) -> Thermal {
-        let nothing = ThermalDescription::default();
-        let (surface, at) = (at, at.key("thermal"));
-        let description = description.unwrap_or(&nothing);
-        if rear.is_none() && !self.check.is_stand_in(&surface.key("rear_optics")) {
-            let needs_rear = [
-                ("conduction", description.conduction.is_some()),
-                ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
-            ];
-            for (key, _) in needs_rear.into_iter().filter(|(_, given)| *given) {
-                self.check.report(
-                    &at.key(key),
-                    "a surface without `rear_optics`",
-                    "a surface with both faces",
-                );
-            }
-        }
-        let mut heat = |key: &str, value: Option<f64>| {
-            let value = value.unwrap_or(0.0);
-            self.check.not_negative(&at.key(key), value)
+        let q = description.conductance_w_m2_k.unwrap_or(0.0);
+        let exchange = description.radiative_exchange.unwrap_or(0.0);
+        return Conduction {
+            conductance_w_m2_k: check.not_negative(&conductance, q),
+            radiative_exchange: check.fraction(&at.key("radiative_exchange"), exchange),
         };
-        Thermal {
-            front: front.thermal,
-            rear: rear.map(|rear| rear.thermal),
-            internal_heat_w: [
-                heat("internal_heat_w", description.internal_heat_w),
-                heat("rear_internal_heat_w", description.rear_internal_heat_w),
-            ],
-            heat_capacity_j_m2_k: heat("heat_capacity_j_m2_k", description.heat_capacity_j_m2_k),
-            conduction: description.conduction.as_ref().map(|c| self.conduction(&at.key("conduction"), c)),
-        }
+    };
+    if (description.conductance_w_m2_k, description.radiative_exchange) != (None, None) {
+        check.report(at, "both numbers and a `honeycomb`", "one of them");
     }
+    let place = at.key("honeycomb");
+    Honeycomb {
+        conductivity_w_m_k: check.positive(&place.key("conductivity_w_m_k"), honeycomb.conductivity_w_m_k),
+        thickness_m: check.positive(&place.key("thickness_m"), honeycomb.thickness_m),
+        wall_area_ratio: check.fraction(&place.key("wall_area_ratio"), honeycomb.wall_area_ratio),
+        packing_factor: check.fraction(&place.key("packing_factor"), honeycomb.packing_factor),
+        internal_emissivity: check.fraction(&place.key("internal_emissivity"), honeycomb.internal_emissivity),
+    }
+    .conduction()
+}
 
-    fn conduction(&mut self, at: &Place, description: &ConductionDescription) -> Conduction {
-        let conductance = at.key("conductance_w_m2_k");
-        let Some(honeycomb) = &description.honeycomb else {
-            if (description.conductance_w_m2_k, description.radiative_exchange) == (None, None) {
-                self.check.report(
+/// The outline with its front where the normal is, if both are given.
+pub(super) fn checked_outline(
+    check: &mut Checker<'_>,
+    at: &Place,
+    vertices_m: Option<&[[f64; 3]]>,
+    normal: Option<&Vector3<f64>>,
+) -> Option<Polygon> {
+    let place = at.key("polygon_m");
+    let vertices_m = vertices_m?;
+    for (i, vertex) in vertices_m.iter().enumerate() {
+        check.vector(&place.item(i), *vertex);
+    }
+    match Polygon::new(vertices_m.iter().map(|v| Vector3::from(*v)).collect()) {
+        Ok(polygon) => {
+            let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
+            if let (Some(normal), true) = (normal, along.abs() < (1.0 - OUTLINE_TOLERANCE.powi(2) / 2.0)) {
+                check.report_across(
                     at,
-                    "no conduction",
-                    "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them",
+                    &place,
+                    format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
+                    format_args!("one with the normal {:?} or its opposite, within 1e-3", normal.as_slice()),
                 );
             }
-            let q = description.conductance_w_m2_k.unwrap_or(0.0);
-            let exchange = description.radiative_exchange.unwrap_or(0.0);
-            return Conduction {
-                conductance_w_m2_k: self.check.not_negative(&conductance, q),
-                radiative_exchange: self.check.fraction(&at.key("radiative_exchange"), exchange),
-            };
-        };
-        if (description.conductance_w_m2_k, description.radiative_exchange) != (None, None) {
-            self.check.report(at, "both numbers and a `honeycomb`", "one of them");
+            Some(if along < 0.0 { polygon.reversed() } else { polygon })
         }
-        let place = at.key("honeycomb");
-        Honeycomb {
-            conductivity_w_m_k: self
-                .check
-                .positive(&place.key("conductivity_w_m_k"), honeycomb.conductivity_w_m_k),
-            thickness_m: self.check.positive(&place.key("thickness_m"), honeycomb.thickness_m),
-            wall_area_ratio: self.check.fraction(&place.key("wall_area_ratio"), honeycomb.wall_area_ratio),
-            packing_factor: self.check.fraction(&place.key("packing_factor"), honeycomb.packing_factor),
-            internal_emissivity: self
-                .check
-                .fraction(&place.key("internal_emissivity"), honeycomb.internal_emissivity),
+        Err(error) => {
+            let text = error.to_string();
+            let (found, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "a polygon"));
+            check.report(&place, found, allowed);
+            None
         }
-        .conduction()
     }
+}
 
-    /// The outline with its front where the normal is, if both are given.
-    pub(super) fn outline(
-        &mut self,
-        at: &Place,
-        vertices_m: Option<&[[f64; 3]]>,
-        normal: Option<&Vector3<f64>>,
-    ) -> Option<Polygon> {
-        let place = at.key("polygon_m");
-        let vertices_m = vertices_m?;
-        for (i, vertex) in vertices_m.iter().enumerate() {
-            self.check.vector(&place.item(i), *vertex);
-        }
-        match Polygon::new(vertices_m.iter().map(|v| Vector3::from(*v)).collect()) {
-            Ok(polygon) => {
-                let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
-                if let (Some(normal), true) = (normal, along.abs() < (1.0 - OUTLINE_TOLERANCE.powi(2) / 2.0))
-                {
-                    self.check.report_across(
-                        at,
-                        &place,
-                        format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
-                        format_args!(
-                            "one with the normal {:?} or its opposite, within 1e-3",
-                            normal.as_slice()
-                        ),
-                    );
-                }
-                Some(if along < 0.0 { polygon.reversed() } else { polygon })
+pub(super) fn checked_area(
+    check: &mut Checker<'_>,
+    at: &Place,
+    given_m2: Option<f64>,
+    outline: Option<&Polygon>,
+) -> f64 {
+    let place = at.key("area_m2");
+    let given_m2 = given_m2.map(|area_m2| check.positive(&place, area_m2));
+    match (given_m2, outline) {
+        (Some(area_m2), None) => area_m2,
+        (None, None) => missing(check, at, "area_m2", 1.0),
+        (given_m2, Some(outline)) => {
+            let area_m2 = outline.area_m2();
+            if let Some(given_m2) = given_m2
+                && (given_m2 / area_m2 - 1.0).abs() > OUTLINE_TOLERANCE
+            {
+                let allowed = format_args!("the polygon's {area_m2} within 1e-3");
+                check.report_across(at, &place, given_m2, allowed);
             }
-            Err(error) => {
-                let text = error.to_string();
-                let (found, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "a polygon"));
-                self.check.report(&place, found, allowed);
-                None
+            area_m2
+        }
+    }
+}
+
+pub(super) fn checked_center(
+    check: &mut Checker<'_>,
+    at: &Place,
+    given_m: Option<[f64; 3]>,
+    outline: Option<&Polygon>,
+) -> Vector3<f64> {
+    let place = at.key("center_m");
+    let given_m = given_m.map(|center_m| check.vector(&place, center_m));
+    match (given_m, outline) {
+        (Some(center_m), None) => center_m,
+        (None, None) => missing(check, at, "center_m", Vector3::zeros()),
+        (given_m, Some(outline)) => {
+            let center_m = outline.centroid_m();
+            if let Some(given_m) = given_m
+                && (given_m - center_m).norm() > OUTLINE_TOLERANCE * outline.area_m2().sqrt()
+            {
+                let found = format!("{:?}", given_m.as_slice());
+                let allowed = format!("the polygon's {:?} within 1e-3 of its size", center_m.as_slice());
+                check.report_across(at, &place, found, allowed);
             }
+            center_m
         }
     }
+}
 
-    pub(super) fn area(&mut self, at: &Place, given_m2: Option<f64>, outline: Option<&Polygon>) -> f64 {
-        let place = at.key("area_m2");
-        let given_m2 = given_m2.map(|area_m2| self.check.positive(&place, area_m2));
-        match (given_m2, outline) {
-            (Some(area_m2), None) => area_m2,
-            (None, None) => self.missing(at, "area_m2", 1.0),
-            (given_m2, Some(outline)) => {
-                let area_m2 = outline.area_m2();
-                if let Some(given_m2) = given_m2
-                    && (given_m2 / area_m2 - 1.0).abs() > OUTLINE_TOLERANCE
-                {
-                    let allowed = format_args!("the polygon's {area_m2} within 1e-3");
-                    self.check.report_across(at, &place, given_m2, allowed);
-                }
-                area_m2
-            }
-        }
+pub(super) fn checked_normal(
+    check: &mut Checker<'_>,
+    at: &Place,
+    given: Option<Vector3<f64>>,
+    outline: Option<&Polygon>,
+) -> Vector3<f64> {
+    match (given, outline) {
+        (_, Some(outline)) => outline.normal(),
+        (Some(normal), None) => normal,
+        (None, None) => missing(check, at, "normal", Vector3::x()),
     }
+}
 
-    pub(super) fn center(
-        &mut self,
-        at: &Place,
-        given_m: Option<[f64; 3]>,
-        outline: Option<&Polygon>,
-    ) -> Vector3<f64> {
-        let place = at.key("center_m");
-        let given_m = given_m.map(|center_m| self.check.vector(&place, center_m));
-        match (given_m, outline) {
-            (Some(center_m), None) => center_m,
-            (None, None) => self.missing(at, "center_m", Vector3::zeros()),
-            (given_m, Some(outline)) => {
-                let center_m = outline.centroid_m();
-                if let Some(given_m) = given_m
-                    && (given_m - center_m).norm() > OUTLINE_TOLERANCE * outline.area_m2().sqrt()
-                {
-                    let found = format!("{:?}", given_m.as_slice());
-                    let allowed = format!("the polygon's {:?} within 1e-3 of its size", center_m.as_slice());
-                    self.check.report_across(at, &place, found, allowed);
-                }
-                center_m
-            }
-        }
+fn missing<V>(check: &mut Checker<'_>, at: &Place, key: &str, stand_in: V) -> V {
+    // An outline that was refused would have given it.
+    let outline = at.key("polygon_m");
+    if check.has_reported(&outline) || check.is_stand_in(&outline) {
+        return stand_in;
     }
-
-    pub(super) fn normal(
-        &mut self,
-        at: &Place,
-        given: Option<Vector3<f64>>,
-        outline: Option<&Polygon>,
-    ) -> Vector3<f64> {
-        match (given, outline) {
-            (_, Some(outline)) => outline.normal(),
-            (Some(normal), None) => normal,
-            (None, None) => self.missing(at, "normal", Vector3::x()),
-        }
-    }
-
-    fn missing<V>(&mut self, at: &Place, key: &str, stand_in: V) -> V {
-        // An outline that was refused would have given it.
-        let outline = at.key("polygon_m");
-        if self.check.has_reported(&outline) || self.check.is_stand_in(&outline) {
-            return stand_in;
-        }
-        self.check.report_lack(at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
-        stand_in
-    }
+    check.report_lack(at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
+    stand_in
 }

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::document::{Document, Place};
+use super::document::Document;
 use super::error::{Problem, SpacecraftError};
+use super::place::Place;
 use super::reader::Findings;
 
 /// Greatest magnitude of any number in a file: keeps products of several numbers far from overflow.

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::optics::Optics;
 use super::polygon::Polygon;
-use super::surface::Optics;
 use super::thermal::Thermal;
 use crate::numerics::scalar::{Scalar, constant_vector};
 

@@ -8,7 +8,8 @@ use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
-use super::document::{Place, nearest};
+use super::place::Place;
+use super::spelling::nearest;
 
 /// What a reading found.
 #[derive(Default)]

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::checker::Checker;
-use super::document::Place;
+use super::place::Place;
 
 /// A start value of a model's variable, as the file gives it.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,26 +3,9 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
+use super::optics::Optics;
 use super::polygon::Polygon;
 use super::thermal::Thermal;
-
-/// What a surface does with light; the three fractions sum to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Optics {
-    /// Absorbed fraction (alpha).
-    pub absorptivity: f64,
-    /// Mirrored fraction (gamma_S; paper 000's C_s).
-    pub specular: f64,
-    /// Fraction scattered by Lambert's law (gamma_D; paper 000's C_d).
-    pub diffuse: f64,
-}
-
-impl Optics {
-    /// Optics that absorb whatever they do not reflect.
-    pub const fn from_reflectivities(specular: f64, diffuse: f64) -> Self {
-        Self { absorptivity: 1.0 - specular - diffuse, specular, diffuse }
-    }
-}
 
 /// A flat surface fixed in a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -43,11 +43,11 @@ fn problem(from: &str, to: &str) -> Problem {
 
 #[test]
 fn messenger_is_as_published() {
-    let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
-    let shade = craft.sunshade.as_ref().unwrap();
+    let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+    let shade = spacecraft.sunshade.as_ref().unwrap();
     assert_eq!(shade.plates.len(), 8);
-    assert_eq!(craft.panels.len(), 2);
-    assert_eq!(craft.wheels.len(), 4);
+    assert_eq!(spacecraft.panels.len(), 2);
+    assert_eq!(spacecraft.wheels.len(), 4);
     let area: f64 = shade.plates.iter().map(|plate| plate.area_m2).sum();
     assert_relative_eq!(area, 2.0 * (1.169 + 0.8672 + 0.02052) + 1.068 + 0.06409, epsilon = 1e-12);
     assert!(shade.plates.iter().all(|plate| (plate.normal.norm() - 1.0).abs() < 1e-15));
@@ -60,28 +60,32 @@ fn messenger_is_as_published() {
             && other.area_m2 == plate.area_m2));
     }
     assert_relative_eq!(shade.cylinder.unwrap().half_angle_rad, 61_f64.to_radians());
-    assert_relative_eq!(craft.panels[0].sun_offset_rad, 65_f64.to_radians());
-    assert_relative_eq!(craft.sun_keep_in.unwrap().elevation_rad, 13_f64.to_radians());
+    assert_relative_eq!(spacecraft.panels[0].sun_offset_rad, 65_f64.to_radians());
+    assert_relative_eq!(spacecraft.sun_keep_in.unwrap().elevation_rad, 13_f64.to_radians());
 }
 
 #[test]
 fn the_example_is_a_good_file_of_another_spacecraft() {
     let text = include_str!("../../../resources/examples/solar-sailer.toml");
-    let craft = Spacecraft::from_toml("solar-sailer.toml", text).unwrap();
-    assert_eq!((craft.plates.len(), craft.panels.len(), craft.wheels.len()), (9, 3, 3));
-    assert!(craft.sunshade.is_none());
+    let spacecraft = Spacecraft::from_toml("solar-sailer.toml", text).unwrap();
+    assert_eq!((spacecraft.plates.len(), spacecraft.panels.len(), spacecraft.wheels.len()), (9, 3, 3));
+    assert!(spacecraft.sunshade.is_none());
 }
 
 #[test]
 fn defaults_are_the_documented_ones() {
-    let craft = Spacecraft::from_toml("small.toml", SMALL).unwrap();
-    let panel = &craft.panels[0];
+    let spacecraft = Spacecraft::from_toml("small.toml", SMALL).unwrap();
+    let panel = &spacecraft.panels[0];
     assert_eq!(panel.axis_body, Vector3::x());
     assert_eq!(panel.zero_normal_body, -Vector3::y());
     assert_eq!((panel.control, panel.sun_offset_rad, panel.tilt_sign), (PanelControl::SunOffset, 0.0, 1.0));
-    assert_eq!((panel.name.as_str(), craft.plates[0].name.as_str()), ("panel 1", "plate 1"));
-    assert_relative_eq!(craft.plates[0].optics.absorptivity, 0.3, epsilon = 1e-15);
-    assert!(craft.sunshade.is_none() && craft.sun_keep_in.is_none() && craft.dump_threshold_n_m_s.is_none());
+    assert_eq!((panel.name.as_str(), spacecraft.plates[0].name.as_str()), ("panel 1", "plate 1"));
+    assert_relative_eq!(spacecraft.plates[0].optics.absorptivity, 0.3, epsilon = 1e-15);
+    assert!(
+        spacecraft.sunshade.is_none()
+            && spacecraft.sun_keep_in.is_none()
+            && spacecraft.dump_threshold_n_m_s.is_none()
+    );
 }
 
 #[test]
@@ -299,7 +303,7 @@ fn one_mistake_is_one_problem_whatever_hangs_on_it() {
 fn numbers_are_read_in_every_form_of_toml() {
     let read = |area: &str| {
         let text = SMALL.replacen("area_m2 = 2.0", &format!("area_m2 = {area}"), 1);
-        Spacecraft::from_toml("small.toml", &text).map(|craft| craft.plates[0].area_m2)
+        Spacecraft::from_toml("small.toml", &text).map(|spacecraft| spacecraft.plates[0].area_m2)
     };
     for (text, area_m2) in [
         ("1_000.5", 1000.5),
@@ -334,8 +338,8 @@ fn torn_text_names_the_line() {
 #[test]
 fn a_direction_written_with_four_digits_is_renormalised() {
     let text = SMALL.replace("normal = [0.0, -1.0, 0.0]", "normal = [0.7071, -0.7071, 0.0]");
-    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
-    assert_relative_eq!(craft.plates[0].normal.x, 0.5_f64.sqrt(), epsilon = 1e-15);
+    let spacecraft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    assert_relative_eq!(spacecraft.plates[0].normal.x, 0.5_f64.sqrt(), epsilon = 1e-15);
 }
 
 #[test]
@@ -368,18 +372,18 @@ proptest! {
 
 #[test]
 fn messenger_thermal_is_table_5() {
-    let craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
-    assert_eq!((craft.plates.len(), craft.panels.len()), (8, 2));
-    assert_eq!(craft.mass_properties.mass_kg, 700.0);
-    let plates: f64 = craft.plates.iter().map(|plate| plate.area_m2).sum();
+    let spacecraft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
+    assert_eq!((spacecraft.plates.len(), spacecraft.panels.len()), (8, 2));
+    assert_eq!(spacecraft.mass_properties.mass_kg, 700.0);
+    let plates: f64 = spacecraft.plates.iter().map(|plate| plate.area_m2).sum();
     assert_relative_eq!(plates, 2.122 + 1.264 + 2.121 + 2.0 * 2.35 + 2.0 * 1.803 + 4.612, epsilon = 1e-12);
     // -127.2 and -52.8 deg of right ascension.
     assert_relative_eq!(
-        craft.plates[0].normal.angle(&craft.plates[2].normal).to_degrees(),
+        spacecraft.plates[0].normal.angle(&spacecraft.plates[2].normal).to_degrees(),
         74.4,
         epsilon = 1e-6
     );
-    for panel in &craft.panels {
+    for panel in &spacecraft.panels {
         assert_relative_eq!(panel.optics.absorptivity, 0.75);
         assert_relative_eq!(panel.rear_optics.unwrap().absorptivity, 0.7, epsilon = 1e-15);
         assert_eq!(panel.thermal.conduction.unwrap().conductance_w_m2_k, 18.0);
@@ -393,15 +397,15 @@ fn outlines_give_area_centre_and_normal() {
         "area_m2 = 2.0\ncenter_m = [0.0, -1.0, 0.0]\nnormal = [0.0, -1.0, 0.0]",
         "polygon_m = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, -1.0, 3.0]]",
     );
-    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
-    let plate = &craft.plates[0];
+    let spacecraft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    let plate = &spacecraft.plates[0];
     assert_relative_eq!(plate.area_m2, 3.0, epsilon = 1e-14);
     assert_relative_eq!(plate.center_m, Vector3::new(0.0, -1.0, 1.0), epsilon = 1e-14);
     assert_relative_eq!(plate.normal, -Vector3::y(), epsilon = 1e-14);
     // The same vertices with the normal on the other side: the outline turns round.
     let text = text.replace("polygon_m", "normal = [0.0, 1.0, 0.0]\npolygon_m");
-    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
-    assert_relative_eq!(craft.plates[0].normal, Vector3::y(), epsilon = 1e-14);
+    let spacecraft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    assert_relative_eq!(spacecraft.plates[0].normal, Vector3::y(), epsilon = 1e-14);
 }
 
 #[test]
@@ -448,7 +452,7 @@ fn start_values_are_handed_on_with_their_lines() {
     let text = format!(
         "{SMALL}[start]\n\"a.b[1]\" = 1\nc = [1.5, \"2 cm\", [true]]\n[start.Plant]\n\"a.b\" = \"x\"\n"
     );
-    let craft = Spacecraft::from_toml("small.toml", &text).unwrap();
+    let spacecraft = Spacecraft::from_toml("small.toml", &text).unwrap();
     let entry = |key: &str, line: usize, model: Option<&str>, name: &str, value: StartValue| StartEntry {
         key: key.to_owned(),
         line: lines + line,
@@ -462,7 +466,7 @@ fn start_values_are_handed_on_with_their_lines() {
         StartValue::List(vec![StartValue::Boolean(true)]),
     ]);
     assert_eq!(
-        craft.start,
+        spacecraft.start,
         [
             entry("start.Plant.\"a.b\"", 5, Some("Plant"), "a.b", StartValue::Text("x".to_owned())),
             entry("start.\"a.b[1]\"", 2, None, "a.b[1]", StartValue::Integer(1)),
@@ -471,7 +475,7 @@ fn start_values_are_handed_on_with_their_lines() {
     );
     // What the spacecraft is made of is the same: start values are of the models.
     let plain = Spacecraft::from_toml("small.toml", SMALL).unwrap();
-    assert_eq!(Spacecraft { start: Vec::new(), ..craft }, plain);
+    assert_eq!(Spacecraft { start: Vec::new(), ..spacecraft }, plain);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::surface::Optics;
+use super::optics::Optics;
 use crate::numerics::scalar::Scalar;
 
 /// Temperature emissivities are stated at unless a file says otherwise, in K.
@@ -137,15 +137,5 @@ impl Thermal {
             internal_heat_w: [0.0; 2],
             heat_capacity_j_m2_k: 0.0,
         }
-    }
-}
-
-impl Optics {
-    /// The same surface where it absorbs another fraction: what is reflected keeps its mix of mirror and scatter.
-    pub fn with_absorptivity(&self, absorptivity: f64) -> Self {
-        let reflected = self.specular + self.diffuse;
-        let specular_share = if reflected > 0.0 { self.specular / reflected } else { 0.0 };
-        let specular = (1.0 - absorptivity) * specular_share;
-        Self { absorptivity, specular, diffuse: 1.0 - absorptivity - specular }
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    forecast::{Flight, Range, Timing},
+    forecast::{ForecastCase, Range, Timing},
     nutation::Spin,
     rotation::angle_between_rad,
     spinner::Spinner,
@@ -114,7 +114,7 @@ pub struct Burn {
 
 /// What a burn starts from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outset {
+pub struct BurnInitialConditions {
     /// The true body.
     pub spin: Spin,
     /// Angular momentum, inertial, in N m s.
@@ -143,8 +143,12 @@ impl Burn {
     ///
     /// # Errors
     /// A parameter out of its range, a train that cannot be flown, limits or propellant that it does not fit.
-    pub fn new(spinner: &Spinner, request: &BurnRequest, outset: &Outset) -> Result<Self, BurnError> {
-        let spin = &outset.spin;
+    pub fn new(
+        spinner: &Spinner,
+        request: &BurnRequest,
+        initial: &BurnInitialConditions,
+    ) -> Result<Self, BurnError> {
+        let spin = &initial.spin;
         let (mask, opposite_mask) = masks(spinner, request)?;
         let torque_body_n_m = spinner.thrust(mask).torque_body_n_m;
         let opposite_torque_body_n_m = opposite_mask.map(|m| spinner.thrust(m).torque_body_n_m);
@@ -181,14 +185,14 @@ impl Burn {
                 return Err(parameter("burn.targetDirection", found, "it must be a direction"));
             }
             target_inertial = request.target_inertial / norm;
-            check_target(request, &target_inertial, &outset.momentum_inertial)?;
+            check_target(request, &target_inertial, &initial.momentum_inertial)?;
         }
         let assumed_rate_rad_s = spin.rate_rad_s * (1.0 + request.spin_rate_error);
         let flight =
-            Flight { spin: *spin, assumed_rate_rad_s, timing: request.timing, torque_n_m: across_n_m };
+            ForecastCase { spin: *spin, assumed_rate_rad_s, timing: request.timing, torque_n_m: across_n_m };
         let assumed =
             Spin { rate_rad_s: assumed_rate_rad_s, ratio: spin.ratio * (1.0 + request.ratio_error), ..*spin };
-        let train = train(request, &Flight { spin: assumed, ..flight }, points)?;
+        let train = train(request, &ForecastCase { spin: assumed, ..flight }, points)?;
         if points && train.widest_s() > half_turn_s {
             let allowed = format!(
                 "the plan's widest pulse is {} s, an attitude pulse at most half a turn",
@@ -229,11 +233,11 @@ impl Burn {
         };
         let needed_kg = burn.propellant_kg(spinner);
         // Rounding of the sum is no propellant.
-        if needed_kg > outset.propellant_kg * (1.0 + 1e-12) {
+        if needed_kg > initial.propellant_kg * (1.0 + 1e-12) {
             return Err(BurnError::Limit {
                 what: "its propellant",
                 found: format!("{needed_kg:.6} kg"),
-                limit: format!("propellant.loaded = {} kg", outset.propellant_kg),
+                limit: format!("propellant.loaded = {} kg", initial.propellant_kg),
             });
         }
         Ok(burn)
@@ -330,7 +334,7 @@ fn masks(spinner: &Spinner, request: &BurnRequest) -> Result<(u32, Option<u32>),
     Ok((main, opposite))
 }
 
-fn train(request: &BurnRequest, flight: &Flight, points: bool) -> Result<Train, BurnError> {
+fn train(request: &BurnRequest, flight: &ForecastCase, points: bool) -> Result<Train, BurnError> {
     let make = |count: u32| {
         Train::new(
             request.shape,
@@ -355,7 +359,7 @@ fn train(request: &BurnRequest, flight: &Flight, points: bool) -> Result<Train, 
 /// The train whose move is nearest to `angle_rad`: a train long enough to have a plateau, and more plateau pulses.
 pub fn sized(
     make: &impl Fn(u32) -> Result<Train, TrainError>,
-    flight: &Flight,
+    flight: &ForecastCase,
     angle_rad: f64,
 ) -> Result<Train, BurnError> {
     let spin = &flight.spin;
@@ -411,7 +415,7 @@ fn too_long(angle_rad: f64) -> BurnError {
     parameter("burn.angle", format!("{angle_rad} rad"), "no train of this shape and width reaches it")
 }
 
-fn check_limits(request: &BurnRequest, flight: &Flight, train: &Train) -> Result<(), BurnError> {
+fn check_limits(request: &BurnRequest, flight: &ForecastCase, train: &Train) -> Result<(), BurnError> {
     for (name, value) in [
         ("burn.maxDuration", request.max_duration_s),
         ("burn.maxNutation", request.max_nutation_rad),

@@ -31,7 +31,7 @@ pub struct Crossing {
 /// How many turns are searched before a crossing counts as absent.
 const TURNS_SEARCHED: f64 = 2.5;
 
-/// A body that is past a direction by no more than this has just reached it: cells meet to rounding only.
+/// A body that is past a direction by no more than this has just reached it: segments meet to rounding only.
 const ROUNDING_RAD: f64 = 1e-12;
 /// The search on the closed form has converged at this angle.
 const CONVERGED_RAD: f64 = 1e-9;
@@ -64,43 +64,43 @@ impl Crossing {
         sine.atan2(cosine)
     }
 
-    /// First crossing at or after `from_s`, a time within the motion's present cell or after it; `None` if the body
+    /// First crossing at or after `from_s`, a time within the motion's present segment or after it; `None` if the body
     /// does not bring the direction round within 2 1/2 turns.
     pub fn next_s(&self, motion: &Motion, from_s: f64, work: &mut Work) -> Option<f64> {
         work.spend(Cost::Crossing);
         let inertia = motion.inertia();
-        if motion.cell_end_s().is_infinite() {
+        if motion.segment_end_s().is_infinite() {
             let state = motion.at(from_s);
             return self.on_closed_form(motion, from_s, &state, state.rate_rad_s(inertia).z);
         }
-        let mut cell = motion.clone();
-        while cell.cell_end_s() < from_s && !cell.runs_away() && !work.is_exhausted() {
-            work.spend_cell(cell.damper());
-            cell.next_cell();
+        let mut segment = motion.clone();
+        while segment.segment_end_s() < from_s && !segment.diverges() && !work.is_exhausted() {
+            work.spend_segment(segment.damper());
+            segment.next_segment();
         }
-        let rate = cell.at(from_s).rate_rad_s(inertia).z;
+        let rate = segment.at(from_s).rate_rad_s(inertia).z;
         if rate.is_nan() || rate <= SLOWEST_RAD_S {
             return None;
         }
         let give_up_s = from_s + TURNS_SEARCHED * 2.0 * core::f64::consts::PI / rate;
         let mut start_s = from_s;
         loop {
-            let end_s = cell.cell_end_s();
-            if let Some(time_s) = self.within(&cell, start_s, end_s, rate) {
+            let end_s = segment.segment_end_s();
+            if let Some(time_s) = self.within(&segment, start_s, end_s, rate) {
                 return Some(time_s);
             }
-            if end_s > give_up_s || cell.runs_away() || work.is_exhausted() {
+            if end_s > give_up_s || segment.diverges() || work.is_exhausted() {
                 return None;
             }
             start_s = end_s;
-            work.spend_cell(cell.damper());
-            cell.next_cell();
+            work.spend_segment(segment.damper());
+            segment.next_segment();
         }
     }
 
-    /// First crossing at or after `from_s` on the closed form, or within the present cell; `None` if there is none.
+    /// First crossing at or after `from_s` on the closed form, or within the present segment; `None` if there is none.
     pub fn here_s(&self, motion: &Motion, from_s: f64, work: &mut Work) -> Option<f64> {
-        let end_s = motion.cell_end_s();
+        let end_s = motion.segment_end_s();
         if end_s.is_infinite() {
             return self.next_s(motion, from_s, work);
         }
@@ -142,13 +142,13 @@ impl Crossing {
         (converged && time_s >= from_s - reached_rad / rate).then_some(time_s)
     }
 
-    /// The crossing between two times of one cell, by bisection sharpened with secants.
-    fn within(&self, cell: &Motion, start_s: f64, end_s: f64, rate: f64) -> Option<f64> {
+    /// The crossing between two times of one segment, by bisection sharpened with secants.
+    fn within(&self, segment: &Motion, start_s: f64, end_s: f64, rate: f64) -> Option<f64> {
         let (mut low_s, mut high_s) = (start_s, end_s);
-        let mut low = self.ahead_rad(&cell.at(low_s));
-        let mut high = self.ahead_rad(&cell.at(high_s));
+        let mut low = self.ahead_rad(&segment.at(low_s));
+        let mut high = self.ahead_rad(&segment.at(high_s));
         // From ahead to behind, not through the far side where the angle wraps.
-        let before = -(ROUNDING_RAD + phase_rounding_rad(cell, rate, start_s));
+        let before = -(ROUNDING_RAD + phase_rounding_rad(segment, rate, start_s));
         if !(low >= before && high < 0.0 && low - high < core::f64::consts::PI) {
             return None;
         }
@@ -166,7 +166,7 @@ impl Crossing {
             let inside_s = secant_s.max(low_s + step_s).min(high_s - step_s);
             let time_s =
                 if round % 3 == 2 || inside_s <= low_s || inside_s >= high_s { middle_s } else { inside_s };
-            let ahead = self.ahead_rad(&cell.at(time_s));
+            let ahead = self.ahead_rad(&segment.at(time_s));
             if ahead >= 0.0 {
                 (low_s, low) = (time_s, ahead);
             } else {

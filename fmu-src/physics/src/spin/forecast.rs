@@ -19,7 +19,7 @@ pub enum Timing {
 
 /// A train on a spinner whose rate may differ from what was assumed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flight {
+pub struct ForecastCase {
     /// The body as it is.
     pub spin: Spin,
     /// Spin rate by which clock pulses are timed, in rad/s.
@@ -43,7 +43,7 @@ pub struct Forecast {
     pub aside_rad: f64,
 }
 
-impl Flight {
+impl ForecastCase {
     /// Follows the train pulse by pulse.
     pub fn forecast(&self, train: &Train) -> Forecast {
         let spin = &self.spin;
@@ -106,7 +106,7 @@ const WORTH_LOOKING: f64 = 1e-5;
 impl Range {
     /// Worst final and peak nutation over the range, within 1e-3 of what any finer scan finds, and the least and
     /// greatest move. Trains of more than three thousand pulses are sampled more coarsely, those of more than 150 thousand more coarsely still.
-    pub fn worst(&self, flight: &Flight, train: &Train) -> Worst {
+    pub fn worst(&self, flight: &ForecastCase, train: &Train) -> Worst {
         let turns = train.turns(train.count().saturating_sub(1)) + 1.0;
         let count = f64::from(train.count().max(1));
         let most = ((MOST_PULSES / count) as u32).max(MOST.min((MOST_FOLLOWED / count) as u32));

@@ -6,8 +6,27 @@
 use core::f64::consts::PI;
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-use super::spinner::L1Orbit;
+/// Linear Lissajous motion about the Sun-Earth L1 point.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct L1Orbit {
+    /// Rate of the Earth-Sun line, in deg/day.
+    pub line_rate_deg_day: f64,
+    /// Sun to Earth, in m.
+    pub sun_earth_distance_m: f64,
+    /// Earth to L1, in m.
+    pub earth_l1_distance_m: f64,
+    /// Along the line, in the ecliptic across it, normal to the ecliptic, in m.
+    pub amplitude_m: [f64; 3],
+    /// In-plane frequency over the line's rate.
+    pub in_plane_frequency: f64,
+    /// Out-of-plane frequency over the line's rate.
+    pub out_of_plane_frequency: f64,
+    /// Ecliptic to equator, in deg.
+    pub obliquity_deg: f64,
+}
 
 /// Unit vectors to Sun and Earth, EME2000.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +38,7 @@ pub struct SunEarth {
 }
 
 /// Phases of the Lissajous motion and of the Earth-Sun line at time 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct L1Phases {
     /// Ecliptic longitude of the Earth seen from the Sun, in rad.
     pub longitude_rad: f64,
@@ -30,15 +49,15 @@ pub struct L1Phases {
 }
 
 /// An L1 orbit as a flight uses it: the setup's, with what the master may change.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct L1Flight {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct L1Ephemeris {
     /// The orbit.
     pub orbit: L1Orbit,
     /// Its phases.
     pub phases: L1Phases,
 }
 
-impl L1Flight {
+impl L1Ephemeris {
     /// Directions at `time_s`.
     pub fn sun_earth(&self, time_s: f64) -> SunEarth {
         self.orbit.sun_earth(&self.phases, time_s)

@@ -3,6 +3,7 @@
 pub mod burn;
 pub mod coast;
 pub mod crossing;
+pub mod crossing_detector;
 pub mod damper;
 pub mod forecast;
 pub mod geometry;
@@ -18,7 +19,6 @@ pub mod series;
 pub mod spinner;
 pub mod tracker;
 pub mod train;
-pub mod watch;
 pub mod work;
 
 #[cfg(test)]

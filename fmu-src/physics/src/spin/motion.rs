@@ -8,20 +8,20 @@ use super::{
     damper::Damper,
     inertia::Inertia,
     rotation::Quaternion,
-    series::{BodyTorque, Cell},
+    series::{BodyTorque, TaylorSegment},
 };
 use crate::numerics::spacing::spacing;
 
 /// A body faster than this is not followed.
 const GREATEST_RATE_RAD_S: f64 = 1e4;
-/// Nor is one that needs shorter cells.
-const SHORTEST_CELL_S: f64 = 1e-5;
+/// Nor is one that needs shorter segments.
+const SHORTEST_SEGMENT_S: f64 = 1e-5;
 /// Nor one that turns by more than this from one double to the next.
 const GREATEST_TURN_RAD: f64 = 0.05;
 
 /// Why a motion cannot be followed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Runaway {
+pub enum MotionError {
     /// The rate, or a number that is none.
     #[error(
         "at {time_s} s the body turns at up to {rate_rad_s:e} rad/s; allowed is up to {GREATEST_RATE_RAD_S:e} rad/s: look \
@@ -36,7 +36,7 @@ pub enum Runaway {
     /// The torque.
     #[error(
         "at {time_s} s a torque with a component of {torque_n_m:e} N m changes the motion within less than \
-         {SHORTEST_CELL_S:e} s; allowed is what keeps the body below {GREATEST_RATE_RAD_S:e} rad/s: look at torque.applied \
+         {SHORTEST_SEGMENT_S:e} s; allowed is what keeps the body below {GREATEST_RATE_RAD_S:e} rad/s: look at torque.applied \
          and its derivatives"
     )]
     TooSudden {
@@ -96,12 +96,12 @@ impl RigidState {
 #[allow(clippy::large_enum_variant, reason = "the state of a step must not allocate")]
 enum Path {
     Coast(Coast),
-    Cell(Cell),
+    Series(TaylorSegment),
 }
 
-/// A stretch of motion with one inertia and one torque law.
+/// An interval of motion with one inertia and one torque law.
 ///
-/// The anchor moves only where the caller changes torque or inertia, and from cell to cell; never to where somebody
+/// The anchor moves only where the caller changes torque or inertia, and from segment to segment; never to where somebody
 /// looks. So the same edges give the same motion, to the bit, however it is sampled.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
@@ -129,7 +129,15 @@ impl Motion {
             Path::Coast(Coast::new(&inertia, &damper, attitude, &momentum_inertial))
         } else {
             let momentum_body = attitude.body_from_inertial(&momentum_inertial);
-            Path::Cell(Cell::new(&inertia, &damper, &torque, anchor_s, attitude, &momentum_body, hint_s))
+            Path::Series(TaylorSegment::new(
+                &inertia,
+                &damper,
+                &torque,
+                anchor_s,
+                attitude,
+                &momentum_body,
+                hint_s,
+            ))
         };
         Self { inertia, damper, torque, anchor_s, attitude, momentum_inertial, path }
     }
@@ -144,21 +152,21 @@ impl Motion {
         &self.damper
     }
 
-    /// Where the present closed form or cell starts, in s.
+    /// Where the present closed form or segment starts, in s.
     pub fn anchor_s(&self) -> f64 {
         self.anchor_s
     }
 
-    /// Where the present cell ends, in s; infinite for a closed form.
-    pub fn cell_end_s(&self) -> f64 {
+    /// Where the present segment ends, in s; infinite for a closed form.
+    pub fn segment_end_s(&self) -> f64 {
         match &self.path {
             Path::Coast(_) => f64::INFINITY,
-            Path::Cell(cell) => self.anchor_s + cell.length_s(),
+            Path::Series(segment) => self.anchor_s + segment.length_s(),
         }
     }
 
-    /// Whether the body turns faster than cells can follow, or its numbers are not finite or no body's.
-    pub fn runs_away(&self) -> bool {
+    /// Whether the body turns faster than segments can follow, or its numbers are not finite or no body's.
+    pub fn diverges(&self) -> bool {
         self.check().is_err() || Inertia::new(self.inertia.principal_kg_m2()).is_err()
     }
 
@@ -169,32 +177,32 @@ impl Motion {
             Path::Coast(coast) => {
                 *coast == Coast::new(&self.inertia, &self.damper, self.attitude, &self.momentum_inertial)
             }
-            Path::Cell(cell) => cell.is_sound(),
+            Path::Series(segment) => segment.is_sound(),
         };
         let unit = Quaternion::from_components(self.attitude.0).is_some();
-        path && unit && self.torque.is_sound() && self.damper.is_sound() && !self.runs_away()
+        path && unit && self.torque.is_sound() && self.damper.is_sound() && !self.diverges()
     }
 
     /// Whether the motion can be followed from the anchor on.
     ///
     /// # Errors
-    /// The body turns too fast there, is not finite, or its torque leaves it a cell too short.
-    pub fn check(&self) -> Result<(), Runaway> {
+    /// The body turns too fast there, is not finite, or its torque leaves it a segment too short.
+    pub fn check(&self) -> Result<(), MotionError> {
         self.check_rate(self.anchor_s, &self.momentum_inertial, &self.attitude)?;
-        let Path::Cell(cell) = &self.path else { return Ok(()) };
+        let Path::Series(segment) = &self.path else { return Ok(()) };
         // Written so that a NaN is refused.
-        if cell.length_s() >= SHORTEST_CELL_S {
-            return check_clock(self.anchor_s, cell.length_s());
+        if segment.length_s() >= SHORTEST_SEGMENT_S {
+            return check_clock(self.anchor_s, segment.length_s());
         }
         let torque_n_m = self.torque.at(self.anchor_s).amax();
-        Err(Runaway::TooSudden { time_s: self.anchor_s, torque_n_m })
+        Err(MotionError::TooSudden { time_s: self.anchor_s, torque_n_m })
     }
 
-    /// Whether the body has a finite state at a time within the present cell, and a rate that can be followed.
+    /// Whether the body has a finite state at a time within the present segment, and a rate that can be followed.
     ///
     /// # Errors
     /// It turns too fast or is not finite.
-    pub fn check_at(&self, time_s: f64) -> Result<(), Runaway> {
+    pub fn check_at(&self, time_s: f64) -> Result<(), MotionError> {
         let state = self.at(time_s);
         self.check_rate(time_s, &state.momentum_inertial, &state.attitude)
     }
@@ -204,24 +212,24 @@ impl Motion {
         time_s: f64,
         momentum_inertial: &Vector3<f64>,
         attitude: &Quaternion,
-    ) -> Result<(), Runaway> {
+    ) -> Result<(), MotionError> {
         let least_kg_m2 = self.inertia.principal_kg_m2().into_iter().fold(f64::INFINITY, f64::min);
         let finite = attitude.0.iter().all(|x| x.is_finite());
         let rate_rad_s = if finite { momentum_inertial.norm() / least_kg_m2 } else { f64::NAN };
         if rate_rad_s <= GREATEST_RATE_RAD_S {
             return check_clock(time_s, rate_rad_s.recip());
         }
-        Err(Runaway::TooFast { time_s, rate_rad_s })
+        Err(MotionError::TooFast { time_s, rate_rad_s })
     }
 
-    /// The torque of the present stretch.
+    /// The torque of the present segment.
     pub fn torque(&self) -> &BodyTorque {
         &self.torque
     }
 
-    /// Goes on to the next cell. Without effect on a closed form.
-    pub fn next_cell(&mut self) {
-        let end_s = self.cell_end_s();
+    /// Goes on to the next segment. Without effect on a closed form.
+    pub fn next_segment(&mut self) {
+        let end_s = self.segment_end_s();
         if end_s.is_finite() {
             let state = self.at(end_s);
             *self = Self::new(
@@ -236,32 +244,32 @@ impl Motion {
         }
     }
 
-    /// Goes on cell by cell until the present one holds `time_s`.
+    /// Goes on segment by segment until the present one holds `time_s`.
     pub fn reach(&mut self, time_s: f64) {
-        while self.cell_end_s() < time_s {
-            self.next_cell();
+        while self.segment_end_s() < time_s {
+            self.next_segment();
         }
     }
 
-    /// State at a time within the present cell (any time after the anchor for a closed form).
+    /// State at a time within the present segment (any time after the anchor for a closed form).
     #[inline]
     pub fn at(&self, time_s: f64) -> RigidState {
         let dt_s = time_s - self.anchor_s;
         match &self.path {
             Path::Coast(coast) => self.conserved(coast.attitude_at(dt_s)),
-            Path::Cell(cell) => {
-                let attitude = cell.attitude(dt_s);
+            Path::Series(segment) => {
+                let attitude = segment.attitude(dt_s);
                 if self.torque.is_zero() {
                     return self.conserved(attitude);
                 }
-                let momentum_body = cell.momentum_body(dt_s);
+                let momentum_body = segment.momentum_body(dt_s);
                 let momentum_inertial = attitude.inertial_from_body(&momentum_body);
                 RigidState { attitude, momentum_inertial, momentum_body }
             }
         }
     }
 
-    /// The motion that follows at `time_s`, within the present cell, under another torque or inertia.
+    /// The motion that follows at `time_s`, within the present segment, under another torque or inertia.
     #[must_use]
     pub fn followed_by(&self, time_s: f64, inertia: Inertia, torque: BodyTorque, hint_s: f64) -> Self {
         let state = self.at(time_s);
@@ -281,11 +289,11 @@ impl Motion {
 }
 
 /// Whether doubles near `time_s` lie close enough for a motion that changes within `change_s`.
-fn check_clock(time_s: f64, change_s: f64) -> Result<(), Runaway> {
+fn check_clock(time_s: f64, change_s: f64) -> Result<(), MotionError> {
     let spacing_s = spacing(time_s);
     // Written so that a NaN is refused.
     if spacing_s <= GREATEST_TURN_RAD * change_s {
         return Ok(());
     }
-    Err(Runaway::TooLate { time_s, spacing_s, change_s })
+    Err(MotionError::TooLate { time_s, spacing_s, change_s })
 }

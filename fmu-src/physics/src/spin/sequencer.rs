@@ -178,7 +178,7 @@ impl Sequencer {
         if k > 0 {
             earliest_s = earliest_s.max(self.last_centre_s + (turns(k) - turns(k - 1) - 0.25) * period_s);
         }
-        let far = earliest_s - now_s > 2.0 * period_s && motion.cell_end_s().is_finite();
+        let far = earliest_s - now_s > 2.0 * period_s && motion.segment_end_s().is_finite();
         let clocked = k > 0 && self.burn.timing == Timing::Clock;
         let centre_s = if !self.burn.points() {
             let first_s = self.burn.start_s.max(now_s) + half_width_s;

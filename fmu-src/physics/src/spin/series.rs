@@ -1,7 +1,7 @@
-//! Rigid-body motion under body-fixed torque as a Taylor series in time, exact to rounding within a cell.
+//! Rigid-body motion under body-fixed torque as a Taylor series in time, exact to rounding within a segment.
 //!
 //! The equations are quadratic in momentum and attitude, so the coefficients follow from one another by Cauchy
-//! products. A cell is as long as the series converges to rounding, never as long as a communication step: results
+//! products. A segment is as long as the series converges to rounding, never as long as a communication step: results
 //! do not depend on any step. One method serves the triaxial body, thruster arcs, outside torques and the damper.
 
 use nalgebra::Vector3;
@@ -13,11 +13,11 @@ use super::{damper::Damper, inertia::Inertia, rotation::Quaternion};
 const ORDER: usize = 28;
 /// Terms below this share of the whole are rounding.
 const ROUNDING: f64 = 1.4e-17;
-/// A cell turns the body by no more than this, so that a direction crosses a body axis at most once in it.
+/// A segment turns the body by no more than this, so that a direction crosses a body axis at most once in it.
 const GREATEST_TURN_RAD: f64 = 2.5;
-/// Longest cell of a body that hardly turns, in s.
+/// Longest segment of a body that hardly turns, in s.
 const LONGEST_S: f64 = 60.0;
-/// Coefficients of the damper's gain over a cell.
+/// Coefficients of the damper's gain over a segment.
 const GAIN_TERMS: usize = 8;
 /// Cosines of Chebyshev's nodes, (2 i + 1) pi / 16.
 const NODE_COSINES: [f64; GAIN_TERMS] = [
@@ -105,19 +105,19 @@ impl BodyTorque {
     }
 }
 
-/// One cell: the motion from its start on, as polynomials.
+/// One segment: the motion from its start on, as polynomials.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Cell {
+pub struct TaylorSegment {
     momentum_body: [Coefficients; 3],
     attitude: [Coefficients; 4],
     order: u8,
     length_s: f64,
 }
 
-impl Cell {
-    /// The cell that starts at `start_s` in `attitude` with body momentum `momentum_body` (N m s).
+impl TaylorSegment {
+    /// The segment that starts at `start_s` in `attitude` with body momentum `momentum_body` (N m s).
     ///
-    /// `hint_s` is how far the motion will be asked for, if that is known; the cell may be shorter.
+    /// `hint_s` is how far the motion will be asked for, if that is known; the segment may be shorter.
     pub fn new(
         inertia: &Inertia,
         damper: &Damper,
@@ -127,39 +127,39 @@ impl Cell {
         momentum_body: &Vector3<f64>,
         hint_s: f64,
     ) -> Self {
-        let mut cell = Self {
+        let mut segment = Self {
             momentum_body: [[0.0; ORDER + 1]; 3],
             attitude: [[0.0; ORDER + 1]; 4],
             order: 0,
             length_s: 0.0,
         };
         for axis in 0..3 {
-            cell.momentum_body[axis][0] = momentum_body[axis];
+            segment.momentum_body[axis][0] = momentum_body[axis];
         }
         for i in 0..4 {
-            cell.attitude[i][0] = attitude.0[i];
+            segment.attitude[i][0] = attitude.0[i];
         }
         let torque = torque.shifted(start_s);
         let mut gain = Gain::constant(damper.gain(momentum_body));
-        cell.expand(inertia, &torque, &gain, hint_s);
+        segment.expand(inertia, &torque, &gain, hint_s);
         if damper.acts() {
             // The gain follows the nutation angle. It is weak, so a few rounds settle it to rounding.
-            let length_s = cell.length_s.min(0.1 / damper.rate_1_s());
+            let length_s = segment.length_s.min(0.1 / damper.rate_1_s());
             let scale = momentum_body.norm() * length_s;
             for _ in 0..4 {
-                let (fitted, change) = cell.fitted_gain(damper, &gain, length_s);
-                if change * scale <= ROUNDING && length_s == cell.length_s {
+                let (fitted, change) = segment.fitted_gain(damper, &gain, length_s);
+                if change * scale <= ROUNDING && length_s == segment.length_s {
                     break;
                 }
                 gain = fitted;
-                cell.expand(inertia, &torque, &gain, length_s);
+                segment.expand(inertia, &torque, &gain, length_s);
             }
         }
         // Convergence is judged by the greatest term, and a NaN is never the greatest.
-        if !cell.is_finite() {
-            cell.length_s = 0.0;
+        if !segment.is_finite() {
+            segment.length_s = 0.0;
         }
-        cell
+        segment
     }
 
     /// Whether its highest coefficients, which all others go into, are finite.
@@ -168,7 +168,7 @@ impl Cell {
         self.momentum_body.iter().chain(&self.attitude).all(|coefficients| coefficients[order].is_finite())
     }
 
-    /// Whether a decoded cell can be one.
+    /// Whether a decoded segment can be one.
     pub fn is_sound(&self) -> bool {
         let mut coefficients = self.momentum_body.iter().chain(&self.attitude).flatten();
         usize::from(self.order) <= ORDER
@@ -176,7 +176,7 @@ impl Cell {
             && coefficients.all(|c| c.is_finite())
     }
 
-    /// How long the cell holds, in s; 0 where it does not at all.
+    /// How long the segment holds, in s; 0 where it does not at all.
     pub fn length_s(&self) -> f64 {
         self.length_s
     }
@@ -314,7 +314,7 @@ impl Cell {
         (momentum, attitude)
     }
 
-    /// The damper's gain over the cell as a polynomial through Chebyshev nodes, and its greatest change at them.
+    /// The damper's gain over the segment as a polynomial through Chebyshev nodes, and its greatest change at them.
     fn fitted_gain(&self, damper: &Damper, before: &Gain, length_s: f64) -> (Gain, f64) {
         let mut nodes = [0.0; GAIN_TERMS];
         let mut values = [0.0; GAIN_TERMS];
@@ -342,7 +342,7 @@ impl Cell {
     }
 }
 
-/// The damper's gain over a cell, a polynomial in time.
+/// The damper's gain over a segment, a polynomial in time.
 struct Gain {
     powers: [f64; GAIN_TERMS],
     /// How many count.

@@ -6,9 +6,9 @@ use crate::numerics;
 /// What work is spent on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
-    /// Cells of the motion.
-    Cell,
-    /// Cells of the motion with a damper, whose gain takes several rounds.
+    /// Segments of the motion.
+    TaylorSegment,
+    /// Segments of the motion with a damper, whose gain takes several rounds.
     DampedCell,
     /// Crossings of Sun and star.
     Crossing,
@@ -28,7 +28,7 @@ impl Cost {
     /// Units of about a microsecond, a little more than each takes.
     fn units(self) -> u32 {
         match self {
-            Self::Cell => 16,
+            Self::TaylorSegment => 16,
             Self::DampedCell => 64,
             Self::Crossing | Self::Edge | Self::Impulse => 4,
             Self::ClockSample | Self::Direction => 2,
@@ -39,7 +39,7 @@ impl Cost {
     fn cause(index: usize) -> &'static str {
         match index {
             0 | 1 => {
-                "cells of the motion, a few in each turn: asked for by spin.initialRate, by moments of inertia[1] and \
+                "segments of the motion, a few in each turn: asked for by spin.initialRate, by moments of inertia[1] and \
                  inertia[2] that differ, by a short damper.timeConstant and by torques"
             }
             2 => "crossings of Sun and star, one of each in a turn: asked for by spin.initialRate",
@@ -71,10 +71,10 @@ impl Work {
         self.0.spend(cost as usize, cost.units());
     }
 
-    /// Counts a cell of a motion with this damper.
+    /// Counts a segment of a motion with this damper.
     #[inline]
-    pub fn spend_cell(&mut self, damper: &Damper) {
-        self.spend(if damper.acts() { Cost::DampedCell } else { Cost::Cell });
+    pub fn spend_segment(&mut self, damper: &Damper) {
+        self.spend(if damper.acts() { Cost::DampedCell } else { Cost::TaylorSegment });
     }
 
     /// Whether more was spent than may be.

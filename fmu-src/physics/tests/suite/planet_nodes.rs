@@ -10,9 +10,9 @@ use physics::radiation::disturbance::{
 use physics::spacecraft::{MESSENGER_THERMAL_TOML, Spacecraft};
 
 /// Knuth's generator.
-struct Dice(u64);
+struct RandomNumbers(u64);
 
-impl Dice {
+impl RandomNumbers {
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
@@ -28,21 +28,21 @@ impl Dice {
 /// Worst error of albedo and infrared together on the cells of paper 004, as a share of their force, with 5 and with 6
 /// nodes, from `lowest` radii up; the sum is what a user sees.
 fn worst(lowest: f64) -> [f64; 2] {
-    let craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
+    let spacecraft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
     let model = |nodes| {
         let planet_light = PlanetLightMethod::Rings(nodes);
         let options = Options { planet: Some(MERCURY), planet_light, ..Options::default() };
-        DisturbanceModel::new(&craft, &options).unwrap()
+        DisturbanceModel::new(&spacecraft, &options).unwrap()
     };
     let (few, fine) = ([model(5), model(6)], model(48));
     let mut workspace = Workspace::default();
-    let mut dice = Dice(1);
+    let mut random = RandomNumbers(1);
     let mut worst = [0.0_f64; 2];
     for _ in 0..20_000 {
-        let height = dice.unit();
-        let planet_m = dice.direction() * (MERCURY.radius_m * (lowest + 7.0 * height * height));
-        let sun_m = dice.direction() * 5.8e10;
-        let angles_rad = [dice.unit() * TAU, dice.unit() * TAU];
+        let height = random.unit();
+        let planet_m = random.direction() * (MERCURY.radius_m * (lowest + 7.0 * height * height));
+        let sun_m = random.direction() * 5.8e10;
+        let angles_rad = [random.unit() * TAU, random.unit() * TAU];
         let geometry =
             Geometry::at(1365.0, &sun_m, Some(&planet_m), 1.0, &angles_rad, Vector3::zeros()).unwrap();
         let mut force_n = |model: &DisturbanceModel| {

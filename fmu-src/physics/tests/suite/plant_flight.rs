@@ -11,11 +11,13 @@ use physics::environment::ephemeris::Ephemeris;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, OrbitMethod, TwoBodyOrbit};
 use physics::guidance::{Guided, Schedule, ScienceRule};
-use physics::momentum::{Accumulator, Convention, DumpPolicy, Flight, Reinitialise, Settings, Totals};
+use physics::momentum::{
+    Convention, DumpPolicy, MomentumIntegrator, Reinitialise, Settings, TorqueModel, Totals,
+};
 use physics::numerics::quadrature;
 use physics::plant::{
-    AttitudeSource, Command, Configuration, Course, Craft, EphemerisSource, ExternalLoad, LightEffects,
-    Motion, PanelSetting, Plant, SunLight, orbit_from_elements,
+    AttitudeSource, Command, Configuration, EphemerisSource, ExternalLoad, Motion, PanelSetting, Plant,
+    PreparedSpacecraft, PropagatorState, RadiationSettings, SunLight, orbit_from_elements,
 };
 use physics::radiation::{Effect, SolarModel};
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -42,7 +44,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         ephemeris: EphemerisSource::Vsop87,
         light: SunLight::Distance { flux_w_m2: 1353.0 },
         shadow: Shadow::new(ShadowModel::Off, RADIUS_MERCURY_M).unwrap(),
-        light_and_heat: LightEffects::OFF,
+        light_and_heat: RadiationSettings::OFF,
         attitude,
         sunshade: SunshadeModel::Plates,
         panels: vec![PanelSetting::Disabled; 2],
@@ -91,7 +93,7 @@ pub(crate) struct Rig {
     spacecraft: Spacecraft,
     solar: SolarModel,
     method: OrbitMethod,
-    pub(crate) course: Course,
+    pub(crate) propagator: PropagatorState,
     ephemeris: Ephemeris,
 }
 
@@ -102,7 +104,7 @@ impl Rig {
             solar: SolarModel::new(&spacecraft),
             spacecraft,
             method: OrbitMethod::default(),
-            course: Course::default(),
+            propagator: PropagatorState::default(),
             ephemeris: Ephemeris::default(),
         }
     }
@@ -116,8 +118,12 @@ impl Rig {
         configuration: &'a Configuration,
         load: L,
     ) -> Plant<'a, L> {
-        let craft = Craft { panels: &self.spacecraft.panels, solar: &self.solar, orbit_method: &self.method };
-        Plant::new(craft, configuration, &mut self.course, &mut self.ephemeris, None, load, u32::MAX)
+        let prepared = PreparedSpacecraft {
+            panels: &self.spacecraft.panels,
+            solar: &self.solar,
+            orbit_method: &self.method,
+        };
+        Plant::new(prepared, configuration, &mut self.propagator, &mut self.ephemeris, None, load, u32::MAX)
     }
 }
 
@@ -144,13 +150,13 @@ fn accumulated_momentum_is_the_gauss_quadrature_of_torque() {
     let configuration = configuration(orbit, guided(&orbit));
     let (mut a, mut b) = (Rig::new(), Rig::new());
     let mut plant = a.plant(&configuration);
-    let mut accumulator = Accumulator::new(0.0, Totals::default());
+    let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
     // Inside one downlink window, past its slew: smooth, so Gauss-Legendre on 60 s pieces is as good as exact.
     let (from_s, to_s) = (10_000.0, 30_000.0);
-    accumulator.advance(&mut plant, &configuration.momentum, from_s, |_| {}).unwrap();
-    let before = accumulator.totals(from_s).momentum_inertial_n_m_s;
-    accumulator.advance(&mut plant, &configuration.momentum, to_s, |_| {}).unwrap();
-    let gained = accumulator.totals(to_s).momentum_inertial_n_m_s - before;
+    integrator.advance(&mut plant, &configuration.momentum, from_s, |_| {}).unwrap();
+    let before = integrator.totals(from_s).momentum_inertial_n_m_s;
+    integrator.advance(&mut plant, &configuration.momentum, to_s, |_| {}).unwrap();
+    let gained = integrator.totals(to_s).momentum_inertial_n_m_s - before;
     let mut plant = b.plant(&configuration);
     let rule = quadrature::Rule::<5>::gauss_legendre();
     let mut sum = Vector3::zeros();
@@ -187,7 +193,7 @@ fn gravity_gradient_has_its_textbook_value() {
     let configuration = configuration(orbit, AttitudeSource::Commanded(command));
     let mut rig = Rig::new();
     let mut plant = rig.plant(&configuration);
-    let torque = plant.snapshot(0.0).loads[Effect::GravityGradient].torque_body_n_m;
+    let torque = plant.evaluate(0.0).loads[Effect::GravityGradient].torque_body_n_m;
     // The planet stands at -45 deg from X: toward = (x - y) / sqrt 2.
     let expected = -1.5 * GM_MERCURY_M3_S2 / state.position_m.norm().powi(3) * (507.1 - 199.6);
     assert_relative_eq!(torque, Vector3::new(0.0, 0.0, expected), max_relative = 1e-9, epsilon = 1e-15);
@@ -204,11 +210,11 @@ fn a_given_sun_is_where_it_was_given() {
     };
     let mut rig = Rig::new();
     let mut plant = rig.plant(&configuration);
-    let snapshot = plant.snapshot(0.0);
+    let evaluation = plant.evaluate(0.0);
     let expected = (sun_m - orbit.state_at(EPOCH_S).position_m).normalize();
-    assert_relative_eq!(snapshot.instant.sun_body, expected, epsilon = 1e-12);
+    assert_relative_eq!(evaluation.instant.sun_body, expected, epsilon = 1e-12);
     // Bounded by a black sphere and a mirror of the whole area: pressure times 5.4 m2, once and twice.
-    let distance_au = snapshot.instant.sun_distance_m / 149_597_870_700.0;
+    let distance_au = evaluation.instant.sun_distance_m / 149_597_870_700.0;
     let pressure_pa = 1353.0 / SPEED_OF_LIGHT_M_S / (distance_au * distance_au);
-    assert!(snapshot.loads[Effect::Solar].force_body_n.norm() < 2.0 * 5.4 * pressure_pa);
+    assert!(evaluation.loads[Effect::Solar].force_body_n.norm() < 2.0 * 5.4 * pressure_pa);
 }

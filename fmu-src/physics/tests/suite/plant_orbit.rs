@@ -6,15 +6,18 @@ use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::constants::{GM_MERCURY_M3_S2 as MU, RADIUS_MERCURY_M};
-use physics::environment::State;
+use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity};
-use physics::momentum::{Accumulator, Totals};
-use physics::plant::{AttitudeSource, Command, Configuration, Course, ExternalLoad, Motion, Plant, Regime};
+use physics::momentum::{MomentumIntegrator, Totals};
+use physics::plant::{
+    AttitudeSource, Command, Configuration, ExternalLoad, Motion, Plant, PropagatorState, Regime,
+};
 
 use super::plant_flight::{EPOCH_S, Rig, configuration, guided, orbit};
 
 fn disturbed(gravity: Gravity, attitude: AttitudeSource) -> Configuration {
-    let motion = Motion::Disturbed { gravity, cell_s: 300.0, radius_m: RADIUS_MERCURY_M, feedback: true };
+    let motion =
+        Motion::Disturbed { gravity, segment_length_s: 300.0, radius_m: RADIUS_MERCURY_M, feedback: true };
     Configuration { motion, ..configuration(orbit(), attitude) }
 }
 
@@ -34,13 +37,13 @@ fn fly<T>(
     mut look: impl FnMut(&mut Plant<'_, &dyn Fn(f64) -> ExternalLoad>, f64) -> T,
 ) -> Vec<T> {
     let mut rig = Rig::new();
-    rig.course = Course::new(configuration, 0.0).unwrap();
+    rig.propagator = PropagatorState::new(configuration, 0.0).unwrap();
     let load = move |_: f64| ExternalLoad { force_body_n: force_n, ..ExternalLoad::default() };
     let mut plant = rig.plant_with(configuration, &load as &dyn Fn(f64) -> ExternalLoad);
-    let mut accumulator = Accumulator::new(0.0, Totals::default());
+    let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
     times_s
         .map(|time_s| {
-            accumulator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
+            integrator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
             look(&mut plant, time_s)
         })
         .collect()
@@ -54,7 +57,7 @@ fn without_disturbances_it_is_the_closed_form() {
     };
     let two_body = Configuration { motion: Motion::TwoBody, ..still.clone() };
     let times = || (0..400).map(|i| f64::from(i) * 731.0);
-    let look = |plant: &mut Plant<'_, &dyn Fn(f64) -> ExternalLoad>, time_s: f64| plant.snapshot(time_s);
+    let look = |plant: &mut Plant<'_, &dyn Fn(f64) -> ExternalLoad>, time_s: f64| plant.evaluate(time_s);
     let (found, expected) =
         (fly(&still, Vector3::zeros(), times(), look), fly(&two_body, Vector3::zeros(), times(), look));
     for (found, expected) in found.iter().zip(&expected) {
@@ -71,7 +74,12 @@ fn without_disturbances_it_is_the_closed_form() {
 }
 
 /// Classical Runge-Kutta on gravity and a constant acceleration; nothing of the plant in it.
-fn runge_kutta(mut state: State, extra: Vector3<f64>, duration_s: f64, steps: u32) -> State {
+fn runge_kutta(
+    mut state: CartesianState,
+    extra: Vector3<f64>,
+    duration_s: f64,
+    steps: u32,
+) -> CartesianState {
     let rate = |r: Vector3<f64>| extra - r * (MU / r.norm().powi(3));
     let h = duration_s / f64::from(steps);
     for _ in 0..steps {
@@ -94,7 +102,7 @@ fn a_force_moves_the_spacecraft_as_newton_says() {
     };
     let force_n = Vector3::new(0.02, -0.01, 0.03);
     let end_s = 40_000.0;
-    let found = fly(&configuration, force_n, [end_s].into_iter(), |plant, time_s| plant.snapshot(time_s));
+    let found = fly(&configuration, force_n, [end_s].into_iter(), |plant, time_s| plant.evaluate(time_s));
     let start = orbit().state_at(EPOCH_S);
     let pushed = runge_kutta(start, force_n / configuration.mass_kg, end_s, 200_000);
     let free = runge_kutta(start, Vector3::zeros(), end_s, 200_000);
@@ -111,12 +119,12 @@ fn periapses_are_counted_where_they_are_passed() {
     let configuration = disturbed(gravity, guided(&orbit()));
     let times = (1..=7200).map(|i| f64::from(i) * 60.0);
     let seen = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
-        let state = plant.snapshot(time_s).instant.geometry.spacecraft;
+        let state = plant.evaluate(time_s).instant.geometry.spacecraft;
         (
             time_s,
             state.position_m.norm(),
             plant.time_since_periapsis_s(time_s),
-            plant.snapshot(time_s).instant.regime.downlink,
+            plant.evaluate(time_s).instant.regime.downlink,
         )
     });
     // By the distance alone: local minima on the minute.
@@ -152,13 +160,13 @@ fn undisturbed() -> Configuration {
 fn a_flight_cut_before_its_periapses_counts_them_once() {
     let configuration = undisturbed();
     let mut rig = Rig::new();
-    rig.course = Course::new(&configuration, 0.0).unwrap();
-    let mut accumulator = Accumulator::new(0.0, Totals::default());
+    rig.propagator = PropagatorState::new(&configuration, 0.0).unwrap();
+    let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
     let orbit = orbit();
     for k in 1..2700 {
         let time_s = 97.0 * f64::from(k);
         let mut plant = rig.plant_with(&configuration, |_| ExternalLoad::default());
-        accumulator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
+        integrator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
         let epoch_s = time_s + EPOCH_S;
         let expected_s = orbit.time_since_periapsis_s(epoch_s);
         if expected_s > 1.0 && expected_s < orbit.period_s() - 1.0 {
@@ -167,10 +175,10 @@ fn a_flight_cut_before_its_periapses_counts_them_once() {
             // Downlink from 2 h to 10 h after every second one.
             let even = orbit.orbit_number(epoch_s) % 2 == 0;
             let down = even && (7200.0..36_000.0).contains(&expected_s);
-            assert_eq!(plant.snapshot(time_s).instant.regime.downlink, down, "{time_s} {expected_s}");
+            assert_eq!(plant.evaluate(time_s).instant.regime.downlink, down, "{time_s} {expected_s}");
         }
-        rig.course.cut(&configuration, time_s, false);
-        accumulator.cut(time_s);
+        rig.propagator.cut(&configuration, time_s, false);
+        integrator.cut(time_s);
     }
 }
 
@@ -183,7 +191,7 @@ fn downlinks_begin_and_end_to_the_second_after_a_periapsis_that_was_met() {
     });
     let times = edges_s.into_iter().flatten().flat_map(|at_s| [at_s - 0.2, at_s + 0.2]);
     let down = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
-        plant.snapshot(time_s).instant.regime.downlink
+        plant.evaluate(time_s).instant.regime.downlink
     });
     assert_eq!(down, [false, true, true, false].repeat(3));
 }
@@ -200,8 +208,8 @@ fn a_long_slew_turns_as_its_rate_says() {
     let step_s = 10.0;
     let times = (1..26_000).map(|i| f64::from(i) * step_s);
     let seen = fly(&configuration, Vector3::zeros(), times, |plant, time_s| {
-        let snapshot = plant.snapshot(time_s);
-        (snapshot.instant.frame, snapshot.instant.regime)
+        let evaluation = plant.evaluate(time_s);
+        (evaluation.instant.frame, evaluation.instant.regime)
     });
     let mut compared = 0;
     for pair in seen.windows(2) {

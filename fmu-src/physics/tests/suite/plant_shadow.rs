@@ -7,7 +7,7 @@ use physics::constants::{GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, TwoBodyOrbit};
-use physics::momentum::{Accumulator, Flight, Totals};
+use physics::momentum::{MomentumIntegrator, TorqueModel, Totals};
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, ExternalLoad, SunLight, orbit_from_elements,
 };
@@ -69,9 +69,9 @@ fn attitude_toward_x() -> Attitude {
 fn momentum_after(configuration: &Configuration, time_s: f64) -> Vector3<f64> {
     let mut rig = Rig::new();
     let mut plant = rig.plant_with(configuration, |_| ExternalLoad::default());
-    let mut accumulator = Accumulator::new(0.0, Totals::default());
-    accumulator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
-    accumulator.totals(time_s).momentum_inertial_n_m_s
+    let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
+    integrator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
+    integrator.totals(time_s).momentum_inertial_n_m_s
 }
 
 /// Torque and attitude are constant in light, so the momentum is the torque times the time in light.

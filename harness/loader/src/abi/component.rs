@@ -17,7 +17,7 @@ use model_description::functions::{
 
 use super::{
     Binary,
-    logger::{FixedLogger, LogBook, log_message},
+    logger::{FixedLogger, MessageBuffer, log_message},
     text,
 };
 use crate::{LogMessage, Status, calls, error::Outcome};
@@ -27,7 +27,7 @@ unsafe extern "C" {
     fn free(pointer: *mut c_void);
 }
 
-/// How the callbacks are handed over; the default is the kindest to old FMUs.
+/// How the callbacks are handed over; the default is the least_nutation to old FMUs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Callbacks {
     /// NULL for `allocateMemory` and `freeMemory`.
@@ -52,7 +52,7 @@ pub(crate) type Answer = Result<Status, Outcome>;
 pub(crate) struct Component {
     binary: Arc<Binary>,
     handle: types::Component,
-    book: Arc<LogBook>,
+    book: Arc<MessageBuffer>,
     // Old FMUs read the callbacks from the caller's struct for the whole of their life.
     callbacks: *mut CallbackFunctions,
     states: Vec<Slot>,
@@ -104,7 +104,7 @@ impl Component {
         let Some(function) = binary.functions.fmi2Instantiate else {
             return Err((Outcome::Missing, Vec::new()));
         };
-        let book = Arc::new(LogBook::default());
+        let book = Arc::new(MessageBuffer::default());
         let fixed: FixedLogger = log_message;
         let memory = !start.callbacks.null_memory;
         let callbacks = Box::into_raw(Box::new(CallbackFunctions {

@@ -19,11 +19,11 @@ const MESSAGES_KEPT: usize = 1000;
 
 /// Where an instance's messages arrive; its address is the `componentEnvironment`.
 #[derive(Default)]
-pub(super) struct LogBook {
+pub(super) struct MessageBuffer {
     messages: Mutex<VecDeque<LogMessage>>,
 }
 
-impl LogBook {
+impl MessageBuffer {
     pub(super) fn messages(&self) -> MutexGuard<'_, VecDeque<LogMessage>> {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -43,7 +43,7 @@ pub(super) unsafe extern "C" fn log_message(
     // SAFETY: the environment is NULL or the book given to fmi2Instantiate, which outlives the instance; the
     // texts are NULL or end with a zero byte.
     unsafe {
-        let Some(book) = environment.cast::<LogBook>().as_ref() else { return };
+        let Some(book) = environment.cast::<MessageBuffer>().as_ref() else { return };
         let text = unescape(&text(message).unwrap_or_default());
         let message = LogMessage {
             status: Status::from_code(status).unwrap_or(Status::Error),

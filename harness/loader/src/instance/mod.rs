@@ -114,11 +114,11 @@ impl Instance {
     /// Asks for the messages that say why a call failed, so that its error can tell.
     fn listen_to_reasons(&mut self) {
         let declared = self.fmu.description().log_categories.iter().map(|category| category.name.clone());
-        let wanted: Vec<String> = declared.filter(|name| REASONS.contains(&name.as_str())).collect();
-        if !wanted.is_empty() {
-            let wanted: Vec<&str> = wanted.iter().map(String::as_str).collect();
+        let expected: Vec<String> = declared.filter(|name| REASONS.contains(&name.as_str())).collect();
+        if !expected.is_empty() {
+            let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
             // An FMU that does not do it only stays silent.
-            let _ = self.component.set_debug_logging(true, &wanted);
+            let _ = self.component.set_debug_logging(true, &expected);
         }
     }
 

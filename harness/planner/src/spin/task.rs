@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use physics::spin::{
     burn::opposes,
-    forecast::{Flight, Range, Timing},
+    forecast::{ForecastCase, Range, Timing},
     nutation::{Spin, allowed_nutation_rad},
     spinner::Spinner,
 };
@@ -37,7 +37,7 @@ pub struct Task {
     /// Relative: trains move by whole pulses.
     pub angle_tolerance: f64,
     /// Best knowledge of the body, and the thruster.
-    pub flight: Flight,
+    pub flight: ForecastCase,
     /// What may be wrong with it.
     pub range: Range,
     /// Name of the thruster or group.
@@ -146,7 +146,7 @@ impl Task {
         Ok(Self {
             angle_rad: angle_deg.to_radians(),
             angle_tolerance: positive("--angle-tolerance", options.angle_tolerance_percent)? / 100.0,
-            flight: Flight {
+            flight: ForecastCase {
                 spin,
                 assumed_rate_rad_s: rate_rad_s,
                 timing: match options.timing {

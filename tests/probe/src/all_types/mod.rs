@@ -148,11 +148,11 @@ impl Model for AllTypes {
     }
 
     fn check_state(setup: &Setup, state: &State) -> Result<(), Failure> {
-        let (wanted, found) = (10 + setup.channel.len(), state.feedthroughs.len());
-        if wanted == found {
+        let (expected, found) = (10 + setup.channel.len(), state.feedthroughs.len());
+        if expected == found {
             return Ok(());
         }
-        Err(Failure::new(format!("the state has {found} feedthroughs, the setup {wanted}")))
+        Err(Failure::new(format!("the state has {found} feedthroughs, the setup {expected}")))
     }
 
     fn dependencies(_setup: &Setup, variables: &AllTypesVariables) -> Dependencies {

@@ -11,7 +11,7 @@ use fmi_export::{
     OutputRates, Step, StepEnd, Values, Variables,
 };
 use model_description::{rules::INITIAL_TABLE, validate};
-use probe::panicking::Accident;
+use probe::panicking::Fault;
 use probe::{AllTypes, Empty, Panicking};
 
 struct Silent;
@@ -157,11 +157,11 @@ fn the_empty_model_tells_the_time() {
     assert_eq!(run.values.real(run.variables.clock), 2.5);
 }
 
-/// What became of a run with an accident: "panic", the failure's text, or "ok".
-fn outcome(accident: Accident) -> String {
+/// What became of a run with an fault: "panic", the failure's text, or "ok".
+fn outcome(fault: Fault) -> String {
     let run = || -> Result<(), String> {
         let mut run = Run::<Panicking>::new();
-        run.values.set_choice(run.variables.accident, accident);
+        run.values.set_choice(run.variables.fault, fault);
         let start = run.call(|context, values| Panicking::initialize(context, values, 0.0));
         let mut state = start.map_err(|it| it.to_string())?;
         let step = Step { start_s: 0.0, end_s: 1.0, changed: false, inputs: InputsOverTime::held() };
@@ -199,18 +199,18 @@ fn outcome(accident: Accident) -> String {
 }
 
 #[test]
-fn every_accident_happens_where_it_should() {
-    for item in Accident::TYPE.items {
-        let accident = Accident::from_value(item.value).unwrap();
-        let found = outcome(accident);
-        match accident {
-            Accident::Nowhere | Accident::StepShort | Accident::StepStill => assert_eq!(found, "ok"),
-            Accident::FailInitialize => assert!(found.starts_with("initialize fails")),
-            Accident::FailStep => assert!(found.starts_with("step fails")),
-            Accident::TerminateStep => assert_eq!(found, "the model ends here"),
-            Accident::FailCheckState => assert!(found.starts_with("this state is refused")),
-            Accident::FailSerializeState => assert_ne!(found, "panic"),
-            _ => assert_eq!(found, "panic", "{accident:?}"),
+fn every_fault_happens_where_it_should() {
+    for item in Fault::TYPE.items {
+        let fault = Fault::from_value(item.value).unwrap();
+        let found = outcome(fault);
+        match fault {
+            Fault::Nowhere | Fault::StepShort | Fault::StepStill => assert_eq!(found, "ok"),
+            Fault::FailInitialize => assert!(found.starts_with("initialize fails")),
+            Fault::FailStep => assert!(found.starts_with("step fails")),
+            Fault::TerminateStep => assert_eq!(found, "the model ends here"),
+            Fault::FailCheckState => assert!(found.starts_with("this state is refused")),
+            Fault::FailSerializeState => assert_ne!(found, "panic"),
+            _ => assert_eq!(found, "panic", "{fault:?}"),
         }
     }
     for (place, panics) in [("nowhere", false), ("parseSetup", true), ("about", true), ("declare", true)] {

@@ -9,7 +9,7 @@ use fmi_export::model_description::{
 };
 use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
 
-use super::super::pilot::Tables;
+use super::super::named_model::Tables;
 
 /// Lengths of the two steps from which the limit of a step without length is taken, in s.
 const STEPS_S: [f64; 2] = [1e-3, 1e-6];
@@ -25,9 +25,9 @@ const CHANGES: usize = 2;
 
 /// Numbers in [0, 1) that are the same every time.
 #[derive(Clone)]
-pub struct Dice(pub u64);
+pub struct RandomNumbers(pub u64);
 
-impl Dice {
+impl RandomNumbers {
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
@@ -112,6 +112,7 @@ pub struct Bench<M: Model> {
     start: Values,
     description: Description,
     variables: Vec<Variable>,
+    carriers: Vec<(&'static str, &'static str)>,
     by_name: BTreeMap<String, usize>,
     texts: Vec<&'static str>,
     /// Values that some Reals can take.
@@ -123,20 +124,20 @@ pub struct Bench<M: Model> {
     left_at_start: Pairs,
     /// Number of the state looked at.
     look: u32,
-    dice: Dice,
+    random: RandomNumbers,
     refused: usize,
     taken: usize,
 }
 
 /// A flight at a communication point.
-pub struct Flight<M: Model> {
+pub struct TorqueModel<M: Model> {
     pub values: Tables,
     pub state: M::State,
     pub time_s: f64,
     pub changed: bool,
 }
 
-impl<M: Model> Clone for Flight<M> {
+impl<M: Model> Clone for TorqueModel<M> {
     fn clone(&self) -> Self {
         Self {
             values: self.values.clone(),
@@ -168,15 +169,23 @@ impl<M: Model> Bench<M> {
             description,
             variables,
             by_name,
+            carriers: Vec::new(),
             texts: Vec::new(),
             admitted: Vec::new(),
             seen_in_steps: Sightings::new(),
             seen_at_start: Sightings::new(),
             look: 0,
-            dice: Dice(1),
+            random: RandomNumbers(1),
             refused: 0,
             taken: 0,
         }
+    }
+
+    /// Unknowns that change seldom, by the beginning of their names, each with a quantity it is computed from: a known that
+    /// was seen to move the quantity counts as seen to move the unknown, once the unknown was seen to move at all.
+    pub fn with_carriers(mut self, carriers: &[(&'static str, &'static str)]) -> Self {
+        self.carriers = carriers.to_vec();
+        self
     }
 
     /// What String parameters are set to.
@@ -247,10 +256,10 @@ impl<M: Model> Bench<M> {
         }
     }
 
-    pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Flight<M>> {
+    pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<TorqueModel<M>> {
         let mut values = tables.back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
-        Some(Flight { values: Tables::of(&values), state, time_s: start_s, changed: false })
+        Some(TorqueModel { values: Tables::of(&values), state, time_s: start_s, changed: false })
     }
 
     /// Why a start is refused.
@@ -260,7 +269,7 @@ impl<M: Model> Bench<M> {
             .map_or_else(String::new, |e| e.to_string())
     }
 
-    pub fn step(&self, flight: &mut Flight<M>, length_s: f64) -> Option<()> {
+    pub fn step(&self, flight: &mut TorqueModel<M>, length_s: f64) -> Option<()> {
         let end_s = flight.time_s + length_s;
         let step =
             Step { start_s: flight.time_s, end_s, changed: flight.changed, inputs: InputsOverTime::held() };
@@ -301,7 +310,7 @@ impl<M: Model> Bench<M> {
         let admitted = |value: &f64| (variable.min..=variable.max).contains(value) && *value != now;
         let mut left: Vec<f64> = candidates.into_iter().filter(admitted).collect();
         while left.len() > CHANGES {
-            let k = (self.dice.next() * left.len() as f64) as usize;
+            let k = (self.random.next() * left.len() as f64) as usize;
             left.swap_remove(k.min(left.len() - 1));
         }
         left
@@ -345,7 +354,7 @@ impl<M: Model> Bench<M> {
         for known in 0..self.variables.len() {
             let variable = &self.variables[known];
             if !(variable.exact && named(&variable.name))
-                || Self::is_known(&mut self.dice, &self.left_at_start, known, edge)
+                || Self::is_known(&mut self.random, &self.left_at_start, known, edge)
             {
                 continue;
             }
@@ -387,21 +396,21 @@ impl<M: Model> Bench<M> {
     }
 
     /// Changes every input at the flight's communication point and records which outputs follow at once.
-    pub fn look_at_step(&mut self, flight: &Flight<M>) {
+    pub fn look_at_step(&mut self, flight: &TorqueModel<M>) {
         self.step_looks(flight, false);
     }
 
     /// The same where a flag is about to change.
-    pub fn look_at_step_edge(&mut self, flight: &Flight<M>) {
+    pub fn look_at_step_edge(&mut self, flight: &TorqueModel<M>) {
         self.step_looks(flight, true);
     }
 
-    fn step_looks(&mut self, flight: &Flight<M>, edge: bool) {
+    fn step_looks(&mut self, flight: &TorqueModel<M>, edge: bool) {
         self.look += 1;
         let outputs = indices(&self.description.structure.outputs);
         let after = |bench: &Self, values: &Tables| {
             let ended = |length_s: f64| {
-                let mut flight = Flight { values: values.clone(), changed: true, ..flight.clone() };
+                let mut flight = TorqueModel { values: values.clone(), changed: true, ..flight.clone() };
                 bench.step(&mut flight, length_s)?;
                 Some(flight.values)
             };
@@ -410,7 +419,7 @@ impl<M: Model> Bench<M> {
         let Some(base) = after(self, &flight.values) else { panic!("the flight does not go on") };
         for known in 0..self.variables.len() {
             if !self.variables[known].input
-                || Self::is_known(&mut self.dice, &self.left_in_steps, known, edge)
+                || Self::is_known(&mut self.random, &self.left_in_steps, known, edge)
             {
                 continue;
             }
@@ -441,8 +450,8 @@ impl<M: Model> Bench<M> {
     }
 
     /// The same for a flight at its communication point, between its inputs and tunable parameters and others.
-    pub fn edges_at_step(&self, flight: &Flight<M>, others: &[Tables]) -> Vec<Flight<M>> {
-        let with = |tables: Tables| Flight { values: tables, changed: true, ..flight.clone() };
+    pub fn edges_at_step(&self, flight: &TorqueModel<M>, others: &[Tables]) -> Vec<TorqueModel<M>> {
+        let with = |tables: Tables| TorqueModel { values: tables, changed: true, ..flight.clone() };
         let value = |tables: &Tables| {
             let mut flight = with(tables.clone());
             self.step(&mut flight, STEPS_S[1])?;
@@ -540,13 +549,31 @@ impl<M: Model> Bench<M> {
 
     /// Whether all that is declared of a known was seen; it is then changed only now and then, to find what is not declared,
     /// and not where a flag is about to change.
-    fn is_known(dice: &mut Dice, left: &Pairs, known: usize, at_edge: bool) -> bool {
-        !left.iter().any(|pair| pair.1 == known) && (at_edge || dice.next() < 0.85)
+    fn is_known(random: &mut RandomNumbers, left: &Pairs, known: usize, at_edge: bool) -> bool {
+        !left.iter().any(|pair| pair.1 == known) && (at_edge || random.next() < 0.85)
     }
 
     /// Whether nothing declared is left to be seen.
     pub fn is_done(&self) -> bool {
-        self.left_in_steps.is_empty() && self.left_at_start.is_empty()
+        let structure = &self.description.structure;
+        self.never(&structure.outputs, &self.left_in_steps).is_empty()
+            && self.never(&structure.initial_unknowns, &self.left_at_start).is_empty()
+    }
+
+    /// What is declared and was seen neither itself, nor of an element that is alike, nor through its carrier.
+    fn never(&self, unknowns: &[Unknown], left: &Pairs) -> Vec<(usize, usize)> {
+        let declared = declared(unknowns);
+        let seen: Vec<&(usize, usize)> = declared.iter().filter(|pair| !left.contains(pair)).collect();
+        let alike: BTreeSet<(String, String)> = seen.iter().map(|pair| self.alike(pair)).collect();
+        let moved: BTreeSet<usize> = seen.iter().map(|pair| pair.0).collect();
+        let vector = |at: usize| self.variables[at].name.split('[').next().unwrap_or_default();
+        let by_vector: BTreeSet<(&str, usize)> = seen.iter().map(|pair| (vector(pair.0), pair.1)).collect();
+        let carried = |pair: &(usize, usize)| {
+            let name = &self.variables[pair.0].name;
+            let mut carriers = self.carriers.iter().filter(|(beginning, _)| name.starts_with(beginning));
+            moved.contains(&pair.0) && carriers.any(|(_, carrier)| by_vector.contains(&(*carrier, pair.1)))
+        };
+        left.iter().filter(|pair| !alike.contains(&self.alike(pair)) && !carried(pair)).copied().collect()
     }
 
     /// Holds the declared lists against what was seen, both ways. What is not declared counts from the second state on at
@@ -563,10 +590,7 @@ impl<M: Model> Bench<M> {
             let twice = seen.iter().filter(|(_, (_, second))| second.is_some()).map(|(pair, _)| pair);
             let missing = twice.filter(|pair| !declared.contains(pair));
             self.tell(&mut faults, &format!("{list}: not declared"), missing);
-            let seen_alike: BTreeSet<(String, String)> =
-                declared.iter().filter(|pair| !left.contains(pair)).map(|pair| self.alike(pair)).collect();
-            let never = left.iter().filter(|pair| !seen_alike.contains(&self.alike(pair)));
-            self.tell(&mut faults, &format!("{list}: never seen"), never);
+            self.tell(&mut faults, &format!("{list}: never seen"), self.never(unknowns, left).iter());
         }
         println!("{} changes at {} states tried, {} refused", self.taken, self.look, self.refused);
         assert!(faults.is_empty(), "{faults}");

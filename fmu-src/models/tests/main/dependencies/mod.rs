@@ -2,7 +2,7 @@
 //! is what the lists of `ModelStructure` say, no more and no less.
 
 mod bench;
-mod craft;
 mod disturbance;
 mod plant;
+mod spacecraft;
 mod spin;

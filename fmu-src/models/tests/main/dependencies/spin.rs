@@ -3,8 +3,8 @@
 use fmi_export::Model;
 use models::SpinPlant;
 
-use super::super::pilot::Tables;
-use super::bench::{Bench, Dice};
+use super::super::named_model::Tables;
+use super::bench::{Bench, RandomNumbers};
 
 type Spin = Bench<SpinPlant>;
 
@@ -26,65 +26,69 @@ const LIMITS: &[(&str, f64)] = &[
     ("limit.periodVariation", 100.0),
 ];
 
-fn draw(bench: &Spin, dice: &mut Dice) -> Tables {
+fn draw(bench: &Spin, random: &mut RandomNumbers) -> Tables {
     let mut values = bench.defaults();
     for (name, low, high) in OPTIONS {
-        bench.put(&mut values, name, dice.whole(*low, *high));
+        bench.put(&mut values, name, random.whole(*low, *high));
     }
-    let mut q = [0; 4].map(|_| dice.between(-1.0, 1.0));
+    let mut q = [0; 4].map(|_| random.between(-1.0, 1.0));
     let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     q.iter_mut().for_each(|x| *x /= norm);
     bench.put_vector(&mut values, "start.q", &q);
-    bench.put(&mut values, "burn.count", dice.whole(2, 12));
-    bench.put(&mut values, "burn.thruster", dice.whole(1, 10));
-    bench.put(&mut values, "burn.angle", if dice.next() < 0.5 { 0.0 } else { 0.01 });
-    bench.put(&mut values, "burn.turnsPerPulse", dice.whole(1, 3) / 2.0);
-    bench.put(&mut values, "pulse.resolution", if dice.next() < 0.5 { 0.0 } else { 0.032 });
-    bench.put(&mut values, "burn.pulseWidth", 0.032 * dice.whole(5, 12));
-    bench.put(&mut values, "start.nutation", if dice.next() < 0.5 { 0.0 } else { 0.05 });
-    bench.put(&mut values, "massProperties.source", dice.whole(1, 2));
-    if dice.next() < 0.3 {
+    bench.put(&mut values, "burn.count", random.whole(2, 12));
+    bench.put(&mut values, "burn.thruster", random.whole(1, 10));
+    bench.put(&mut values, "burn.angle", if random.next() < 0.5 { 0.0 } else { 0.01 });
+    bench.put(&mut values, "burn.turnsPerPulse", random.whole(1, 3) / 2.0);
+    bench.put(&mut values, "pulse.resolution", if random.next() < 0.5 { 0.0 } else { 0.032 });
+    bench.put(&mut values, "burn.pulseWidth", 0.032 * random.whole(5, 12));
+    bench.put(&mut values, "start.nutation", if random.next() < 0.5 { 0.0 } else { 0.05 });
+    bench.put(&mut values, "massProperties.source", random.whole(1, 2));
+    if random.next() < 0.3 {
         bench.put_text(&mut values, "burn.group", "upper radial I");
     }
     for k in 1..=10 {
-        bench.put(&mut values, &format!("thruster[{k}].onDelay"), if dice.next() < 0.5 { 0.0 } else { 0.1 });
-        bench.put(&mut values, &format!("thruster[{k}].onTime"), if dice.next() < 0.7 { 0.0 } else { 0.2 });
-        bench.put(&mut values, &format!("thruster[{k}].fire"), f64::from(u8::from(dice.next() < 0.2)));
+        bench.put(
+            &mut values,
+            &format!("thruster[{k}].onDelay"),
+            if random.next() < 0.5 { 0.0 } else { 0.1 },
+        );
+        bench.put(&mut values, &format!("thruster[{k}].onTime"), if random.next() < 0.7 { 0.0 } else { 0.2 });
+        bench.put(&mut values, &format!("thruster[{k}].fire"), f64::from(u8::from(random.next() < 0.2)));
     }
-    redraw(bench, dice, &mut values);
+    redraw(bench, random, &mut values);
     values
 }
 
 /// Other numbers with the same options.
-fn redraw(bench: &Spin, dice: &mut Dice, values: &mut Tables) {
+fn redraw(bench: &Spin, random: &mut RandomNumbers, values: &mut Tables) {
     for (name, size) in [("sun.direction", 1.0), ("earth.direction", 2.0), ("burn.targetDirection", 1.0)] {
-        bench.put_vector(values, name, &dice.direction().map(|x| size * x));
+        bench.put_vector(values, name, &random.direction().map(|x| size * x));
     }
     // About the tracker's field: across the momentum, or nearly.
     let q = [1, 2, 3, 4].map(|i| bench.real(values, &format!("start.q[{i}]")));
     let axis = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q[3], q[0], q[1], q[2]))
         * nalgebra::Vector3::z();
-    let across = axis.cross(&nalgebra::Vector3::from(dice.direction())).normalize();
-    let star = across + axis * dice.between(-0.3, 0.3);
+    let across = axis.cross(&nalgebra::Vector3::from(random.direction())).normalize();
+    let star = across + axis * random.between(-0.3, 0.3);
     bench.put_vector(values, "star.direction", star.as_slice());
-    bench.put(values, "start.nutationPhase", dice.between(0.0, 6.0));
-    bench.put_vector(values, "inertia", &[220.0, 240.0 + 10.0 * dice.next(), 360.0]);
-    bench.put(values, "spin.initialRate", dice.between(0.4, 0.7));
-    bench.put(values, "propellant.loaded", dice.between(30.0, 150.0));
+    bench.put(values, "start.nutationPhase", random.between(0.0, 6.0));
+    bench.put_vector(values, "inertia", &[220.0, 240.0 + 10.0 * random.next(), 360.0]);
+    bench.put(values, "spin.initialRate", random.between(0.4, 0.7));
+    bench.put(values, "propellant.loaded", random.between(30.0, 150.0));
     for name in ["geometry.longitude", "geometry.inPlanePhase", "geometry.outOfPlanePhase"] {
-        bench.put(values, name, dice.between(0.0, 6.0));
+        bench.put(values, name, random.between(0.0, 6.0));
     }
-    bench.put(values, "burn.start", dice.between(0.0, 60.0));
+    bench.put(values, "burn.start", random.between(0.0, 60.0));
     if bench.real(values, "pulse.resolution") == 0.0 {
-        bench.put(values, "burn.pulseWidth", dice.between(0.2, 0.4));
+        bench.put(values, "burn.pulseWidth", random.between(0.2, 0.4));
     }
-    bench.put(values, "burn.spinRateError", dice.between(-0.1, 0.1));
-    bench.put(values, "burn.ratioError", dice.between(-0.1, 0.1));
-    bench.put(values, "limit.sunAngle", dice.between(0.2, 2.5));
-    bench.put(values, "limit.earthAngle", dice.between(0.2, 2.5));
-    bench.put(values, "limit.spinRate", dice.between(0.5, 0.6));
-    bench.put(values, "limit.spinRateTolerance", dice.between(0.01, 0.2));
-    bench.put(values, "limit.periodVariation", 10.0_f64.powf(dice.between(-4.0, 0.0)));
+    bench.put(values, "burn.spinRateError", random.between(-0.1, 0.1));
+    bench.put(values, "burn.ratioError", random.between(-0.1, 0.1));
+    bench.put(values, "limit.sunAngle", random.between(0.2, 2.5));
+    bench.put(values, "limit.earthAngle", random.between(0.2, 2.5));
+    bench.put(values, "limit.spinRate", random.between(0.5, 0.6));
+    bench.put(values, "limit.spinRateTolerance", random.between(0.01, 0.2));
+    bench.put(values, "limit.periodVariation", 10.0_f64.powf(random.between(-4.0, 0.0)));
 }
 
 #[test]
@@ -95,13 +99,13 @@ fn spin_plant() {
         ("pulse.resolution", &[0.0, 0.016, 0.032, 0.08]),
         ("burn.oppositeThruster", &[0.0, 3.0, 8.0, 10.0]),
     ]);
-    let mut dice = Dice(3);
+    let mut random = RandomNumbers(3);
     let mut flown = 0;
     for round in 0..1000_usize {
         let start_s = [0.0, 5e4][round % 2];
-        let values = draw(&bench, &mut dice);
+        let values = draw(&bench, &mut random);
         let mut other = values.clone();
-        redraw(&bench, &mut dice, &mut other);
+        redraw(&bench, &mut random, &mut other);
         for edge in bench.edges_at_start(&values, &[other.clone()], start_s) {
             bench.look_at_start_edge(&edge, start_s);
         }
@@ -109,7 +113,7 @@ fn spin_plant() {
         flown += 1;
         bench.look_at_start(&values, start_s);
         bench.look_at_step(&flight);
-        let length_s = [900.0, 0.05, dice.between(0.5, 40.0)][round % 3];
+        let length_s = [900.0, 0.05, random.between(0.5, 40.0)][round % 3];
         // A long push along the axis, without torque, over several samples of the star.
         let pushing = [[1, 4], [7, 9]][round % 2];
         if round % 3 == 0 {
@@ -124,7 +128,7 @@ fn spin_plant() {
             continue;
         }
         for k in (1..=10).filter(|k| round % 3 == 0 && !pushing.contains(k)) {
-            let length_s = if dice.next() < 0.5 { 0.0 } else { 0.2 };
+            let length_s = if random.next() < 0.5 { 0.0 } else { 0.2 };
             bench.put(&mut flight.values, &format!("thruster[{k}].onTime"), length_s);
         }
         bench.look_at_step(&flight);

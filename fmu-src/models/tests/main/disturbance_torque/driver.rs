@@ -147,9 +147,9 @@ impl Disturbance {
 }
 
 /// Numbers in [0, 1) that are the same every time.
-pub struct Dice(pub u64);
+pub struct RandomNumbers(pub u64);
 
-impl Dice {
+impl RandomNumbers {
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64

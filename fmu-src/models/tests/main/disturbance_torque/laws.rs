@@ -5,7 +5,7 @@ use fmi_export::{Model, Status};
 use model_description::{Causality, validate};
 use models::DisturbanceTorque;
 
-use super::driver::{Dice, Disturbance};
+use super::driver::{Disturbance, RandomNumbers};
 
 #[test]
 fn the_description_is_valid_and_structured() {
@@ -57,9 +57,9 @@ fn a_panel_facing_the_sun_is_pushed_by_the_flat_plate_law() {
 fn there_is_no_memory() {
     let mut fmu = Disturbance::messenger();
     fmu.start();
-    let mut dice = Dice(5);
+    let mut random = RandomNumbers(5);
     let outputs = fmu.references(Causality::Output);
-    let geometries: Vec<_> = (0..20).map(|_| dice.inputs(&fmu, false)).collect();
+    let geometries: Vec<_> = (0..20).map(|_| random.inputs(&fmu, false)).collect();
     let first: Vec<_> = geometries.iter().map(|(at, values)| fmu.outputs_at(at, values, &outputs)).collect();
     for ((at, values), first) in geometries.iter().zip(&first).rev() {
         assert_eq!(&fmu.outputs_at(at, values, &outputs), first);
@@ -72,7 +72,7 @@ fn a_restored_state_goes_on_as_before() {
     fmu.start();
     let outputs = fmu.references(Causality::Output);
     let inputs = fmu.references(Causality::Input);
-    let (at, values) = Dice(9).inputs(&fmu, false);
+    let (at, values) = RandomNumbers(9).inputs(&fmu, false);
     let expected = fmu.outputs_at(&at, &values, &outputs);
     let (status, bytes) = fmu.fmu.state_bytes();
     assert_eq!(status, Status::Ok);

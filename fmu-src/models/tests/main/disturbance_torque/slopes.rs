@@ -5,24 +5,24 @@ use std::collections::{BTreeMap, BTreeSet};
 use model_description::Causality;
 use model_description::Status;
 
-use super::driver::{Dice, Disturbance};
+use super::driver::{Disturbance, RandomNumbers};
 
 /// Slopes of every output along every input, against central differences over many geometries.
 fn check_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
     fmu.start();
-    let mut dice = Dice(seed);
+    let mut random = RandomNumbers(seed);
     let outputs = fmu.references(Causality::Output);
     let vectors = fmu.vectors_of(&outputs);
     let mut checked = vec![0; outputs.len()];
     for _ in 0..40 {
-        let (inputs, values) = dice.inputs(&fmu, in_shadow);
+        let (inputs, values) = random.inputs(&fmu, in_shadow);
         // A direction that moves everything by about a thousandth of what matters.
         let scale = |reference: u32| match fmu.name(reference).split('.').next().unwrap() {
             "sun" => 5.8e10,
             "planet" if !fmu.name(reference).contains("pole") => 2.4e6,
             _ => 1.0,
         };
-        let along: Vec<f64> = inputs.iter().map(|at| (dice.next() - 0.5) * scale(*at)).collect();
+        let along: Vec<f64> = inputs.iter().map(|at| (random.next() - 0.5) * scale(*at)).collect();
         let base = fmu.outputs_at(&inputs, &values, &outputs);
         let exact = fmu.slopes(&outputs, &inputs, &along);
         let quotient = |fmu: &mut Disturbance, h: f64| {
@@ -101,9 +101,9 @@ fn what_depends_is_declared() {
             })
             .collect();
         let mut seen: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
-        let mut dice = Dice(77);
+        let mut random = RandomNumbers(77);
         for round in 0..120 {
-            let (at, values) = dice.inputs(&fmu, round % 3 == 0);
+            let (at, values) = random.inputs(&fmu, round % 3 == 0);
             fmu.outputs_at(&at, &values, &outputs);
             for known in &inputs {
                 let slopes = fmu.slopes(&outputs, &[*known], &[1.0]);
@@ -152,7 +152,7 @@ fn largest_force(fmu: &Disturbance, outputs: &[u32], values: &[f64]) -> f64 {
 fn check_parameter_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
     assert_eq!(fmu.fmu.setup_experiment(0.0, None), Status::Ok);
     assert_eq!(fmu.fmu.enter_initialization_mode(), Status::Ok);
-    let mut dice = Dice(seed);
+    let mut random = RandomNumbers(seed);
     let outputs = fmu.references(Causality::Output);
     let vectors = fmu.vectors_of(&outputs);
     let parameters = fmu.references(Causality::Parameter);
@@ -160,7 +160,7 @@ fn check_parameter_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
     let least_inertia = fmu.real("spacecraft.inertia[1,1]");
     let mut moved = BTreeSet::new();
     for _ in 0..6 {
-        let (inputs, values) = dice.inputs(&fmu, in_shadow);
+        let (inputs, values) = random.inputs(&fmu, in_shadow);
         assert_eq!(fmu.fmu.set_real(&inputs, &values), Status::Ok);
         for (k, parameter) in parameters.iter().enumerate() {
             let name = fmu.name(*parameter).to_owned();

@@ -8,9 +8,9 @@ use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, 
 use super::driver::{Spinner, assert_names, description};
 
 /// Uniform numbers from 0 to 1.
-struct Dice(u64);
+struct RandomNumbers(u64);
 
-impl Dice {
+impl RandomNumbers {
     fn roll(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / 9_007_199_254_740_992.0
@@ -39,26 +39,26 @@ fn set_any(
     spinner: &mut Spinner,
     description: &Description,
     variable: &ScalarVariable,
-    dice: &mut Dice,
+    random: &mut RandomNumbers,
 ) -> Option<String> {
     let at = [variable.value_reference];
     let (status, value) = match &variable.kind {
         VariableKind::Real { attributes, .. } => {
-            let value = dice.between(attributes.min, attributes.max);
+            let value = random.between(attributes.min, attributes.max);
             (spinner.fmu.set_real(&at, &[value]), value)
         }
         VariableKind::Integer { min, max, .. } => {
-            let value = dice.between(min.map(f64::from), max.map(f64::from)) as i32;
+            let value = random.between(min.map(f64::from), max.map(f64::from)) as i32;
             (spinner.fmu.set_integer(&at, &[value]), f64::from(value))
         }
         VariableKind::Boolean { .. } => {
-            let value = dice.below(2) as i32;
+            let value = random.below(2) as i32;
             (spinner.fmu.set_boolean(&at, &[value]), f64::from(value))
         }
         VariableKind::Enumeration { declared_type, .. } => {
             let found = description.types.iter().find(|it| it.name == *declared_type)?;
             let SimpleTypeKind::Enumeration { items, .. } = &found.kind else { return None };
-            let value = items[dice.below(items.len())].value;
+            let value = items[random.below(items.len())].value;
             (spinner.fmu.set_integer(&at, &[value]), f64::from(value))
         }
         VariableKind::String { .. } => return None,
@@ -82,25 +82,25 @@ fn every_step_of_a_legal_flight_is_answered() {
     let (parameters, inputs) = (settable(Causality::Parameter), settable(Causality::Input));
     let (mut refused, mut well, mut failed, mut slowest) = (0, 0, 0, (0.0, String::new()));
     for flight in 0..flights() {
-        let mut dice = Dice(flight.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1);
+        let mut random = RandomNumbers(flight.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1);
         // A tenth of what a millisecond may cost shows the same as the default does.
         let limit = if std::env::var_os("HELIOTORQUE_FLIGHTS").is_some() { 1_000_000 } else { 50_000 };
         let mut spinner = Spinner::new().set_integer("solver.workLimit", limit);
-        let mut said: Vec<String> = Vec::new();
-        for _ in 0..1 + dice.below(4) {
-            let variable = parameters[dice.below(parameters.len())];
-            said.extend(set_any(&mut spinner, &description, variable, &mut dice));
+        let mut inputs_set: Vec<String> = Vec::new();
+        for _ in 0..1 + random.below(4) {
+            let variable = parameters[random.below(parameters.len())];
+            inputs_set.extend(set_any(&mut spinner, &description, variable, &mut random));
         }
-        for _ in 0..dice.below(3) {
-            let variable = inputs[dice.below(inputs.len())];
-            said.extend(set_any(&mut spinner, &description, variable, &mut dice));
+        for _ in 0..random.below(3) {
+            let variable = inputs[random.below(inputs.len())];
+            inputs_set.extend(set_any(&mut spinner, &description, variable, &mut random));
         }
         let mut keep = |begun: Instant, what: &str| {
             let took_s = begun.elapsed().as_secs_f64();
             if took_s > slowest.0 {
-                slowest = (took_s, format!("flight {flight}, {what}: {said:?}"));
+                slowest = (took_s, format!("flight {flight}, {what}: {inputs_set:?}"));
             }
-            assert!(took_s < 20.0, "flight {flight}, {what} took {took_s} s: {said:?}");
+            assert!(took_s < 20.0, "flight {flight}, {what} took {took_s} s: {inputs_set:?}");
         };
         let begun = Instant::now();
         let started = spinner.fmu.start(0.0, None);
@@ -122,7 +122,7 @@ fn every_step_of_a_legal_flight_is_answered() {
             }
             well += 1;
             let outputs = spinner.outputs();
-            assert!(outputs.iter().all(|x| x.is_finite()), "flight {flight}: {outputs:?} {said:?}");
+            assert!(outputs.iter().all(|x| x.is_finite()), "flight {flight}: {outputs:?} {inputs_set:?}");
         }
     }
     println!("{refused} refused, {failed} failed, {well} steps went well; slowest {slowest:?}");

@@ -4,7 +4,7 @@ use fmi_export::{Model, Status};
 use models::SpinPlant;
 use physics::spin::burn::BurnRequest;
 use physics::spin::forecast::Timing;
-use physics::spin::geometry::{L1Flight, L1Phases};
+use physics::spin::geometry::{L1Ephemeris, L1Phases};
 use physics::spin::plant::{Commands, Directions, MassSource, Plant, Sampling, Start};
 use physics::spin::spinner;
 use physics::spin::train::Shape;
@@ -205,7 +205,7 @@ fn flight(spinner: &spinner::Spinner, triaxial: bool) -> Start {
             max_nutation_rad: 0.0,
             max_duration_s: 0.0,
         }),
-        l1: triaxial.then(|| L1Flight { orbit: spinner.l1_orbit, phases: L1Phases::default() }),
+        l1: triaxial.then(|| L1Ephemeris { orbit: spinner.l1_orbit, phases: L1Phases::default() }),
         sampling: Sampling::Clock,
         nominal_rate_rad_s: std::f64::consts::PI / 6.0,
         seed: 3,

@@ -4,13 +4,13 @@ use std::time::Instant;
 
 use models::SpinPlant;
 
-use crate::pilot::Hangar;
+use crate::named_model::NamedModel;
 
 #[test]
 fn a_tank_that_no_pulse_can_empty_is_refused() {
-    let hangar = Hangar::<SpinPlant>::shipped();
+    let named = NamedModel::<SpinPlant>::shipped();
     let on_board_kg = 123.456;
-    let mut flight = hangar.fly(0.0, &[("burn.plan", 4.0), ("propellant.loaded", on_board_kg)]).unwrap();
+    let mut flight = named.fly(0.0, &[("burn.plan", 4.0), ("propellant.loaded", on_board_kg)]).unwrap();
     flight.set("thruster[8].fire", 1.0);
     flight.step_to(3.0).unwrap();
     let state = flight.state_bytes();
@@ -38,7 +38,7 @@ fn a_tank_that_no_pulse_can_empty_is_refused() {
 /// fails, or every output is a finite number; and none takes long.
 #[test]
 fn a_forged_number_anywhere_is_refused_or_leaves_finite_outputs() {
-    let hangar = Hangar::<SpinPlant>::shipped();
+    let named = NamedModel::<SpinPlant>::shipped();
     // By closed form in the midst of a train; by cells under a torque with a pulse on, on the L1 orbit with the clock.
     let cases: [(&[(&str, f64)], f64); 2] = [
         (&[("burn.timing", 2.0), ("solver.workLimit", 50_000.0)], 50.0),
@@ -58,7 +58,7 @@ fn a_forged_number_anywhere_is_refused_or_leaves_finite_outputs() {
     let forged = [f64::NAN, f64::INFINITY, -1e308, 1e200, 1e-308, 0.0, -1.0];
     let (mut refused, mut failed, mut flown, mut wrong) = (0, 0, 0, Vec::new());
     for (sets, at_s) in cases {
-        let mut flight = hangar.fly(0.0, sets).unwrap();
+        let mut flight = named.fly(0.0, sets).unwrap();
         flight.step_to(at_s).unwrap();
         let state = flight.state_bytes();
         for at in 0..state.len() - 8 {

@@ -10,17 +10,17 @@ fn put(spinner: &mut Spinner, name: &str, value: [f64; 3]) {
     }
 }
 
-fn said(spinner: &mut Spinner) -> String {
+fn warnings(spinner: &mut Spinner) -> String {
     let lines = spinner.fmu.take_messages().into_iter().map(|message| message.text + "\n");
     lines.filter(|line| line.contains("nothing is seen")).collect()
 }
 
 #[test]
-fn zero_on_every_direction_is_flown_and_said_once() {
+fn zero_on_every_direction_is_flown_and_warned_of_once() {
     let mut spinner = Spinner::new().set_integer("burn.timing", 2);
     DIRECTIONS.iter().for_each(|name| put(&mut spinner, name, [0.0; 3]));
     let mut spinner = spinner.start();
-    let text = said(&mut spinner);
+    let text = warnings(&mut spinner);
     assert_names(&text, &DIRECTIONS);
     assert_eq!(text.matches("nothing is seen").count(), 1, "{text}");
     // Four turns: no Sun, no star, no pulse that waits for the Sun.
@@ -28,7 +28,7 @@ fn zero_on_every_direction_is_flown_and_said_once() {
         spinner.to(end_s);
         DIRECTIONS.iter().for_each(|name| put(&mut spinner, name, [0.0; 3]));
     }
-    assert_eq!(said(&mut spinner), "");
+    assert_eq!(warnings(&mut spinner), "");
     assert!(spinner.outputs().iter().all(|value| value.is_finite()));
     for name in ["spin.sunCrossings", "starTracker.sampleCount", "burn.pulsesFired"] {
         assert_eq!(spinner.integer(name), 0, "{name}");
@@ -42,19 +42,19 @@ fn zero_on_every_direction_is_flown_and_said_once() {
     put(&mut spinner, "earth.direction", [0.0, 0.0, -1.0]);
     put(&mut spinner, "star.direction", [0.3, 0.95, 0.02]);
     spinner.to(400.0);
-    assert_eq!(said(&mut spinner), "");
+    assert_eq!(warnings(&mut spinner), "");
     // 350 s are 29 turns.
     assert!((28..=30).contains(&spinner.integer("spin.sunCrossings")));
     assert!((27..=30).contains(&spinner.integer("burn.pulsesFired")));
     assert!(spinner.integer("starTracker.sampleCount") > 0);
     assert!((spinner.real("sun.inertial[3]") - 0.98 / 0.98_f64.hypot(0.17)).abs() < 1e-12);
-    // Gone again: said again, once.
+    // Zero again: warned of again, once.
     put(&mut spinner, "sun.direction", [0.0; 3]);
     spinner.to(401.0);
-    let text = said(&mut spinner);
+    let text = warnings(&mut spinner);
     assert!(text.contains("sun.direction is 0") && !text.contains("star"), "{text}");
     spinner.to(402.0);
-    assert_eq!(said(&mut spinner), "");
+    assert_eq!(warnings(&mut spinner), "");
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn zero_on_the_other_inputs_is_no_news() {
         spinner.put(&format!("thruster[{k}].onDelay"), 0.0);
     }
     spinner.to(1.0);
-    assert_eq!(said(&mut spinner), "");
+    assert_eq!(warnings(&mut spinner), "");
 }
 
 #[test]
@@ -78,6 +78,6 @@ fn what_the_l1_orbit_knows_is_not_missed() {
     ["sun.direction", "earth.direction"].iter().for_each(|name| put(&mut spinner, name, [0.0; 3]));
     let mut spinner = spinner.start();
     spinner.to(100.0);
-    assert_eq!(said(&mut spinner), "");
+    assert_eq!(warnings(&mut spinner), "");
     assert!(spinner.integer("spin.sunCrossings") > 0);
 }

@@ -211,7 +211,7 @@ impl Shadow {
         })
     }
 
-    /// The share of sunlight that arrives, and [`Shadow::gaps_rad`], from one look at the discs; NaN where there is none.
+    /// The share of sunlight that arrives, and [`Shadow::gaps_rad`], from one evaluation of the discs; NaN where there is none.
     pub fn fraction_and_gaps(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> (f64, [f64; 2]) {
         let none = f64::INFINITY;
         if self.model == ShadowModel::Off {
@@ -258,7 +258,7 @@ impl Shadow {
 
     /// Every edge of the shadow in `(from_s, to_s]`, in order of time, of more than [`MOST_EDGES`] the first ones.
     /// `geometry` gives the positions of spacecraft and Sun relative to the planet's centre, m, at a time: usually a
-    /// cell's dense output. An interval that starts on an edge may report that edge again, by rounding. Located to 1e-12 of the angle's range, far below a microsecond for an orbit.
+    /// segment's dense output. An interval that starts on an edge may report that edge again, by rounding. Located to 1e-12 of the angle's range, far below a microsecond for an orbit.
     ///
     /// # Errors
     /// See [`Shadow::discs`].

@@ -5,17 +5,17 @@ use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{OrbitError, elements::check_mu};
+use super::elements::{OrbitError, check_mu};
 use crate::{
     bodies::BodyData,
     constants::GM_SUN_M3_S2,
-    environment::State,
-    numerics::collocation::{Cells, Collocation, IntegrationError},
+    environment::CartesianState,
+    numerics::collocation::{Collocation, IntegrationError, SegmentChain},
 };
 
-/// Nodes of a cell.
+/// Nodes of a segment.
 const NODES: usize = 8;
-/// Coefficients of a cell's dense output.
+/// Coefficients of a segment's dense output.
 const TERMS: usize = NODES + 1;
 
 /// Flattening of the central body.
@@ -97,11 +97,11 @@ pub fn tide_m_s2(position_m: &Vector3<f64>, tide_body_m: &Vector3<f64>, mu_m3_s2
 
 /// Why an integrated orbit ends.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum FlightError {
+pub enum OrbitIntegrationError {
     /// The start or a parameter cannot be.
     #[error(transparent)]
     Start(#[from] OrbitError),
-    /// A cell could not be integrated.
+    /// A segment could not be integrated.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
     /// The spacecraft reached the surface.
@@ -122,28 +122,38 @@ pub enum FlightError {
 #[derive(Clone, Debug, Default)]
 pub struct OrbitMethod(Collocation<NODES, TERMS>);
 
-/// A spacecraft's orbit as a chain of integrated cells with edges at whole multiples of their length: serialisable
+/// A spacecraft's orbit as a chain of integrated segments with edges at whole multiples of their length: serialisable
 /// state with dense output. Positions relative to the central body, in EME2000; times on the caller's clock.
 ///
-/// Order 16 at the edges, degree 8 between them. With paper 004's orbit (periapsis 206 km above Mercury) cells of
+/// Order 16 at the edges, degree 8 between them. With paper 004's orbit (periapsis 206 km above Mercury) segments of
 /// 300 s keep a revolution to 1e-4 m, of 600 s to 1 m (tested).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DisturbedOrbit {
-    cells: Cells<6, TERMS>,
+    chain: SegmentChain<6, TERMS>,
     radius_m: f64,
 }
 
 impl DisturbedOrbit {
-    /// A spacecraft at `state` at `start_s` about a body of `radius_m`, integrated in cells of `cell_s`.
+    /// A spacecraft at `state` at `start_s` about a body of `radius_m`, integrated in segments of `segment_length_s`.
     ///
     /// # Errors
     /// A length or time that cannot be, or a start below the surface.
-    pub fn new(state: &State, start_s: f64, cell_s: f64, radius_m: f64) -> Result<Self, FlightError> {
+    pub fn new(
+        state: &CartesianState,
+        start_s: f64,
+        segment_length_s: f64,
+        radius_m: f64,
+    ) -> Result<Self, OrbitIntegrationError> {
         let check = |what, found: f64, ok: bool, allowed| {
             if ok { Ok(()) } else { Err(OrbitError::OutOfRange { what, found, allowed }) }
         };
         check("start time in s", start_s, start_s.is_finite(), "a finite number")?;
-        check("cell length in s", cell_s, cell_s.is_finite() && cell_s > 0.0, "a finite number above 0")?;
+        check(
+            "segment length in s",
+            segment_length_s,
+            segment_length_s.is_finite() && segment_length_s > 0.0,
+            "a finite number above 0",
+        )?;
         check(
             "radius in m",
             radius_m,
@@ -155,99 +165,106 @@ impl DisturbedOrbit {
             check("position or velocity", found, false, "finite numbers")?;
         }
         check_above(state.position_m.norm(), start_s, radius_m)?;
-        Ok(Self { cells: Cells::new(cell_s, start_s, start), radius_m })
+        Ok(Self { chain: SegmentChain::new(segment_length_s, start_s, start), radius_m })
     }
 
     /// Whether it can come from an integration; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        self.cells.is_sound() && (0.0..1e100).contains(&self.radius_m)
+        self.chain.is_sound() && (0.0..1e100).contains(&self.radius_m)
     }
 
     /// How far the integration has come, s.
     pub fn end_s(&self) -> f64 {
-        self.cells.end_s()
+        self.chain.end_s()
     }
 
-    /// Where the cell at hand starts, s.
+    /// Where the present segment starts, s.
     pub fn start_s(&self) -> f64 {
-        self.cells.start_s()
+        self.chain.start_s()
     }
 
-    /// Length of the cells, s.
-    pub fn cell_s(&self) -> f64 {
-        self.cells.length_s()
+    /// Length of the segments, s.
+    pub fn segment_length_s(&self) -> f64 {
+        self.chain.length_s()
     }
 
-    /// Position and velocity at a time of the cell at hand.
-    pub fn state_at(&self, at_s: f64) -> State {
-        unpack(&self.cells.value(at_s))
+    /// Position and velocity at a time of the present segment.
+    pub fn state_at(&self, at_s: f64) -> CartesianState {
+        unpack(&self.chain.value(at_s))
     }
 
-    /// Integrates one more cell. `tide_body_m(t)` is the Sun's position relative to the central body, `extra(t, state)`
-    /// any further acceleration, m/s2, smooth within the cell; both in EME2000. Called 20 to 40 times a cell.
+    /// Integrates one more segment. `tide_body_m(t)` is the Sun's position relative to the central body, `extra(t, state)`
+    /// any further acceleration, m/s2, smooth within the segment; both in EME2000. Called 20 to 40 times a segment.
     ///
     /// # Errors
-    /// [`FlightError`]; the orbit stays as it was.
+    /// [`OrbitIntegrationError`]; the orbit stays as it was.
     pub fn advance(
         &mut self,
         method: &OrbitMethod,
         gravity: &Gravity,
         tide_body_m: impl FnMut(f64) -> Vector3<f64>,
-        extra: impl FnMut(f64, &State) -> Vector3<f64>,
-    ) -> Result<(), FlightError> {
+        extra: impl FnMut(f64, &CartesianState) -> Vector3<f64>,
+    ) -> Result<(), OrbitIntegrationError> {
         self.advance_to(f64::INFINITY, method, gravity, tide_body_m, extra)
     }
 
-    /// As [`DisturbedOrbit::advance`], but the cell ends at `limit_s` if that comes first: because an acceleration
-    /// changes there. Later cells end at whole multiples again.
+    /// As [`DisturbedOrbit::advance`], but the segment ends at `limit_s` if that comes first: because an acceleration
+    /// changes there. Later segments end at whole multiples again.
     ///
     /// # Errors
-    /// [`FlightError`]; the orbit stays as it was.
+    /// [`OrbitIntegrationError`]; the orbit stays as it was.
     pub fn advance_to(
         &mut self,
         limit_s: f64,
         method: &OrbitMethod,
         gravity: &Gravity,
         mut tide_body_m: impl FnMut(f64) -> Vector3<f64>,
-        mut extra: impl FnMut(f64, &State) -> Vector3<f64>,
-    ) -> Result<(), FlightError> {
+        mut extra: impl FnMut(f64, &CartesianState) -> Vector3<f64>,
+    ) -> Result<(), OrbitIntegrationError> {
         check_mu(gravity.mu_m3_s2)?;
-        let mut next = self.cells;
+        let mut next = self.chain;
         next.advance_to(&method.0, limit_s, |at_s, y| {
             let state = unpack(y);
             let tide_body_m =
                 if gravity.tide_mu_m3_s2.is_some() { tide_body_m(at_s) } else { Vector3::zeros() };
             let acceleration =
                 gravity.acceleration_m_s2(&state.position_m, &tide_body_m) + extra(at_s, &state);
-            pack(&State { position_m: state.velocity_m_s, velocity_m_s: acceleration })
+            pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: acceleration })
         })?;
-        // The lowest point of a cell is near an end or where the radial speed changes sign: look at nine points.
+        // The lowest point of a segment is near an end or where the radial speed changes sign: look at nine points.
         for i in 0..=8 {
             let at_s = next.start_s() + (next.end_s() - next.start_s()) * f64::from(i) / 8.0;
             check_above(unpack(&next.value(at_s)).position_m.norm(), at_s, self.radius_m)?;
         }
-        self.cells = next;
+        self.chain = next;
         Ok(())
     }
 
-    /// Ends the cell at hand at `at_s`, within it: what was computed beyond is void, because an acceleration changes
+    /// Ends the present segment at `at_s`, within it: what was computed beyond is void, because an acceleration changes
     /// there, or the velocity jumps by `delta_v_m_s`.
     pub fn cut(&mut self, at_s: f64, delta_v_m_s: &Vector3<f64>) {
         let mut state = self.state_at(at_s);
         state.velocity_m_s += delta_v_m_s;
-        self.cells.cut(at_s, pack(&state));
+        self.chain.cut(at_s, pack(&state));
     }
 }
 
-fn check_above(distance_m: f64, at_s: f64, radius_m: f64) -> Result<(), FlightError> {
-    if distance_m < radius_m { Err(FlightError::Impact { at_s, distance_m, radius_m }) } else { Ok(()) }
+fn check_above(distance_m: f64, at_s: f64, radius_m: f64) -> Result<(), OrbitIntegrationError> {
+    if distance_m < radius_m {
+        Err(OrbitIntegrationError::Impact { at_s, distance_m, radius_m })
+    } else {
+        Ok(())
+    }
 }
 
-fn pack(state: &State) -> SVector<f64, 6> {
+fn pack(state: &CartesianState) -> SVector<f64, 6> {
     let (r, v) = (state.position_m, state.velocity_m_s);
     SVector::from([r.x, r.y, r.z, v.x, v.y, v.z])
 }
 
-fn unpack(y: &SVector<f64, 6>) -> State {
-    State { position_m: Vector3::new(y[0], y[1], y[2]), velocity_m_s: Vector3::new(y[3], y[4], y[5]) }
+fn unpack(y: &SVector<f64, 6>) -> CartesianState {
+    CartesianState {
+        position_m: Vector3::new(y[0], y[1], y[2]),
+        velocity_m_s: Vector3::new(y[3], y[4], y[5]),
+    }
 }

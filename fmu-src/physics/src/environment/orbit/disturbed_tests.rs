@@ -9,16 +9,21 @@ use super::*;
 use crate::{
     bodies::Body,
     constants::{GM_MERCURY_M3_S2 as MU, GM_SUN_M3_S2, RADIUS_MERCURY_M},
-    environment::{State, paper004::MESSENGER_AS_PRINTED},
+    environment::{CartesianState, paper004::MESSENGER_AS_PRINTED},
 };
 
 const SUN: Vector3<f64> = Vector3::new(3.5e10, 4.5e10, 1.0e10);
 
-/// Flies until `end_s` at a whole number of cells and returns the state there.
-fn fly(elements: Elements, cell_s: f64, end_s: f64, gravity: &Gravity) -> (State, DisturbedOrbit) {
+/// Flies until `end_s` at a whole number of segments and returns the state there.
+fn fly(
+    elements: Elements,
+    segment_length_s: f64,
+    end_s: f64,
+    gravity: &Gravity,
+) -> (CartesianState, DisturbedOrbit) {
     let method = OrbitMethod::default();
     let start = elements.state(gravity.mu_m3_s2).unwrap();
-    let mut orbit = DisturbedOrbit::new(&start, 0.0, cell_s, RADIUS_MERCURY_M).unwrap();
+    let mut orbit = DisturbedOrbit::new(&start, 0.0, segment_length_s, RADIUS_MERCURY_M).unwrap();
     while orbit.end_s() < end_s {
         orbit.advance(&method, gravity, |_| SUN, |_, _| Vector3::zeros()).unwrap();
     }
@@ -29,19 +34,19 @@ fn fly(elements: Elements, cell_s: f64, end_s: f64, gravity: &Gravity) -> (State
 fn agrees_with_the_closed_form_between_the_edges_too() {
     let closed = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, MU, 0.0).unwrap();
     let method = OrbitMethod::default();
-    for (cell_s, stated_m) in [(60.0, 1e-5), (300.0, 1e-4), (600.0, 1.0)] {
+    for (segment_length_s, stated_m) in [(60.0, 1e-5), (300.0, 1e-4), (600.0, 1.0)] {
         let start = closed.state_at(0.0);
-        let mut orbit = DisturbedOrbit::new(&start, 0.0, cell_s, RADIUS_MERCURY_M).unwrap();
+        let mut orbit = DisturbedOrbit::new(&start, 0.0, segment_length_s, RADIUS_MERCURY_M).unwrap();
         let mut worst_m = 0.0_f64;
         while orbit.end_s() < closed.period_s() {
             orbit.advance(&method, &Gravity::point_mass(MU), |_| SUN, |_, _| Vector3::zeros()).unwrap();
             for i in 0..7 {
-                let at_s = orbit.start_s() + cell_s * f64::from(i) / 7.0;
+                let at_s = orbit.start_s() + segment_length_s * f64::from(i) / 7.0;
                 let off_m = (orbit.state_at(at_s).position_m - closed.state_at(at_s).position_m).norm();
                 worst_m = worst_m.max(off_m);
             }
         }
-        assert!(worst_m < stated_m, "{cell_s} s: {worst_m} m");
+        assert!(worst_m < stated_m, "{segment_length_s} s: {worst_m} m");
     }
 }
 
@@ -103,16 +108,16 @@ fn flattening_is_the_gradient_of_its_potential() {
 }
 
 #[test]
-fn cells_keep_the_jacobi_like_energy_of_flattening() {
+fn segments_keep_the_jacobi_like_energy_of_flattening() {
     // Point mass and flattening are conservative, and the momentum along the pole is constant.
     let flattening = Flattening::of(Body::Mercury.data());
     let gravity = Gravity { flattening: Some(flattening), ..Gravity::point_mass(MU) };
-    let energy = |s: &State| {
+    let energy = |s: &CartesianState| {
         let (d, sin) = (s.position_m.norm(), s.position_m.normalize().dot(&flattening.pole));
         let j2 = flattening.j2 * (flattening.reference_radius_m / d).powi(2) * (3.0 * sin * sin - 1.0) / 2.0;
         s.velocity_m_s.norm_squared() / 2.0 - MU / d * (1.0 - j2)
     };
-    let momentum = |s: &State| s.position_m.cross(&s.velocity_m_s).dot(&flattening.pole);
+    let momentum = |s: &CartesianState| s.position_m.cross(&s.velocity_m_s).dot(&flattening.pole);
     let start = MESSENGER_AS_PRINTED.state(MU).unwrap();
     let (end, _) = fly(MESSENGER_AS_PRINTED, 300.0, 30.0 * 86_400.0, &gravity);
     assert!((energy(&end) / energy(&start) - 1.0).abs() < 1e-11);
@@ -136,7 +141,10 @@ fn the_tide_is_the_difference_of_two_pulls() {
 fn a_constant_push_moves_the_orbit_as_it_should() {
     // In free fall without gravity to speak of, a constant acceleration is a parabola.
     let gravity = Gravity::point_mass(1e-3);
-    let start = State { position_m: Vector3::new(1e9, 0.0, 0.0), velocity_m_s: Vector3::new(0.0, 10.0, 0.0) };
+    let start = CartesianState {
+        position_m: Vector3::new(1e9, 0.0, 0.0),
+        velocity_m_s: Vector3::new(0.0, 10.0, 0.0),
+    };
     let push = Vector3::new(1e-6, 2e-6, -3e-6);
     let method = OrbitMethod::default();
     let mut orbit = DisturbedOrbit::new(&start, 50.0, 600.0, 0.0).unwrap();
@@ -154,7 +162,7 @@ fn a_constant_push_moves_the_orbit_as_it_should() {
 }
 
 #[test]
-fn halving_the_cell_changes_nothing_that_matters() {
+fn halving_the_segment_changes_nothing_that_matters() {
     let (coarse, _) = fly(MESSENGER_AS_PRINTED, 300.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
     let (fine, orbit) = fly(MESSENGER_AS_PRINTED, 150.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
     assert!((coarse.position_m - fine.position_m).norm() < 0.02);
@@ -182,10 +190,12 @@ fn impact_and_bad_starts_are_named() {
     assert!(error.to_string().contains("inside the planet of radius 2439400 m"), "{error}");
     // The orbit still stands where it was, above the surface.
     assert!(orbit.state_at(orbit.end_s()).position_m.norm() > RADIUS_MERCURY_M);
-    let say = |state: &State, cell_s| DisturbedOrbit::new(state, 0.0, cell_s, 2e6).unwrap_err().to_string();
-    assert!(say(&State::default(), 60.0).contains("inside the planet"));
-    assert!(say(&start, 0.0).contains("cell length in s is 0"));
-    let lost = State { position_m: Vector3::new(f64::NAN, 0.0, 0.0), ..start };
+    let say = |state: &CartesianState, segment_length_s| {
+        DisturbedOrbit::new(state, 0.0, segment_length_s, 2e6).unwrap_err().to_string()
+    };
+    assert!(say(&CartesianState::default(), 60.0).contains("inside the planet"));
+    assert!(say(&start, 0.0).contains("segment length in s is 0"));
+    let lost = CartesianState { position_m: Vector3::new(f64::NAN, 0.0, 0.0), ..start };
     assert!(say(&lost, 60.0).contains("position or velocity is NaN"));
 }
 
@@ -218,9 +228,9 @@ proptest! {
             ..g
         };
         let start = MESSENGER_AS_PRINTED.state(MU).unwrap();
-        let turned = State { position_m: turn * start.position_m, velocity_m_s: turn * start.velocity_m_s };
+        let turned = CartesianState { position_m: turn * start.position_m, velocity_m_s: turn * start.velocity_m_s };
         let method = OrbitMethod::default();
-        let end = |start: &State, gravity: &Gravity, sun: Vector3<f64>| {
+        let end = |start: &CartesianState, gravity: &Gravity, sun: Vector3<f64>| {
             let mut orbit = DisturbedOrbit::new(start, 0.0, 120.0, RADIUS_MERCURY_M).unwrap();
             for _ in 0..60 {
                 orbit.advance(&method, gravity, |_| sun, |_, _| Vector3::zeros()).unwrap();

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::environment::State;
+use crate::environment::CartesianState;
 
 /// Below this eccentricity an orbit counts as circular, below this sine of inclination as equatorial.
 const DEGENERATE: f64 = 1e-13;
@@ -115,7 +115,7 @@ impl Elements {
     ///
     /// # Errors
     /// See [`Elements::check`]; `mu_m3_s2` must be positive.
-    pub fn state(&self, mu_m3_s2: f64) -> Result<State, OrbitError> {
+    pub fn state(&self, mu_m3_s2: f64) -> Result<CartesianState, OrbitError> {
         self.check()?;
         check_mu(mu_m3_s2)?;
         let (sin_anomaly, cos_anomaly) = self.true_anomaly_rad.sin_cos();
@@ -124,7 +124,7 @@ impl Elements {
         let distance_m = parameter_m / (1.0 + e * cos_anomaly);
         let speed_m_s = (mu_m3_s2 / parameter_m).sqrt();
         let [to_periapsis, to_latus] = self.in_plane_axes();
-        Ok(State {
+        Ok(CartesianState {
             position_m: (to_periapsis * cos_anomaly + to_latus * sin_anomaly) * distance_m,
             velocity_m_s: (to_latus * (e + cos_anomaly) - to_periapsis * sin_anomaly) * speed_m_s,
         })
@@ -134,7 +134,7 @@ impl Elements {
     ///
     /// # Errors
     /// [`OrbitError::Rectilinear`], [`OrbitError::Parabolic`], or a number that is not finite.
-    pub fn from_state(state: &State, mu_m3_s2: f64) -> Result<Self, OrbitError> {
+    pub fn from_state(state: &CartesianState, mu_m3_s2: f64) -> Result<Self, OrbitError> {
         check_mu(mu_m3_s2)?;
         let (position, velocity) = (state.position_m, state.velocity_m_s);
         for (what, vector) in [("position in m", position), ("velocity in m/s", velocity)] {
@@ -242,7 +242,7 @@ mod tests {
         }
     }
 
-    fn close(state: &State, other: &State, tolerance: f64) -> bool {
+    fn close(state: &CartesianState, other: &CartesianState, tolerance: f64) -> bool {
         (state.position_m - other.position_m).norm() < tolerance * state.position_m.norm()
             && (state.velocity_m_s - other.velocity_m_s).norm() < tolerance * state.velocity_m_s.norm()
     }
@@ -302,11 +302,16 @@ mod tests {
         let hyperbola = elements(-1e7, 1.5, 1.0, 1.0, 1.0, 3.0);
         assert!(say(hyperbola).contains("asymptotes"));
         assert!(good.state(0.0).unwrap_err().to_string().contains("gravitational parameter"));
-        let fall = State { position_m: Vector3::x() * 1e7, velocity_m_s: Vector3::x() * 10.0 };
+        let fall = CartesianState { position_m: Vector3::x() * 1e7, velocity_m_s: Vector3::x() * 10.0 };
         assert!(matches!(Elements::from_state(&fall, MU), Err(OrbitError::Rectilinear { .. })));
-        assert!(matches!(Elements::from_state(&State::default(), MU), Err(OrbitError::Rectilinear { .. })));
-        let escape =
-            State { position_m: Vector3::x() * 1e7, velocity_m_s: Vector3::y() * (2.0 * MU / 1e7).sqrt() };
+        assert!(matches!(
+            Elements::from_state(&CartesianState::default(), MU),
+            Err(OrbitError::Rectilinear { .. })
+        ));
+        let escape = CartesianState {
+            position_m: Vector3::x() * 1e7,
+            velocity_m_s: Vector3::y() * (2.0 * MU / 1e7).sqrt(),
+        };
         assert!(matches!(Elements::from_state(&escape, MU), Err(OrbitError::Parabolic { .. })));
     }
 
@@ -340,7 +345,7 @@ mod tests {
 
         #[test]
         fn any_state_survives(p in prop::array::uniform3(-1e7..1e7f64), v in prop::array::uniform3(-4e3..4e3f64)) {
-            let state = State { position_m: p.into(), velocity_m_s: v.into() };
+            let state = CartesianState { position_m: p.into(), velocity_m_s: v.into() };
             let momentum = state.position_m.cross(&state.velocity_m_s).norm();
             prop_assume!(state.position_m.norm() > 1e5);
             prop_assume!(momentum > 0.01 * state.position_m.norm() * state.velocity_m_s.norm());

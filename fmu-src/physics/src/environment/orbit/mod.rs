@@ -7,6 +7,6 @@ mod elements;
 pub mod kepler;
 mod two_body;
 
-pub use disturbed::{DisturbedOrbit, Flattening, FlightError, Gravity, OrbitMethod, tide_m_s2};
+pub use disturbed::{DisturbedOrbit, Flattening, Gravity, OrbitIntegrationError, OrbitMethod, tide_m_s2};
 pub use elements::{Elements, OrbitError};
 pub use two_body::TwoBodyOrbit;

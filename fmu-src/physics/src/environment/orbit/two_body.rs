@@ -6,11 +6,10 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Elements, OrbitError,
-    elements::check_mu,
+    elements::{Elements, OrbitError, check_mu},
     kepler::{eccentric_anomaly_rad, hyperbolic_anomaly},
 };
-use crate::environment::State;
+use crate::environment::CartesianState;
 
 /// Motion about one centre under its gravity alone, elliptic or hyperbolic, in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,7 +63,7 @@ impl TwoBodyOrbit {
     ///
     /// # Errors
     /// See [`Elements::from_state`].
-    pub fn from_state(state: &State, mu_m3_s2: f64, epoch_s: f64) -> Result<Self, OrbitError> {
+    pub fn from_state(state: &CartesianState, mu_m3_s2: f64, epoch_s: f64) -> Result<Self, OrbitError> {
         Self::from_elements(Elements::from_state(state, mu_m3_s2)?, mu_m3_s2, epoch_s)
     }
 
@@ -83,7 +82,7 @@ impl TwoBodyOrbit {
     }
 
     /// Position and velocity at an epoch, in the frame of the elements.
-    pub fn state_at(&self, epoch_s: f64) -> State {
+    pub fn state_at(&self, epoch_s: f64) -> CartesianState {
         let (a, e) = (self.elements.semi_major_axis_m, self.elements.eccentricity);
         let mean_anomaly = self.mean_motion_rad_s * (epoch_s - self.periapsis_epoch_s);
         // Coordinates in the plane over |a|, their derivative by the anomaly, and r / |a|.
@@ -99,7 +98,7 @@ impl TwoBodyOrbit {
         };
         let length_m = a.abs();
         let speed_m_s = length_m * self.mean_motion_rad_s / distance;
-        State {
+        CartesianState {
             position_m: (self.to_periapsis * along + self.to_latus * across) * length_m,
             velocity_m_s: (self.to_periapsis * d_along + self.to_latus * d_across) * speed_m_s,
         }
@@ -179,7 +178,7 @@ mod tests {
     }
 
     /// Classical Runge-Kutta on Newton's law, nothing of the orbit module in it.
-    fn runge_kutta(mut state: State, mu: f64, duration_s: f64, steps: u32) -> State {
+    fn runge_kutta(mut state: CartesianState, mu: f64, duration_s: f64, steps: u32) -> CartesianState {
         let gravity = |r: Vector3<f64>| -r * (mu / r.norm().powi(3));
         let h = duration_s / f64::from(steps);
         for _ in 0..steps {
@@ -214,7 +213,7 @@ mod tests {
     #[test]
     fn energy_momentum_and_eccentricity_vector_are_constant() {
         let orbit = TwoBodyOrbit::from_elements(messenger(), MU, 0.0).unwrap();
-        let invariants = |s: State| {
+        let invariants = |s: CartesianState| {
             let momentum = s.position_m.cross(&s.velocity_m_s);
             let energy = s.velocity_m_s.norm_squared() / 2.0 - MU / s.position_m.norm();
             (energy, momentum, s.velocity_m_s.cross(&momentum) / MU - s.position_m.normalize())

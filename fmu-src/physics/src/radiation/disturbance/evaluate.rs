@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::faces::{Face, Normal, Surface};
 use super::geometry::{Geometry, GeometryError, Recoil};
 use super::model::DisturbanceModel;
-use super::workspace::{Disturbance, FaceState, Workspace};
+use super::workspace::{Disturbance, FaceResult, Workspace};
 use crate::bodies::surface::PlanetSurface;
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::{Scalar, constant_vector};
@@ -123,7 +123,7 @@ impl DisturbanceModel {
             workspace.lights.fill(PlanetLight::dark());
             return Ok(());
         };
-        let lamp = self.planet_light.lamp(surface, planet)?;
+        let planet_source = self.planet_light.planet_source(surface, planet)?;
         for (index, normal) in workspace.normals.iter().enumerate() {
             // Panels that stand alike, or like a plate, see the same.
             let turns = !matches!(self.faces.normals[index], Normal::Fixed(_));
@@ -131,7 +131,7 @@ impl DisturbanceModel {
                 turns.then(|| workspace.normals[..index].iter().position(|known| same(known, normal)));
             workspace.lights[index] = match alike.flatten() {
                 Some(known) => workspace.lights[known],
-                None => lamp.receive(normal),
+                None => planet_source.receive(normal),
             };
         }
         Ok(())
@@ -148,7 +148,7 @@ impl DisturbanceModel {
             let center_m = constant_vector::<T>(&surface.center_body_m);
             let arm_m = center_m - geometry.center_of_mass_body_m;
             let area_m2 = T::constant(surface.area_m2);
-            *state = FaceState { lit_center_body_m: center_m, ..FaceState::dark() };
+            *state = FaceResult { lit_center_body_m: center_m, ..FaceResult::dark() };
 
             let sunlight = beam.received(normal);
             if sunlight.pressure_pa.value() > 0.0 {
@@ -226,7 +226,7 @@ impl DisturbanceModel {
 fn set_temperatures<T: Scalar>(
     surface: &Surface,
     faces: &[Face],
-    states: &mut [FaceState<T>],
+    states: &mut [FaceResult<T>],
     stored: Option<&[f64]>,
 ) -> bool {
     if let Some(stored) = stored {
@@ -235,7 +235,7 @@ fn set_temperatures<T: Scalar>(
         }
         return true;
     }
-    let heat = |face: &Face, state: &FaceState<T>| {
+    let heat = |face: &Face, state: &FaceResult<T>| {
         (state.absorbed_sun_w + state.absorbed_planet_w + face.internal_heat_w) * (1.0 / surface.area_m2)
     };
     if let (Some(conduction), [front, rear], [front_state, rear_state]) =

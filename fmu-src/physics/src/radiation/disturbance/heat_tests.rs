@@ -12,7 +12,7 @@ use crate::spacecraft::{
 
 const RADIUS_M: f64 = 2.4394e6;
 
-fn craft(plates: Vec<Plate>) -> Spacecraft {
+fn spacecraft(plates: Vec<Plate>) -> Spacecraft {
     let whole = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
     Spacecraft { plates, sunshade: None, panels: Vec::new(), ..whole }
 }
@@ -64,7 +64,7 @@ fn planet_heat_is_absorbed_by_infrared_optics() {
     };
     let options =
         Options { planet: Some(surface), planet_light: PlanetLightMethod::Rings(16), ..Options::default() };
-    let model = DisturbanceModel::new(&craft(vec![plate]), &options).unwrap();
+    let model = DisturbanceModel::new(&spacecraft(vec![plate]), &options).unwrap();
     let geometry = Geometry {
         planet: Some(PlanetGeometry {
             position_body_m: Vector3::z() * 2.0 * RADIUS_M,
@@ -92,7 +92,7 @@ fn each_side_gives_off_the_heat_from_inside_that_is_its_own() {
     plate.rear_optics = Some(black);
     plate.thermal = Thermal::insulated(&black, Some(&black));
     plate.thermal.internal_heat_w = [300.0, 120.0];
-    let model = DisturbanceModel::new(&craft(vec![plate]), &Options::default()).unwrap();
+    let model = DisturbanceModel::new(&spacecraft(vec![plate]), &Options::default()).unwrap();
     let dark = Geometry { lit_fraction: 0.0, ..sunlit(Vector3::z()) };
     let found = model.evaluate(&dark, Recoil::Balance, &mut Workspace::default()).unwrap();
     let expected = Vector3::z() * (-2.0 / 3.0 * (300.0 - 120.0) / SPEED_OF_LIGHT_M_S);
@@ -110,7 +110,7 @@ fn a_face_half_in_shadow_recoils_where_it_is_lit() {
         square(Vector3::z(), Vector3::new(2.0, 0.0, 1.0), 2.0, black),
     ];
     let options = Options { self_shadowing: true, ..Options::default() };
-    let model = DisturbanceModel::new(&craft(plates), &options).unwrap();
+    let model = DisturbanceModel::new(&spacecraft(plates), &options).unwrap();
     let mut workspace = Workspace::default();
     let found = model.evaluate(&sunlit(Vector3::z()), Recoil::Balance, &mut workspace).unwrap();
     let pressure_pa = 9000.0 / SPEED_OF_LIGHT_M_S;

@@ -3,6 +3,7 @@
 //! [`DisturbanceModel::evaluate`] is the one call: geometry in, force and torque by effect and by face out. It is
 //! generic over the number type, so that dual numbers give exact derivatives by any part of the geometry.
 
+mod error;
 mod evaluate;
 mod faces;
 mod geometry;
@@ -17,7 +18,8 @@ mod paper_tests;
 #[cfg(test)]
 mod tests;
 
+pub use error::ModelError;
 pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
-pub use model::{DisturbanceModel, ModelError, Options};
+pub use model::{DisturbanceModel, Options};
 pub use planet_rule::PlanetLightMethod;
-pub use workspace::{Disturbance, FaceState, Workspace};
+pub use workspace::{Disturbance, FaceResult, Workspace};

@@ -1,12 +1,11 @@
 //! A spacecraft and a planet prepared for evaluation.
 
+use super::error::ModelError;
 use super::faces::{Faces, Normal};
 use super::planet_rule::{PlanetLightMethod, PlanetRule};
-use crate::bodies::surface::{PlanetSurface, SurfaceError};
-use crate::radiation::grid::GridError;
-use crate::radiation::ring::NodesError;
+use crate::bodies::surface::PlanetSurface;
 use crate::radiation::shadow::{Hinge, Outline, ShadowScene};
-use crate::radiation::solar::{NoSuchSunshade, SolarModel};
+use crate::radiation::solar::SolarModel;
 use crate::radiation::thermal::transient::HeatStore;
 use crate::spacecraft::{Emission, Panel, Spacecraft, SunshadeModel};
 
@@ -32,23 +31,6 @@ impl Default for Options {
             sunshade_model: None,
         }
     }
-}
-
-/// Options that cannot be.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ModelError {
-    /// The planet's surface.
-    #[error(transparent)]
-    Surface(#[from] SurfaceError),
-    /// The number of quadrature nodes.
-    #[error(transparent)]
-    Nodes(#[from] NodesError),
-    /// The planet's cells.
-    #[error(transparent)]
-    Cells(#[from] GridError),
-    /// The sunshade's form.
-    #[error(transparent)]
-    Sunshade(#[from] NoSuchSunshade),
 }
 
 /// A spacecraft prepared for light and heat; whatever does not change is computed once.

@@ -24,9 +24,9 @@ fn around_orbit_by(
     planet_light: PlanetLightMethod,
     steps: u32,
 ) -> [[f64; 2]; 4] {
-    let craft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
+    let spacecraft = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
     let options = Options { planet: Some(MERCURY), planet_light, ..Options::default() };
-    let model = DisturbanceModel::new(&craft, &options).unwrap();
+    let model = DisturbanceModel::new(&spacecraft, &options).unwrap();
     let shadow = Shadow::new(ShadowModel::AllOrNothingCylinder, RADIUS_MERCURY_M).unwrap();
     let planet = Elements { true_anomaly_rad: mercury_true_anomaly_deg.to_radians(), ..MERCURY_AS_PRINTED };
     let frames = Frames::from_elements(&planet).unwrap();
@@ -58,7 +58,7 @@ fn around_orbit_by(
         let effects = [found.solar, found.albedo, found.infrared, found.thermal];
         // The table leaves eclipses out of its extremes of solar pressure and recoil.
         for (index, (range, effect)) in range.iter_mut().zip(effects).enumerate() {
-            let a = effect.force_body_n.norm() / craft.mass_properties.mass_kg;
+            let a = effect.force_body_n.norm() / spacecraft.mass_properties.mass_kg;
             if lit_fraction > 0.0 || index == 1 || index == 2 {
                 *range = [range[0].min(a), range[1].max(a)];
             }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::error::ModelError;
 use super::geometry::{GeometryError, PlanetGeometry};
-use super::model::ModelError;
 use crate::bodies::surface::{PlanetSurface, SurfaceExitance};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
@@ -36,7 +36,7 @@ pub(super) enum PlanetRule {
 }
 
 /// The planet as one geometry shows it, for every face.
-pub(super) enum Lamp<'r, T: Scalar> {
+pub(super) enum PlanetSource<'r, T: Scalar> {
     Rings {
         rings: &'r RingRule,
         view: PlanetView<T>,
@@ -69,18 +69,18 @@ impl PlanetRule {
     }
 
     /// What does not depend on the face.
-    pub(super) fn lamp<T: Scalar>(
+    pub(super) fn planet_source<T: Scalar>(
         &self,
         surface: &PlanetSurface<T>,
         planet: &PlanetGeometry<T>,
-    ) -> Result<Lamp<'_, T>, GeometryError> {
+    ) -> Result<PlanetSource<'_, T>, GeometryError> {
         let view =
             PlanetView::new(&planet.position_body_m, &planet.sun_from_planet_body_m, surface.radius_m)?;
         Ok(match self {
             Self::Rings(rings) => {
-                Lamp::Rings { rings, view, exitance: surface.exitance(planet.sun_flux_w_m2) }
+                PlanetSource::Rings { rings, view, exitance: surface.exitance(planet.sun_flux_w_m2) }
             }
-            Self::Cells(grid) => Lamp::Cells {
+            Self::Cells(grid) => PlanetSource::Cells {
                 grid,
                 surface: *surface,
                 flux_w_m2: planet.sun_flux_w_m2,
@@ -91,7 +91,7 @@ impl PlanetRule {
     }
 }
 
-impl<T: Scalar> Lamp<'_, T> {
+impl<T: Scalar> PlanetSource<'_, T> {
     /// Light on a face of unit `normal`.
     pub(super) fn receive(&self, normal: &Vector3<T>) -> PlanetLight<T> {
         match self {

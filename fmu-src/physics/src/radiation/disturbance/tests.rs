@@ -67,10 +67,10 @@ fn tetrahedron(optics: [Optics; 4]) -> Vec<Plate> {
 }
 
 /// All of the sky equally bright: two planets nearly touched on opposite sides, at night.
-fn in_isotropic_light(craft: &Spacecraft) -> [ForceTorque<f64>; 2] {
+fn in_isotropic_light(spacecraft: &Spacecraft) -> [ForceTorque<f64>; 2] {
     let surface = PlanetSurface { night_temperature_k: 400.0, ..mercury() };
     let options = Options { planet: Some(surface), ..options(40) };
-    let model = DisturbanceModel::new(craft, &options).unwrap();
+    let model = DisturbanceModel::new(spacecraft, &options).unwrap();
     let mut light = ForceTorque::zero();
     let mut recoil = ForceTorque::zero();
     for side in [-1.0, 1.0] {
@@ -117,8 +117,9 @@ fn a_closed_body_in_isotropic_light_feels_no_force() {
 /// Sun-facing black plate: pushed by A S / c, and by 2/3 of that again by its own heat.
 #[test]
 fn an_insulated_black_plate_recoils_by_two_thirds_of_the_light() {
-    let craft = bare(vec![plate(-Vector3::y(), Vector3::x(), 2.0, Optics::from_reflectivities(0.0, 0.0))]);
-    let model = DisturbanceModel::new(&craft, &Options::default()).unwrap();
+    let spacecraft =
+        bare(vec![plate(-Vector3::y(), Vector3::x(), 2.0, Optics::from_reflectivities(0.0, 0.0))]);
+    let model = DisturbanceModel::new(&spacecraft, &Options::default()).unwrap();
     let geometry = Geometry {
         sun_direction_body: -Vector3::y(),
         sun_flux_w_m2: 9000.0,
@@ -159,8 +160,8 @@ fn heat_from_inside_pushes_where_it_leaves() {
 /// Only the difference of emissivities makes conducting faces push differently; power is conserved.
 #[test]
 fn a_conducting_panel_gives_off_what_it_takes_in() {
-    let craft = thermal_messenger();
-    let model = DisturbanceModel::new(&craft, &options(6)).unwrap();
+    let spacecraft = thermal_messenger();
+    let model = DisturbanceModel::new(&spacecraft, &options(6)).unwrap();
     let mut workspace = Workspace::default();
     let geometry = messenger_geometry([1.0, 0.2, -0.4], [0.3, -1.0, 0.1], &[0.2, 0.2]);
     model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
@@ -190,17 +191,17 @@ fn messenger_geometry<'a>(planet: [f64; 3], sun: [f64; 3], angles: &'a [f64]) ->
 #[test]
 fn sunlight_is_that_of_the_solar_model() {
     for (file, text) in [("messenger.toml", MESSENGER_TOML), ("thermal", MESSENGER_THERMAL_TOML)] {
-        let craft = Spacecraft::from_toml(file, text).unwrap();
+        let spacecraft = Spacecraft::from_toml(file, text).unwrap();
         for form in [None, Some(SunshadeModel::Cylinder)] {
-            if form.is_some() && craft.sunshade.is_none() {
+            if form.is_some() && spacecraft.sunshade.is_none() {
                 continue;
             }
             let alone = match form {
-                Some(form) => SolarModel::with_sunshade_model(&craft, form).unwrap(),
-                None => SolarModel::new(&craft),
+                Some(form) => SolarModel::with_sunshade_model(&spacecraft, form).unwrap(),
+                None => SolarModel::new(&spacecraft),
             };
             let options = Options { sunshade_model: form, ..Options::default() };
-            let model = DisturbanceModel::new(&craft, &options).unwrap();
+            let model = DisturbanceModel::new(&spacecraft, &options).unwrap();
             for sun in [[0.1, -1.0, 0.2], [-0.5, -0.3, 0.9], [0.2, 1.0, 0.1]] {
                 let geometry = messenger_geometry([1.0, 0.0, 0.0], sun, &[0.3, -0.2]);
                 let found = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap();
@@ -219,9 +220,9 @@ fn sunlight_is_that_of_the_solar_model() {
 
 #[test]
 fn a_cylinder_of_strips_recoils_like_its_light_says() {
-    let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+    let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
     let options = Options { sunshade_model: Some(SunshadeModel::Cylinder), ..options(6) };
-    let model = DisturbanceModel::new(&craft, &options).unwrap();
+    let model = DisturbanceModel::new(&spacecraft, &options).unwrap();
     let geometry = messenger_geometry([0.0, 1.0, 0.0], [0.0, -1.0, 0.0], &[0.0, 0.0]);
     let mut workspace = Workspace::default();
     let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
@@ -237,11 +238,11 @@ fn a_cylinder_of_strips_recoils_like_its_light_says() {
 
 #[test]
 fn stored_heat_radiates_into_the_eclipse() {
-    let mut craft = thermal_messenger();
-    for panel in &mut craft.panels {
+    let mut spacecraft = thermal_messenger();
+    for panel in &mut spacecraft.panels {
         panel.thermal.heat_capacity_j_m2_k = 3000.0;
     }
-    let model = DisturbanceModel::new(&craft, &options(6)).unwrap();
+    let model = DisturbanceModel::new(&spacecraft, &options(6)).unwrap();
     assert!(model.stores_heat());
     let lit = messenger_geometry([1.0, 1.0, 0.0], [0.0, -1.0, 0.0], &[0.0, 0.0]);
     let dark = Geometry { lit_fraction: 0.0, ..lit };
@@ -268,8 +269,8 @@ fn stored_heat_radiates_into_the_eclipse() {
 
 #[test]
 fn impossible_geometries_and_options_are_refused() {
-    let craft = thermal_messenger();
-    let model = DisturbanceModel::new(&craft, &options(6)).unwrap();
+    let spacecraft = thermal_messenger();
+    let model = DisturbanceModel::new(&spacecraft, &options(6)).unwrap();
     let good = messenger_geometry([1.0, 0.0, 0.0], [0.0, -1.0, 0.0], &[0.0, 0.0]);
     let says = |geometry: &Geometry<'_, f64>, recoil: Recoil<'_>, text: &str| {
         let error = model.evaluate(geometry, recoil, &mut Workspace::default()).unwrap_err().to_string();
@@ -285,14 +286,14 @@ fn impossible_geometries_and_options_are_refused() {
     assert!(sun_at(f64::NAN).is_err());
     let surface = PlanetSurface { emissivity: 2.0, ..mercury() };
     let options = Options { planet: Some(surface), ..options(6) };
-    assert!(DisturbanceModel::new(&craft, &options).unwrap_err().to_string().contains("emissivity"));
+    assert!(DisturbanceModel::new(&spacecraft, &options).unwrap_err().to_string().contains("emissivity"));
     let options = Options { planet_light: PlanetLightMethod::Rings(0), ..Options::default() };
-    assert!(DisturbanceModel::new(&craft, &options).unwrap_err().to_string().contains("1 to 64"));
+    assert!(DisturbanceModel::new(&spacecraft, &options).unwrap_err().to_string().contains("1 to 64"));
 }
 
-fn rotated(craft: &Spacecraft, rotation: &Matrix3<f64>) -> Spacecraft {
-    let mut turned = craft.clone();
-    turned.plates = craft.plates.iter().map(|plate| plate.rotated(rotation)).collect();
+fn rotated(spacecraft: &Spacecraft, rotation: &Matrix3<f64>) -> Spacecraft {
+    let mut turned = spacecraft.clone();
+    turned.plates = spacecraft.plates.iter().map(|plate| plate.rotated(rotation)).collect();
     for panel in &mut turned.panels {
         panel.center_body_m = rotation * panel.center_body_m;
         panel.axis_body = rotation * panel.axis_body;
@@ -326,10 +327,10 @@ proptest! {
         a in -PI..PI, z in -1.0..1.0_f64, b in -PI..PI, w in -1.0..1.0_f64,
         turn in prop::array::uniform3(-3.0..3.0_f64),
     ) {
-        let craft = thermal_messenger();
+        let spacecraft = thermal_messenger();
         let rotation = Rotation3::from_euler_angles(turn[0], turn[1], turn[2]).into_inner();
-        let models = [craft.clone(), rotated(&craft, &rotation)]
-            .map(|craft| DisturbanceModel::new(&craft, &options(6)).unwrap());
+        let models = [spacecraft.clone(), rotated(&spacecraft, &rotation)]
+            .map(|spacecraft| DisturbanceModel::new(&spacecraft, &options(6)).unwrap());
         let (sun, planet) = (direction(a, z) * 6e10, direction(b, w) * 3e6);
         let com = Vector3::new(0.1, 0.2, -0.1);
         let [still, moved] = [(0, Matrix3::identity()), (1, rotation)].map(|(i, r)| {
@@ -353,7 +354,7 @@ proptest! {
         let geometry = Geometry::at(1361.0, &sun, Some(&planet), 1.0, &[0.4, -0.1], Vector3::zeros()).unwrap();
         let mut workspace = Workspace::default();
         let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
-        let sum: Vector3<f64> = workspace.faces().iter().map(FaceState::force_body_n).sum();
+        let sum: Vector3<f64> = workspace.faces().iter().map(FaceResult::force_body_n).sum();
         prop_assert!((sum - found.total().force_body_n).norm() < 1e-17);
         // Used again, the workspace leaves nothing behind.
         let again = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
@@ -393,21 +394,21 @@ proptest! {
         emissivity in 0.01..1.0_f64, slope in 0.0..1e-3_f64, a in -PI..PI, z in -1.0..1.0_f64,
     ) {
         let black = Optics::from_reflectivities(0.1, 0.3);
-        let mut craft = bare(tetrahedron([black; 4]));
+        let mut spacecraft = bare(tetrahedron([black; 4]));
         let geometry = Geometry::at(
             1361.0, &(direction(a, z) * 6e10), Some(&(direction(z, a / 4.0) * 3e6)), 1.0, &[], Vector3::zeros(),
         ).unwrap();
-        let recoil = |craft: &Spacecraft| {
-            let model = DisturbanceModel::new(craft, &options(6)).unwrap();
+        let recoil = |spacecraft: &Spacecraft| {
+            let model = DisturbanceModel::new(spacecraft, &options(6)).unwrap();
             model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap().thermal
         };
-        let before = recoil(&craft);
-        for plate in &mut craft.plates {
+        let before = recoil(&spacecraft);
+        for plate in &mut spacecraft.plates {
             plate.thermal.front = FaceThermal {
                 infrared_optics: black,
                 emission: Emission { emissivity, slope_per_k: slope, reference_temperature_k: 300.0 },
             };
         }
-        prop_assert_eq!(recoil(&craft), before);
+        prop_assert_eq!(recoil(&spacecraft), before);
     }
 }

@@ -39,7 +39,7 @@ impl<T: Scalar> Disturbance<T> {
 
 /// What one face receives, gives off and feels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FaceState<T: Scalar> {
+pub struct FaceResult<T: Scalar> {
     /// Force by effect, body frame, in N: solar, albedo, infrared, thermal. They add up to the effects' forces, but for
     /// sunlight on the strips of a cylindrical shade: there the strips are flat and the effect has the closed form.
     pub forces_body_n: [Vector3<T>; 4],
@@ -55,7 +55,7 @@ pub struct FaceState<T: Scalar> {
     pub temperature_k: T,
 }
 
-impl<T: Scalar> FaceState<T> {
+impl<T: Scalar> FaceResult<T> {
     pub(super) fn dark() -> Self {
         let zero = T::constant(0.0);
         Self {
@@ -80,7 +80,7 @@ impl<T: Scalar> FaceState<T> {
 pub struct Workspace<T: Scalar> {
     pub(super) normals: Vec<Vector3<T>>,
     pub(super) lights: Vec<PlanetLight<T>>,
-    pub(super) faces: Vec<FaceState<T>>,
+    pub(super) faces: Vec<FaceResult<T>>,
     pub(super) shadow: ShadowWorkspace<T>,
 }
 
@@ -97,7 +97,7 @@ impl<T: Scalar> Default for Workspace<T> {
 
 impl<T: Scalar> Workspace<T> {
     /// The faces as of the last evaluation, in the order of [`super::DisturbanceModel::face_names`].
-    pub fn faces(&self) -> &[FaceState<T>] {
+    pub fn faces(&self) -> &[FaceResult<T>] {
         &self.faces
     }
 
@@ -109,7 +109,7 @@ impl<T: Scalar> Workspace<T> {
     /// As after an evaluation in which no light reaches any of so many faces, and none is known to be warm.
     pub fn darken(&mut self, faces: usize) {
         self.faces.clear();
-        self.faces.resize(faces, FaceState::dark());
+        self.faces.resize(faces, FaceResult::dark());
     }
 
     /// Sizes everything; allocates only when a size changes.
@@ -119,7 +119,7 @@ impl<T: Scalar> Workspace<T> {
             self.lights.resize(normals, PlanetLight::dark());
         }
         if self.faces.len() != faces {
-            self.faces.resize(faces, FaceState::dark());
+            self.faces.resize(faces, FaceResult::dark());
         }
     }
 }

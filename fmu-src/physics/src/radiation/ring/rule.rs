@@ -32,7 +32,7 @@ pub struct RingRule {
     /// Position in (0, 1) and weight.
     nodes: Vec<(f64, f64)>,
     /// Bends nearer to a segment's start do not matter at this number of nodes: their effect goes with the square.
-    closest_bend: f64,
+    closest_singularity: f64,
 }
 
 /// A number of nodes that is not offered.
@@ -72,7 +72,7 @@ impl RingRule {
         let on_unit = |(x, w): (&f64, &f64)| (0.5 * (1.0 + x), 0.5 * w);
         Ok(Self {
             nodes: positions.iter().zip(&weights).map(on_unit).collect(),
-            closest_bend: 10_f64.powf(-1.2 - 0.25 * nodes_per_segment as f64),
+            closest_singularity: 10_f64.powf(-1.2 - 0.25 * nodes_per_segment as f64),
         })
     }
 
@@ -99,8 +99,8 @@ impl RingRule {
                 for nodes in self.nodes.chunks(AT_ONCE) {
                     let mut rings = [Ring::none(); AT_ONCE];
                     for (ring, &(position, weight)) in rings.iter_mut().zip(nodes) {
-                        let (x, stretch) = segment.at(low + width * position);
-                        ring.place(view, x, stretch * width * weight);
+                        let (x, jacobian) = segment.at(low + width * position);
+                        ring.place(view, x, jacobian * width * weight);
                     }
                     for ring in rings.iter_mut().take(nodes.len()) {
                         ring.find_arcs(view, &plate);
@@ -111,8 +111,8 @@ impl RingRule {
                 }
             };
             let (mut low, high) = segment.range();
-            if let Some(bend) = segment.bend(self.closest_bend) {
-                let mut middle = bend * 2.0;
+            if let Some(singularity) = segment.singularity(self.closest_singularity) {
+                let mut middle = singularity * 2.0;
                 while middle.value() < FARTHEST_SPLIT {
                     if middle.value() > 1.5 * low.value() {
                         over(low, middle);

@@ -9,9 +9,9 @@ pub(super) const AT_NADIR: f64 = 1e-9;
 const SAME_BREAK: f64 = 1e-13;
 
 /// A segment, 1 long in y, is split when an earlier birth bends the integrand nearer to its start than this ...
-const FARTHEST_BEND: f64 = 0.3;
+const FARTHEST_SINGULARITY: f64 = 0.3;
 
-/// ... at twice the bend and then at multiples of this ratio ...
+/// ... at twice the singularity and then at multiples of this ratio ...
 pub(super) const SPLIT_RATIO: f64 = 30.0;
 
 /// ... up to here.
@@ -62,10 +62,10 @@ impl<T: Scalar> Segment<T> {
     }
 
     /// The distance of an earlier birth in units of y, as far as `closest` from this one: the integrand bends there.
-    pub fn bend(&self, closest: f64) -> Option<T> {
+    pub fn singularity(&self, closest: f64) -> Option<T> {
         let (birth, earlier) = self.births?;
         let squared = (birth - earlier) / (self.to - birth);
-        let range = closest * closest..FARTHEST_BEND * FARTHEST_BEND;
+        let range = closest * closest..FARTHEST_SINGULARITY * FARTHEST_SINGULARITY;
         range.contains(&squared.value()).then(|| squared.sqrt())
     }
 }

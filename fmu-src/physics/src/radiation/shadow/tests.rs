@@ -322,14 +322,14 @@ fn evaluate<T: Scalar>(
 /// Surfaces of the example that people copy from: its bus, shade and panels share corners and edges.
 fn orbiter() -> Vec<Outline> {
     let text = include_str!("../../../../resources/examples/mercury-orbiter.toml");
-    let craft = Spacecraft::from_toml("mercury-orbiter.toml", text).unwrap();
-    let plates = craft.plates_body(SunshadeModel::Plates);
+    let spacecraft = Spacecraft::from_toml("mercury-orbiter.toml", text).unwrap();
+    let plates = spacecraft.plates_body(SunshadeModel::Plates);
     let fixed = plates.iter().map(|plate| Outline {
         polygon: plate.polygon.clone().unwrap(),
         hinge: None,
         two_sided: plate.rear_optics.is_some(),
     });
-    let turning = craft.panels.iter().enumerate().map(|(index, panel)| Outline {
+    let turning = spacecraft.panels.iter().enumerate().map(|(index, panel)| Outline {
         polygon: panel.polygon.clone().unwrap(),
         hinge: Some(Hinge { panel: index, point_body_m: panel.center_body_m, axis_body: panel.axis_body }),
         two_sided: panel.rear_optics.is_some(),

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use super::{Directions, Plant, Sampling, StarSample};
 use crate::spin::{
-    forecast::Timing, motion::Motion, nutation::Spin, rotation::angle_between_rad, sequencer::Sequencer,
-    spinner::Spinner, tracker::NutationEstimator, watch::Watch,
+    crossing_detector::CrossingDetector, forecast::Timing, motion::Motion, nutation::Spin,
+    rotation::angle_between_rad, sequencer::Sequencer, spinner::Spinner, tracker::NutationEstimator,
 };
 
 impl Plant {
@@ -47,7 +47,7 @@ impl Plant {
     }
 
     /// Sun crossings.
-    pub fn sun_watch(&self) -> &Watch {
+    pub fn sun_watch(&self) -> &CrossingDetector {
         &self.sun
     }
 

@@ -2,7 +2,7 @@
 
 mod access;
 mod commands;
-mod ledger;
+mod propellant;
 mod sensing;
 mod sound;
 mod start;
@@ -14,13 +14,13 @@ pub use commands::{Commands, Directions, PulseCommand};
 pub use start::{LEAST_WORK, MOST_WORK, MassSource, Sampling, Start, StartError};
 
 use super::{
-    geometry::L1Flight,
-    motion::{Motion, Runaway},
+    crossing_detector::CrossingDetector,
+    geometry::L1Ephemeris,
+    motion::{Motion, MotionError},
     nutation::{LinearNutation, Spin},
     sequencer::{Phase, Sequencer},
     spinner::Spinner,
     tracker::NutationEstimator,
-    watch::Watch,
     work::{Cost, Work, WorkExceeded},
 };
 
@@ -29,10 +29,10 @@ const SAME_TIME: f64 = 1e-13;
 
 /// Why a flight does not come to the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum FlightError {
+pub enum SpinPlantError {
     /// The motion.
     #[error(transparent)]
-    Runaway(#[from] Runaway),
+    MotionError(#[from] MotionError),
     /// The effort.
     #[error(transparent)]
     Work(#[from] WorkExceeded),
@@ -71,8 +71,8 @@ pub struct Plant {
     /// Up to when delta-v is summed, in s.
     delta_v_until_s: f64,
     predicted: LinearNutation,
-    sun: Watch,
-    star: Watch,
+    sun: CrossingDetector,
+    star: CrossingDetector,
     sun_sample_rad: f64,
     sampling: Sampling,
     clock_period_s: f64,
@@ -87,7 +87,7 @@ pub struct Plant {
     seed: u64,
     /// Whether commands came since the last step.
     commanded: bool,
-    l1: Option<L1Flight>,
+    l1: Option<L1Ephemeris>,
     refresh_count: i64,
     refresh_s: f64,
     /// What a step may cost.
@@ -125,7 +125,7 @@ impl Plant {
     /// # Errors
     /// A body that cannot be followed to there, or only with more work than a step may cost; the flight is then of no
     /// further use.
-    pub fn advance(&mut self, spinner: &Spinner, end_s: f64) -> Result<(), FlightError> {
+    pub fn advance(&mut self, spinner: &Spinner, end_s: f64) -> Result<(), SpinPlantError> {
         let work = &mut Work::new(self.work_limit);
         let from_s = self.time_s;
         let near_s = end_s + SAME_TIME * end_s.abs().max(from_s.abs());
@@ -142,15 +142,15 @@ impl Plant {
             let command_s = self.commands.edge_after_s(from_s, now_s);
             let dry_s = self.dry_s(spinner).max(now_s);
             let edge_s = plan_s.min(command_s).min(self.refresh_s).min(dry_s);
-            let (until_s, cell_end_s) = (edge_s.min(end_s), self.motion.cell_end_s());
+            let (until_s, segment_end_s) = (edge_s.min(end_s), self.motion.segment_end_s());
             // What is seen may move the plan's edge.
-            if let Some(seen_s) = self.observe(spinner, until_s.min(cell_end_s), work)? {
+            if let Some(seen_s) = self.observe(spinner, until_s.min(segment_end_s), work)? {
                 reached_s = seen_s;
                 continue;
             }
-            if cell_end_s < until_s {
-                self.next_cell(spinner, work)?;
-                reached_s = cell_end_s;
+            if segment_end_s < until_s {
+                self.next_segment(spinner, work)?;
+                reached_s = segment_end_s;
                 continue;
             }
             if edge_s > near_s {
@@ -167,7 +167,7 @@ impl Plant {
                 && let Some(sequencer) = &mut self.sequencer
             {
                 sequencer.note_centre();
-                // A little longer than the pulse, so that rounding needs no second cell.
+                // A little longer than the pulse, so that rounding needs no second segment.
                 hint_s = sequencer.pass_edge(now_s).map_or(f64::INFINITY, |width_s| 1.001 * width_s);
             }
             if dry_s <= edge_s {
@@ -197,7 +197,7 @@ impl Plant {
         now_s: f64,
         hint_s: f64,
         work: &mut Work,
-    ) -> Result<(), FlightError> {
+    ) -> Result<(), SpinPlantError> {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
         let asked = plan | self.commands.mask_after(from_s, now_s);
         let mask = if self.is_dry() { 0 } else { asked };
@@ -209,7 +209,7 @@ impl Plant {
             self.reach(spinner, now_s, work)?;
             self.settle_pulse(spinner, now_s);
             let inertia = self.inertia_now(spinner);
-            work.spend_cell(self.motion.damper());
+            work.spend_segment(self.motion.damper());
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s);
             self.motion.check()?;
             self.mask = mask;

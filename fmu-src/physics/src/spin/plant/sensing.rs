@@ -4,23 +4,23 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{FlightError, Plant, Sampling, StarSample};
+use super::{Plant, Sampling, SpinPlantError, StarSample};
 use crate::spin::{
     crossing::{Crossing, Pole},
+    crossing_detector::CrossingDetector,
     motion::RigidState,
     noise::{Channel, normal},
     rotation::angle_between_rad,
     spinner::Spinner,
     tracker::{picket_of, searched},
-    watch::Watch,
     work::{Cost, Work},
 };
 
-/// Sun and Earth of the L1 orbit stand still for the sensors over stretches of this length, in s: less than 0.01 deg.
-pub(super) const DIRECTION_STRETCH_S: f64 = 600.0;
+/// Sun and Earth of the L1 orbit stand still for the sensors over intervals of this length, in s: less than 0.01 deg.
+pub(super) const DIRECTION_INTERVAL_S: f64 = 600.0;
 
 impl Plant {
-    /// Looks up Sun and Earth on the L1 orbit for the next stretch of time.
+    /// Looks up Sun and Earth on the L1 orbit for the next interval.
     pub(super) fn refresh_directions(&mut self) {
         let Some(l1) = &self.l1 else { return };
         let seen = l1.sun_earth(self.refresh_s);
@@ -28,7 +28,7 @@ impl Plant {
         self.directions.earth_inertial = seen.earth_inertial;
         self.sun.forget(self.refresh_s);
         self.refresh_count = self.refresh_count.saturating_add(1);
-        self.refresh_s = self.refresh_count as f64 * DIRECTION_STRETCH_S;
+        self.refresh_s = self.refresh_count as f64 * DIRECTION_INTERVAL_S;
     }
 
     /// Lets the sensors see the first thing there is to see up to `until_s`; when it was, if there was one.
@@ -37,15 +37,15 @@ impl Plant {
         spinner: &Spinner,
         until_s: f64,
         work: &mut Work,
-    ) -> Result<Option<f64>, FlightError> {
+    ) -> Result<Option<f64>, SpinPlantError> {
         let (sun, star) = (self.directions.sun_inertial, self.directions.star_inertial);
         let azimuths = self.sensor_azimuths;
         let look = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
-        let due_s = |watch: &mut Watch, body, inertial: Vector3<f64>, work: &mut Work| {
+        let due_s = |detector: &mut CrossingDetector, body, inertial: Vector3<f64>, work: &mut Work| {
             // A direction of 0 is none.
             let known = inertial != Vector3::zeros();
             let due_s =
-                known.then(|| watch.due_s(&self.motion, look(body, inertial), until_s, work)).flatten();
+                known.then(|| detector.due_s(&self.motion, look(body, inertial), until_s, work)).flatten();
             due_s.unwrap_or(f64::INFINITY)
         };
         let sun_s = due_s(&mut self.sun, azimuths.sun, sun, work);
@@ -66,7 +66,7 @@ impl Plant {
         Ok(Some(sun_s.min(star_s)))
     }
 
-    fn see_sun(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), FlightError> {
+    fn see_sun(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
         self.reach(spinner, time_s, work)?;
         let state = self.motion.at(time_s);
         let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), &self.directions.sun_inertial);
@@ -80,7 +80,7 @@ impl Plant {
         Ok(())
     }
 
-    fn see_star(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), FlightError> {
+    fn see_star(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
         self.reach(spinner, time_s, work)?;
         let state = self.motion.at(time_s);
         let tracker = &spinner.star_tracker;

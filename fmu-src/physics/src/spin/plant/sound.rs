@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{
-    LEAST_WORK, MOST_WORK, Plant, Sampling, commands::PulseCommand, sensing::DIRECTION_STRETCH_S,
+    LEAST_WORK, MOST_WORK, Plant, Sampling, commands::PulseCommand, sensing::DIRECTION_INTERVAL_S,
     start::orbit_is_sound,
 };
 use crate::spin::{
@@ -59,7 +59,7 @@ impl Plant {
     }
 
     fn motion_is_sound(&self) -> bool {
-        let (now_s, anchor_s, end_s) = (self.time_s, self.motion.anchor_s(), self.motion.cell_end_s());
+        let (now_s, anchor_s, end_s) = (self.time_s, self.motion.anchor_s(), self.motion.segment_end_s());
         let slack_s = OUT_OF_ORDER * self.theory.period_s();
         now_s.is_finite()
             && self.motion.is_sound()
@@ -103,8 +103,8 @@ impl Plant {
             None => self.refresh_s == f64::INFINITY,
             Some(l1) => {
                 orbit_is_sound(l1)
-                    && self.refresh_s == self.refresh_count as f64 * DIRECTION_STRETCH_S
-                    && (self.refresh_s - self.time_s).abs() <= 2.0 * DIRECTION_STRETCH_S
+                    && self.refresh_s == self.refresh_count as f64 * DIRECTION_INTERVAL_S
+                    && (self.refresh_s - self.time_s).abs() <= 2.0 * DIRECTION_INTERVAL_S
             }
         };
         self.directions.are_directions() && refreshes

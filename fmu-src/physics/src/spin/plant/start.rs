@@ -6,13 +6,15 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Commands, Directions, Plant, SensorAzimuths, StarSample, sensing::DIRECTION_STRETCH_S, sound::is_moderate,
+    Commands, Directions, Plant, SensorAzimuths, StarSample, sensing::DIRECTION_INTERVAL_S,
+    sound::is_moderate,
 };
 use crate::spin::{
-    burn::{Burn, BurnError, BurnRequest, Outset},
+    burn::{Burn, BurnError, BurnInitialConditions, BurnRequest},
+    crossing_detector::CrossingDetector,
     damper::{Damper, SHORTEST_TIME_CONSTANT_S},
     forecast::Timing,
-    geometry::L1Flight,
+    geometry::L1Ephemeris,
     inertia::{Inertia, InertiaError},
     motion::Motion,
     nutation::{LinearNutation, Spin},
@@ -21,7 +23,6 @@ use crate::spin::{
     series::BodyTorque,
     spinner::Spinner,
     tracker::NutationEstimator,
-    watch::Watch,
     work::{Work, WorkExceeded},
 };
 
@@ -70,7 +71,7 @@ pub struct Start {
     /// The burn; `None` if only outside commands fire thrusters.
     pub burn: Option<BurnRequest>,
     /// The L1 orbit; `None` takes Sun and Earth as given.
-    pub l1: Option<L1Flight>,
+    pub l1: Option<L1Ephemeris>,
     /// Star tracker sampling.
     pub sampling: Sampling,
     /// Nominal spin rate, in rad/s: sets the clock of the star tracker.
@@ -136,8 +137,12 @@ impl Plant {
         let sequencer = match &start.burn {
             None => None,
             Some(request) => {
-                let outset = Outset { spin: theory, momentum_inertial, propellant_kg: start.propellant_kg };
-                let burn = Burn::new(spinner, request, &outset)?;
+                let initial = BurnInitialConditions {
+                    spin: theory,
+                    momentum_inertial,
+                    propellant_kg: start.propellant_kg,
+                };
+                let burn = Burn::new(spinner, request, &initial)?;
                 Some(Sequencer::new(burn, spinner.sun_sensor.azimuth_deg.to_radians()))
             }
         };
@@ -161,8 +166,8 @@ impl Plant {
             delta_v_inertial_m_s: Vector3::zeros(),
             delta_v_until_s: start_s,
             predicted: LinearNutation::default(),
-            sun: Watch::new(start_s),
-            star: Watch::new(start_s),
+            sun: CrossingDetector::new(start_s),
+            star: CrossingDetector::new(start_s),
             sun_sample_rad: 0.0,
             sampling: start.sampling,
             clock_period_s: f64::from(spinner.star_tracker.every) * 2.0 * PI / start.nominal_rate_rad_s,
@@ -184,10 +189,10 @@ impl Plant {
             work_limit: start.work_limit,
         };
         if start.l1.is_some() {
-            plant.refresh_count = (start_s / DIRECTION_STRETCH_S).floor() as i64;
-            plant.refresh_s = plant.refresh_count as f64 * DIRECTION_STRETCH_S;
+            plant.refresh_count = (start_s / DIRECTION_INTERVAL_S).floor() as i64;
+            plant.refresh_s = plant.refresh_count as f64 * DIRECTION_INTERVAL_S;
             plant.refresh_directions();
-            plant.sun = Watch::new(start_s);
+            plant.sun = CrossingDetector::new(start_s);
         }
         plant.refuse_blind_timing(start)?;
         let mut work = Work::new(start.work_limit);
@@ -258,7 +263,7 @@ fn check(spinner: &Spinner, start: &Start) -> Result<Quaternion, StartError> {
 }
 
 /// Whether Sun and Earth of an L1 orbit have a direction at any time.
-pub(super) fn orbit_is_sound(L1Flight { orbit, phases }: &L1Flight) -> bool {
+pub(super) fn orbit_is_sound(L1Ephemeris { orbit, phases }: &L1Ephemeris) -> bool {
     let angles = [phases.longitude_rad, phases.in_plane_rad, phases.out_of_plane_rad, orbit.obliquity_deg];
     let rates = [orbit.line_rate_deg_day, orbit.in_plane_frequency, orbit.out_of_plane_frequency];
     let distances = [orbit.sun_earth_distance_m, orbit.earth_l1_distance_m];

@@ -207,11 +207,11 @@ fn the_closed_form_and_the_series_are_the_same_motion() {
         let closed = start(symmetric, damper_s, rate, Vector3::zeros());
         // A torque too small to matter sends the same body through the series.
         let series = start(symmetric, damper_s, rate, Vector3::new(0.0, 0.0, 1e-300));
-        assert!(closed.cell_end_s().is_infinite() && series.cell_end_s().is_finite());
+        assert!(closed.segment_end_s().is_infinite() && series.segment_end_s().is_finite());
         let (a, b) = (state_at(closed, 700.0), state_at(series, 700.0));
         let difference =
             a.attitude.0.iter().zip(b.attitude.0).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
-        // 366 rad of phase, some hundred cells: rounding alone.
+        // 366 rad of phase, some hundred segments: rounding alone.
         assert!(difference < 2e-12, "{damper_s}: {difference}");
         assert!((a.momentum_body - b.momentum_body).norm() < 1e-12 * a.momentum_body.norm());
     }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use super::{ace, directions, paper_start};
 use crate::spin::{
-    geometry::L1Flight,
+    geometry::L1Ephemeris,
     noise::{Channel, normal},
     nutation::period_variation_s,
     plant::{Commands, Directions, Plant, Sampling},
@@ -153,7 +153,7 @@ fn draws_are_normal_and_depend_on_seed_channel_and_event_alone() {
 fn sun_and_earth_of_the_l1_orbit_stand_where_the_geometry_puts_them() {
     let mut orbit = ace().l1_orbit;
     let day = 86_400.0;
-    let at = |orbit: &crate::spin::spinner::L1Orbit, t: f64| orbit.sun_earth(&Default::default(), t);
+    let at = |orbit: &crate::spin::geometry::L1Orbit, t: f64| orbit.sun_earth(&Default::default(), t);
     // Without an amplitude Sun and Earth are opposite and turn by 0.9829 deg a day.
     orbit.amplitude_m = [0.0; 3];
     let (now, later) = (at(&orbit, 0.0), at(&orbit, day));
@@ -178,7 +178,7 @@ fn sun_and_earth_of_the_l1_orbit_stand_where_the_geometry_puts_them() {
 fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     let spinner = ace();
     let mut start = paper_start(1.483);
-    start.l1 = Some(L1Flight { orbit: spinner.l1_orbit, phases: Default::default() });
+    start.l1 = Some(L1Ephemeris { orbit: spinner.l1_orbit, phases: Default::default() });
     // Spin axis a little off the Sun.
     let sun = spinner.l1_orbit.sun_earth(&Default::default(), 0.0).sun_inertial;
     let axis = Vector3::z().cross(&sun).normalize();

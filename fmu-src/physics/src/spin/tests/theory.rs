@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::paper_spin;
 use crate::spin::{
-    forecast::{Flight, Range, Timing},
+    forecast::{ForecastCase, Range, Timing},
     nutation::{
         allowed_nutation_rad, exact_envelope_rad, period_variation_s, tapered_bound_rad, uniform_train_rad,
     },
@@ -80,7 +80,7 @@ fn a_tapered_train_stays_under_its_bound_at_any_length() {
             for count in 2 * order + 1..80 {
                 let spin = paper_spin(ratio);
                 let train = Train::new(Shape::Tapered { order }, count, 0.032, 1.0, &spin, 0.032).unwrap();
-                let flight = Flight {
+                let flight = ForecastCase {
                     spin,
                     assumed_rate_rad_s: spin.rate_rad_s,
                     timing: Timing::Clock,
@@ -104,7 +104,7 @@ fn forecasts_of_uniform_trains_are_eq_8() {
         for count in [1, 2, 17, 114] {
             let spin = paper_spin(1.479);
             let train = Train::new(Shape::Uniform, count, 0.064, turns, &spin, 0.032).unwrap();
-            let flight = Flight {
+            let flight = ForecastCase {
                 spin,
                 assumed_rate_rad_s: spin.rate_rad_s,
                 timing: Timing::Clock,
@@ -124,7 +124,7 @@ fn forecasts_of_uniform_trains_are_eq_8() {
 }
 
 /// Greatest final and peak nutation of a scan two thousand times as fine as the ranges are wide.
-fn scanned(flight: &Flight, range: &Range, train: &Train) -> [f64; 2] {
+fn scanned(flight: &ForecastCase, range: &Range, train: &Train) -> [f64; 2] {
     let mut finest = [0.0_f64; 2];
     for i in 0..=2_000 {
         for j in 0..=2_000 {
@@ -149,7 +149,7 @@ fn scanned(flight: &Flight, range: &Range, train: &Train) -> [f64; 2] {
 fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
     let spin = paper_spin(1.4825);
     let flight =
-        |timing| Flight { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M };
+        |timing| ForecastCase { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M };
     let known = Range { ratio: 0.0115, rate_rad_s: 0.0 };
     let vague = Range { ratio: 0.06, rate_rad_s: 0.0 };
     let mut cases = Vec::new();

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::{ace, directions, paper_start, request};
 use crate::spin::{
     burn::BurnRequest,
-    plant::{Commands, FlightError, Plant, Sampling, Start},
+    plant::{Commands, Plant, Sampling, SpinPlantError, Start},
     train::Shape,
 };
 
@@ -14,7 +14,7 @@ fn refusal(start: &Start, commands: Commands, end_s: f64) -> String {
     let begun = Instant::now();
     let mut plant = Plant::start(&spinner, start, directions(), commands, 0.0).unwrap();
     let error = plant.advance(&spinner, end_s).unwrap_err();
-    assert!(matches!(error, FlightError::Work(_)), "{error}");
+    assert!(matches!(error, SpinPlantError::Work(_)), "{error}");
     println!("{:.3} s: {error}", begun.elapsed().as_secs_f64());
     error.to_string()
 }
@@ -30,7 +30,7 @@ fn steps_that_would_not_end_name_what_asks_for_so_much() {
     let clocked = Start { sampling: Sampling::Clock, nominal_rate_rad_s: 1e4, ..limited() };
     for (start, commands, end_s, named) in [
         (limited(), Commands::none(), 1e12, "crossings of Sun and star"),
-        (Start { inertia_kg_m2: asymmetric, ..limited() }, Commands::none(), 1e12, "cells of the motion"),
+        (Start { inertia_kg_m2: asymmetric, ..limited() }, Commands::none(), 1e12, "segments of the motion"),
         (clocked, Commands::none(), 1e3, "limit.spinRate"),
         (Start { spin_rate_rad_s: 1e3, ..limited() }, fire(1 << 6 | 1 << 8), 1e5, "spin.initialRate"),
     ] {

@@ -1,0 +1,284 @@
+//! Drives a model by its trait, with variables by name.
+
+use fmi_export::model::Log;
+use std::cell::RefCell;
+
+use fmi_export::fmi2::{references, scalar_variables};
+use fmi_export::model_description::{Causality, Variability, VariableKind};
+use fmi_export::{BaseType, Context, Declare, Failure, InputsOverTime, Model, Step, Values, Variables};
+use physics::numerics::intervals::next_multiple_s;
+
+/// Keeps warnings.
+#[derive(Default)]
+struct Warnings(RefCell<Vec<String>>);
+
+impl Log for Warnings {
+    fn events_enabled(&self) -> bool {
+        false
+    }
+    fn event(&self, _time_s: f64, _message: &str) {}
+    fn warning(&self, message: &str) {
+        self.0.borrow_mut().push(message.to_owned());
+    }
+}
+
+/// A model with everything that does not change in flight.
+pub struct NamedModel<M: Model> {
+    setup: M::Setup,
+    handles: M::Variables,
+    names: Vec<Named>,
+    start: Values,
+    warnings: Warnings,
+}
+
+struct Named {
+    name: String,
+    kind: Kind,
+    reference: usize,
+    output: bool,
+    varies: bool,
+    /// Whether the master may set it, and within which limits.
+    given: Option<(f64, f64)>,
+    input: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Real,
+    Integer,
+    Boolean,
+    Text,
+}
+
+impl<M: Model> NamedModel<M> {
+    /// With the compiled-in setup.
+    pub fn shipped() -> Self {
+        Self::with("default", M::DEFAULT_SETUP)
+    }
+
+    /// With a setup text.
+    pub fn with(file: &str, text: &str) -> Self {
+        let setup = M::parse_setup(file, text).unwrap();
+        let mut scope = Declare::new();
+        let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
+        let interface = scope.finish();
+        let variables = scalar_variables(&interface);
+        let names = variables.iter().map(|variable| {
+            let (kind, base) = match variable.kind {
+                VariableKind::Real { .. } => (Kind::Real, BaseType::Real),
+                VariableKind::Boolean { .. } => (Kind::Boolean, BaseType::Boolean),
+                VariableKind::String { .. } => (Kind::Text, BaseType::String),
+                _ => (Kind::Integer, BaseType::Integer),
+            };
+            let items = |name: &str| {
+                let found = interface.enumerations.iter().find(|it| it.name == name);
+                let values = || found.unwrap().items.iter().map(|it| it.value);
+                (values().min().unwrap(), values().max().unwrap())
+            };
+            let limits = match &variable.kind {
+                VariableKind::Real { attributes, .. } => {
+                    (attributes.min.unwrap_or(f64::MIN), attributes.max.unwrap_or(f64::MAX))
+                }
+                VariableKind::Integer { min, max, .. } => {
+                    (f64::from(min.unwrap_or(i32::MIN)), f64::from(max.unwrap_or(i32::MAX)))
+                }
+                VariableKind::Enumeration { declared_type, .. } => {
+                    let (least, most) = items(declared_type);
+                    (f64::from(least), f64::from(most))
+                }
+                _ => (0.0, 1.0),
+            };
+            let given =
+                kind != Kind::Text && matches!(variable.causality, Causality::Input | Causality::Parameter);
+            Named {
+                given: given.then_some(limits),
+                input: variable.causality == Causality::Input,
+                name: variable.name.clone(),
+                kind,
+                reference: (variable.value_reference - references::first(base)) as usize,
+                output: variable.causality == Causality::Output,
+                varies: variable.variability == Variability::Continuous,
+            }
+        });
+        let names = names.collect();
+        Self { names, setup, handles, start: interface.start, warnings: Warnings::default() }
+    }
+
+    /// What a master may set, with its limits and whether it is a whole number.
+    pub fn given(&self) -> Vec<(&str, (f64, f64), bool)> {
+        let given = |it: &Named| it.given.is_some();
+        let shown = |it: &'_ Named| (it.given.unwrap_or_default(), it.kind != Kind::Real);
+        self.names
+            .iter()
+            .filter(|it| given(it))
+            .map(|it| (it.name.as_str(), shown(it).0, shown(it).1))
+            .collect()
+    }
+
+    /// All inputs.
+    pub fn inputs(&self) -> Vec<&str> {
+        self.names.iter().filter(|it| it.input && it.kind != Kind::Text).map(|it| it.name.as_str()).collect()
+    }
+
+    /// The warnings of all flights so far.
+    pub fn warnings(&self) -> Vec<String> {
+        self.warnings.0.borrow().clone()
+    }
+
+    fn find(&self, name: &str, kind: Kind) -> usize {
+        let found = self.names.iter().find(|named| named.name == name);
+        let found = found.unwrap_or_else(|| panic!("no variable {name}"));
+        assert_eq!(found.kind, kind, "{name}");
+        found.reference
+    }
+
+    fn context(&self) -> Context<'_, M> {
+        Context { setup: &self.setup, variables: &self.handles, log: &self.warnings }
+    }
+
+    /// A flight from `start_s` with these start values.
+    pub fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<NamedInstance<'_, M>, Failure> {
+        let mut values = self.start.clone();
+        for (name, value) in sets {
+            self.set(&mut values, name, *value);
+        }
+        let state = M::initialize(&self.context(), &mut values, start_s)?;
+        Ok(NamedInstance { named: self, values, state, time_s: start_s, before: None })
+    }
+
+    fn set(&self, values: &mut Values, name: &str, value: f64) {
+        let found = self.names.iter().find(|named| named.name == name);
+        let found = found.unwrap_or_else(|| panic!("no variable {name}"));
+        let mut tables = Tables::of(values);
+        match found.kind {
+            Kind::Real => tables.reals[found.reference] = value,
+            Kind::Integer => tables.integers[found.reference] = value as i32,
+            Kind::Boolean => tables.booleans[found.reference] = value != 0.0,
+            Kind::Text => panic!("{name} is text"),
+        }
+        *values = tables.back();
+    }
+}
+
+/// The value tables, reached through their serialised form: no author of a model can write them by reference.
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
+pub struct Tables {
+    pub reals: Vec<f64>,
+    pub integers: Vec<i32>,
+    pub booleans: Vec<bool>,
+    pub strings: Vec<String>,
+}
+
+impl Tables {
+    pub fn of(values: &Values) -> Self {
+        postcard::from_bytes(&postcard::to_stdvec(values).unwrap()).unwrap()
+    }
+
+    pub fn back(&self) -> Values {
+        postcard::from_bytes(&postcard::to_stdvec(self).unwrap()).unwrap()
+    }
+}
+
+/// One flight.
+pub struct NamedInstance<'a, M: Model> {
+    named: &'a NamedModel<M>,
+    values: Values,
+    state: M::State,
+    time_s: f64,
+    /// Once something was set: the values as the last step left them. What is set back is no change.
+    before: Option<Values>,
+}
+
+impl<M: Model> NamedInstance<'_, M> {
+    /// Now, in s.
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// One step.
+    pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
+        let changed = self.before.as_ref().is_some_and(|before| *before != self.values);
+        let step = Step { start_s: self.time_s, end_s, changed, inputs: InputsOverTime::held() };
+        M::step(&self.named.context(), &mut self.values, &mut self.state, &step)?;
+        self.time_s = end_s;
+        self.before = None;
+        Ok(())
+    }
+
+    /// Steps of equal length.
+    pub fn fly_to(&mut self, end_s: f64, step_s: f64) -> Result<(), Failure> {
+        while self.time_s < end_s {
+            self.step_to(next_multiple_s(self.time_s, step_s).min(end_s))?;
+        }
+        Ok(())
+    }
+
+    /// Sets an input or tunable.
+    pub fn set(&mut self, name: &str, value: f64) {
+        self.before.get_or_insert_with(|| self.values.clone());
+        self.named.set(&mut self.values, name, value);
+    }
+
+    /// A Real.
+    pub fn real(&self, name: &str) -> f64 {
+        Tables::of(&self.values).reals[self.named.find(name, Kind::Real)]
+    }
+
+    /// An Integer.
+    pub fn integer(&self, name: &str) -> i32 {
+        Tables::of(&self.values).integers[self.named.find(name, Kind::Integer)]
+    }
+
+    /// `name[1]`..`name[3]`.
+    pub fn vector(&self, name: &str) -> nalgebra::Vector3<f64> {
+        nalgebra::Vector3::from_fn(|i, _| self.real(&format!("{name}[{}]", i + 1)))
+    }
+
+    /// The bits of every output that varies continuously.
+    pub fn output_bits(&self) -> Vec<(String, u64)> {
+        let tables = Tables::of(&self.values);
+        let reals = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output && it.varies);
+        reals.map(|it| (it.name.clone(), tables.reals[it.reference].to_bits())).collect()
+    }
+
+    /// The first output that is no finite number.
+    pub fn not_finite(&self) -> Option<String> {
+        let tables = Tables::of(&self.values);
+        let outputs = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output);
+        let bad = outputs.into_iter().find(|it| !tables.reals[it.reference].is_finite());
+        bad.map(|it| format!("{} = {}", it.name, tables.reals[it.reference]))
+    }
+
+    /// Another flight that knows nothing but what is serialised.
+    pub fn restored(&self) -> Self {
+        let bytes = postcard::to_stdvec(&(&self.values, &self.state)).unwrap();
+        let (values, state) = postcard::from_bytes(&bytes).unwrap();
+        Self { named: self.named, values, state, time_s: self.time_s, before: self.before.clone() }
+    }
+
+    /// The state's bytes.
+    pub fn state_bytes(&self) -> Vec<u8> {
+        postcard::to_stdvec(&self.state).unwrap()
+    }
+
+    /// Another flight with the state of these bytes; `None` where they are refused.
+    pub fn with_state(&self, bytes: &[u8]) -> Option<Self> {
+        let state = postcard::from_bytes(bytes).ok()?;
+        M::check_state(&self.named.setup, &state).ok()?;
+        M::check_time(&state, self.time_s).ok()?;
+        Some(Self {
+            named: self.named,
+            values: self.values.clone(),
+            state,
+            time_s: self.time_s,
+            before: None,
+        })
+    }
+}
+
+/// Two flights have every continuous output alike, to the bit.
+pub fn assert_same<M: Model>(a: &NamedInstance<'_, M>, b: &NamedInstance<'_, M>) {
+    for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
+        assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
+    }
+}

@@ -1,0 +1,275 @@
+//! Integrates torque over time, segment by segment, and lets thrusters dump when a threshold is exceeded.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::dump::{DumpEvent, Dumps};
+use super::segment::{MomentumSegment, Settings};
+use super::torque_model::{Effort, Sample, TorqueModel};
+use super::totals::{Convention, Totals};
+
+/// Totals of a flight with their dense output.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MomentumIntegrator {
+    segment: MomentumSegment,
+    dumps: Dumps,
+}
+
+impl MomentumIntegrator {
+    /// Begins at `time_s` with `totals`.
+    pub fn new(time_s: f64, totals: Totals) -> Self {
+        Self { segment: MomentumSegment::point(time_s, totals), dumps: Dumps::default() }
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.segment.is_sound() && self.dumps.is_sound()
+    }
+
+    /// Dumps so far: those at or before the time last advanced to.
+    pub fn dumps(&self) -> &Dumps {
+        &self.dumps
+    }
+
+    /// Totals at a time inside the current segment, which [`MomentumIntegrator::advance`] has reached.
+    pub fn totals(&self, time_s: f64) -> Totals {
+        self.segment.totals(time_s)
+    }
+
+    /// Whether [`MomentumIntegrator::advance`] has reached `time_s`, and its totals are known there.
+    pub fn covers(&self, time_s: f64) -> bool {
+        let edge_tolerance_s = edge_tolerance_s(time_s);
+        self.segment.start_s() <= time_s + edge_tolerance_s && time_s <= self.segment.end_s()
+    }
+
+    /// Forgets what was computed ahead of `time_s`: the flight changes there.
+    pub fn cut(&mut self, time_s: f64) {
+        let longest_s = self.segment.next_longest_s();
+        self.segment = MomentumSegment::point(time_s, self.segment.totals(time_s)).expecting(longest_s);
+    }
+
+    /// Dumps at `time_s` on request: momentum goes to `target_body_n_m_s` in the watched convention.
+    pub fn dump_to(
+        &mut self,
+        flight: &mut impl TorqueModel,
+        settings: &Settings,
+        time_s: f64,
+        target_body_n_m_s: Vector3<f64>,
+    ) -> DumpEvent {
+        let totals = self.segment.totals(time_s);
+        self.dump(settings.convention, time_s, totals, &flight.sample(time_s), |_| target_body_n_m_s)
+    }
+
+    /// Advances until the current segment covers `time_s`; an edge belongs to the segment that begins there.
+    ///
+    /// # Errors
+    /// What ends the flight; everything before stays.
+    pub fn advance<F: TorqueModel>(
+        &mut self,
+        flight: &mut F,
+        settings: &Settings,
+        time_s: f64,
+        mut report: impl FnMut(&DumpEvent),
+    ) -> Result<(), F::Failure> {
+        let edge_tolerance_s = edge_tolerance_s(time_s);
+        while self.segment.end_s() <= time_s + edge_tolerance_s {
+            let start_s = self.segment.end_s();
+            let longest_s = self.segment.next_longest_s();
+            let mut totals = self.segment.totals(start_s);
+            let horizon_s = flight.prepare(start_s)?;
+            let first = flight.sample(start_s);
+            let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
+            if settings.policy.exceeded(&momentum) {
+                flight.spend(Effort::Dump, start_s)?;
+                let event = self.dump(settings.convention, start_s, totals, &first, |before| {
+                    settings.policy.after(before)
+                });
+                report(&event);
+                self.dumps.check()?;
+                totals = self.segment.totals(start_s);
+            }
+            self.segment =
+                MomentumSegment::build(flight, settings, start_s, horizon_s, totals, &first, longest_s)?;
+        }
+        Ok(())
+    }
+
+    fn dump(
+        &mut self,
+        convention: Convention,
+        time_s: f64,
+        mut totals: Totals,
+        sample: &Sample,
+        after: impl FnOnce(&Vector3<f64>) -> Vector3<f64>,
+    ) -> DumpEvent {
+        let before_body_n_m_s = totals.momentum_body_n_m_s(convention, &sample.inertial_from_body);
+        let event = DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: after(&before_body_n_m_s) };
+        totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
+        totals.momentum_inertial_n_m_s += sample.inertial_from_body * event.impulse_body_n_m_s();
+        self.segment = MomentumSegment::point(time_s, totals);
+        self.dumps = self.dumps.with(event);
+        event
+    }
+}
+
+/// Times this close to an edge count as the edge.
+fn edge_tolerance_s(time_s: f64) -> f64 {
+    4.0 * f64::EPSILON * time_s.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    //! Against torques whose integrals and threshold crossings are known in closed form.
+    use super::*;
+    use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
+    use crate::momentum::torque_model::EventValues;
+    use approx::assert_relative_eq;
+    use nalgebra::Rotation3;
+
+    /// Torque a cos(w t) about body X on a body that spins about its X axis, and a step in acceleration at 1000 s.
+    struct Known;
+
+    const AMPLITUDE_N_M: f64 = 1e-5;
+    const FREQUENCY_RAD_S: f64 = 2e-4;
+
+    impl TorqueModel for Known {
+        type Failure = TooManyDumps;
+
+        fn prepare(&mut self, _: f64) -> Result<f64, Self::Failure> {
+            Ok(f64::INFINITY)
+        }
+
+        fn sample(&mut self, time_s: f64) -> Sample {
+            Sample {
+                inertial_from_body: Rotation3::from_axis_angle(&Vector3::x_axis(), 1e-3 * time_s),
+                torque_body_n_m: Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 1e-6),
+                acceleration_inertial_m_s2: Vector3::new(if time_s < 1000.0 { 1e-7 } else { 2e-7 }, 0.0, 0.0),
+                events: self.events(time_s),
+            }
+        }
+
+        fn events(&mut self, time_s: f64) -> EventValues {
+            EventValues::new(time_s - 1000.0, f64::INFINITY, f64::INFINITY, f64::INFINITY)
+        }
+    }
+
+    fn settings(threshold_n_m_s: f64, convention: Convention) -> Settings {
+        Settings {
+            grid_s: 300.0,
+            tolerance: 1e-10,
+            convention,
+            policy: DumpPolicy {
+                threshold_body_n_m_s: Vector3::new(threshold_n_m_s, f64::INFINITY, f64::INFINITY),
+                reinitialise: Reinitialise::Opposite { fraction: 1.0 },
+            },
+        }
+    }
+
+    #[test]
+    fn totals_are_the_closed_form_integrals() {
+        let mut integrator = MomentumIntegrator::new(-70.0, Totals::default());
+        let setting = settings(f64::INFINITY, Convention::Inertial);
+        for time_s in [-70.0, 0.0, 999.0, 1000.0, 1000.5, 5000.0, 86_400.0] {
+            integrator.advance(&mut Known, &setting, time_s, |_| {}).unwrap();
+            let totals = integrator.totals(time_s);
+            let sine = |t: f64| (FREQUENCY_RAD_S * t).sin() / FREQUENCY_RAD_S;
+            let x = AMPLITUDE_N_M * (sine(time_s) - sine(-70.0));
+            // Body Z turns to inertial (0, -sin, cos) of the spin angle.
+            let y = 1e-6 * ((1e-3 * time_s).cos() - (-0.07f64).cos()) / 1e-3;
+            let z = 1e-6 * ((1e-3 * time_s).sin() - (-0.07f64).sin()) / 1e-3;
+            assert_relative_eq!(totals.momentum_inertial_n_m_s, Vector3::new(x, y, z), epsilon = 1e-9);
+            assert_relative_eq!(
+                totals.torque_integral_body_n_m_s,
+                Vector3::new(x, 0.0, 1e-6 * (time_s + 70.0)),
+                epsilon = 1e-9
+            );
+            let delta_v = 1e-7 * (time_s.min(1000.0) + 70.0) + 2e-7 * (time_s - 1000.0).max(0.0);
+            assert_relative_eq!(totals.delta_v_inertial_m_s.x, delta_v, epsilon = 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_dump_falls_where_the_threshold_is_crossed() {
+        for convention in [Convention::Inertial, Convention::BodyIntegral] {
+            let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
+            let mut events = Vec::new();
+            integrator
+                .advance(&mut Known, &settings(0.02, convention), 5000.0, |event| events.push(*event))
+                .unwrap();
+            // 0.02 = (a / w) sin(w t)
+            let expected_s = (0.02 * FREQUENCY_RAD_S / AMPLITUDE_N_M).asin() / FREQUENCY_RAD_S;
+            assert_eq!(events.len(), 1);
+            assert_relative_eq!(events[0].time_s, expected_s, epsilon = 1e-3);
+            assert_relative_eq!(events[0].after_body_n_m_s.x, -0.02, epsilon = 1e-15);
+            let total = integrator.totals(5000.0).torque_integral_body_n_m_s.x;
+            assert_relative_eq!(total, 0.05 * 1.0f64.sin() - 0.04, epsilon = 2e-9);
+        }
+    }
+
+    #[test]
+    fn a_dump_turns_with_the_body() {
+        let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
+        let setting = settings(f64::INFINITY, Convention::Inertial);
+        integrator.advance(&mut Known, &setting, 500.0, |_| {}).unwrap();
+        integrator.cut(500.0);
+        let target = Vector3::new(0.1, -0.2, 0.3);
+        integrator.dump_to(&mut Known, &setting, 500.0, target);
+        let rotation = Known.sample(500.0).inertial_from_body;
+        assert_relative_eq!(
+            integrator.totals(500.0).momentum_inertial_n_m_s,
+            rotation * target,
+            epsilon = 1e-15
+        );
+        assert_eq!(integrator.dumps().count, 1);
+    }
+
+    #[test]
+    fn how_the_flight_is_cut_changes_no_bit() {
+        let setting = settings(0.01, Convention::Inertial);
+        let fly = |step_s: f64| {
+            let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
+            let mut k = 0.0;
+            while k * step_s < 50_400.0 {
+                k += 1.0;
+                integrator.advance(&mut Known, &setting, k * step_s, |_| {}).unwrap();
+            }
+            (integrator.totals(50_400.0), *integrator.dumps())
+        };
+        let reference = fly(50_400.0);
+        assert!(reference.1.count > 3);
+        for step_s in [7.0, 60.0, 300.0, 700.0] {
+            assert_eq!(fly(step_s), reference);
+        }
+    }
+
+    #[test]
+    fn dumps_without_end_are_refused_wherever_the_steps_are_cut() {
+        let policy = DumpPolicy {
+            threshold_body_n_m_s: Vector3::new(2e-9, f64::INFINITY, f64::INFINITY),
+            reinitialise: Reinitialise::Opposite { fraction: 0.5 },
+        };
+        let setting = Settings { policy, ..settings(1.0, Convention::Inertial) };
+        let refused = |step_s: f64| {
+            let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
+            let mut k = 0.0;
+            loop {
+                k += 1.0;
+                if let Err(failure) = integrator.advance(&mut Known, &setting, k * step_s, |_| {}) {
+                    return failure;
+                }
+            }
+        };
+        let failure = refused(100.0);
+        assert_eq!(failure, refused(0.01));
+        assert!(failure.to_s - failure.from_s < DUMP_WINDOW_S, "{failure}");
+    }
+
+    #[test]
+    fn an_excess_that_is_there_from_the_start_is_dumped_at_once() {
+        let totals = Totals { momentum_inertial_n_m_s: Vector3::new(3.0, 0.0, 0.0), ..Totals::default() };
+        let mut integrator = MomentumIntegrator::new(0.0, totals);
+        integrator.advance(&mut Known, &settings(1.0, Convention::Inertial), 0.0, |_| {}).unwrap();
+        assert_eq!(integrator.dumps().last.unwrap().time_s, 0.0);
+        assert_relative_eq!(integrator.totals(0.0).momentum_inertial_n_m_s.x, -1.0, epsilon = 1e-15);
+    }
+}

@@ -1,0 +1,220 @@
+//! Momentum segment: an interval on which the rates are smooth, with its totals as a polynomial in time.
+
+use nalgebra::SVector;
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::numerics::events::first_event;
+use crate::numerics::intervals::next_multiple_s;
+
+use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
+use super::torque_model::{Effort, Sample, TorqueModel, after_event_s};
+use super::totals::{Convention, RATES, Totals, pack};
+
+/// Chebyshev nodes a segment.
+const NODES: usize = 8;
+/// No segment is halved below this, in s.
+const SHORTEST_S: f64 = 1e-3;
+/// Terms of a series this much below its largest are rounding; halving the segment does not make them smaller.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// How momentum is integrated; constant within a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Longest segment: segments end at multiples of this, in s.
+    pub grid_s: f64,
+    /// Largest last Chebyshev term of a segment's totals, in N m s and m/s.
+    pub tolerance: f64,
+    /// Which momentum the dump thresholds watch.
+    pub convention: Convention,
+    /// Thresholds and what follows.
+    pub policy: DumpPolicy,
+}
+
+/// One interval without events.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MomentumSegment {
+    start_s: f64,
+    end_s: f64,
+    at_start: Totals,
+    /// Length the tolerance will probably allow the next segment, in s.
+    next_longest_s: f64,
+    /// Absent for a segment without length.
+    totals: Option<Segment<RATES, { NODES + 1 }>>,
+}
+
+impl MomentumSegment {
+    /// A segment without length at `time_s`.
+    pub fn point(time_s: f64, totals: Totals) -> Self {
+        Self { start_s: time_s, end_s: time_s, at_start: totals, next_longest_s: f64::INFINITY, totals: None }
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let totals = self.at_start.to_vector();
+        let numbers = totals.iter().chain([&self.start_s, &self.end_s]);
+        numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+            && self.next_longest_s > 0.0
+            && self.totals.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
+    }
+
+    /// The same, expecting that the tolerance allows the next segment this length, in s.
+    pub fn expecting(self, next_longest_s: f64) -> Self {
+        Self { next_longest_s, ..self }
+    }
+
+    /// Builds the segment that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
+    /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev
+    /// terms of a total would exceed the tolerance, or where momentum exceeds a dump threshold.
+    ///
+    /// `longest_s` is the length that the segment before expects the tolerance to allow: trying more would be work for
+    /// nothing.
+    ///
+    /// # Errors
+    /// More work than the flight may take.
+    pub fn build<F: TorqueModel>(
+        flight: &mut F,
+        settings: &Settings,
+        start_s: f64,
+        horizon_s: f64,
+        at_start: Totals,
+        first: &Sample,
+        longest_s: f64,
+    ) -> Result<Self, F::Failure> {
+        flight.spend(Effort::Segment, start_s)?;
+        // Never without length, whatever a restored state expects.
+        let limit_s = next_multiple_s(start_s, settings.grid_s)
+            .min(start_s + longest_s)
+            .min(horizon_s)
+            .max(start_s.next_up());
+        let mut end_s = limit_s;
+        let mut watched = false;
+        let mut samples = [*first; NODES];
+        let mut shortened = false;
+        let (nodes, totals, growth) = loop {
+            let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
+            for (sample, &time_s) in samples.iter_mut().zip(&nodes) {
+                *sample = flight.sample(time_s);
+            }
+            // A shorter segment has no event that a longer one has not.
+            if !core::mem::replace(&mut watched, true) {
+                let values = samples.map(|sample| sample.events);
+                let after_s = after_event_s(start_s);
+                let event_s = first_event(after_s, start_s, end_s, &values, |at_s| flight.events(at_s));
+                if let Some(event_s) = event_s {
+                    flight.spend(Effort::Search, start_s)?;
+                    end_s = event_s;
+                    continue;
+                }
+            }
+            let rates = samples.map(|s| {
+                let torque_inertial_n_m = s.inertial_from_body * s.torque_body_n_m;
+                pack(torque_inertial_n_m, s.torque_body_n_m, s.acceleration_inertial_m_s2)
+            });
+            let totals: Segment<RATES, { NODES + 1 }> =
+                Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates).integral(at_start.to_vector());
+            let terms = totals.coefficients();
+            let unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
+            let tolerance = settings.tolerance.max(ROUNDING * terms.amax());
+            // The terms fall with the length to this power, as long as everything is smooth.
+            let growth = 0.9 * (tolerance / unresolved).powf(1.0 / (NODES as f64));
+            let shorter_s = start_s + (end_s - start_s) * growth.clamp(0.1, 0.7);
+            // A number that is not finite cannot be resolved by shortening; it shows in the outputs.
+            if unresolved <= tolerance
+                || !unresolved.is_finite()
+                || end_s - start_s < SHORTEST_S
+                || shorter_s <= start_s
+            {
+                break (nodes, totals, growth);
+            }
+            end_s = shorter_s;
+            shortened = true;
+            flight.spend(Effort::Refinement, start_s)?;
+        };
+        let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
+        let next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
+        let mut segment = Self { start_s, end_s, at_start, next_longest_s, totals: Some(totals) };
+        if let Some(dump_s) = segment.first_excess_s(settings, &nodes, &samples) {
+            segment.end_s = dump_s;
+        }
+        Ok(segment)
+    }
+
+    /// Start, in s.
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// End, in s.
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// Length the tolerance will probably allow the next segment, in s.
+    pub fn next_longest_s(&self) -> f64 {
+        self.next_longest_s
+    }
+
+    /// Totals at a time inside the segment.
+    pub fn totals(&self, time_s: f64) -> Totals {
+        match &self.totals {
+            Some(totals) if time_s > self.start_s => Totals::from_vector(&totals.value(time_s)),
+            _ => self.at_start,
+        }
+    }
+
+    /// The first time inside the segment at which a momentum component exceeds its threshold.
+    fn first_excess_s(
+        &self,
+        settings: &Settings,
+        nodes: &[f64; NODES],
+        samples: &[Sample; NODES],
+    ) -> Option<f64> {
+        let totals = self.totals.as_ref()?;
+        match settings.convention {
+            Convention::BodyIntegral => first_crossing_s(totals, 3, &settings.policy, self),
+            Convention::Inertial => {
+                let spread: f64 =
+                    totals.coefficients().fixed_rows::<3>(0).column_iter().map(|c| c.norm()).sum();
+                if spread < settings.policy.threshold_body_n_m_s.min() {
+                    return None;
+                }
+                let body: [SVector<f64, 3>; NODES] = core::array::from_fn(|j| {
+                    let momentum = Totals::from_vector(&totals.value(nodes[j])).momentum_inertial_n_m_s;
+                    samples[j].inertial_from_body.inverse() * momentum
+                });
+                let body = Segment::<3, NODES>::from_samples(totals.start(), totals.end(), &body);
+                first_crossing_s(&body, 0, &settings.policy, self)
+            }
+        }
+    }
+}
+
+/// First crossing of a threshold by rows `row`..`row + 3` of `momentum` inside `segment`.
+fn first_crossing_s<const D: usize, const N: usize>(
+    momentum: &Segment<D, N>,
+    row: usize,
+    policy: &DumpPolicy,
+    segment: &MomentumSegment,
+) -> Option<f64> {
+    let mut first: Option<f64> = None;
+    for axis in 0..3 {
+        let limit_n_m_s = policy.threshold_body_n_m_s[axis] + 2.0 * EXCEEDED_N_M_S;
+        let terms = momentum.coefficients().row(row + axis);
+        let bound: f64 = terms.iter().map(|c| c.abs()).sum();
+        if bound.is_nan() || bound < limit_n_m_s {
+            continue;
+        }
+        for sign in [1.0, -1.0] {
+            let mut direction = SVector::<f64, D>::zeros();
+            direction[row + axis] = sign;
+            let excess = momentum.project(&direction, -limit_n_m_s);
+            let crossing = excess.sign_changes(segment.start_s, segment.end_s).first();
+            first = match (first, crossing) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+        }
+    }
+    first.filter(|&time_s| time_s > segment.start_s && time_s < segment.end_s)
+}

@@ -1,0 +1,71 @@
+//! Torque model: what the momentum integrator asks of a spacecraft at any time.
+
+use nalgebra::{Rotation3, SVector, Vector3};
+
+use super::dump::TooManyDumps;
+use crate::numerics::spacing::spacing;
+
+/// An event this soon after the start of a segment is the one that it starts with, in s: an orbit computed anew moves it.
+const EVENT_GAP_S: f64 = 1e-4;
+
+/// The first time after `start_s` at which an event is another than the one there.
+pub fn after_event_s(start_s: f64) -> f64 {
+    start_s + EVENT_GAP_S.max(4.0 * spacing(start_s))
+}
+
+/// What a flight gives at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Matrix that takes body components to inertial components.
+    pub inertial_from_body: Rotation3<f64>,
+    /// Total external torque about the centre of mass, body frame, in N m.
+    pub torque_body_n_m: Vector3<f64>,
+    /// Acceleration by non-gravitational forces, inertial frame, in m/s2.
+    pub acceleration_inertial_m_s2: Vector3<f64>,
+    /// Event functions: between two of their roots the sample is a smooth function of time. Infinite where there is nothing
+    /// to watch.
+    pub events: EventValues,
+}
+
+/// Values of the event functions of a flight.
+pub type EventValues = SVector<f64, 4>;
+
+/// What the integration of momentum costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// A segment as long as the grid and the flight let it be.
+    Segment,
+    /// A segment tried at a shorter length, because the tolerance asks for it.
+    Refinement,
+    /// A search for the time at which something changes abruptly.
+    Search,
+    /// A dump.
+    Dump,
+}
+
+/// What gives attitude, torque and acceleration at any time.
+pub trait TorqueModel {
+    /// Why a flight cannot go on.
+    type Failure: From<TooManyDumps>;
+
+    /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to the next change whose time is
+    /// known: a segment that starts there ends at that time or before. Called with rising times, and again with the same one.
+    ///
+    /// # Errors
+    /// Whatever ends a flight.
+    fn prepare(&mut self, start_s: f64) -> Result<f64, Self::Failure>;
+
+    /// Sample at `time_s`; a pure function of time within what was prepared.
+    fn sample(&mut self, time_s: f64) -> Sample;
+
+    /// The event functions of the sample alone.
+    fn events(&mut self, time_s: f64) -> EventValues;
+
+    /// Counts what is about to be done, the flight having come to `time_s`.
+    ///
+    /// # Errors
+    /// More was spent than may be.
+    fn spend(&mut self, _effort: Effort, _time_s: f64) -> Result<(), Self::Failure> {
+        Ok(())
+    }
+}

@@ -1,0 +1,62 @@
+//! Totals of momentum and delta-v: what is integrated over time, and in which convention.
+
+use nalgebra::{Rotation3, SVector, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Sampled quantities that are integrated: torque (inertial), torque (body), acceleration (inertial).
+pub(super) const RATES: usize = 9;
+
+/// What "system momentum in the body frame" means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
+    /// Physical: dH/dt + w x H = T, the inertial momentum shown in body components.
+    Inertial,
+    /// Paper 000: the integral of each body component of torque on its own.
+    BodyIntegral,
+}
+
+/// What is integrated over time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Totals {
+    /// Angular momentum of the whole spacecraft in the inertial frame, in N m s: dH/dt = T.
+    pub momentum_inertial_n_m_s: Vector3<f64>,
+    /// Integral of the body components of torque, in N m s (paper 000's eq 13, read component by component).
+    pub torque_integral_body_n_m_s: Vector3<f64>,
+    /// Velocity change by non-gravitational forces, inertial frame, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+}
+
+impl Totals {
+    /// System momentum in the body frame by `convention`, in N m s.
+    pub fn momentum_body_n_m_s(
+        &self,
+        convention: Convention,
+        inertial_from_body: &Rotation3<f64>,
+    ) -> Vector3<f64> {
+        match convention {
+            Convention::Inertial => inertial_from_body.inverse() * self.momentum_inertial_n_m_s,
+            Convention::BodyIntegral => self.torque_integral_body_n_m_s,
+        }
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        self.to_vector().iter().all(|x| x.is_finite())
+    }
+
+    pub(super) fn to_vector(self) -> SVector<f64, RATES> {
+        pack(self.momentum_inertial_n_m_s, self.torque_integral_body_n_m_s, self.delta_v_inertial_m_s)
+    }
+
+    pub(super) fn from_vector(v: &SVector<f64, RATES>) -> Self {
+        Self {
+            momentum_inertial_n_m_s: Vector3::new(v[0], v[1], v[2]),
+            torque_integral_body_n_m_s: Vector3::new(v[3], v[4], v[5]),
+            delta_v_inertial_m_s: Vector3::new(v[6], v[7], v[8]),
+        }
+    }
+}
+
+pub(super) fn pack(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> SVector<f64, RATES> {
+    SVector::from([a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z])
+}

@@ -1,0 +1,23 @@
+//! Why a spacecraft and a planet cannot be prepared for light.
+
+use crate::bodies::surface::SurfaceError;
+use crate::radiation::grid::GridError;
+use crate::radiation::ring::NodesError;
+use crate::radiation::solar::NoSuchSunshade;
+
+/// Options that cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// The planet's surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The number of quadrature nodes.
+    #[error(transparent)]
+    Nodes(#[from] NodesError),
+    /// The planet's cells.
+    #[error(transparent)]
+    Cells(#[from] GridError),
+    /// The sunshade's form.
+    #[error(transparent)]
+    Sunshade(#[from] NoSuchSunshade),
+}

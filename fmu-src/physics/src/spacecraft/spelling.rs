@@ -1,0 +1,50 @@
+//! Spelling: the known word that an unknown one was probably meant to be.
+
+/// The candidate that takes the fewest edits, if it takes few.
+pub(crate) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    candidates
+        .iter()
+        .map(|candidate| (edits(word, candidate), *candidate))
+        .filter(|(distance, candidate)| *distance <= 2.max(candidate.len().min(word.len()) / 2))
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Levenshtein's distance: insertions, deletions and substitutions between two words.
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        for (j, to) in b.iter().enumerate() {
+            let up = row.get(j + 1).copied().unwrap_or(usize::MAX);
+            let cost = (diagonal + usize::from(from != *to)).min(left + 1).min(up.saturating_add(1));
+            diagonal = up;
+            if let Some(entry) = row.get_mut(j) {
+                *entry = left;
+            }
+            left = cost;
+        }
+        if let Some(entry) = row.last_mut() {
+            *entry = left;
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    //! Words have neighbours.
+    use super::*;
+
+    #[test]
+    fn edit_distance_of_known_words() {
+        assert_eq!(edits("kitten", "sitting"), 3);
+        assert_eq!(edits("", "abc"), 3);
+        assert_eq!(edits("abc", ""), 3);
+        assert_eq!(edits("same", "same"), 0);
+        assert_eq!(nearest("arae_m2", &["name", "area_m2", "normal"]), Some("area_m2"));
+        assert_eq!(nearest("zzzzzzzz", &["name", "area_m2"]), None);
+    }
+}

@@ -1,0 +1,361 @@
+//! The spinner, from its file; every problem is told by file, line, key, what was found and what is
+//! allowed.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::hardware::{
+    Group, Limits, MOST_THRUSTERS, MassProperties, StarTracker, SunSensor, Thrust, Thruster,
+};
+use crate::spacecraft::{
+    Checker, Document, Place, SpacecraftError, StartEntry, StartTable, nearest, start_entries,
+};
+use crate::spin::geometry::L1Orbit;
+
+/// Greatest distance, in m: planets and their Lagrange points are nearer to the Sun.
+const GREATEST_DISTANCE_M: f64 = 1e13;
+
+/// Standard gravity, in m/s2 (3rd CGPM 1901): specific impulse in seconds times this is exhaust speed.
+const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
+
+/// The whole setup, validated.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spinner {
+    /// Name.
+    pub name: String,
+    /// Mass properties.
+    pub mass_properties: MassProperties,
+    /// 1/e time of the nutation angle, in s; 0 without a damper.
+    pub damper_time_constant_s: f64,
+    /// Smallest step of pulse width, in s.
+    pub resolution_s: f64,
+    /// Thrusters.
+    pub thrusters: Vec<Thruster>,
+    /// Named groups.
+    pub groups: Vec<Group>,
+    /// Star tracker.
+    pub star_tracker: StarTracker,
+    /// Sun sensor.
+    pub sun_sensor: SunSensor,
+    /// Limits.
+    pub limits: Limits,
+    /// Orbit.
+    pub l1_orbit: L1Orbit,
+    /// Start values of the model's variables, handed on as they were written.
+    #[serde(skip)]
+    pub start: Vec<StartEntry>,
+}
+
+impl Spinner {
+    /// Reads a spinner from TOML text; `file` only names it in errors.
+    ///
+    /// # Errors
+    ///
+    /// Text that is not TOML, or all unknown, missing and ill-typed keys and all values no spinner can have, each with
+    /// line, key, what was found and what is allowed.
+    pub fn parse(file: &str, text: &str) -> Result<Self, SpacecraftError> {
+        let document = Document::parse(file, text)?;
+        let (raw, findings) = document.read::<File>()?;
+        let mut builder = Builder { check: Checker::new(&document, findings) };
+        let spinner = builder.spinner(raw);
+        builder.check.finish(spinner)
+    }
+
+    /// What the thrusters of `mask` do together.
+    pub fn thrust(&self, mask: u32) -> Thrust {
+        let mut sum =
+            Thrust { force_body_n: Vector3::zeros(), torque_body_n_m: Vector3::zeros(), flow_kg_s: 0.0 };
+        for (k, thruster) in self.thrusters.iter().enumerate() {
+            if mask >> k & 1 == 1 {
+                sum.force_body_n += thruster.force_body_n;
+                sum.torque_body_n_m += thruster.torque_body_n_m;
+                sum.flow_kg_s += thruster.flow_kg_s;
+            }
+        }
+        sum
+    }
+
+    /// The group or single thruster called `name`: its mask and that of its opposite.
+    pub fn named(&self, name: &str) -> Option<(u32, Option<u32>)> {
+        if let Some(group) = self.groups.iter().find(|group| group.name == name) {
+            return Some((group.mask, group.opposite.and_then(|o| self.groups.get(o)).map(|g| g.mask)));
+        }
+        self.thrusters.iter().position(|thruster| thruster.name == name).map(|k| (1 << k, None))
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    name: String,
+    mass_properties: MassProperties,
+    damper: DamperEntry,
+    thrusters: ThrustersEntry,
+    thruster: Vec<ThrusterEntry>,
+    group: Option<Vec<GroupEntry>>,
+    star_tracker: StarTracker,
+    sun_sensor: SunSensor,
+    limits: Limits,
+    l1_orbit: L1Orbit,
+    start: Option<StartTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DamperEntry {
+    time_constant_s: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ThrustersEntry {
+    resolution_s: f64,
+    specific_impulse_s: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ThrusterEntry {
+    name: String,
+    force_n: f64,
+    position_m: [f64; 3],
+    direction: [f64; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GroupEntry {
+    name: String,
+    thrusters: Vec<String>,
+    opposite: Option<String>,
+}
+
+/// Gathers problems on the way through the file.
+struct Builder<'d> {
+    check: Checker<'d>,
+}
+
+impl Builder<'_> {
+    fn spinner(&mut self, raw: File) -> Spinner {
+        let root = Place::root();
+        self.mass_properties(&root.key("mass_properties"), &raw.mass_properties);
+        self.check.not_negative(&root.key("damper").key("time_constant_s"), raw.damper.time_constant_s);
+        let common = root.key("thrusters");
+        self.check.positive(&common.key("resolution_s"), raw.thrusters.resolution_s);
+        let impulse_s = raw.thrusters.specific_impulse_s;
+        let allowed = "a number from 1 to 1e8 s";
+        self.check.within(&common.key("specific_impulse_s"), impulse_s, 1.0, 1e8, allowed);
+        let exhaust_m_s = raw.thrusters.specific_impulse_s * STANDARD_GRAVITY_M_S2;
+        let thrusters = self.thrusters(&root.key("thruster"), raw.thruster, exhaust_m_s);
+        let groups = self.groups(&root.key("group"), raw.group.unwrap_or_default(), &thrusters);
+        self.star_tracker(&root.key("star_tracker"), &raw.star_tracker);
+        self.sun_sensor(&root.key("sun_sensor"), &raw.sun_sensor);
+        self.limits(&root.key("limits"), &raw.limits);
+        self.orbit(&root.key("l1_orbit"), &raw.l1_orbit);
+        Spinner {
+            name: raw.name,
+            mass_properties: raw.mass_properties,
+            damper_time_constant_s: raw.damper.time_constant_s,
+            resolution_s: raw.thrusters.resolution_s,
+            thrusters,
+            groups,
+            star_tracker: raw.star_tracker,
+            sun_sensor: raw.sun_sensor,
+            limits: raw.limits,
+            l1_orbit: raw.l1_orbit,
+            start: start_entries(&mut self.check, raw.start.as_ref()),
+        }
+    }
+
+    fn mass_properties(&mut self, at: &Place, mass: &MassProperties) {
+        let points = at.key("propellant_kg");
+        let count = mass.propellant_kg.len();
+        for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
+            self.check.not_negative(&points.item(i), propellant_kg);
+        }
+        if count < 2 || mass.propellant_kg.windows(2).any(|pair| pair[0] >= pair[1]) {
+            let found = format!("{:?}", mass.propellant_kg);
+            self.check.report(&points, found, "two or more rising numbers");
+        }
+        for (key, values) in
+            [("spin_inertia_kg_m2", &mass.spin_inertia_kg_m2), ("inertia_ratio", &mass.inertia_ratio)]
+        {
+            let list = at.key(key);
+            for (i, &value) in values.iter().enumerate() {
+                self.check.positive(&list.item(i), value);
+            }
+            if values.len() != count {
+                let allowed = format!("{count} of them, one for each of propellant_kg");
+                self.check.report_across(at, &list, format_args!("a list of {}", values.len()), allowed);
+            }
+        }
+        self.check.positive(&at.key("dry_mass_kg"), mass.dry_mass_kg);
+        self.check.positive(&at.key("transverse_quotient"), mass.transverse_quotient);
+        let most_kg = mass.propellant_kg.last().copied().unwrap_or(0.0);
+        if !(0.0..=most_kg).contains(&mass.initial_propellant_kg) {
+            let allowed = format!("a number from 0 to {most_kg}, the last of propellant_kg");
+            self.check.report_across(
+                at,
+                &at.key("initial_propellant_kg"),
+                mass.initial_propellant_kg,
+                allowed,
+            );
+        }
+        let shares = ["propellant_kg", "spin_inertia_kg_m2", "inertia_ratio", "transverse_quotient"];
+        if shares.iter().any(|key| self.check.has_reported(&at.key(key))) {
+            return;
+        }
+        for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
+            if let Err(error) = mass.inertia(propellant_kg) {
+                let place = at.key("inertia_ratio").item(i);
+                self.check.report_across(at, &place, error, "moments of inertia that a body can have");
+            }
+        }
+    }
+
+    fn thrusters(&mut self, at: &Place, entries: Vec<ThrusterEntry>, exhaust_m_s: f64) -> Vec<Thruster> {
+        if entries.is_empty() || entries.len() > MOST_THRUSTERS {
+            let allowed = format!("1 to {MOST_THRUSTERS} of them");
+            self.check.report(at, format_args!("a list of {}", entries.len()), allowed);
+        }
+        let mut thrusters: Vec<Thruster> = Vec::with_capacity(entries.len());
+        let list = at;
+        for (i, entry) in entries.into_iter().enumerate() {
+            let at = list.item(i);
+            let other = thrusters.iter().position(|thruster| thruster.name == entry.name);
+            self.own_name(&at, &entry.name, other.map(|other| list.item(other)));
+            self.check.positive(&at.key("force_n"), entry.force_n);
+            let position_m = self.check.vector(&at.key("position_m"), entry.position_m);
+            self.check.unit_vector(&at.key("direction"), entry.direction);
+            // Not the unit vector: scaled once, the force has the bits that GUIDs were made of.
+            let direction = Vector3::from(entry.direction);
+            let force_body_n = direction * (entry.force_n / direction.norm());
+            thrusters.push(Thruster {
+                name: entry.name,
+                force_body_n,
+                torque_body_n_m: position_m.cross(&force_body_n),
+                flow_kg_s: entry.force_n / exhaust_m_s,
+            });
+        }
+        thrusters
+    }
+
+    fn groups(&mut self, at: &Place, entries: Vec<GroupEntry>, thrusters: &[Thruster]) -> Vec<Group> {
+        let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+        let thruster_names: Vec<&str> = thrusters.iter().map(|thruster| thruster.name.as_str()).collect();
+        let mut groups = Vec::with_capacity(entries.len());
+        let list = at;
+        for (i, entry) in entries.iter().enumerate() {
+            let (at, name) = (list.item(i), entry.name.as_str());
+            let group = names.iter().take(i).position(|other| *other == name).map(|other| list.item(other));
+            let thruster = thruster_names.iter().position(|other| *other == name);
+            let other = group.or(thruster.map(|other| Place::root().key("thruster").item(other)));
+            self.own_name(&at, name, other);
+            let place = at.key("thrusters");
+            if entry.thrusters.is_empty() {
+                self.check.report(&place, "an empty list", "at least one name of a thruster");
+            }
+            let mut mask = 0_u32;
+            for (k, name) in entry.thrusters.iter().enumerate() {
+                let known = self.known(&Place::root().key("thruster"), &place.item(k), name, &thruster_names);
+                mask |= known.filter(|k| *k < MOST_THRUSTERS).map_or(0, |k| 1 << k);
+            }
+            let other = entry.opposite.as_deref();
+            let opposite = other.and_then(|other| {
+                self.known(&Place::root().key("group"), &at.key("opposite"), other, &names)
+            });
+            groups.push(Group { name: entry.name.clone(), mask, opposite });
+        }
+        groups
+    }
+
+    /// Reports a name that is empty or that `other` has too.
+    fn own_name(&mut self, at: &Place, name: &str, other: Option<Place>) {
+        if let Some(other) = other {
+            let found = format!("{name:?}, which is the name of {other} too");
+            self.check.report(&at.key("name"), found, "a name of its own");
+        } else if name.is_empty() {
+            self.check.report(&at.key("name"), format_args!("{name:?}"), "a name of its own");
+        }
+    }
+
+    /// Which of the names in `list` this is.
+    fn known(&mut self, list: &Place, at: &Place, name: &str, names: &[&str]) -> Option<usize> {
+        let index = names.iter().position(|known| *known == name);
+        if index.is_none() {
+            let meant = nearest(name, names).map(|meant| format!(" (did you mean {meant:?}?)"));
+            let found = format!("the unknown name {name:?}{}", meant.unwrap_or_default());
+            self.check.report_across(
+                list,
+                at,
+                found,
+                format_args!("a name under [[{list}]]: {}", names.join(", ")),
+            );
+        }
+        index
+    }
+
+    fn star_tracker(&mut self, at: &Place, tracker: &StarTracker) {
+        self.check.finite(&at.key("azimuth_deg"), tracker.azimuth_deg);
+        let field_deg = tracker.field_of_view_deg;
+        let allowed = "an angle above 0 and at most 180 deg";
+        self.check.within(&at.key("field_of_view_deg"), field_deg, f64::MIN_POSITIVE, 180.0, allowed);
+        if tracker.pickets == 0 || !tracker.pickets.is_multiple_of(4) {
+            self.check.report(&at.key("pickets"), tracker.pickets, "a multiple of 4, at least 4");
+        }
+        self.at_least_one(&at.key("every"), tracker.every);
+        self.noise(&at.key("noise_deg"), tracker.noise_deg);
+    }
+
+    fn sun_sensor(&mut self, at: &Place, sensor: &SunSensor) {
+        self.check.finite(&at.key("azimuth_deg"), sensor.azimuth_deg);
+        self.noise(&at.key("noise_deg"), sensor.noise_deg);
+        self.at_least_one(&at.key("sectors"), sensor.sectors);
+    }
+
+    fn noise(&mut self, at: &Place, noise_deg: f64) {
+        self.check.within(at, noise_deg, 0.0, 180.0, "a standard deviation from 0 to 180 deg");
+    }
+
+    fn at_least_one(&mut self, at: &Place, count: u32) {
+        if count == 0 {
+            self.check.report(at, count, "at least 1");
+        }
+    }
+
+    fn limits(&mut self, at: &Place, limits: &Limits) {
+        for (key, value) in [
+            ("sun_angle_deg", limits.sun_angle_deg),
+            ("earth_angle_deg", limits.earth_angle_deg),
+            ("spin_rate_rpm", limits.spin_rate_rpm),
+            ("spin_rate_tolerance_rpm", limits.spin_rate_tolerance_rpm),
+            ("period_variation_s", limits.period_variation_s),
+        ] {
+            self.check.positive(&at.key(key), value);
+        }
+    }
+
+    fn orbit(&mut self, at: &Place, orbit: &L1Orbit) {
+        for (key, value) in [
+            ("line_rate_deg_day", orbit.line_rate_deg_day),
+            ("in_plane_frequency", orbit.in_plane_frequency),
+            ("out_of_plane_frequency", orbit.out_of_plane_frequency),
+            ("obliquity_deg", orbit.obliquity_deg),
+        ] {
+            self.check.finite(&at.key(key), value);
+        }
+        for (key, distance_m) in [
+            ("sun_earth_distance_m", orbit.sun_earth_distance_m),
+            ("earth_l1_distance_m", orbit.earth_l1_distance_m),
+        ] {
+            let allowed = "a distance above 0 and at most 1e13 m";
+            self.check.within(&at.key(key), distance_m, f64::MIN_POSITIVE, GREATEST_DISTANCE_M, allowed);
+        }
+        let amplitude = at.key("amplitude_m");
+        self.check.vector(&amplitude, orbit.amplitude_m);
+        if orbit.amplitude_m[0].abs() >= orbit.earth_l1_distance_m {
+            let found = orbit.amplitude_m[0];
+            self.check.report_across(at, &amplitude.item(0), found, "less than earth_l1_distance_m");
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Hardware of a spinner: mass properties, thrusters, sensors, limits.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::spin::inertia::{Inertia, InertiaError};
+
+/// A set of thrusters is a bit mask.
+pub const MOST_THRUSTERS: usize = 24;
+
+/// Mass and inertia as functions of the propellant on board.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MassProperties {
+    /// I3 at each point, in kg m2.
+    pub spin_inertia_kg_m2: Vec<f64>,
+    /// I3/I_T at each point.
+    pub inertia_ratio: Vec<f64>,
+    /// The points, rising from empty, in kg.
+    pub propellant_kg: Vec<f64>,
+    /// Everything but propellant, in kg.
+    pub dry_mass_kg: f64,
+    /// On board at the start, in kg.
+    pub initial_propellant_kg: f64,
+    /// I1/I2.
+    pub transverse_quotient: f64,
+}
+
+impl MassProperties {
+    /// Inertia with `propellant_kg` on board; held constant outside the table.
+    pub fn inertia(&self, propellant_kg: f64) -> Result<Inertia, InertiaError> {
+        let spin = self.interpolate(&self.spin_inertia_kg_m2, propellant_kg);
+        let transverse = spin / self.interpolate(&self.inertia_ratio, propellant_kg);
+        let root = self.transverse_quotient.sqrt();
+        Inertia::new([transverse * root, transverse / root, spin])
+    }
+
+    /// Propellant at the last point of the table, in kg.
+    pub fn most_propellant_kg(&self) -> f64 {
+        self.propellant_kg.last().copied().unwrap_or(0.0)
+    }
+
+    fn interpolate(&self, values: &[f64], propellant_kg: f64) -> f64 {
+        let points = &self.propellant_kg;
+        let mut result = values.first().copied().unwrap_or(0.0);
+        for (x, y) in points.windows(2).zip(values.windows(2)) {
+            if propellant_kg >= x[0] {
+                let share = ((propellant_kg - x[0]) / (x[1] - x[0])).clamp(0.0, 1.0);
+                result = y[0] + share * (y[1] - y[0]);
+            }
+        }
+        result
+    }
+}
+
+/// One thruster.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Thruster {
+    /// Name.
+    pub name: String,
+    /// Force on the spacecraft, body components, in N.
+    pub force_body_n: Vector3<f64>,
+    /// Torque about the centre of mass, body components, in N m.
+    pub torque_body_n_m: Vector3<f64>,
+    /// Propellant flow, in kg/s.
+    pub flow_kg_s: f64,
+}
+
+/// Thrusters that fire together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Group {
+    /// Name.
+    pub name: String,
+    /// Bit k stands for thruster k, from 0.
+    pub mask: u32,
+    /// Index of the group that pushes the other way.
+    pub opposite: Option<usize>,
+}
+
+/// Star tracker of a spinner that searches pickets of sky.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StarTracker {
+    /// Boresight azimuth from body X toward Y, in deg.
+    pub azimuth_deg: f64,
+    /// Full width of the field in declination, in deg.
+    pub field_of_view_deg: f64,
+    /// Pickets in a turn.
+    pub pickets: u32,
+    /// One in so many is searched in a turn.
+    pub every: u32,
+    /// Standard deviation of a declination, in deg.
+    pub noise_deg: f64,
+}
+
+/// Sun sensor with a slit, from which spins are timed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SunSensor {
+    /// Azimuth of the slit from body X toward Y, in deg.
+    pub azimuth_deg: f64,
+    /// Standard deviation of a Sun angle, in deg.
+    pub noise_deg: f64,
+    /// Sectors into which science data of one spin are sorted.
+    pub sectors: u32,
+}
+
+/// Mission limits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// Greatest angle from the spin axis to the Sun, in deg.
+    pub sun_angle_deg: f64,
+    /// Greatest angle from the antenna (-Z) to the Earth, in deg.
+    pub earth_angle_deg: f64,
+    /// Nominal spin rate, in rpm.
+    pub spin_rate_rpm: f64,
+    /// Allowed either way, in rpm.
+    pub spin_rate_tolerance_rpm: f64,
+    /// Greatest variation of the spin period, in s.
+    pub period_variation_s: f64,
+}
+
+/// Force, torque and flow of a set of thrusters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thrust {
+    /// Body components, in N.
+    pub force_body_n: Vector3<f64>,
+    /// Body components, in N m.
+    pub torque_body_n_m: Vector3<f64>,
+    /// In kg/s.
+    pub flow_kg_s: f64,
+}
