@@ -212,26 +212,31 @@ pub struct InputDerivative {
 
 impl<'a> InputsOverTime<'a> {
     /// Inputs that keep their values.
+    #[inline]
     pub const fn held() -> Self {
         Self { start_s: 0.0, derivatives: &[] }
     }
 
     /// Inputs with these derivatives at `start_s`, in no particular order.
+    #[inline]
     pub const fn new(start_s: f64, derivatives: &'a [InputDerivative]) -> Self {
         Self { start_s, derivatives }
     }
 
     /// The time at which the derivatives hold, in s.
+    #[inline]
     pub const fn start_s(&self) -> f64 {
         self.start_s
     }
 
     /// The derivatives of an input, by order and value.
+    #[inline]
     pub fn derivatives(&self, input: Real) -> impl Iterator<Item = (u32, f64)> + use<'a> {
         self.derivatives.iter().filter(move |it| it.input == input).map(|it| (it.order, it.value))
     }
 
     /// An input at `time_s`.
+    #[inline]
     pub fn real(&self, values: &Values, input: Real, time_s: f64) -> f64 {
         let mut sum = values.real(input);
         for &InputDerivative { input: of, order, value } in self.derivatives {
@@ -262,6 +267,7 @@ pub struct StepEnd {
 
 impl StepEnd {
     /// A step that ended at `time_s` without an event.
+    #[inline]
     pub const fn at(time_s: f64) -> Self {
         Self { time_s, event: false, terminate: None }
     }

@@ -60,10 +60,7 @@ fn every_fault_stays_in_its_instance() {
         let panicked = messages.iter().any(|message| message.text.contains("panic"));
         match fault {
             Fault::Nowhere | Fault::StepShort => assert_eq!((status, panicked), (Ok, false)),
-            Fault::FailStep
-            | Fault::StepStill
-            | Fault::FailSerializeState
-            | Fault::FailCheckState => {
+            Fault::FailStep | Fault::StepStill | Fault::FailSerializeState | Fault::FailCheckState => {
                 assert_eq!((status, panicked), (Error, false), "{fault:?}");
                 assert_eq!(instance.reset(), Ok);
             }
