@@ -1,5 +1,5 @@
 //! What FMI 2.0 says, once: C functions, call table, status codes, base types, and model descriptions with their rules,
-//! validator, writer and digest; feature `reader` adds the parser.
+//! validator and writer; feature `reader` adds the parser.
 //!
 //! Section numbers refer to the FMI 2.0.5 standard. Nothing here knows of a particular model.
 
@@ -7,7 +7,6 @@ mod base_type;
 pub mod call_table;
 pub mod describe;
 mod description;
-pub mod digest;
 mod document;
 mod finding;
 pub mod functions;

@@ -1,8 +1,9 @@
-//! FMI 2.0 co-simulation export: model trait, variable tables, call-state machine, C interface.
+//! Export of models as FMUs: model traits, declarations and values of variables, and [`fmi2`], the adapter for FMI 2.0
+//! co-simulation.
 //!
-//! A model implements [`Model`] and declares its variables with `#[derive(Variables)]`. Everything a master
-//! sees (XML, value references, states, status codes, logging) is made here; nothing here knows what a model
-//! is about. The trait is free of FMI-version-specific types.
+//! A model implements [`Model`] and declares its variables with `#[derive(Variables)]`, free of any version of FMI.
+//! Everything an importer sees (XML, value references, states, status codes, logging) is made in [`fmi2`]; an adapter for
+//! another version would stand beside it. Nothing here knows what a model is about.
 //!
 //! A shared library is one line, `fmi_export::export!(ModelA, ModelB);` in a crate of type cdylib.
 
@@ -20,10 +21,13 @@ pub mod variables;
 
 pub use dependencies::{Dependencies, Knowns};
 pub use fmi_export_derive::{Enumeration, Variables};
-pub use fmi2::{Entry, Given, Library, StartValue};
-pub use model::{About, Context, Failure, Model, SetupError, Source, Step};
+pub use fmi2::{Entry, Library, SetupValue, StartValue};
+pub use model::{
+    About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Model, OutputRates,
+    SetupError, Source, Step, StepEnd,
+};
 pub use model_description::{self, BaseType, Status};
 pub use variables::{
-    Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Real, RealMatrix, RealVector, Text, Values,
-    Variables,
+    Boolean, Choice, Declare, DeclareError, Element, Enumeration, Integer, Interface, Real, RealMatrix,
+    RealVector, Text, Values, Variables,
 };

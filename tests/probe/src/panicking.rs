@@ -1,8 +1,8 @@
 //! The model that panics: in the callback it is told to by its setup or by the parameter `fault`.
 
 use fmi_export::{
-    About, Choice, Context, Dependencies, Enumeration, Failure, Model, Real, SetupError, Step, Values,
-    Variables, knowns,
+    About, Choice, Context, Dependencies, Differentiable, Enumeration, Extensions, Failure, Model,
+    OutputRates, Real, SetupError, Step, StepEnd, Values, Variables, knowns,
 };
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 
@@ -38,9 +38,9 @@ pub enum Fault {
     Step,
     /// Panic in `check_state`.
     CheckState,
-    /// Panic in `output_derivative`.
+    /// Panic in `output_rate`.
     OutputDerivative,
-    /// Panic in `directional_derivative`.
+    /// Panic in `jacobian_vector_product`.
     DirectionalDerivative,
     /// Panic when the state is dropped.
     DropState,
@@ -66,6 +66,10 @@ pub enum Fault {
     FailCheckState,
     /// Panic in step by an index out of range.
     StepIndex,
+    /// Leave every step longer than 0.2 s in the middle.
+    StepShort,
+    /// Leave every step where it began.
+    StepStill,
 }
 
 /// The variables of [`Panicking`].
@@ -181,8 +185,7 @@ impl Model for Panicking {
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("panicking.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../resources/panicking.toml");
-    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
-    const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = true;
+    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates().differentiable();
 
     type Setup = Setup;
     type Variables = PanickingVariables;
@@ -226,24 +229,32 @@ impl Model for Panicking {
         values: &mut Values,
         state: &mut State,
         step: &Step<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<StepEnd, Failure> {
         state.fault = chosen(context, values);
         state.steps = state.steps.saturating_add(1);
-        let input = step.input(values, context.variables.input, step.end_s);
+        let input = step.inputs.real(values, context.variables.input, step.end_s);
         values.set_real(context.variables.output, input);
         state.panic_if(Fault::Step);
         match state.fault {
             Fault::StepPayload => panic_with(42_u8),
             Fault::StepPayloadDrop => panic_with(PanicsOnDrop),
             Fault::StepIndex => {
-                values.set_real(Real::from_reference(u32::MAX), input);
+                values.set_real(context.variables.output, [input][state.steps as usize]);
             }
             Fault::FailStep => return Err(Failure::new("step fails, 100 % deliberately")),
-            Fault::TerminateStep => return Err(Failure::terminated("the model ends here")),
+            Fault::TerminateStep => return Ok(StepEnd::at(step.start_s).terminate("the model ends here")),
             _ => {}
         }
-        values.set_real(context.variables.clock, step.end_s);
-        Ok(())
+        let length_s = step.end_s - step.start_s;
+        let end_s = match state.fault {
+            Fault::StepShort if length_s > 0.2 => step.start_s + length_s / 2.0,
+            Fault::StepStill => step.start_s,
+            _ => step.end_s,
+        };
+        let input = step.inputs.real(values, context.variables.input, end_s);
+        values.set_real(context.variables.output, input);
+        values.set_real(context.variables.clock, end_s);
+        Ok(StepEnd::at(end_s))
     }
 
     fn check_state(_setup: &Setup, state: &State) -> Result<(), Failure> {
@@ -254,7 +265,16 @@ impl Model for Panicking {
         Ok(())
     }
 
-    fn output_derivative(
+    fn dependencies(_setup: &Setup, variables: &PanickingVariables) -> Dependencies {
+        let mut table = Dependencies::new();
+        table.output(variables.output, variables.input, variables.input);
+        table.output(variables.clock, knowns![], knowns![]);
+        table
+    }
+}
+
+impl OutputRates for Panicking {
+    fn output_rate(
         context: &Context<'_, Self>,
         values: &Values,
         _state: &State,
@@ -263,28 +283,22 @@ impl Model for Panicking {
         panic_if(chosen(context, values) == Fault::OutputDerivative, "OutputDerivative");
         None
     }
+}
 
-    fn dependencies(_setup: &Setup, variables: &PanickingVariables) -> Dependencies {
-        let mut table = Dependencies::new();
-        table.output(variables.output, variables.input, variables.input);
-        table.output(variables.clock, knowns![], knowns![]);
-        table
-    }
-
-    fn directional_derivative(
+impl Differentiable for Panicking {
+    fn jacobian_vector_product(
         context: &Context<'_, Self>,
         values: &Values,
         _state: &State,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        result: &mut [f64],
+        unknowns: &[Real],
+        seeds: &[(Real, f64)],
+        products: &mut [f64],
     ) -> Result<(), Failure> {
         panic_if(chosen(context, values) == Fault::DirectionalDerivative, "DirectionalDerivative");
-        let (from, to) = (context.variables.input.reference(), context.variables.output.reference());
-        for (unknown, result) in unknowns.iter().zip(result) {
-            let seeds = knowns.iter().zip(seed).filter(|(known, _)| *unknown == to && **known == from);
-            *result = seeds.map(|(_, seed)| seed).sum();
+        let (from, to) = (context.variables.input, context.variables.output);
+        for (unknown, product) in unknowns.iter().zip(products) {
+            let along = seeds.iter().filter(|(known, _)| *unknown == to && *known == from);
+            *product = along.map(|(_, seed)| seed).sum();
         }
         Ok(())
     }

@@ -2,19 +2,19 @@
 
 use core::ffi::{CStr, c_char, c_int};
 
-use super::problem::{Problem, Wrong};
+use super::problem::{ArgumentError, Problem};
 
-fn wrong(name: &'static str, what: Wrong) -> Problem {
+fn wrong(name: &'static str, what: ArgumentError) -> Problem {
     Problem::Argument { name, what }
 }
 
 fn check<T>(pointer: *const T, length: usize, name: &'static str) -> Result<(), Problem> {
     if pointer.is_null() {
-        return Err(wrong(name, Wrong::Null));
+        return Err(wrong(name, ArgumentError::Null));
     }
     // No array is larger than half the address space; a length that says so is a negative number.
     if length > isize::MAX as usize / size_of::<T>() {
-        return Err(wrong(name, Wrong::TooLong { given: length }));
+        return Err(wrong(name, ArgumentError::TooLong { given: length }));
     }
     Ok(())
 }
@@ -61,7 +61,7 @@ pub(super) unsafe fn slice_mut<'a, T>(
 /// As [`slice_mut`], for one element.
 pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &'static str) -> Result<&'a mut T, Problem> {
     // SAFETY: the caller's promise.
-    unsafe { pointer.as_mut() }.ok_or_else(|| wrong(name, Wrong::Null))
+    unsafe { pointer.as_mut() }.ok_or_else(|| wrong(name, ArgumentError::Null))
 }
 
 /// The C string at `pointer`.
@@ -70,7 +70,7 @@ pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &'static str) -> Result
 /// A `pointer` that is not NULL points to a NUL-terminated string that lives for the time of the call.
 pub(super) unsafe fn text<'a>(pointer: *const c_char, name: &'static str) -> Result<&'a CStr, Problem> {
     if pointer.is_null() {
-        return Err(wrong(name, Wrong::Null));
+        return Err(wrong(name, ArgumentError::Null));
     }
     // SAFETY: not NULL; the rest is the caller's promise.
     Ok(unsafe { CStr::from_ptr(pointer) })
@@ -82,6 +82,6 @@ pub(super) fn flag(value: c_int, name: &'static str) -> Result<bool, Problem> {
     match value {
         0 => Ok(false),
         1 => Ok(true),
-        other => Err(wrong(name, Wrong::NotZeroOrOne(other))),
+        other => Err(wrong(name, ArgumentError::NotZeroOrOne(other))),
     }
 }

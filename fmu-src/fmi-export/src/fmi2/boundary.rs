@@ -12,7 +12,7 @@ use model_description::functions::types::{CallbackLogger, Component, FmuState};
 
 use super::instance::Instance;
 use super::logger::LogSink;
-use super::problem::{Problem, Wrong};
+use super::problem::{ArgumentError, Problem};
 use super::state_bytes::SavedState;
 use crate::panics::contain;
 
@@ -40,16 +40,16 @@ struct Handle {
 /// An instance and the strings of it that the importer reads.
 pub(super) struct Inner {
     pub(super) instance: Instance,
-    pub(super) lent: Lent,
+    pub(super) strings: Strings,
 }
 
 /// The C strings that `fmi2GetString` handed out: one a variable, replaced when the variable is read again
 /// with another value.
-pub(super) struct Lent(Vec<Option<CString>>);
+pub(super) struct Strings(Vec<Option<CString>>);
 
-impl Lent {
+impl Strings {
     /// A C string with this text (NUL replaced) that lives in the slot of the String `index`.
-    pub(super) fn lend(&mut self, index: usize, text: &str) -> *const c_char {
+    pub(super) fn hold(&mut self, index: usize, text: &str) -> *const c_char {
         let text = match text.contains('\0') {
             true => Cow::Owned(text.replace('\0', "\u{FFFD}")),
             false => Cow::Borrowed(text),
@@ -67,7 +67,7 @@ impl Lent {
 
 /// A new handle.
 pub(super) fn handle_of(instance: Instance) -> Component {
-    let inner = UnsafeCell::new(Inner { instance, lent: Lent(Vec::new()) });
+    let inner = UnsafeCell::new(Inner { instance, strings: Strings(Vec::new()) });
     let handle = Handle { mark: instance_mark(), busy: AtomicBool::new(false), inner };
     Box::into_raw(Box::new(handle)).cast()
 }
@@ -171,11 +171,11 @@ pub(super) fn state_handle_of(saved: SavedState) -> FmuState {
 /// A `state` that is not NULL points to a live FMU state, of whatever FMU, that nobody else uses meanwhile.
 pub(super) unsafe fn saved<'a>(state: FmuState, name: &'static str) -> Result<&'a mut SavedState, Problem> {
     if state.is_null() {
-        return Err(Problem::Argument { name, what: Wrong::Null });
+        return Err(Problem::Argument { name, what: ArgumentError::Null });
     }
     // SAFETY: the caller's promise; a foreign state is larger than the mark that is read.
     if unsafe { state.cast::<*const u8>().read() } != state_mark() {
-        return Err(Problem::Argument { name, what: Wrong::NotOurs });
+        return Err(Problem::Argument { name, what: ArgumentError::NotOurs });
     }
     // SAFETY: ours and live.
     Ok(unsafe { &mut (*state.cast::<StateHandle>()).saved })

@@ -1,22 +1,27 @@
-//! From a model and its setup to a description, a GUID and the parts of an instance.
+//! From a model and its setup to the `modelDescription.xml`, the GUID and the parts of an instance.
 
 use std::collections::BTreeSet;
 
 use model_description::{
-    CoSimulation, DefaultExperiment, Description, NamingConvention, VariableKind, digest, units,
+    CoSimulation, DefaultExperiment, Description, EnumerationItem, NamingConvention, RealAttributes,
+    ScalarVariable, SimpleType, SimpleTypeKind, Variability, VariableKind, rules, units,
 };
 use uuid::Uuid;
 
-use crate::fmi2::access::AccessTable;
-use crate::fmi2::library::Entry;
-use crate::fmi2::logger::Category;
-use crate::fmi2::start::{self, Readers};
-use crate::model::{Model, SetupError};
-use crate::runtime::{Capabilities, Parts, Typed};
-use crate::variables::{Declare, DeclareError, Table, Variables};
+use super::access::AccessTable;
+use super::library::Entry;
+use super::logger::Category;
+use super::references;
+use super::start::{self, Readers};
+use super::structure::structure;
+use crate::model::{About, Model, SetupError};
+use crate::runtime::{Runtime, Typed};
+use crate::variables::{
+    Declare, DeclareError, Element, EnumerationType, Interface, Kind, Values, Variable, Variables,
+};
 
-/// Name space of the GUIDs: UUIDv5 of "https://fmi-standard.org/heliotorque" in the URL name space.
-const NAME_SPACE: &[u8] = b"https://fmi-standard.org/heliotorque";
+/// Name space of the GUIDs of this exporter.
+const NAME_SPACE: Uuid = Uuid::from_u128(0xcc931cc2_33f1_4b24_a08d_a93a9fb26fe9);
 
 /// Why a model cannot be described.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -46,14 +51,13 @@ pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Descript
     prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
 }
 
-fn said(text: String) -> Option<String> {
-    (!text.is_empty()).then_some(text)
-}
-
-/// A description and the instance parts behind it.
+/// A description, and all that an instance is made from.
 pub(crate) struct Prepared {
     pub(crate) description: Description,
-    pub(crate) parts: Parts,
+    pub(crate) access: AccessTable,
+    pub(crate) start: Values,
+    pub(crate) runtime: Box<dyn Runtime>,
+    pub(crate) digest: Uuid,
 }
 
 /// The names that start values may have, if the model takes the setup text.
@@ -61,7 +65,7 @@ pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTre
     let setup = M::parse_setup(file, setup_text).ok()?;
     let mut declare = Declare::new();
     M::Variables::declare(&mut declare, &setup, 0).ok()?;
-    Some(start::settable_names(&declare.finish().variables))
+    Some(start::settable_names(&scalar_variables(&declare.finish())))
 }
 
 /// Describes a model; `library` holds the models that the setup may serve beside it.
@@ -73,19 +77,22 @@ pub(crate) fn prepare<M: Model>(
     let setup = M::parse_setup(file, setup_text)?;
     let mut declare = Declare::new();
     let variables = M::Variables::declare(&mut declare, &setup, 0)?;
-    let Table { variables: declared, types, start: mut start_values, .. } = declare.finish();
-    let structure = M::dependencies(&setup, &variables).structure(&declared).map_err(DescribeError::Table)?;
+    let mut interface = declare.finish();
+    let scalars = scalar_variables(&interface);
+    let dependencies = M::dependencies(&setup, &variables);
+    let structure = structure(&dependencies, &scalars).map_err(DescribeError::Table)?;
     let about = M::about(&setup);
+    let text = |text: &str| (!text.is_empty()).then(|| text.to_owned());
     let mut description = Description {
         model_name: M::NAME.to_owned(),
-        description: said(about.description),
-        author: said(about.author),
-        version: said(about.version),
-        license: said(about.license),
+        description: text(&about.description),
+        author: text(&about.author),
+        version: text(&about.version),
+        license: text(&about.license),
         generation_tool: Some(concat!("fmi-export ", env!("CARGO_PKG_VERSION")).to_owned()),
         variable_naming: NamingConvention::Structured,
-        co_simulation: Some(co_simulation::<M>()),
-        types,
+        co_simulation: Some(co_simulation::<M>(&scalars)),
+        types: interface.enumerations.iter().map(simple_type).collect(),
         log_categories: Category::declared(),
         default_experiment: Some(DefaultExperiment {
             start_time: Some(about.start_time_s),
@@ -94,34 +101,115 @@ pub(crate) fn prepare<M: Model>(
             step_size: (about.step_size_s > 0.0).then_some(about.step_size_s),
         }),
         structure,
-        variables: declared,
+        variables: scalars,
         ..Description::default()
     };
     description.units = units_of(&description);
     let readers = Readers::new(M::NAME, library, file, setup_text);
-    start::apply(&M::start_values(&setup), &readers, &mut description, &mut start_values)
+    start::apply(&M::start_values(&setup), &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
-    let digest = digest_of::<M>(&description, &setup)?;
+    let digest = digest_of::<M>(&interface.canonical(&dependencies), &about, &setup)?;
     description.guid = format!("{{{digest}}}");
     let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
-    let capabilities = Capabilities {
-        max_output_derivative_order: M::MAX_OUTPUT_DERIVATIVE_ORDER,
-        interpolates_inputs: M::CAN_INTERPOLATE_INPUTS,
-    };
     let runtime = Box::new(Typed::<M> { setup, variables, state: None });
-    Ok(Prepared { description, parts: Parts { access, start: start_values, runtime, digest, capabilities } })
+    Ok(Prepared { description, access, start: interface.start, runtime, digest })
 }
 
-fn co_simulation<M: Model>() -> CoSimulation {
+/// The elements of every variable, in order, with their start values.
+pub fn scalar_variables(interface: &Interface) -> Vec<ScalarVariable> {
+    let elements = |variable| Variable::elements(variable).map(move |(name, at)| (variable, name, at));
+    let scalar = |(variable, name, element): (&Variable, String, Element)| {
+        let role = variable.role;
+        ScalarVariable {
+            name,
+            value_reference: references::of(element),
+            description: Some(variable.description.clone()),
+            causality: role.causality,
+            variability: role.variability,
+            initial: role.initial,
+            can_handle_multiple_set_per_time_instant: None,
+            kind: kind(variable, element, &interface.start),
+        }
+    };
+    interface.variables.iter().flat_map(elements).map(scalar).collect()
+}
+
+fn kind(variable: &Variable, element: Element, start: &Values) -> VariableKind {
+    let role = variable.role;
+    let effective = rules::effective(role.causality, role.variability, role.initial);
+    let has_start = rules::start(role.causality, effective) == rules::StartRule::Required;
+    let at = Some(element.place() as usize).filter(|_| has_start);
+    let integer = at.and_then(|at| start.integers.get(at).copied());
+    match &variable.kind {
+        Kind::Real { unit, display_unit, min, max, nominal } => VariableKind::Real {
+            start: at.and_then(|at| start.reals.get(at).copied()),
+            declared_type: None,
+            attributes: RealAttributes {
+                unit: Some(unit.clone()),
+                display_unit: display_unit.clone(),
+                min: *min,
+                max: *max,
+                nominal: *nominal,
+                ..RealAttributes::default()
+            },
+            derivative: None,
+            reinit: None,
+        },
+        Kind::Integer { min, max } => VariableKind::Integer {
+            start: integer,
+            declared_type: None,
+            quantity: None,
+            min: *min,
+            max: *max,
+        },
+        Kind::Boolean => VariableKind::Boolean {
+            start: at.and_then(|at| start.booleans.get(at).copied()),
+            declared_type: None,
+        },
+        Kind::Text => VariableKind::String {
+            start: at.and_then(|at| start.strings.get(at).cloned()),
+            declared_type: None,
+        },
+        Kind::Enumeration(name) => VariableKind::Enumeration {
+            start: integer,
+            declared_type: (*name).to_owned(),
+            quantity: None,
+            min: None,
+            max: None,
+        },
+    }
+}
+
+fn simple_type(declared: &EnumerationType) -> SimpleType {
+    let item = |item: &crate::variables::Item| EnumerationItem {
+        name: item.name.to_owned(),
+        value: item.value,
+        description: Some(item.description.to_owned()),
+    };
+    SimpleType {
+        name: declared.name.to_owned(),
+        description: Some(declared.description.to_owned()),
+        kind: SimpleTypeKind::Enumeration {
+            quantity: None,
+            items: declared.items.iter().map(item).collect(),
+        },
+    }
+}
+
+fn co_simulation<M: Model>(variables: &[ScalarVariable]) -> CoSimulation {
+    let can_move = |variable: &ScalarVariable| {
+        variable.causality == model_description::Causality::Input
+            && variable.variability == Variability::Continuous
+    };
     CoSimulation {
         model_identifier: M::NAME.to_owned(),
         can_handle_variable_communication_step_size: true,
-        can_interpolate_inputs: M::CAN_INTERPOLATE_INPUTS,
-        max_output_derivative_order: M::MAX_OUTPUT_DERIVATIVE_ORDER,
+        can_interpolate_inputs: variables.iter().any(can_move),
+        max_output_derivative_order: u32::from(M::EXTENSIONS.output_rate.is_some()),
         can_not_use_memory_management_functions: true,
         can_get_and_set_fmu_state: true,
         can_serialize_fmu_state: true,
-        provides_directional_derivative: M::PROVIDES_DIRECTIONAL_DERIVATIVE,
+        provides_directional_derivative: M::EXTENSIONS.jacobian_vector_product.is_some(),
         ..CoSimulation::default()
     }
 }
@@ -137,16 +225,29 @@ fn units_of(description: &Description) -> Vec<model_description::Unit> {
     units::UNITS.iter().filter(|row| used(row.name)).map(units::KnownUnit::to_unit).collect()
 }
 
-/// UUIDv5 of the interface, the setup's content, the model's name and the version of its state.
-fn digest_of<M: Model>(description: &Description, setup: &M::Setup) -> Result<Uuid, DescribeError> {
+/// UUIDv5 of what is declared, what is told of the model, the setup's content, the model's name and optional traits, and the
+/// version of its state. Default times do not enter.
+fn digest_of<M: Model>(interface: &str, about: &About, setup: &M::Setup) -> Result<Uuid, DescribeError> {
     let setup = postcard::to_allocvec(setup).map_err(|error| DescribeError::Digest(error.to_string()))?;
-    let canonical = digest::canonical(description);
-    let mut bytes = Vec::with_capacity(canonical.len() + setup.len() + 64);
+    let extensions =
+        [M::EXTENSIONS.output_rate.is_some(), M::EXTENSIONS.jacobian_vector_product.is_some()].map(u8::from);
+    let parts: [&[u8]; 10] = [
+        interface.as_bytes(),
+        about.description.as_bytes(),
+        about.author.as_bytes(),
+        about.version.as_bytes(),
+        about.license.as_bytes(),
+        &about.tolerance.to_le_bytes(),
+        &setup,
+        M::NAME.as_bytes(),
+        &M::STATE_VERSION.to_le_bytes(),
+        &extensions,
+    ];
+    let mut bytes = Vec::with_capacity(interface.len() + setup.len() + 256);
     // Each part with its length, so that no two sets of parts share their bytes.
-    for part in [canonical.as_bytes(), &setup, M::NAME.as_bytes(), &M::STATE_VERSION.to_le_bytes()] {
+    for part in parts {
         bytes.extend_from_slice(&(part.len() as u64).to_le_bytes());
         bytes.extend_from_slice(part);
     }
-    let name_space = Uuid::new_v5(&Uuid::NAMESPACE_URL, NAME_SPACE);
-    Ok(Uuid::new_v5(&name_space, &bytes))
+    Ok(Uuid::new_v5(&NAME_SPACE, &bytes))
 }

@@ -24,7 +24,7 @@ use super::boundary::{self, ImporterLogger, call, saved, state_handle_of};
 use super::instance::{Instance, StatusKind};
 use super::library::Library;
 use super::logger::{Category, Logger};
-use super::problem::{Problem, Wrong};
+use super::problem::{ArgumentError, Problem};
 use crate::panics::contain;
 
 /// Declares C functions: documentation, name in the call table, symbol, arguments after the instance, and the body, which
@@ -121,7 +121,7 @@ fn explained<T>(result: Result<T, Problem>) -> Result<T, String> {
     result.map_err(|problem| problem.explain(&Default::default()).to_string())
 }
 
-/// Frees an instance and the strings it lent out; NULL is no error. The instance is not used again; its saved states
+/// Frees an instance and the strings that `fmi2GetString` gave; NULL is no error. The instance is not used again; its saved states
 /// should be freed before, and can be freed through another instance of this library after.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
@@ -137,7 +137,7 @@ functions! {
         let on = flag(logging_on, "loggingOn")?;
         let categories = slice(categories, count, "categories")?;
         if categories.iter().any(|category| category.is_null()) {
-            return Err(Problem::Argument { name: "categories", what: Wrong::Null });
+            return Err(Problem::Argument { name: "categories", what: ArgumentError::Null });
         }
         let named = |index: usize| Category::from_name(CStr::from_ptr(categories[index]));
         inner.instance.set_debug_logging(on, categories.len(), named)
@@ -185,9 +185,9 @@ functions! {
     /// again with another value or the instance is freed.
     GetString fmi2GetString(inner, references: *const u32, count: usize, values: *mut *const c_char) {
         let values = slice_mut(values, count, "value")?;
-        let lent = &mut inner.lent;
+        let strings = &mut inner.strings;
         inner.instance.get_string(slice(references, count, "vr")?, |position, index, text| {
-            values[position] = lent.lend(index, text);
+            values[position] = strings.hold(index, text);
         })
     }
     /// Sets Reals: all of them, or none where one is refused.
@@ -229,7 +229,7 @@ functions! {
         match state.as_mut() {
             Some(state) if !state.is_null() => {
                 saved(*state, "FMUstate")?;
-                // NULL before the drop, which may panic: nobody must free it twice.
+                // NULL before the drop, which may panic: it must not be freed twice.
                 boundary::free_state(core::mem::replace(state, core::ptr::null_mut()))
             }
             _ => Ok(()),

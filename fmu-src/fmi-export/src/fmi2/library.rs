@@ -159,7 +159,7 @@ impl Tried {
         self.file.is_some() && self.was_read && original()
     }
 
-    /// What there is to say of it; alike for models that fail for the same reason.
+    /// Its outcome in words, the same for models that fail for the same reason.
     fn verdict(&self) -> String {
         match (&self.outcome, self.file) {
             (Ok(guid), Some(file)) => format!("has GUID {guid} with {file} as it is now"),
@@ -194,15 +194,15 @@ fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
     // Models share a file's name, not its kind: the one that finds least wrong in a file is the one it is for.
     let wrongs = |it: &Tried| it.outcome.as_ref().err().map_or(0, |reason| 1 + reason.lines().count());
     let least = |file| tried.iter().filter(|it| it.file == file).map(wrongs).min();
-    let mut said: Vec<(String, String)> = Vec::new();
+    let mut verdicts: Vec<(String, String)> = Vec::new();
     for it in tried.iter().filter(|it| it.file.is_none() || Some(wrongs(it)) == least(it.file)) {
         let verdict = it.verdict();
-        match said.iter_mut().find(|(_, other)| *other == verdict) {
+        match verdicts.iter_mut().find(|(_, other)| *other == verdict) {
             Some((names, _)) => *names = format!("{names}, {}", it.entry.name),
-            None => said.push((it.entry.name.to_owned(), verdict)),
+            None => verdicts.push((it.entry.name.to_owned(), verdict)),
         }
     }
-    said.iter().fold(lead, |text, (names, verdict)| format!("{text}; {names} {verdict}"))
+    verdicts.iter().fold(lead, |text, (names, verdict)| format!("{text}; {names} {verdict}"))
 }
 
 fn changed(guid: &str, it: &Tried) -> String {

@@ -43,7 +43,7 @@ pub(crate) fn resolve(location: &[u8]) -> Result<Resources, String> {
 /// The text of `file` in `folder`.
 pub(crate) fn read_setup(folder: &Path, file: &str) -> Result<String, String> {
     let path = folder.join(file);
-    // Opening a pipe waits until somebody writes to it.
+    // Opening a pipe waits until a process writes to it.
     if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
         return Err(format!("`{}` is no regular file", shown(&path)));
     }

@@ -1,4 +1,4 @@
-//! Messages to the master: categories, text that survives `printf`, and nothing formatted that nobody hears.
+//! Messages to the master: categories, text that survives `printf`, formatted only where its category is on.
 
 use core::cell::{Cell, RefCell};
 use core::fmt::{self, Write};
@@ -136,14 +136,14 @@ impl Logger {
         self.enabled.set(self.initially);
     }
 
-    /// Whether a message with this status would be heard.
+    /// Whether a message with this status is sent.
     #[inline]
     pub fn is_enabled(&self, status: Status) -> bool {
         let category = Category::of_status(status);
         matches!(category, Category::Error) || self.enabled.get() & category.bit() != 0
     }
 
-    /// Sends a message in the category of `status`; formats nothing if nobody listens.
+    /// Sends a message in the category of `status`; formats nothing if that is off.
     pub fn log(&self, status: Status, message: fmt::Arguments<'_>) {
         if !self.is_enabled(status) {
             return;
@@ -199,16 +199,16 @@ impl Log for Logger {
 
 #[cfg(test)]
 mod tests {
-    //! What reaches the master is what was said, only from the categories it asked for.
+    //! What reaches the master is what was logged, only in the categories it asked for.
     use std::sync::{Arc, Mutex};
 
     use super::*;
 
     type Lines = Arc<Mutex<Vec<(Status, String, String)>>>;
 
-    struct Kept(Lines);
+    struct Recorder(Lines);
 
-    impl LogSink for Kept {
+    impl LogSink for Recorder {
         fn write(&self, instance_name: &CStr, status: Status, category: &CStr, message: &CStr) {
             assert_eq!(instance_name, c"probe");
             let text = |c: &CStr| c.to_str().unwrap().to_owned();
@@ -218,16 +218,16 @@ mod tests {
 
     fn logger(on: bool) -> (Logger, Lines) {
         let lines = Lines::default();
-        (Logger::new(Box::new(Kept(lines.clone())), c"probe", on), lines)
+        (Logger::new(Box::new(Recorder(lines.clone())), c"probe", on), lines)
     }
 
-    fn say_all(logger: &Logger) {
+    fn log_all(logger: &Logger) {
         for status in [Status::Ok, Status::Warning, Status::Discard, Status::Error] {
             logger.log(status, format_args!("{status:?}"));
         }
     }
 
-    fn heard(lines: &Lines) -> Vec<String> {
+    fn categories(lines: &Lines) -> Vec<String> {
         lines.lock().unwrap().drain(..).map(|(_, category, _)| category).collect()
     }
 
@@ -241,31 +241,34 @@ mod tests {
     #[test]
     fn categories_are_honoured_and_errors_always_pass() {
         let (logger, lines) = logger(false);
-        say_all(&logger);
-        assert_eq!(heard(&lines), ["logStatusError"]);
+        log_all(&logger);
+        assert_eq!(categories(&lines), ["logStatusError"]);
         logger.enable(true, []);
-        say_all(&logger);
-        assert_eq!(heard(&lines), ["logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError"]);
+        log_all(&logger);
+        assert_eq!(
+            categories(&lines),
+            ["logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError"]
+        );
         logger.enable(true, [Category::Events]);
-        say_all(&logger);
-        assert_eq!(heard(&lines), ["logEvents", "logStatusError"]);
+        log_all(&logger);
+        assert_eq!(categories(&lines), ["logEvents", "logStatusError"]);
         logger.enable(true, [Category::All]);
-        say_all(&logger);
-        assert_eq!(heard(&lines).len(), 4);
+        log_all(&logger);
+        assert_eq!(categories(&lines).len(), 4);
         logger.enable(false, [Category::Events]);
-        say_all(&logger);
-        assert_eq!(heard(&lines), ["logStatusError"]);
+        log_all(&logger);
+        assert_eq!(categories(&lines), ["logStatusError"]);
     }
 
     #[test]
-    fn nothing_is_formatted_for_nobody() {
-        struct Loud;
-        impl fmt::Display for Loud {
+    fn nothing_is_formatted_while_its_category_is_off() {
+        struct PanicsWhenFormatted;
+        impl fmt::Display for PanicsWhenFormatted {
             fn fmt(&self, _: &mut fmt::Formatter<'_>) -> fmt::Result {
                 panic!("formatted")
             }
         }
         let (logger, _) = logger(false);
-        logger.log(Status::Discard, format_args!("{Loud}"));
+        logger.log(Status::Discard, format_args!("{PanicsWhenFormatted}"));
     }
 }

@@ -27,14 +27,15 @@ pub(crate) mod problem;
 pub mod references;
 mod start;
 mod state_bytes;
+mod structure;
 
 pub use describe::describe;
-pub use description::{DescribeError, description_of};
+pub use description::{DescribeError, description_of, scalar_variables};
 pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;
 pub use library::{Entry, Library};
 pub use problem::StateMismatch;
-pub use start::{Given, StartValue};
+pub use start::{SetupValue, StartValue};
 
 /// For a shared library: its panics, which are all contained, write nothing to standard error.
 pub fn silence_panics() {

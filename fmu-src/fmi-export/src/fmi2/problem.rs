@@ -15,7 +15,7 @@ pub(crate) enum Problem {
     /// The table forbids the call.
     Illegal { function: Function, state: State },
     /// The caller broke the C contract: null pointer, bad flag, wrong size.
-    Argument { name: &'static str, what: Wrong },
+    Argument { name: &'static str, what: ArgumentError },
     /// No such variable.
     UnknownReference { base: BaseType, reference: u32, count: usize },
     /// The variable exists but may not be set now.
@@ -34,8 +34,8 @@ pub(crate) enum Problem {
     DerivativeNotFinite { reference: u32, value: f64 },
     /// A seed of a directional derivative that is not finite.
     SeedNotFinite { reference: u32, value: f64 },
-    /// A Real that the model computed, and what is behind it where that is declared.
-    NotFinite { reference: u32, value: f64, behind: Option<String> },
+    /// A Real that the model computed, and what it depends on where that is declared.
+    NotFinite { reference: u32, value: f64, depends_on: Option<String> },
     /// A derivative that the model computed, and what it is along.
     SlopeNotFinite { of: u32, along: Option<String>, value: f64 },
     /// A derivative order that is not offered.
@@ -54,8 +54,10 @@ pub(crate) enum Problem {
     NoStatus { kind: i32 },
     /// A log category that is not declared; the others were taken.
     UnknownCategory { index: usize },
-    /// Nothing has been computed that could be asked for.
-    NotInitialized,
+    /// The model ended the simulation, for this reason.
+    Terminated(String),
+    /// The model left a step at a time that is not within it.
+    StepEnd { from_s: f64, end_s: f64, came_to_s: f64 },
     /// The model itself.
     Model(Failure),
     /// An FMU state that does not fit this instance.
@@ -64,9 +66,9 @@ pub(crate) enum Problem {
     Poisoned,
 }
 
-/// What is wrong with an argument.
+/// Why an argument is refused.
 #[derive(Debug)]
-pub(crate) enum Wrong {
+pub(crate) enum ArgumentError {
     Null,
     NotZeroOrOne(i32),
     TooLong { given: usize },
@@ -114,8 +116,8 @@ pub enum StateMismatch {
 }
 
 impl Problem {
-    /// The status by which `function` reports the problem.
-    pub(crate) fn status(&self, function: Function) -> Status {
+    /// The status by which a function reports the problem.
+    pub(crate) fn status(&self) -> Status {
         match self {
             Self::RealOutOfRange { .. }
             | Self::IntegerOutOfRange { .. }
@@ -123,10 +125,7 @@ impl Problem {
             | Self::NoText { .. }
             | Self::DerivativeNotFinite { .. }
             | Self::NoStatus { .. } => Status::Discard,
-            // Only a step may end a simulation by itself.
-            Self::Model(failure) if failure.is_terminated() && function == Function::DoStep => {
-                Status::Discard
-            }
+            Self::Terminated(_) => Status::Discard,
             Self::UnknownCategory { .. } => Status::Warning,
             _ => Status::Error,
         }
@@ -147,6 +146,12 @@ impl From<Failure> for Problem {
 impl From<StateMismatch> for Problem {
     fn from(mismatch: StateMismatch) -> Self {
         Self::ForeignState(mismatch)
+    }
+}
+
+impl From<Failure> for StateMismatch {
+    fn from(failure: Failure) -> Self {
+        Self::Content(failure.to_string())
     }
 }
 
@@ -190,12 +195,12 @@ impl fmt::Display for Explained<'_> {
                 write!(f, "not allowed in the state {}, only in: {states}", state.name())
             }
             Problem::Argument { name, what } => match what {
-                Wrong::Null => write!(f, "argument {name} is NULL"),
-                Wrong::NotZeroOrOne(value) => {
+                ArgumentError::Null => write!(f, "argument {name} is NULL"),
+                ArgumentError::NotZeroOrOne(value) => {
                     write!(f, "argument {name} is {value}, allowed are 0 (fmi2False) and 1 (fmi2True)")
                 }
-                Wrong::TooLong { given } => write!(f, "argument {name} cannot have {given} elements"),
-                Wrong::NotOurs => write!(f, "argument {name} was not made by this library"),
+                ArgumentError::TooLong { given } => write!(f, "argument {name} cannot have {given} elements"),
+                ArgumentError::NotOurs => write!(f, "argument {name} was not made by this library"),
             },
             Problem::UnknownReference { base, reference, .. }
                 if self.of_another_type(*base, *reference).is_some() =>
@@ -268,11 +273,11 @@ impl fmt::Display for Explained<'_> {
                 "the seed of {} is {value:?}, allowed is any finite value",
                 self.named(BaseType::Real, *reference)
             ),
-            Problem::NotFinite { reference, value, behind } => {
+            Problem::NotFinite { reference, value, depends_on } => {
                 let name = self.named(BaseType::Real, *reference);
                 write!(f, "{name} came out as {value:?}, which is no finite number")?;
-                match behind {
-                    Some(behind) => write!(f, "; it depends on {behind}"),
+                match depends_on {
+                    Some(depends_on) => write!(f, "; it depends on {depends_on}"),
                     None => write!(f, "; look for inputs or parameters beyond what can be"),
                 }
             }
@@ -320,9 +325,11 @@ impl fmt::Display for Explained<'_> {
                 index + 1,
                 crate::fmi2::logger::Category::names()
             ),
-            Problem::NotInitialized => {
-                write!(f, "nothing has been computed: the initialization failed or never ran")
-            }
+            Problem::Terminated(reason) => write!(f, "{reason}"),
+            Problem::StepEnd { from_s, end_s, came_to_s } => write!(
+                f,
+                "the model left the step from {from_s:?} to {end_s:?} s at {came_to_s:?} s, which is not within it"
+            ),
             Problem::Model(failure) => write!(f, "{failure}"),
             Problem::ForeignState(mismatch) => write!(f, "{mismatch}"),
             Problem::Poisoned => write!(

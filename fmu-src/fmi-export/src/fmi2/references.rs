@@ -5,6 +5,8 @@
 
 use model_description::BaseType;
 
+use crate::variables::Element;
+
 /// Most elements of one base type.
 pub const MOST: u32 = 1_000_000;
 
@@ -28,4 +30,28 @@ pub const fn base_type(reference: u32) -> Option<BaseType> {
 #[inline]
 pub const fn index(base: BaseType, reference: u32) -> usize {
     reference.wrapping_sub(first(base)) as usize
+}
+
+/// The value reference of an element.
+pub fn of(element: impl Into<Element>) -> u32 {
+    let element = element.into();
+    let base = match element {
+        Element::Real(_) => BaseType::Real,
+        Element::Integer(_) => BaseType::Integer,
+        Element::Boolean(_) => BaseType::Boolean,
+        Element::Text(_) => BaseType::String,
+    };
+    first(base) + element.place()
+}
+
+/// The element of a value reference, whether a model has it or not.
+pub fn element(reference: u32) -> Option<Element> {
+    let base = base_type(reference)?;
+    let place = reference - first(base);
+    Some(match base {
+        BaseType::Real => Element::Real(place),
+        BaseType::Integer => Element::Integer(place),
+        BaseType::Boolean => Element::Boolean(place),
+        BaseType::String => Element::Text(place),
+    })
 }

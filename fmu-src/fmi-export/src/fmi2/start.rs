@@ -28,30 +28,30 @@ pub struct StartValue {
     /// The variable, or the bare name of a vector or matrix.
     pub name: String,
     /// The value.
-    pub value: Given,
+    pub value: SetupValue,
 }
 
 /// A value as a setup gives it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Given {
+pub enum SetupValue {
     /// A number, in the variable's unit.
     Number(f64),
     /// A whole number.
     Integer(i64),
     /// True or false.
-    Truth(bool),
+    Boolean(bool),
     /// A text: a number with its unit, the name of an item, or a String.
     Text(String),
     /// Of a vector the elements, of a matrix the rows.
     List(Vec<Self>),
 }
 
-impl Given {
+impl SetupValue {
     fn shown(&self) -> String {
         match self {
             Self::Number(number) => format!("{number:?}"),
             Self::Integer(number) => number.to_string(),
-            Self::Truth(truth) => truth.to_string(),
+            Self::Boolean(truth) => truth.to_string(),
             Self::Text(text) => format!("{text:?}"),
             Self::List(items) => match items.iter().map(Self::length).collect::<Option<BTreeSet<_>>>() {
                 Some(lengths) if lengths.len() == 1 => {
@@ -240,11 +240,11 @@ fn targets(
 }
 
 /// The elements that a list gives, by name.
-fn shaped<'g>(name: &str, given: &'g Given) -> Vec<(String, &'g Given)> {
-    let Given::List(items) = given else { return Vec::new() };
-    let row = |(r, row): (usize, &'g Given)| -> Vec<(String, &'g Given)> {
+fn shaped<'g>(name: &str, given: &'g SetupValue) -> Vec<(String, &'g SetupValue)> {
+    let SetupValue::List(items) = given else { return Vec::new() };
+    let row = |(r, row): (usize, &'g SetupValue)| -> Vec<(String, &'g SetupValue)> {
         match row {
-            Given::List(cells) => {
+            SetupValue::List(cells) => {
                 let cells = (1..).zip(cells);
                 cells.map(|(c, cell): (usize, _)| (format!("{name}[{r},{c}]"), cell)).collect()
             }
@@ -264,17 +264,21 @@ fn shape_of(name: &str, variables: &[(usize, &ScalarVariable)]) -> String {
 }
 
 /// The value in the variable's own unit and base type, if the variable admits it.
-fn converted(description: &Description, variable: &ScalarVariable, given: &Given) -> Result<Value, Misfit> {
+fn converted(
+    description: &Description,
+    variable: &ScalarVariable,
+    given: &SetupValue,
+) -> Result<Value, Misfit> {
     let misfit = || Misfit::new(given.shown(), value::allowed(description, variable));
     let value = match (&variable.kind, given) {
-        (VariableKind::Real { .. }, Given::Number(number)) => Value::Real(*number),
-        (VariableKind::Real { .. }, Given::Integer(number)) => Value::Real(*number as f64),
-        (VariableKind::Integer { .. } | VariableKind::Enumeration { .. }, Given::Integer(number)) => {
+        (VariableKind::Real { .. }, SetupValue::Number(number)) => Value::Real(*number),
+        (VariableKind::Real { .. }, SetupValue::Integer(number)) => Value::Real(*number as f64),
+        (VariableKind::Integer { .. } | VariableKind::Enumeration { .. }, SetupValue::Integer(number)) => {
             Value::Integer(i32::try_from(*number).map_err(|_| misfit())?)
         }
-        (VariableKind::Boolean { .. }, Given::Truth(truth)) => Value::Boolean(*truth),
-        (VariableKind::String { .. }, Given::Text(text)) => Value::Text(text.clone()),
-        (VariableKind::Real { .. } | VariableKind::Enumeration { .. }, Given::Text(text)) => {
+        (VariableKind::Boolean { .. }, SetupValue::Boolean(truth)) => Value::Boolean(*truth),
+        (VariableKind::String { .. }, SetupValue::Text(text)) => Value::Text(text.clone()),
+        (VariableKind::Real { .. } | VariableKind::Enumeration { .. }, SetupValue::Text(text)) => {
             value::read(description, variable, text)?
         }
         _ => return Err(misfit()),

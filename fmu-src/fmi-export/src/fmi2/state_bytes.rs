@@ -41,10 +41,10 @@ impl Instance {
     pub(crate) fn restore(&mut self, saved: &SavedState) -> Result<(), Problem> {
         self.guard(Function::SetFmuState)?;
         self.own(saved)?;
-        self.runtime.restore(&saved.model)?;
+        self.runtime.restore(&saved.model).map_err(StateMismatch::from)?;
         self.forget_last_step();
         self.state.copy_from(&saved.state);
-        self.warn_of_broken_promise(saved.state.time_s);
+        self.warn_of_early_state(saved.state.time_s);
         Ok(())
     }
 
@@ -57,8 +57,8 @@ impl Instance {
     fn size(&self, saved: &SavedState) -> Result<usize, Problem> {
         self.own(saved)?;
         let state = postcard::serialize_with_flavor(&saved.state, postcard::ser_flavors::Size::default())
-            .map_err(unencodable)?;
-        Ok(HEADER + state + self.runtime.encoded_size(&saved.model)?)
+            .map_err(|error| StateMismatch::from(unencodable(error)))?;
+        Ok(HEADER + state + self.runtime.encoded_size(&saved.model).map_err(StateMismatch::from)?)
     }
 
     /// `fmi2SerializeFMUstate`: `bytes` must hold [`Instance::serialized_size`]; what lies beyond is kept.
@@ -70,8 +70,10 @@ impl Instance {
         else {
             return Err(StateMismatch::Length { found: given as u64, expected: needed as u64 }.into());
         };
-        let used = postcard::to_slice(&saved.state, payload).map_err(unencodable)?.len();
-        self.runtime.encode(&saved.model, &mut payload[used..])?;
+        let used = postcard::to_slice(&saved.state, payload)
+            .map_err(|error| StateMismatch::from(unencodable(error)))?
+            .len();
+        self.runtime.encode(&saved.model, &mut payload[used..]).map_err(StateMismatch::from)?;
         let length = payload.len() as u64;
         let parts: [&[u8]; 5] = [
             &MARK,
@@ -94,7 +96,7 @@ impl Instance {
         let (state, rest) = postcard::take_from_bytes::<InstanceState>(payload)
             .map_err(|error| content(format!("instance: {error}")))?;
         state.check(&self.access)?;
-        let model = self.runtime.decode(rest)?;
+        let model = self.runtime.decode(rest).map_err(StateMismatch::from)?;
         let steps_next = state.mode == State::StepComplete
             || (state.mode == State::InitializationMode && !state.needs_initialization);
         let needs_model = steps_next || matches!(state.mode, State::StepFailed | State::Terminated);
@@ -102,7 +104,7 @@ impl Instance {
             return Err(content(format!("state {} without a model state", state.mode.name())).into());
         }
         if steps_next {
-            self.runtime.check_time(&model, state.time_s)?;
+            self.runtime.check_time(&model, state.time_s).map_err(StateMismatch::from)?;
         }
         Ok(SavedState { digest: self.digest, state, model })
     }

@@ -3,6 +3,9 @@
 use client::StatePointer;
 use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
 
+use fmi_export::Enumeration;
+use probe::panicking::Accident;
+
 use super::{fresh, only_message, real, reference, started};
 
 #[test]
@@ -120,4 +123,22 @@ fn roundings_of_late_times_are_taken() {
             time_s = instance.last_successful_time().1;
         }
     }
+}
+
+/// FMI 2.0 has no step that ends early without ending the simulation.
+#[test]
+fn a_step_that_the_model_leaves_early_goes_on_to_its_end() {
+    let (mut instance, description) = started("Panicking");
+    let [accident, input, output, clock] =
+        ["accident", "input", "output", "clock"].map(|name| reference(&description, name));
+    assert_eq!(instance.set_integer(&[accident], &[Accident::StepShort.value()]), Ok);
+    assert_eq!(instance.set_real(&[input], &[2.0]), Ok);
+    assert_eq!(instance.set_input_derivatives(&[input], &[1], &[3.0]), Ok);
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!((real(&mut instance, clock), real(&mut instance, output)), (1.0, 5.0));
+    assert_eq!(instance.set_integer(&[accident], &[Accident::StepStill.value()]), Ok);
+    instance.take_messages();
+    assert_eq!(instance.do_step(1.0, 1.0), Error);
+    let text = only_message(&instance);
+    assert!(text.contains("from 1.0 to 2.0 s at 1.0 s"), "{text}");
 }

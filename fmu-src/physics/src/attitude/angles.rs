@@ -32,6 +32,12 @@ pub fn direction_from_angles(angles: SunAngles) -> Vector3<f64> {
     Vector3::new(cos_e * sin_a, -cos_e * cos_a, -sin_e)
 }
 
+/// Angle between two vectors of any length, in rad, accurate near 0 and near pi.
+#[inline]
+pub fn angle_between_rad(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b))
+}
+
 #[cfg(test)]
 mod tests {
     //! The angles of the axes are stated in words by the paper.

@@ -1,4 +1,4 @@
-//! Quaternions, kinematics, directions in the body frame.
+//! Quaternions, kinematics, rigid body, directions in the body frame.
 //!
 //! An attitude quaternion is scalar-last and takes EME2000 components to body components in Wertz' passive
 //! order. Its four numbers are at the same time those of the active rotation that carries the inertial axes onto
@@ -7,10 +7,16 @@
 mod angles;
 mod frame;
 mod gravity_gradient;
+mod inertia;
+mod quaternion;
+mod rigid_body;
 mod rotation;
 
-pub use angles::{SunAngles, direction_from_angles};
+pub use angles::{SunAngles, angle_between_rad, direction_from_angles};
 pub use frame::{MovingFrame, MovingUnit};
 pub use gravity_gradient::gravity_gradient_n_m;
+pub use inertia::{Inertia, InertiaError};
+pub use quaternion::Quaternion;
+pub use rigid_body::RigidBodyState;
 pub(crate) use rotation::rotation_vector;
 pub use rotation::{Attitude, QuaternionError};

@@ -2,13 +2,15 @@
 
 use core::ops::RangeInclusive;
 
-use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
+
+use super::quaternion::Quaternion;
 
 /// Orientation of the body frame in EME2000.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attitude {
-    inertial_from_body: UnitQuaternion<f64>,
+    quaternion: Quaternion,
 }
 
 /// Four numbers that are no rotation.
@@ -25,7 +27,7 @@ pub struct QuaternionError {
 
 impl Default for Attitude {
     fn default() -> Self {
-        Self { inertial_from_body: UnitQuaternion::identity() }
+        Self { quaternion: Quaternion::IDENTITY }
     }
 }
 
@@ -50,29 +52,28 @@ impl Attitude {
         if !norms.contains(&norm) {
             return Err(QuaternionError { found: q, norm, allowed });
         }
-        let quaternion = Quaternion::new(q[3], q[0], q[1], q[2]);
-        Ok(Self { inertial_from_body: UnitQuaternion::from_quaternion(quaternion) })
+        Ok(Self { quaternion: Quaternion(q.map(|x| x / norm)) })
     }
 
     /// From the body axes as columns in inertial components.
     pub fn from_rotation(inertial_from_body: &Rotation3<f64>) -> Self {
-        Self { inertial_from_body: UnitQuaternion::from_rotation_matrix(inertial_from_body) }
+        Self::of(&UnitQuaternion::from_rotation_matrix(inertial_from_body))
     }
 
     /// Scalar-last quaternion (EME2000 to body), of the two signs the one nearest to `near`.
     pub fn quaternion(&self, near: Option<[f64; 4]>) -> [f64; 4] {
-        let q = self.inertial_from_body.coords;
+        let q = self.quaternion.0;
         let flip = match near {
             Some(near) => q.iter().zip(near).map(|(a, b)| a * b).sum::<f64>() < 0.0,
-            None => q.w < 0.0,
+            None => q[3] < 0.0,
         };
         let sign = if flip { -1.0 } else { 1.0 };
-        [sign * q.x, sign * q.y, sign * q.z, sign * q.w]
+        q.map(|x| sign * x)
     }
 
     /// Matrix that takes body components to inertial components.
     pub fn inertial_from_body(&self) -> Rotation3<f64> {
-        self.inertial_from_body.to_rotation_matrix()
+        self.unit().to_rotation_matrix()
     }
 
     /// The attitude after `duration_s` at the constant body rate `rate_body_rad_s`.
@@ -82,24 +83,32 @@ impl Attitude {
 
     /// The attitude after a rotation by the body-fixed vector `angle_body_rad`.
     pub fn turned(&self, angle_body_rad: Vector3<f64>) -> Self {
-        Self {
-            inertial_from_body: self.inertial_from_body * UnitQuaternion::from_scaled_axis(angle_body_rad),
-        }
+        Self::of(&(self.unit() * UnitQuaternion::from_scaled_axis(angle_body_rad)))
     }
 
     /// The opposite rotation: from the body frame to the inertial one.
     pub fn inverse(&self) -> Self {
-        Self { inertial_from_body: self.inertial_from_body.inverse() }
+        Self::of(&self.unit().inverse())
     }
 
     /// Whether it is a rotation: every number finite, the norm 1 within rounding.
     pub fn is_rotation(&self) -> bool {
-        (self.inertial_from_body.coords.norm() - 1.0).abs() < 1e-9
+        (self.unit().coords.norm() - 1.0).abs() < 1e-9
     }
 
     /// The attitude after the rotation `by` (from this body frame to the new one).
     pub fn then(&self, by: &Self) -> Self {
-        Self { inertial_from_body: self.inertial_from_body * by.inertial_from_body }
+        Self::of(&(self.unit() * by.unit()))
+    }
+
+    fn of(inertial_from_body: &UnitQuaternion<f64>) -> Self {
+        let q = inertial_from_body.coords;
+        Self { quaternion: Quaternion([q.x, q.y, q.z, q.w]) }
+    }
+
+    fn unit(&self) -> UnitQuaternion<f64> {
+        let [x, y, z, w] = self.quaternion.0;
+        UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(w, x, y, z))
     }
 }
 

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::constants::{ASTRONOMICAL_UNIT_M, SPEED_OF_LIGHT_M_S};
+use crate::numerics::scalar::Scalar;
 
 /// Flux at 1 AU behind the numbers of paper 000, W/m2 (its 5.0145e-5 N/m2 at 0.3 AU).
 pub const SOLAR_FLUX_PAPER_000_W_M2: f64 = 1353.0;
@@ -28,11 +29,12 @@ pub enum SunError {
 ///
 /// # Errors
 /// [`SunError::Distance`] unless `distance_m` is finite and positive.
-pub fn flux_w_m2(flux_at_1_au_w_m2: f64, distance_m: f64) -> Result<f64, SunError> {
-    if !(distance_m > 0.0 && distance_m.is_finite()) {
-        return Err(SunError::Distance { found_m: distance_m });
+pub fn flux_w_m2<T: Scalar>(flux_at_1_au_w_m2: T, distance_m: T) -> Result<T, SunError> {
+    let found_m = distance_m.value();
+    if !(found_m > 0.0 && found_m.is_finite()) {
+        return Err(SunError::Distance { found_m });
     }
-    let ratio = ASTRONOMICAL_UNIT_M / distance_m;
+    let ratio = T::constant(ASTRONOMICAL_UNIT_M) / distance_m;
     Ok(flux_at_1_au_w_m2 * (ratio * ratio))
 }
 
@@ -41,7 +43,7 @@ pub fn flux_w_m2(flux_at_1_au_w_m2: f64, distance_m: f64) -> Result<f64, SunErro
 ///
 /// # Errors
 /// [`SunError::Distance`] unless `distance_m` is finite and positive.
-pub fn pressure_n_m2(flux_at_1_au_w_m2: f64, distance_m: f64) -> Result<f64, SunError> {
+pub fn pressure_n_m2<T: Scalar>(flux_at_1_au_w_m2: T, distance_m: T) -> Result<T, SunError> {
     Ok(flux_w_m2(flux_at_1_au_w_m2, distance_m)? / SPEED_OF_LIGHT_M_S)
 }
 

@@ -3,9 +3,9 @@
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 use crate::numerics::events::first_event;
-use crate::numerics::intervals::next_multiple_s;
 
 use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
 use super::torque_model::{Effort, Sample, TorqueModel, after_event_s};
@@ -82,16 +82,11 @@ impl MomentumSegment {
         longest_s: f64,
     ) -> Result<Self, F::Failure> {
         flight.spend(Effort::Segment, start_s)?;
-        // Never without length, whatever a restored state expects.
-        let limit_s = next_multiple_s(start_s, settings.grid_s)
-            .min(start_s + longest_s)
-            .min(horizon_s)
-            .max(start_s.next_up());
-        let mut end_s = limit_s;
+        let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
         let mut samples = [*first; NODES];
-        let mut shortened = false;
-        let (nodes, totals, growth) = loop {
+        let (nodes, totals, next_longest_s) = loop {
+            let end_s = interval.end_s();
             let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
             for (sample, &time_s) in samples.iter_mut().zip(&nodes) {
                 *sample = flight.sample(time_s);
@@ -103,7 +98,7 @@ impl MomentumSegment {
                 let event_s = first_event(after_s, start_s, end_s, &values, |at_s| flight.events(at_s));
                 if let Some(event_s) = event_s {
                     flight.spend(Effort::Search, start_s)?;
-                    end_s = event_s;
+                    interval.end_at(event_s);
                     continue;
                 }
             }
@@ -116,23 +111,12 @@ impl MomentumSegment {
             let terms = totals.coefficients();
             let unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
             let tolerance = settings.tolerance.max(ROUNDING * terms.amax());
-            // The terms fall with the length to this power, as long as everything is smooth.
-            let growth = 0.9 * (tolerance / unresolved).powf(1.0 / (NODES as f64));
-            let shorter_s = start_s + (end_s - start_s) * growth.clamp(0.1, 0.7);
-            // A number that is not finite cannot be resolved by shortening; it shows in the outputs.
-            if unresolved <= tolerance
-                || !unresolved.is_finite()
-                || end_s - start_s < SHORTEST_S
-                || shorter_s <= start_s
-            {
-                break (nodes, totals, growth);
+            if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {
+                break (nodes, totals, next_longest_s);
             }
-            end_s = shorter_s;
-            shortened = true;
             flight.spend(Effort::Refinement, start_s)?;
         };
-        let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
-        let next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
+        let end_s = interval.end_s();
         let mut segment = Self { start_s, end_s, at_start, next_longest_s, totals: Some(totals) };
         if let Some(dump_s) = segment.first_excess_s(settings, &nodes, &samples) {
             segment.end_s = dump_s;

@@ -1,8 +1,15 @@
 //! A vector function of time on one interval as a Chebyshev series of fixed size.
 //!
-//! Fitting interpolates at the Chebyshev nodes of the first kind, so the error is within a factor
-//! `(2/pi) ln N + 2` of the best polynomial of the same degree. Evaluation is Clenshaw's recurrence, stable on the
-//! whole interval; outside of it a segment extrapolates and grows like `T_N`.
+//! Equation: f(t) = sum over k < N of c_k T_k(x), x = (t - centre) / half length.
+//! Method: interpolation at the Chebyshev nodes of the first kind, c_k = (2/N) sum f(t_j) T_k(x_j) (half of that for k = 0);
+//! evaluation by Clenshaw's recurrence, stable on the whole interval; derivative by the differentiated recurrence,
+//! antiderivative by the relation of T_k to T_(k+1) and T_(k-1). Outside of its interval a segment extrapolates and grows
+//! like `T_N`.
+//! Order: N; for an analytic function the coefficients fall by a constant factor each.
+//! Error measure: within a factor `(2/pi) ln N + 2` of the best polynomial of the same degree; the last coefficients tell
+//! its size ([`super::adaptive`] keeps them below a tolerance).
+//! Reference: Press et al., Numerical Recipes, 5.8 to 5.9; Trefethen, Approximation Theory and Approximation Practice, ch. 15
+//! (the factor).
 
 use core::f64::consts::PI;
 

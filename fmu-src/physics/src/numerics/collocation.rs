@@ -1,11 +1,14 @@
 //! Gauss collocation: an implicit Runge-Kutta integrator of any order whose dense output is the solution itself.
 //!
-//! On one segment the solution is the polynomial of degree `S` whose derivative equals the right-hand side at the `S`
-//! Gauss-Legendre nodes. At the segment's end the order is `2 S`; within the segment the error is of order `h^(S+1)`,
-//! uniformly. Quadratic invariants (the norm of a quaternion, angular momentum, rotational energy) are kept to
-//! rounding for any segment length (Hairer, Lubich, Wanner, Geometric Numerical Integration, IV.2). The equations are
-//! solved by Gauss-Seidel sweeps, which suits smooth, non-stiff motion: segments should be shorter than the time in which the
-//! motion changes direction.
+//! Equation: dy/dt = f(t, y), y given at the start of a segment of length h.
+//! Method: on one segment the solution is the polynomial of degree `S` whose derivative equals the right-hand side at the
+//! `S` Gauss-Legendre nodes. The equations are solved by Gauss-Seidel sweeps, which suits smooth, non-stiff motion: segments
+//! should be shorter than the time in which the motion changes direction.
+//! Order: `2 S` at the segment's end, `h^(S+1)` uniformly within it. Quadratic invariants (the norm of a quaternion, angular
+//! momentum, rotational energy) are kept to rounding for any segment length.
+//! Error measure: the sweeps end when a sweep changes the solution by rounding; the truncation is not estimated: the length
+//! is the caller's, who states what it gives (see `environment::orbit`).
+//! Reference: Hairer, Lubich, Wanner, Geometric Numerical Integration, II.1.3 and IV.2.
 //!
 //! [`Collocation`] holds the method's coefficients (computed, no state). [`SegmentChain`] is the state of one integration:
 //! a chain of segments with edges at whole multiples of their length, serialisable, of which the last is kept.

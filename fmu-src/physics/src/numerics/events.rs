@@ -1,4 +1,13 @@
 //! When a smooth function of time changes sign: eclipse edges, thresholds, limits, located without missing short ones.
+//!
+//! Equation: f(t) = 0 with a change of sign, in an interval; an event is such a root of one of several functions.
+//! Method: adaptive Chebyshev fits of 16 terms, the interval halved until a fit holds or its coefficients exclude a root;
+//! then all sign changes of the fit ([`super::roots`]), each refined by bisection on the function itself.
+//! Order: 16 a halving where the function is smooth; bisection is linear and ends at neighbouring doubles.
+//! Error measure: the last two coefficients of a fit beside its largest (1e-12); an event is the first double at which the
+//! sign has changed.
+//! Reference: Boyd, Solving Transcendental Equations, 2014, ch. 3 (Chebyshev proxy); Shampine and Thompson, Event location
+//! for ordinary differential equations, Computers and Mathematics with Applications 39, 2000.
 
 use nalgebra::{SVector, Vector1};
 
@@ -12,6 +21,9 @@ use super::{
 const TERMS: usize = 16;
 /// Pieces no shorter than 2^-DEPTH of the interval are split.
 const DEPTH: usize = 20;
+/// More fits are not made in one search: a function that is nothing but rounding would be halved everywhere. A kink near
+/// zero takes twice [`DEPTH`].
+const MOST_FITS: u32 = 256;
 /// A fit whose last two coefficients are this small beside its largest is taken for the function.
 const FIT: f64 = 1e-12;
 
@@ -21,7 +33,8 @@ const FIT: f64 = 1e-12;
 /// the segment shows that there is no zero; zeros are then found by [`Segment::sign_changes`]. Two crossings of a dip
 /// that sinks deeper through zero than the fit error are both found, however close. Where the function has a kink
 /// or a jump near zero it is found to 1e-6 of the interval. Costs 16 evaluations where nothing happens, usually 50 to
-/// 100 where something does.
+/// 100 where something does, and never more than some 4,000 to 8,000: a function that is all kinks or all rounding is
+/// followed no finer.
 ///
 /// # Errors
 /// [`RootError::NotFinite`] where the function is not finite.
@@ -36,9 +49,10 @@ pub fn sign_changes<const R: usize>(
     }
     // Depth first, left before right: at most one right half waits per level.
     let mut waiting = [(from, to, 0); DEPTH + 2];
-    let mut height = 1;
+    let (mut height, mut fits) = (1, 0);
     while height > 0 {
         height -= 1;
+        fits += 1;
         let (start, end, depth) = waiting[height];
         let mut broken = None;
         let segment = Segment::<1, TERMS>::fit(start, end, |at| {
@@ -58,7 +72,7 @@ pub fn sign_changes<const R: usize>(
         if c[0].abs() > swing + 4.0 * tail {
             continue;
         }
-        if tail > FIT * c.amax() && depth < DEPTH {
+        if tail > FIT * c.amax() && depth < DEPTH && fits < MOST_FITS {
             let middle = 0.5 * (start + end);
             waiting[height] = (middle, end, depth + 1);
             waiting[height + 1] = (start, middle, depth + 1);
@@ -140,6 +154,18 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    #[test]
+    fn a_function_of_nothing_but_rounding_ends_the_search() {
+        let mut evaluations = 0;
+        let noise = |at: f64| {
+            evaluations += 1;
+            ((at.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / f64::from(1 << 24) - 0.5)
+                * 1e-16
+        };
+        sign_changes::<8>(0.0, 600.0, noise).unwrap();
+        assert!(evaluations <= 16 * 2 * MOST_FITS, "{evaluations}");
+    }
 
     #[test]
     fn all_zeros_of_a_sine() {

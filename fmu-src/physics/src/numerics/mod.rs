@@ -1,5 +1,6 @@
 //! Numerical tools: Chebyshev segments, quadrature, roots, integrator with dense output, the scalar of the kernels.
 
+pub mod adaptive;
 pub mod chebyshev;
 pub mod collocation;
 pub mod events;

@@ -1,4 +1,11 @@
 //! Gauss-Legendre and Gauss-Lobatto quadrature of any size, nodes computed to the last bits.
+//!
+//! Equation: int f(x) dx over [-1, 1] = sum of w_j f(x_j).
+//! Method: the nodes are roots of Legendre's polynomial P_n (or of P'_(n-1) and the ends), by Newton's iteration from
+//! Tricomi's estimate; the weights follow from the polynomial or its derivative there.
+//! Order: exact for polynomials of degree 2 n - 1 (2 n - 3 with the ends).
+//! Error measure: below 4e-16 for a node or weight, up to 64 points.
+//! Reference: Davis and Rabinowitz, Methods of Numerical Integration, 2.7; Abramowitz and Stegun 25.4.29 and 25.4.32.
 
 use core::f64::consts::PI;
 

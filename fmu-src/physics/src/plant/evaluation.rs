@@ -60,6 +60,8 @@ pub struct Plant<'a, L> {
     pub(super) light: Option<&'a mut RadiationSolver>,
     external: L,
     work: Work,
+    /// Spent on event functions and not counted yet.
+    pub(super) searched_units: u32,
 }
 
 impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
@@ -79,11 +81,13 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         work_limit: u32,
     ) -> Self {
         let work = Work::new(work_limit, ephemeris.evaluations());
-        Self { prepared, configuration, propagator, ephemeris, light, external, work }
+        Self { prepared, configuration, propagator, ephemeris, light, external, work, searched_units: 0 }
     }
 
     /// Counts work, the flight having come to `time_s`.
     pub(super) fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
+        let searched = core::mem::take(&mut self.searched_units);
+        self.work.spend(Cost::Search, searched, self.ephemeris.evaluations(), time_s)?;
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
@@ -164,6 +168,7 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
     }
 
     fn events(&mut self, time_s: f64) -> EventValues {
+        self.searched_units = self.searched_units.saturating_add(1);
         self.instant(time_s).events
     }
 

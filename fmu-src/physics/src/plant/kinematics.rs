@@ -221,6 +221,10 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let first = self.instant(after_s);
         let limit_s = self.attitude_until_s(after_s, &first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
-        first_event(after_s, start_s, limit_s, &samples, |at_s| self.instant(at_s).events).unwrap_or(limit_s)
+        let events = |at_s: f64| {
+            self.searched_units = self.searched_units.saturating_add(1);
+            self.instant(at_s).events
+        };
+        first_event(after_s, start_s, limit_s, &samples, events).unwrap_or(limit_s)
     }
 }

@@ -115,7 +115,7 @@ impl RadiationSolver {
     }
 
     /// About how many microseconds a segment of light and heat takes.
-    pub(super) fn cell_units(&self, stores: bool) -> u32 {
+    pub(super) fn segment_units(&self, stores: bool) -> u32 {
         let heat = if stores { self.face_count() as u32 } else { 0 };
         NODES as u32 * self.model.evaluation_units() + heat
     }

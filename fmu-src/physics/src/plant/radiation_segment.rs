@@ -1,11 +1,20 @@
 //! Segments of light and heat: they change slowly and cost more than everything else, so they are computed at a few nodes of
 //! a segment of their own and read from a polynomial in between. How the flight is stepped does not matter to them.
+//!
+//! Equation: force and torque of each effect as functions of time; temperatures of surfaces that store heat.
+//! Method: interpolation at 6 Chebyshev nodes, the segment shortened until its last terms are below the tolerance
+//! ([`crate::numerics::adaptive`]); it ends at an event. Stored heat is integrated along the segment between the nodes
+//! (`stored_heat`).
+//! Order: 6 in the length.
+//! Error measure: the last two terms of force and torque, relative to the largest force and torque of all effects in the
+//! segment; a torque counts against the largest force at an arm of 1 cm at least.
+//! Reference: see [`crate::numerics::adaptive`].
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
-use crate::numerics::intervals::next_multiple_s;
 use crate::radiation::disturbance::{Disturbance, FaceResult, GeometryError};
 use crate::radiation::{Effect, ForceTorque, Loads};
 
@@ -153,42 +162,27 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         }
         // Written so that a NaN from restored bytes is the shortest.
         let longest_s = segment.next_longest_s.max(SHORTEST_S);
-        let limit_s = next_multiple_s(start_s, effects.grid_s)
-            .min(start_s + longest_s)
-            .min(limit_s)
-            .max(start_s.next_up());
-        let mut end_s = self.smooth_until(start_s, limit_s);
-        let mut shortened = false;
-        let (series, growth) = loop {
-            self.spend_units(Cost::Light, light.cell_units(stores), start_s)?;
-            let length_s = end_s - start_s;
-            let lit = self.light_between(light, stores, &segment.end_k, start_s, end_s);
+        let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, SHORTEST_S);
+        interval.end_at(self.smooth_until(start_s, interval.end_s()));
+        let series = loop {
+            self.spend_units(Cost::Light, light.segment_units(stores), start_s)?;
+            let lit = self.light_between(light, stores, &segment.end_k, start_s, interval.end_s());
             let shadows: usize = light.nodes.iter().map(|node| node.workspace.shadows_cut()).sum();
             self.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
-            let shorter_s = match lit {
+            match lit {
                 Ok(series) => {
                     let unresolved = unresolved(&series, &effects);
-                    let growth = 0.9 * (effects.tolerance / unresolved).powf(1.0 / NODES as f64);
-                    let shorter_s = start_s + length_s * growth.clamp(0.1, 0.7);
-                    // A number that is not finite cannot be resolved by shortening; it shows in the outputs.
-                    if unresolved <= effects.tolerance
-                        || !unresolved.is_finite()
-                        || length_s <= SHORTEST_S
-                        || shorter_s <= start_s
-                    {
-                        break (series, growth);
+                    if let Some(next_s) = interval.accept(unresolved, effects.tolerance, NODES) {
+                        segment.next_longest_s = next_s;
+                        break series;
                     }
-                    shorter_s
                 }
                 // The flight may be over before it comes to where light has no meaning.
-                Err(error) if length_s <= SHORTEST_S => return Err(self.no_light(start_s, error)),
-                Err(_) => start_s + 0.5 * length_s,
-            };
-            end_s = shorter_s;
-            shortened = true;
+                Err(error) if !interval.halve() => return Err(self.no_light(start_s, error)),
+                Err(_) => {}
+            }
         };
-        let expected_s = (end_s - start_s) * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
-        segment.next_longest_s = if shortened { expected_s } else { expected_s.max(longest_s) };
+        let end_s = interval.end_s();
         (segment.start_s, segment.end_s, segment.loads) = (start_s, end_s, Some(series));
         segment.temperatures_k.clear();
         if stores {

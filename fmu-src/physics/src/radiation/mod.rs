@@ -31,4 +31,4 @@ pub use flat_plate::Beam;
 pub use force_torque::ForceTorque;
 pub use planet_light::PlanetLight;
 pub use polynomial::{TorquePolynomial, polynomial_valid};
-pub use solar::{NoSuchSunshade, SolarModel, solar_pressure_pa};
+pub use solar::{NoSuchSunshade, SolarModel};

@@ -7,17 +7,8 @@ use nalgebra::Vector3;
 use super::cylinder::CylinderFace;
 use super::flat_plate::Beam;
 use super::force_torque::ForceTorque;
-use crate::constants::{ASTRONOMICAL_UNIT_M, SPEED_OF_LIGHT_M_S};
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::spacecraft::{Optics, Panel, Plate, Spacecraft, Sunshade, SunshadeModel};
-
-/// Pressure of sunlight on a black surface square to it, P = F / (c D^2) (paper 000, eq 1), in Pa.
-///
-/// `flux_w_m2` is the solar flux at 1 AU, `distance_m` the distance from the Sun's centre.
-pub fn solar_pressure_pa<T: Scalar>(flux_w_m2: f64, distance_m: T) -> T {
-    let distance_au = distance_m / ASTRONOMICAL_UNIT_M;
-    (distance_au * distance_au).recip() * (flux_w_m2 / SPEED_OF_LIGHT_M_S)
-}
 
 /// A spacecraft prepared for sunlight: whatever does not change is computed once.
 ///

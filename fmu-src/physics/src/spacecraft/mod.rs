@@ -26,6 +26,7 @@ mod spelling;
 mod start;
 mod surface;
 mod thermal;
+mod thruster;
 mod wheels;
 
 #[cfg(test)]
@@ -50,6 +51,7 @@ pub use surface::{Cylinder, Plate, Sunshade, SunshadeModel};
 pub use thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
 };
+pub use thruster::{Thrust, Thruster};
 pub use wheels::{PAPER_DUMP_THRESHOLDS_N_M_S, Wheel};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.

@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::{
     forecast::{ForecastCase, Range, Timing},
     nutation::Spin,
-    rotation::angle_between_rad,
     spinner::Spinner,
     train::{LEAST_OF_SPLIT, MOST_ORDER, MOST_PULSES, Shape, Train, TrainError},
 };
+use crate::attitude::angle_between_rad;
 
 /// A transverse or axial torque below this share of the whole counts as none.
 const NO_TORQUE: f64 = 1e-9;

@@ -7,7 +7,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::{damper::Damper, inertia::Inertia, rotation::Quaternion};
+use super::damper::Damper;
+use crate::attitude::{Inertia, Quaternion};
 
 /// A torque-free arc of an axisymmetric body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

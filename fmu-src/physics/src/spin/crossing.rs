@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 
 use super::{
-    motion::{Motion, RigidState},
+    motion::Motion,
     work::{Cost, Work},
 };
+use crate::attitude::RigidBodyState;
 use crate::numerics::spacing::spacing;
 
 /// About which axis the angle is counted.
@@ -52,7 +53,7 @@ fn phase_rounding_rad(motion: &Motion, rate_rad_s: f64, time_s: f64) -> f64 {
 impl Crossing {
     /// Angle about the pole by which the body still has to turn, -pi..pi, in rad.
     #[inline]
-    fn ahead_rad(&self, state: &RigidState) -> f64 {
+    fn ahead_rad(&self, state: &RigidBodyState) -> f64 {
         let seen = state.attitude.body_from_inertial(&self.inertial);
         if self.pole == Pole::SpinAxis {
             let (x, y) = (self.body.x, self.body.y);
@@ -113,7 +114,7 @@ impl Crossing {
     }
 
     /// Secant iteration from the guess of a uniform turn.
-    fn on_closed_form(&self, motion: &Motion, from_s: f64, state: &RigidState, rate: f64) -> Option<f64> {
+    fn on_closed_form(&self, motion: &Motion, from_s: f64, state: &RigidBodyState, rate: f64) -> Option<f64> {
         if rate.is_nan() || rate <= SLOWEST_RAD_S {
             return None;
         }

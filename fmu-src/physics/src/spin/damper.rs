@@ -12,10 +12,9 @@
 //! other axis it grows, phi' = sin(phi) cos(phi)/tau, and ends in a flat spin: the form of a damper driven by the
 //! accelerations of nutation, smooth at 90 deg.
 
+use crate::attitude::Inertia;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-use super::inertia::Inertia;
 
 /// Least 1/e time of a damper, in s.
 pub const SHORTEST_TIME_CONSTANT_S: f64 = 1.0;

@@ -6,10 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{
     coast::Coast,
     damper::Damper,
-    inertia::Inertia,
-    rotation::Quaternion,
     series::{BodyTorque, TaylorSegment},
 };
+use crate::attitude::{Inertia, Quaternion, RigidBodyState};
 use crate::numerics::spacing::spacing;
 
 /// A body faster than this is not followed.
@@ -58,37 +57,6 @@ pub enum MotionError {
         /// Time in which the motion changes, in s.
         change_s: f64,
     },
-}
-
-/// Where the body is and how it turns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidState {
-    /// EME2000 to body.
-    pub attitude: Quaternion,
-    /// Angular momentum in inertial components, in N m s.
-    pub momentum_inertial: Vector3<f64>,
-    /// Angular momentum in body components, in N m s.
-    pub momentum_body: Vector3<f64>,
-}
-
-impl RigidState {
-    /// Angular rate J^-1 h, body components, in rad/s.
-    #[inline]
-    pub fn rate_rad_s(&self, inertia: &Inertia) -> Vector3<f64> {
-        let [i1, i2, i3] = inertia.principal_kg_m2();
-        Vector3::new(self.momentum_body.x / i1, self.momentum_body.y / i2, self.momentum_body.z / i3)
-    }
-
-    /// Angle from the momentum to the spin axis by atan2, 0..pi, in rad.
-    #[inline]
-    pub fn nutation_rad(&self) -> f64 {
-        libm::hypot(self.momentum_body.x, self.momentum_body.y).atan2(self.momentum_body.z)
-    }
-
-    /// Rotational kinetic energy in J.
-    pub fn energy_j(&self, inertia: &Inertia) -> f64 {
-        0.5 * self.rate_rad_s(inertia).dot(&self.momentum_body)
-    }
 }
 
 /// How the motion after the anchor is represented.
@@ -253,7 +221,7 @@ impl Motion {
 
     /// State at a time within the present segment (any time after the anchor for a closed form).
     #[inline]
-    pub fn at(&self, time_s: f64) -> RigidState {
+    pub fn at(&self, time_s: f64) -> RigidBodyState {
         let dt_s = time_s - self.anchor_s;
         match &self.path {
             Path::Coast(coast) => self.conserved(coast.attitude_at(dt_s)),
@@ -264,7 +232,7 @@ impl Motion {
                 }
                 let momentum_body = segment.momentum_body(dt_s);
                 let momentum_inertial = attitude.inertial_from_body(&momentum_body);
-                RigidState { attitude, momentum_inertial, momentum_body }
+                RigidBodyState { attitude, momentum_inertial, momentum_body }
             }
         }
     }
@@ -278,9 +246,9 @@ impl Motion {
         Self::new(inertia, damper, torque, time_s, attitude, state.momentum_inertial, hint_s)
     }
 
-    fn conserved(&self, attitude: Quaternion) -> RigidState {
+    fn conserved(&self, attitude: Quaternion) -> RigidBodyState {
         let momentum_inertial = self.momentum_inertial;
-        RigidState {
+        RigidBodyState {
             attitude,
             momentum_inertial,
             momentum_body: attitude.body_from_inertial(&momentum_inertial),

@@ -5,14 +5,13 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::{
-    motion::RigidState,
     nutation::{exact_envelope_rad, period_variation_s},
     plant::{Plant, StarSample},
-    rotation::angle_between_rad,
     sequencer::{Phase, Sequencer},
     spinner::Spinner,
     tracker::{NutationEstimate, observation_time_eq20_s, observation_time_s},
 };
+use crate::attitude::{RigidBodyState, angle_between_rad};
 
 /// Limits in SI units, as the master may have set them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +32,7 @@ pub struct Bounds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
     /// Attitude and momentum.
-    pub state: RigidState,
+    pub state: RigidBodyState,
     /// Body components, in rad/s.
     pub rate_rad_s: Vector3<f64>,
     /// In rad.

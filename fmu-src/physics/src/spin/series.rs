@@ -7,7 +7,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::{damper::Damper, inertia::Inertia, rotation::Quaternion};
+use super::damper::Damper;
+use crate::attitude::{Inertia, Quaternion};
 
 /// Highest order of the series.
 const ORDER: usize = 28;

@@ -1,10 +1,8 @@
 //! Months of antenna pointing: how often to turn, how far, and what it costs.
 
 use nalgebra::Vector3;
-use physics::spin::{
-    geometry::L1Phases, nutation::allowed_nutation_rad, rotation::angle_between_rad, spinner::Spinner,
-    train::Shape,
-};
+use physics::attitude::angle_between_rad;
+use physics::spin::{geometry::L1Phases, nutation::allowed_nutation_rad, spinner::Spinner, train::Shape};
 
 use super::{PlanError, Row, Task, best, evaluate, paper_plan};
 

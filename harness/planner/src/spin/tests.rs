@@ -1,7 +1,8 @@
 //! Plans beat the paper's where the notes say they do, keep their limits, and say when nothing does.
 
 use clap::Parser;
-use physics::spin::{damper::Damper, geometry::L1Phases, inertia::Inertia, spinner::Spinner, train::Shape};
+use physics::attitude::Inertia;
+use physics::spin::{damper::Damper, geometry::L1Phases, spinner::Spinner, train::Shape};
 
 use super::{
     ACE, Options, PlanError, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade,

@@ -38,15 +38,16 @@ fn use_everything(instance: &mut InProcess) -> Result<(), (&'static str, Status)
 fn every_fault_is_a_status_of_its_call() {
     let mut neighbour = instance(Fault::Nowhere);
     assert_eq!(neighbour.start(0.0, None), Status::Ok);
-    for (step, item) in Fault::items().iter().enumerate() {
+    for (step, item) in Fault::TYPE.items.iter().enumerate() {
         let fault = Fault::from_value(item.value).unwrap();
         let expected = match fault {
-            Fault::Nowhere => Ok(()),
+            Fault::Nowhere | Fault::StepShort => Ok(()),
             Fault::Initialize | Fault::FailInitialize => Err(("start", Status::Error)),
             Fault::Step
             | Fault::StepPayload
             | Fault::StepPayloadDrop
             | Fault::StepIndex
+            | Fault::StepStill
             | Fault::FailStep => Err(("doStep", Status::Error)),
             Fault::TerminateStep => Err(("doStep", Status::Discard)),
             Fault::OutputDerivative => Err(("outputDerivatives", Status::Error)),

@@ -1,10 +1,12 @@
 //! Input derivatives, output derivatives, directional derivatives.
 
-use super::{Instance, once};
+use super::Instance;
 use crate::fmi2::access::{CONTINUOUS, GET_INITIALIZATION, INPUT, OUTPUT, SET_INITIALIZATION};
 use crate::fmi2::instance::state::MAX_INPUT_DERIVATIVE_ORDER;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
+use crate::model::InputDerivative;
+use crate::variables::Real;
 use model_description::BaseType;
 use model_description::call_table::{Function, State};
 
@@ -24,19 +26,12 @@ impl Instance {
                 return Err(Problem::DerivativeNotFinite { reference, value });
             }
         }
-        if !self.capabilities.interpolates_inputs {
-            self.warn_once(
-                once::NO_INTERPOLATION,
-                format_args!("fmi2SetRealInputDerivatives: this model does not interpolate inputs; ignored"),
-            );
-            return Ok(());
-        }
         let kept = &mut self.state.input_derivatives;
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
-            let order = order.unsigned_abs();
-            match kept.iter_mut().find(|(r, o, _)| *r == reference && *o == order) {
-                Some((_, _, old)) => *old = value,
-                None => kept.push((reference, order, value)),
+            let (input, order) = (real(reference), order.unsigned_abs());
+            match kept.iter_mut().find(|old| old.input == input && old.order == order) {
+                Some(old) => old.value = value,
+                None => kept.push(InputDerivative { input, order, value }),
             }
         }
         Ok(())
@@ -50,16 +45,13 @@ impl Instance {
         values: &mut [f64],
     ) -> Result<(), Problem> {
         self.guard(Function::GetRealOutputDerivatives)?;
+        let largest = u32::from(self.runtime.has_output_rates());
         for (&reference, &order) in references.iter().zip(orders) {
             self.require(reference, OUTPUT, OUTPUT, "Real output")?;
-            check_order(order, self.capabilities.max_output_derivative_order)?;
+            check_order(order, largest)?;
         }
-        for ((&reference, &order), value) in references.iter().zip(orders).zip(values) {
-            // A model knows the first derivative; what is piecewise linear has no higher ones.
-            *value = match order {
-                1 => self.runtime.output_derivative(self.values_at_last_step(), reference, &self.logger)?,
-                _ => 0.0,
-            };
+        for (&reference, value) in references.iter().zip(values) {
+            *value = self.runtime.output_rate(self.values_at_last_step(), real(reference), &self.logger)?;
             if !value.is_finite() {
                 return Err(Problem::SlopeNotFinite { of: reference, along: None, value: *value });
             }
@@ -94,7 +86,10 @@ impl Instance {
             self.initialize_if_needed()?;
         }
         let values = self.values_at_last_step();
-        self.runtime.directional_derivative(values, unknowns, knowns, seed, result, &self.logger)?;
+        let of: Vec<Real> = unknowns.iter().map(|&reference| real(reference)).collect();
+        let seeds: Vec<(Real, f64)> =
+            knowns.iter().map(|&known| real(known)).zip(seed.iter().copied()).collect();
+        self.runtime.jacobian_vector_product(values, &of, &seeds, result, &self.logger)?;
         match unknowns.iter().zip(result).find(|(_, slope)| !slope.is_finite()) {
             None => Ok(()),
             Some((&of, &mut value)) => {
@@ -115,6 +110,11 @@ impl Instance {
             None => Err(Problem::UnknownReference { base: BaseType::Real, reference, count: table.len() }),
         }
     }
+}
+
+/// The Real of a value reference that was checked.
+fn real(reference: u32) -> Real {
+    Real(references::index(BaseType::Real, reference) as u32)
 }
 
 fn check_order(order: i32, largest: u32) -> Result<(), Problem> {

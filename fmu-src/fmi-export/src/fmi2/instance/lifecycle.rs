@@ -69,12 +69,13 @@ impl Instance {
     fn take_tolerance(&mut self, tolerance: Option<f64>) {
         let Some(at) = self.tolerance.filter(|_| !self.state.tolerance_set) else { return };
         let default = self.start.real(at);
-        let limits = self.access.real_limits.get(references::index(BaseType::Real, at.reference())).copied();
+        let limits =
+            self.access.real_limits.get(references::index(BaseType::Real, references::of(at))).copied();
         let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
         // Not `clamp`, which panics where the limits are no range.
         let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
         if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance != taken) {
-            let name = self.access.any_name(at.reference()).unwrap_or_default();
+            let name = self.access.any_name(references::of(at)).unwrap_or_default();
             self.logger.log(
                 Status::Warning,
                 format_args!(
@@ -90,7 +91,7 @@ impl Instance {
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
         self.guard(Function::ExitInitializationMode)?;
         self.initialize_if_needed()?;
-        self.warm_up();
+        self.allocate_spare();
         Ok(())
     }
 
@@ -121,12 +122,12 @@ impl Instance {
         Ok(())
     }
 
-    /// Notes that the master goes back behind a time it promised not to.
-    pub(crate) fn warn_of_broken_promise(&mut self, time_s: f64) {
+    /// Warns where a state from before `noSetFMUStatePriorToCurrentPoint` is set.
+    pub(crate) fn warn_of_early_state(&mut self, time_s: f64) {
         let earliest_s = self.earliest_s;
         if time_s < earliest_s {
             self.warn_once(
-                once::STATE_BEFORE_PROMISED_TIME,
+                once::EARLY_STATE,
                 format_args!(
                     "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {earliest_s:?} s"
                 ),

@@ -14,7 +14,7 @@ use crate::fmi2::description::Prepared;
 use crate::fmi2::logger::Logger;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
-use crate::runtime::{Capabilities, Parts, Runtime};
+use crate::runtime::Runtime;
 use crate::variables::{Real, Values};
 use model_description::BaseType;
 use model_description::Status;
@@ -25,13 +25,12 @@ pub use state::MAX_INPUT_DERIVATIVE_ORDER;
 pub(crate) use state::{InstanceState, content};
 pub(crate) use stepping::StatusKind;
 
-/// Messages that are worth saying once per instance, as bits.
+/// Messages that are logged once per instance, as bits.
 mod once {
     pub(super) const INPUT_BEFORE_INITIALIZATION: u8 = 1;
     pub(super) const READ_IN_INITIALIZATION: u8 = 1 << 1;
     pub(super) const OUTPUT_AFTER_SET: u8 = 1 << 2;
-    pub(super) const STATE_BEFORE_PROMISED_TIME: u8 = 1 << 3;
-    pub(super) const NO_INTERPOLATION: u8 = 1 << 4;
+    pub(super) const EARLY_STATE: u8 = 1 << 3;
 }
 
 /// One instance of one model.
@@ -41,11 +40,10 @@ pub(crate) struct Instance {
     pub(super) access: AccessTable,
     pub(super) start: Values,
     pub(super) digest: uuid::Uuid,
-    pub(super) capabilities: Capabilities,
     pub(super) logger: Logger,
-    /// What has been said already.
+    /// Which of the messages in [`once`] were logged.
     warned: u8,
-    /// The master promised not to go back before this time.
+    /// No FMU state before this time will be set, by `noSetFMUStatePriorToCurrentPoint`.
     earliest_s: f64,
     /// Spare memory for [`InstanceState::at_last_step`].
     spare: Values,
@@ -57,7 +55,7 @@ pub(crate) struct Instance {
 impl Instance {
     /// A fresh instance.
     pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
-        let Parts { access, start, runtime, digest, capabilities } = prepared.parts;
+        let Prepared { access, start, runtime, digest, description: _ } = prepared;
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
         Self {
@@ -68,7 +66,6 @@ impl Instance {
             access,
             start,
             digest,
-            capabilities,
             logger,
             warned: 0,
             earliest_s: f64::NEG_INFINITY,
@@ -107,7 +104,7 @@ impl Instance {
         }
     }
 
-    /// The status of a call, after the state machine and the log heard of it.
+    /// The status of a call: logs a problem and moves the state machine.
     #[inline]
     pub(crate) fn conclude(&mut self, function: Function, result: Result<(), Problem>) -> Status {
         match result {
@@ -121,7 +118,7 @@ impl Instance {
 
     #[cold]
     fn refuse(&mut self, function: Function, problem: &Problem) -> Status {
-        let status = problem.status(function);
+        let status = problem.status();
         self.logger.log(status, format_args!("{}: {}", function.symbol(), problem.explain(&self.access)));
         self.follow(function, status);
         status
@@ -153,12 +150,11 @@ impl Instance {
 
     #[cold]
     fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
-        let behind = self.access.dependencies(reference, initially);
-        let shown = behind.map(|behind| {
+        let listed = self.access.dependencies(reference, initially).map(|dependencies| {
             let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));
-            behind.iter().filter_map(shown).collect::<Vec<_>>().join(", ")
+            dependencies.iter().filter_map(shown).collect::<Vec<_>>().join(", ")
         });
-        Problem::NotFinite { reference, value, behind: shown.filter(|it| !it.is_empty()) }
+        Problem::NotFinite { reference, value, depends_on: listed.filter(|it| !it.is_empty()) }
     }
 
     /// A variable's value for a message.
@@ -180,7 +176,7 @@ impl Instance {
     }
 
     /// Brings the spare values to their size, so that no step has to.
-    pub(super) fn warm_up(&mut self) {
+    pub(super) fn allocate_spare(&mut self) {
         copy_values(&mut self.spare, &self.state.values);
     }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
 use crate::fmi2::problem::StateMismatch;
+use crate::model::InputDerivative;
 use crate::variables::Values;
 use model_description::call_table::State;
 
@@ -37,8 +38,8 @@ pub(crate) struct InstanceState {
     pub(crate) tolerance_set: bool,
     /// The last step had input derivatives, which ended with it.
     pub(crate) derivatives_ended: bool,
-    /// Value reference, order, value; until the end of the next step.
-    pub(crate) input_derivatives: Vec<(u32, u32, f64)>,
+    /// Until the end of the next step.
+    pub(crate) input_derivatives: Vec<InputDerivative>,
     pub(crate) values: Values,
     /// Once a different value was set between steps: the values as the last step left them. What is set next may be
     /// set back, and derivatives belong to them.
@@ -105,7 +106,8 @@ impl InstanceState {
             check_values(values, access)?;
             self.check_finite(values, access)?;
         }
-        for &(reference, order, value) in &self.input_derivatives {
+        for &InputDerivative { input, order, value } in &self.input_derivatives {
+            let reference = references::of(input);
             let flags = access
                 .flags(BaseType::Real)
                 .get(references::index(BaseType::Real, reference))
@@ -188,7 +190,7 @@ fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismat
             return Err(content(format!("{length} {} values, the model has {expected}", base.name())));
         }
     }
-    // What the model computes is its own affair; what a master sets obeys the same limits here.
+    // Limits are for what a master sets, here as at the C functions.
     let reals = access.flags(BaseType::Real).iter().zip(&values.reals).zip(&access.real_limits);
     for (reference, ((&flags, &value), &(min, max))) in (references::first(BaseType::Real)..).zip(reals) {
         if flags & SET_BY_IMPORTER != 0 && !(value >= min && value <= max) {

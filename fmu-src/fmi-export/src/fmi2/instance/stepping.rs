@@ -2,7 +2,7 @@
 
 use super::Instance;
 use crate::fmi2::problem::Problem;
-use crate::model::Step;
+use crate::model::{InputsOverTime, Step};
 use crate::time;
 use model_description::call_table::Function;
 
@@ -61,35 +61,38 @@ impl Instance {
         if no_return {
             self.earliest_s = self.earliest_s.max(point_s);
         }
-        let state = &mut self.state;
         // An input whose derivatives are 0 stays where it is.
-        state.input_derivatives.retain(|(_, _, derivative)| *derivative != 0.0);
-        let step = Step {
-            start_s,
-            end_s,
-            changed: state.derivatives_ended || !state.input_derivatives.is_empty() || state.differs(),
-            input_derivatives: &state.input_derivatives,
-        };
-        let result = self.runtime.step(&mut state.values, &step, &self.logger);
-        let ended = matches!(&result, Err(Problem::Model(failure)) if failure.is_terminated());
-        if result.is_ok() || ended {
-            self.check_finite(false)?;
-        }
+        self.state.input_derivatives.retain(|derivative| derivative.value != 0.0);
+        let terminate = self.advance(start_s, end_s)?;
+        self.check_finite(false)?;
         let state = &mut self.state;
-        match &result {
-            Ok(()) => state.time_s = end_s,
-            Err(Problem::Model(failure)) if failure.is_terminated() => {
-                state.terminated = true;
-                // A time outside the step, or none, counts as nothing done.
-                state.time_s =
-                    failure.last_time_s().filter(|t| (start_s..=end_s).contains(t)).unwrap_or(start_s);
-            }
-            Err(_) => return result,
-        }
         state.derivatives_ended = !state.input_derivatives.is_empty();
         state.input_derivatives.clear();
+        state.terminated = terminate.is_some();
         self.forget_last_step();
-        result
+        terminate.map_or(Ok(()), |reason| Err(Problem::Terminated(reason)))
+    }
+
+    /// Steps the model to `end_s`, again and again where it stops early, and leaves the time where it came to; the reason
+    /// where it ends the simulation.
+    fn advance(&mut self, start_s: f64, end_s: f64) -> Result<Option<String>, Problem> {
+        let state = &mut self.state;
+        let inputs = InputsOverTime::new(start_s, &state.input_derivatives);
+        let mut changed = state.derivatives_ended || !state.input_derivatives.is_empty() || state.differs();
+        let mut from_s = start_s;
+        loop {
+            let step = Step { start_s: from_s, end_s, changed, inputs };
+            let end = self.runtime.step(&mut state.values, &step, &self.logger)?;
+            let is_within = end.time_s >= from_s && end.time_s <= end_s;
+            if !is_within || (end.time_s == from_s && end.terminate.is_none()) {
+                return Err(Problem::StepEnd { from_s, end_s, came_to_s: end.time_s });
+            }
+            state.time_s = end.time_s;
+            if end.terminate.is_some() || end.time_s == end_s {
+                return Ok(end.terminate);
+            }
+            (from_s, changed) = (end.time_s, false);
+        }
     }
 
     /// `fmi2GetRealStatus`.

@@ -17,7 +17,7 @@ macro_rules! getter {
             #[doc = concat!("`fmi2", stringify!($function), "`.")]
             pub(crate) fn $name(&mut self, references: &[u32], values: &mut [$value]) -> Result<(), Problem> {
                 self.guard(Function::$function)?;
-                if self.reading_needs_care() {
+                if self.reading_needs_preparation() {
                     self.prepare_reading(BaseType::$base, references)?;
                 }
                 let table = &self.state.values.$table;
@@ -61,7 +61,7 @@ macro_rules! setter {
                     differs |= $differs(stored, value);
                 }
                 if lenient {
-                    self.say_input_before_initialization();
+                    self.warn_of_input_before_initialization();
                 }
                 if BaseType::$base as u8 == BaseType::Real as u8 && self.state.mode != State::StepComplete {
                     self.note_tolerance(references);
@@ -133,7 +133,7 @@ impl Instance {
         mut take: impl FnMut(usize, usize, &str),
     ) -> Result<(), Problem> {
         self.guard(Function::GetString)?;
-        if self.reading_needs_care() {
+        if self.reading_needs_preparation() {
             self.prepare_reading(BaseType::String, references)?;
         }
         let table = &self.state.values.strings;
@@ -157,9 +157,9 @@ impl Instance {
         }
     }
 
-    /// Whether a read must compute or say something first.
+    /// Whether a read must compute or log something first.
     #[inline]
-    fn reading_needs_care(&self) -> bool {
+    fn reading_needs_preparation(&self) -> bool {
         match self.state.mode {
             State::StepComplete => {
                 self.state.at_last_step.is_some() && self.warned & once::OUTPUT_AFTER_SET == 0
@@ -216,14 +216,14 @@ impl Instance {
         }
     }
 
-    /// What the master sets of the tolerance goes before the experiment's.
+    /// A tolerance parameter that the master sets takes precedence over the experiment's tolerance.
     #[cold]
     fn note_tolerance(&mut self, references: &[u32]) {
-        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&at.reference()));
+        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&references::of(at)));
     }
 
     #[cold]
-    fn say_input_before_initialization(&mut self) {
+    fn warn_of_input_before_initialization(&mut self) {
         self.warn_once(
             once::INPUT_BEFORE_INITIALIZATION,
             format_args!(

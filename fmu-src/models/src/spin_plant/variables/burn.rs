@@ -5,7 +5,8 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
 
 use super::super::choices::{BurnPlan, BurnTiming};
-use physics::spin::spinner::{Spinner, Thruster};
+use physics::spacecraft::Thruster;
+use physics::spin::spinner::Spinner;
 
 /// The burn the spacecraft flies by itself.
 #[derive(Variables)]

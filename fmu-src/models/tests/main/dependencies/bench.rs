@@ -7,7 +7,7 @@ use fmi_export::model::Log;
 use fmi_export::model_description::{
     Causality, Description, Initial, SimpleTypeKind, Unknown, Variability, VariableKind, rules,
 };
-use fmi_export::{Context, Declare, Model, Step, Values, Variables};
+use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
 
 use super::super::named_model::Tables;
 
@@ -271,7 +271,8 @@ impl<M: Model> Bench<M> {
 
     pub fn step(&self, flight: &mut TorqueModel<M>, length_s: f64) -> Option<()> {
         let end_s = flight.time_s + length_s;
-        let step = Step { start_s: flight.time_s, end_s, changed: flight.changed, input_derivatives: &[] };
+        let step =
+            Step { start_s: flight.time_s, end_s, changed: flight.changed, inputs: InputsOverTime::held() };
         let mut values = flight.values.back();
         M::step(&self.context(), &mut values, &mut flight.state, &step).ok()?;
         flight.values = Tables::of(&values);

@@ -1,9 +1,15 @@
 //! How much of the Sun's disc a spacecraft sees past a planet, and when that changes.
 //!
-//! Sun and planet are spheres; seen from the spacecraft they are circles on the sky of angular radii
+//! Equation: Sun and planet are spheres; seen from the spacecraft they are circles on the sky of angular radii
 //! `asin(R / distance)` (paper 004 eq 26). The lit fraction is the part of the Sun's circle outside the planet's, by
-//! solid angle. Both are treated as circles on the sphere, not on a flat sky: close to the planet, whose circle
-//! spans a good part of the sky, the flat formula is off by up to 1e-3.
+//! solid angle.
+//! Method: both are treated as circles on the sphere, not on a flat sky: close to the planet, whose circle spans a good
+//! part of the sky, the flat formula is off by up to 1e-3. What they have in common is a sector of each cap less the two
+//! spherical triangles counted twice, by half-angle formulas without cancellation; edges of penumbra and umbra are roots of
+//! the gaps between the circles ([`crate::numerics::events`]).
+//! Order: closed form.
+//! Error measure: 1e-12 of the Sun's disc.
+//! Reference: Montenbruck and Gill, Satellite Orbits, 3.4.2 (the flat formula); l'Huilier's theorem for the triangles.
 
 mod discs;
 mod edges;

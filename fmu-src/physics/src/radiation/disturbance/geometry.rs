@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::constants::ASTRONOMICAL_UNIT_M;
+use crate::environment::sun::{SunError, flux_w_m2};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::grid::GridError;
 use crate::radiation::ring::ViewError;
@@ -101,14 +101,11 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         panel_angles_rad: &'a [T],
         center_of_mass_body_m: Vector3<T>,
     ) -> Result<Self, GeometryError> {
-        let flux = |position_m: &Vector3<T>| {
-            let squared = position_m.dot(position_m);
-            let distance_m = squared.value().sqrt();
-            if !(distance_m > 0.0 && distance_m.is_finite()) {
-                return Err(GeometryError::Sun { distance_m });
-            }
-            let au_squared = ASTRONOMICAL_UNIT_M * ASTRONOMICAL_UNIT_M;
-            Ok((flux_at_1_au_w_m2 * au_squared / squared, squared.sqrt()))
+        let flux = |position_m: &Vector3<T>| -> Result<(T, T), GeometryError> {
+            let distance_m = position_m.dot(position_m).sqrt();
+            let flux_w_m2 = flux_w_m2(flux_at_1_au_w_m2, distance_m)
+                .map_err(|SunError::Distance { found_m }| GeometryError::Sun { distance_m: found_m })?;
+            Ok((flux_w_m2, distance_m))
         };
         let (sun_flux_w_m2, distance_m) = flux(sun_position_body_m)?;
         let planet = match planet_position_body_m {

@@ -1,4 +1,9 @@
-//! The quadrature over rings.
+//! The quadrature over rings: Gauss-Legendre nodes in each segment, all faces of a spacecraft by one rule.
+//!
+//! Equation, method, order, error measure and reference: see [`super`]. A segment is split at twice the distance of the
+//! singularity an earlier birth leaves just outside of it and then at multiples of a ratio (a graded mesh), so that the
+//! distance to the singularity is never small beside a piece's length. Singularities nearer than `closest_singularity`
+//! are left: what they do to the integral goes with the square of their distance and is below the rule's error.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,11 @@
 //! Where the range of rings is split, and the variable that makes each piece smooth.
+//!
+//! Equation: the integrand behaves like sqrt(x - a) where an arc is born at the ring a.
+//! Method: breaks at every birth, and on each piece the variable y with x = a + (b - a) y2, whose derivative is 0 at the
+//! birth and cancels the square root; an earlier birth remains a singularity at y2 < 0, whose distance
+//! [`Segment::singularity`] gives to the quadrature.
+//! Error measure: breaks closer than 1e-13 of the range are one.
+//! Reference: see [`super`].
 
 use crate::numerics::scalar::Scalar;
 

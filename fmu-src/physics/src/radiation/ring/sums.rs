@@ -1,4 +1,8 @@
 //! What the rings add up to: moments of the planet's radiance over directions.
+//!
+//! Equation: sums over the rings of weight times the integrals of L s and L s s^T over the common arcs, from which both
+//! members of [`crate::radiation::flat_plate::ReceivedLight`] follow by a product with the plate's normal.
+//! Error measure and reference: see [`super`].
 
 use core::f64::consts::PI;
 

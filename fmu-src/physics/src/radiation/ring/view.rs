@@ -1,4 +1,4 @@
-//! What the planet looks like from the spacecraft.
+//! Viewing geometry of the planet from the spacecraft: distance, limb and the frame of nadir and Sun.
 
 use nalgebra::Vector3;
 

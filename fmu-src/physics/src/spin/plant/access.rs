@@ -5,9 +5,10 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::{Directions, Plant, Sampling, StarSample};
+use crate::attitude::angle_between_rad;
 use crate::spin::{
     crossing_detector::CrossingDetector, forecast::Timing, motion::Motion, nutation::Spin,
-    rotation::angle_between_rad, sequencer::Sequencer, spinner::Spinner, tracker::NutationEstimator,
+    sequencer::Sequencer, spinner::Spinner, tracker::NutationEstimator,
 };
 
 impl Plant {

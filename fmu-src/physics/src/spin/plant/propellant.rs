@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::{MassSource, Plant, SpinPlantError};
+use crate::attitude::Inertia;
 use crate::spin::{
-    inertia::Inertia,
     spinner::Spinner,
     tracker::NutationEstimator,
     work::{Cost, Work},

@@ -5,12 +5,11 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::{Plant, Sampling, SpinPlantError, StarSample};
+use crate::attitude::{RigidBodyState, angle_between_rad};
 use crate::spin::{
     crossing::{Crossing, Pole},
     crossing_detector::CrossingDetector,
-    motion::RigidState,
     noise::{Channel, normal},
-    rotation::angle_between_rad,
     spinner::Spinner,
     tracker::{picket_of, searched},
     work::{Cost, Work},
@@ -115,7 +114,7 @@ impl Plant {
     }
 
     /// Picket of the star: its azimuth about the momentum after the Sun's.
-    pub(super) fn star_picket(&self, spinner: &Spinner, state: &RigidState) -> u32 {
+    pub(super) fn star_picket(&self, spinner: &Spinner, state: &RigidBodyState) -> u32 {
         let pole = state.momentum_inertial;
         let ahead = |direction: &Vector3<f64>| {
             let seen = state

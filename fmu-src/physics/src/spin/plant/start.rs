@@ -9,16 +9,15 @@ use super::{
     Commands, Directions, Plant, SensorAzimuths, StarSample, sensing::DIRECTION_INTERVAL_S,
     sound::is_moderate,
 };
+use crate::attitude::{Inertia, InertiaError, Quaternion, angle_between_rad};
 use crate::spin::{
     burn::{Burn, BurnError, BurnInitialConditions, BurnRequest},
     crossing_detector::CrossingDetector,
     damper::{Damper, SHORTEST_TIME_CONSTANT_S},
     forecast::Timing,
     geometry::L1Ephemeris,
-    inertia::{Inertia, InertiaError},
     motion::Motion,
     nutation::{LinearNutation, Spin},
-    rotation::{Quaternion, angle_between_rad},
     sequencer::{FASTEST_RAD_S, SLOWEST_RAD_S, Sequencer},
     series::BodyTorque,
     spinner::Spinner,

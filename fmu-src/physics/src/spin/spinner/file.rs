@@ -4,11 +4,10 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::hardware::{
-    Group, Limits, MOST_THRUSTERS, MassProperties, StarTracker, SunSensor, Thrust, Thruster,
-};
+use super::hardware::{Group, Limits, MOST_THRUSTERS, MassTable, StarTracker, SunSensor};
 use crate::spacecraft::{
-    Checker, Document, Place, SpacecraftError, StartEntry, StartTable, nearest, start_entries,
+    Checker, Document, Place, SpacecraftError, StartEntry, StartTable, Thrust, Thruster, nearest,
+    start_entries,
 };
 use crate::spin::geometry::L1Orbit;
 
@@ -24,7 +23,7 @@ pub struct Spinner {
     /// Name.
     pub name: String,
     /// Mass properties.
-    pub mass_properties: MassProperties,
+    pub mass_properties: MassTable,
     /// 1/e time of the nutation angle, in s; 0 without a damper.
     pub damper_time_constant_s: f64,
     /// Smallest step of pulse width, in s.
@@ -88,7 +87,7 @@ impl Spinner {
 #[serde(deny_unknown_fields)]
 struct File {
     name: String,
-    mass_properties: MassProperties,
+    mass_properties: MassTable,
     damper: DamperEntry,
     thrusters: ThrustersEntry,
     thruster: Vec<ThrusterEntry>,
@@ -167,7 +166,7 @@ impl Builder<'_> {
         }
     }
 
-    fn mass_properties(&mut self, at: &Place, mass: &MassProperties) {
+    fn mass_properties(&mut self, at: &Place, mass: &MassTable) {
         let points = at.key("propellant_kg");
         let count = mass.propellant_kg.len();
         for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {

@@ -1,9 +1,7 @@
 //! Hardware of a spinner: mass properties, thrusters, sensors, limits.
 
-use nalgebra::Vector3;
+use crate::attitude::{Inertia, InertiaError};
 use serde::{Deserialize, Serialize};
-
-use crate::spin::inertia::{Inertia, InertiaError};
 
 /// A set of thrusters is a bit mask.
 pub const MOST_THRUSTERS: usize = 24;
@@ -11,7 +9,7 @@ pub const MOST_THRUSTERS: usize = 24;
 /// Mass and inertia as functions of the propellant on board.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct MassProperties {
+pub struct MassTable {
     /// I3 at each point, in kg m2.
     pub spin_inertia_kg_m2: Vec<f64>,
     /// I3/I_T at each point.
@@ -26,7 +24,7 @@ pub struct MassProperties {
     pub transverse_quotient: f64,
 }
 
-impl MassProperties {
+impl MassTable {
     /// Inertia with `propellant_kg` on board; held constant outside the table.
     pub fn inertia(&self, propellant_kg: f64) -> Result<Inertia, InertiaError> {
         let spin = self.interpolate(&self.spin_inertia_kg_m2, propellant_kg);
@@ -51,22 +49,6 @@ impl MassProperties {
         }
         result
     }
-}
-
-/// One thruster.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Thruster {
-    /// Name.
-    pub name: String,
-    /// Where it stands from the centre of mass, body frame, in m; for pictures, the torque is what acts.
-    #[serde(skip)]
-    pub position_body_m: Vector3<f64>,
-    /// Force on the spacecraft, body components, in N.
-    pub force_body_n: Vector3<f64>,
-    /// Torque about the centre of mass, body components, in N m.
-    pub torque_body_n_m: Vector3<f64>,
-    /// Propellant flow, in kg/s.
-    pub flow_kg_s: f64,
 }
 
 /// Thrusters that fire together.
@@ -122,15 +104,4 @@ pub struct Limits {
     pub spin_rate_tolerance_rpm: f64,
     /// Greatest variation of the spin period, in s.
     pub period_variation_s: f64,
-}
-
-/// Force, torque and flow of a set of thrusters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Thrust {
-    /// Body components, in N.
-    pub force_body_n: Vector3<f64>,
-    /// Body components, in N m.
-    pub torque_body_n_m: Vector3<f64>,
-    /// In kg/s.
-    pub flow_kg_s: f64,
 }

@@ -4,4 +4,4 @@ mod file;
 mod hardware;
 
 pub use file::Spinner;
-pub use hardware::{Group, Limits, MOST_THRUSTERS, MassProperties, StarTracker, SunSensor, Thrust, Thruster};
+pub use hardware::{Group, Limits, MOST_THRUSTERS, MassTable, StarTracker, SunSensor};

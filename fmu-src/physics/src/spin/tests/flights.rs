@@ -4,12 +4,12 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 use super::{ace, directions, paper_start, request};
+use crate::attitude::angle_between_rad;
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
     nutation::{Spin, uniform_train_rad},
     plant::{Commands, MassSource, Plant, PulseCommand, Start},
-    rotation::angle_between_rad,
     spinner::Spinner,
     train::Shape,
 };

@@ -1,12 +1,12 @@
 //! A manoeuvre is the same manoeuvre whenever it begins, within what the spacing of doubles leaves of its edges.
 
 use super::{ace, directions, paper_start, request};
+use crate::attitude::angle_between_rad;
 use crate::numerics::spacing::spacing;
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
     plant::{Commands, Plant, Start},
-    rotation::angle_between_rad,
 };
 
 /// A flight of 1600 s from `start_s` with 114 pulses, and what it shows.

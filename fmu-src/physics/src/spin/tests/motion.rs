@@ -3,13 +3,8 @@
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use crate::spin::{
-    damper::Damper,
-    inertia::Inertia,
-    motion::{Motion, RigidState},
-    rotation::{Quaternion, angle_between_rad},
-    series::BodyTorque,
-};
+use crate::attitude::{Inertia, Quaternion, RigidBodyState, angle_between_rad};
+use crate::spin::{damper::Damper, motion::Motion, series::BodyTorque};
 
 const OMEGA_RAD_S: f64 = std::f64::consts::PI / 6.0;
 
@@ -21,7 +16,7 @@ fn start(inertia: Inertia, damper_s: f64, rate: Vector3<f64>, torque: Vector3<f6
     Motion::new(inertia, damper, BodyTorque::constant(torque), 0.0, attitude, momentum, f64::INFINITY)
 }
 
-fn state_at(mut motion: Motion, time_s: f64) -> RigidState {
+fn state_at(mut motion: Motion, time_s: f64) -> RigidBodyState {
     motion.reach(time_s);
     motion.at(time_s)
 }

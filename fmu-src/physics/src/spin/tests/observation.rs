@@ -5,12 +5,12 @@ use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 use super::{ace, directions, paper_start};
+use crate::attitude::angle_between_rad;
 use crate::spin::{
     geometry::L1Ephemeris,
     noise::{Channel, normal},
     nutation::period_variation_s,
     plant::{Commands, Directions, Plant, Sampling},
-    rotation::angle_between_rad,
     tracker::{NutationEstimator, picket_of, searched},
 };
 
@@ -182,7 +182,7 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     // Spin axis a little off the Sun.
     let sun = spinner.l1_orbit.sun_earth(&Default::default(), 0.0).sun_inertial;
     let axis = Vector3::z().cross(&sun).normalize();
-    let q = crate::spin::rotation::Quaternion::turn(&axis, angle_between_rad(&Vector3::z(), &sun) + 0.1);
+    let q = crate::attitude::Quaternion::turn(&axis, angle_between_rad(&Vector3::z(), &sun) + 0.1);
     start.attitude = q.0;
     let launch = || Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
     let mut whole = launch();

@@ -47,7 +47,7 @@ impl View {
 }
 
 /// Draws it; `None` where no thruster is aside of the axis.
-pub fn svg(thrusters: &[physics::spin::spinner::Thruster]) -> Option<String> {
+pub fn svg(thrusters: &[physics::spacecraft::Thruster]) -> Option<String> {
     let thrusters: Vec<Thruster> = thrusters
         .iter()
         .map(|thruster| {
@@ -201,8 +201,8 @@ mod tests {
     //! Thrusters stand where the file has them, and only a whole file gives a picture.
     use super::*;
 
-    fn thruster(position_m: [f64; 3], force_n: [f64; 3]) -> physics::spin::spinner::Thruster {
-        physics::spin::spinner::Thruster {
+    fn thruster(position_m: [f64; 3], force_n: [f64; 3]) -> physics::spacecraft::Thruster {
+        physics::spacecraft::Thruster {
             name: String::new(),
             position_body_m: position_m.into(),
             force_body_n: force_n.into(),

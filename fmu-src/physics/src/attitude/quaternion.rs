@@ -1,4 +1,4 @@
-//! The spinner's attitude: a scalar-last unit quaternion, without allocation and cheap to compose.
+//! Unit quaternion of an attitude, scalar last, cheap to compose.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -70,10 +70,4 @@ impl Quaternion {
         let [x, y, z, w] = self.0;
         Vector3::new(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w + z * z - x * x - y * y)
     }
-}
-
-/// Angle between two vectors of any length, in rad, accurate near 0 and near pi.
-#[inline]
-pub fn angle_between_rad(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
-    a.cross(b).norm().atan2(a.dot(b))
 }

@@ -1,4 +1,4 @@
-//! Principal moments of inertia of the spinner.
+//! Principal moments of inertia of a rigid body.
 
 use serde::{Deserialize, Serialize};
 
