@@ -1,6 +1,6 @@
 //! A description as a sequence of elements and attributes in the order of the XML schema.
 //!
-//! The XML writer and the digest both walk it, so neither can forget a fact that the other has.
+//! The XML writer walks it.
 
 use crate::{
     Causality, CoSimulation, Description, ModelExchange, ModelStructure, NamingConvention, RealAttributes,

@@ -1,24 +1,31 @@
-//! FMI 2.0 model descriptions: types, rule tables, validator, writer, digest; feature `reader` adds the parser.
+//! What FMI 2.0 says, once: C functions, call table, status codes, base types, and model descriptions with their rules,
+//! validator and writer; feature `reader` adds the parser.
 //!
 //! Section numbers refer to the FMI 2.0.5 standard. Nothing here knows of a particular model.
 
+mod base_type;
+pub mod call_table;
+pub mod describe;
 mod description;
-pub mod digest;
 mod document;
 mod finding;
+pub mod functions;
 pub mod names;
 #[cfg(feature = "reader")]
 mod reader;
 pub mod rules;
+mod status;
 pub mod units;
 pub mod validate;
 pub mod value;
 mod words;
 mod write;
 
+pub use base_type::BaseType;
 pub use description::*;
 pub use finding::{Code, Finding, Lines, Severity};
 #[cfg(feature = "reader")]
 pub use reader::{Parsed, ReadError, parse};
+pub use status::Status;
 pub use validate::validate;
 pub use write::{escape, to_xml};

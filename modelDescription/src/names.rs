@@ -167,28 +167,12 @@ pub fn similar<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a 
         .map(|candidate| {
             let lower = candidate.to_lowercase();
             let contained = lower.contains(&wanted) || wanted.contains(&lower);
-            (if contained { 1 } else { distance(&wanted, &lower) }, candidate)
+            (if contained { 1 } else { strsim::levenshtein(&wanted, &lower) }, candidate)
         })
         .filter(|(distance, _)| *distance <= 2 + name.len() / 5 && *distance < name.len().max(2))
         .collect();
     ranked.sort();
     ranked.into_iter().take(3).map(|(_, candidate)| candidate).collect()
-}
-
-/// Levenshtein's edit distance, in characters.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, to) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(from != *to);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]

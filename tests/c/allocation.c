@@ -38,7 +38,7 @@ int posix_memalign(void **block, size_t alignment, size_t size) {
 }
 
 /* Start, steps, a saved state and its bytes, an end; stops at the first call that is refused. */
-static fmi2Status flight(const Library *library, const char *xml, double step_s) {
+static fmi2Status simulation(const Library *library, const char *xml, double step_s) {
     static fmi2Byte bytes[1 << 20];
     fmi2Component c = instantiate(library, xml, NULL);
     if (!c) return fmi2Error;
@@ -76,10 +76,10 @@ int main(int count, char **arguments) {
     char *xml = description_of(&library, arguments[2]);
     double step_s = atof(arguments[3]);
     long most = count > 4 ? atol(arguments[4]) : 1000;
-    /* The first flight warms up what is allocated once. */
-    CHECK(flight(&library, xml, step_s) == fmi2OK);
+    /* The first simulation warms up what is allocated once. */
+    CHECK(simulation(&library, xml, step_s) == fmi2OK);
     counting = 1;
-    CHECK(flight(&library, xml, step_s) == fmi2OK);
+    CHECK(simulation(&library, xml, step_s) == fmi2OK);
     counting = 0;
     long all = asked, tried = 0, aborted = 0, answered = 0;
     CHECK(all > 0);
@@ -93,7 +93,7 @@ int main(int count, char **arguments) {
             dup2(ends[1], 2);
             alarm(60);
             asked = 0, failing = n, counting = 1;
-            fmi2Status worst = flight(&library, xml, step_s);
+            fmi2Status worst = simulation(&library, xml, step_s);
             counting = 0;
             CHECK(asked >= n);
             _exit(worst == fmi2OK ? 10 : 11);

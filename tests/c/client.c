@@ -4,8 +4,8 @@
 #include <math.h>
 #include <pthread.h>
 
-/* Flies with these Booleans on, watching the vector `watched`. */
-static void fly(const Library *library, const char *xml, const char *watched, double step_s, int steps,
+/* Runs with these Booleans on, watching the vector `watched`. */
+static void simulate(const Library *library, const char *xml, const char *watched, double step_s, int steps,
                 const char *const *enabled, int enabled_count) {
     fmi2Component c = instantiate(library, xml, NULL);
     CHECK(c);
@@ -114,26 +114,26 @@ static void place(const Library *library, const char *xml, int steps) {
     library->FreeInstance(c);
 }
 
-/* Two threads fly instances of their own through the same library. */
+/* Two threads simulate instances of their own through the same library. */
 typedef struct {
     const Library *library;
     const char *xml, *watched;
     double step_s;
     int steps;
-} Pilot;
+} Simulation;
 
-static void *fly_alone(void *context) {
-    const Pilot *pilot = context;
-    fly(pilot->library, pilot->xml, pilot->watched, pilot->step_s, pilot->steps, NULL, 0);
+static void *simulate_alone(void *context) {
+    const Simulation *simulation = context;
+    simulate(simulation->library, simulation->xml, simulation->watched, simulation->step_s, simulation->steps, NULL, 0);
     return NULL;
 }
 
-static void fly_together(const Library *library, int steps) {
+static void simulate_together(const Library *library, int steps) {
     char *plant = description_of(library, "MomentumPlant"), *spinner = description_of(library, "SpinPlant");
-    Pilot pilots[] = {{library, plant, "momentum.body", 600.0, steps}, {library, plant, "momentum.body", 600.0, steps},
+    Simulation simulations[] = {{library, plant, "momentum.body", 600.0, steps}, {library, plant, "momentum.body", 600.0, steps},
                       {library, spinner, "attitude.rate", 0.5, steps}};
     pthread_t threads[3];
-    for (int i = 0; i < 3; i++) CHECK(pthread_create(&threads[i], NULL, fly_alone, &pilots[i]) == 0);
+    for (int i = 0; i < 3; i++) CHECK(pthread_create(&threads[i], NULL, simulate_alone, &simulations[i]) == 0);
     for (int i = 0; i < 3; i++) CHECK(pthread_join(threads[i], NULL) == 0);
     free(plant);
     free(spinner);
@@ -144,22 +144,22 @@ int main(int count, char **arguments) {
         fprintf(stderr, "usage: %s libheliotorque libprobe [--short]\n", arguments[0]);
         return 2;
     }
-    int short_flight = count > 3 && strcmp(arguments[3], "--short") == 0;
+    int short_simulation = count > 3 && strcmp(arguments[3], "--short") == 0;
     Library library = open_library(arguments[1]);
     CHECK(strcmp(library.GetVersion(), "2.0") == 0);
     CHECK(strcmp(library.GetTypesPlatform(), "default") == 0);
     char *xml = description_of(&library, "MomentumPlant");
-    fly(&library, xml, "momentum.body", 600.0, short_flight ? 40 : 4000, NULL, 0);
+    simulate(&library, xml, "momentum.body", 600.0, short_simulation ? 40 : 4000, NULL, 0);
     const char *effects[] = {"planetLight.enabled", "thermal.enabled"};
-    fly(&library, xml, "momentum.body", 600.0, short_flight ? 20 : 1000, effects, 2);
+    simulate(&library, xml, "momentum.body", 600.0, short_simulation ? 20 : 1000, effects, 2);
     free(xml);
     xml = description_of(&library, "SpinPlant");
-    fly(&library, xml, "attitude.rate", 0.5, short_flight ? 60 : 4000, NULL, 0);
+    simulate(&library, xml, "attitude.rate", 0.5, short_simulation ? 60 : 4000, NULL, 0);
     free(xml);
     xml = description_of(&library, "DisturbanceTorque");
-    place(&library, xml, short_flight ? 40 : 4000);
+    place(&library, xml, short_simulation ? 40 : 4000);
     free(xml);
-    fly_together(&library, short_flight ? 40 : 1000);
+    simulate_together(&library, short_simulation ? 40 : 1000);
     Library probe = open_library(arguments[2]);
     xml = description_of(&probe, "AllTypes");
     fmi2Component c = start(&probe, xml);

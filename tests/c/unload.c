@@ -1,8 +1,8 @@
-/* Unloading unloads: as importers do, every flight unpacks the library anew, loads it, flies, frees and unloads.
+/* Unloading unloads: as importers do, every simulation unpacks the library anew, loads it, runs, frees and unloads.
  *
- * usage: unload libheliotorque libprobe [flights]
+ * usage: unload libheliotorque libprobe [simulations]
  *
- * After each flight the copy must be gone from the address space; after all of them the heap must hold what it held. */
+ * After each simulation the copy must be gone from the address space; after all of them the heap must hold what it held. */
 #include "fmu.h"
 
 #include <malloc.h>
@@ -52,7 +52,7 @@ static long anonymous_kb(void) {
 }
 
 /* Steps, a saved state, its bytes, and for the panicking model one panic after another. */
-static void fly(const Library *library, const char *xml, const char *model, fmi2Component c) {
+static void simulate(const Library *library, const char *xml, const char *model, fmi2Component c) {
     int panicking = strcmp(model, "Panicking") == 0;
     CHECK(library->ExitInitializationMode(c) == fmi2OK);
     for (int i = 0; i < 3; i++) CHECK(library->DoStep(c, 60.0 * i, 60.0, fmi2True) == fmi2OK);
@@ -65,13 +65,13 @@ static void fly(const Library *library, const char *xml, const char *model, fmi2
     CHECK(library->FreeFMUstate(c, &state) == fmi2OK);
     free(bytes);
     if (panicking) {
-        const char *accidents[] = {"step", "stepPayload", "stepPayloadDrop", "stepIndex"};
+        const char *faults[] = {"step", "stepPayload", "stepPayloadDrop", "stepIndex"};
         for (int i = 0; i < 4; i++) {
             fmi2Component unlucky = start(library, xml);
-            fmi2ValueReference accident = reference_of(xml, "accident");
-            fmi2Integer item = item_of(xml, accidents[i]);
+            fmi2ValueReference fault = reference_of(xml, "fault");
+            fmi2Integer item = item_of(xml, faults[i]);
             CHECK(library->ExitInitializationMode(unlucky) == fmi2OK);
-            CHECK(library->SetInteger(unlucky, &accident, 1, &item) == fmi2OK);
+            CHECK(library->SetInteger(unlucky, &fault, 1, &item) == fmi2OK);
             CHECK(library->DoStep(unlucky, 0.0, 1.0, fmi2True) == fmi2Error);
             library->FreeInstance(unlucky);
         }
@@ -83,14 +83,14 @@ static void fly(const Library *library, const char *xml, const char *model, fmi2
 fmi2Component left_open[16];
 static int left_count;
 
-static void flight(const char *path, const char *model, int number, int leave_open) {
+static void simulation(const char *path, const char *model, int number, int leave_open) {
     char copy[256];
-    snprintf(copy, sizeof copy, "./flight-%d-%s.so", number, model);
+    snprintf(copy, sizeof copy, "./simulation-%d-%s.so", number, model);
     copy_file(path, copy);
     Library library = open_library(copy);
     char *xml = description_of(&library, model);
     fmi2Component c = start(&library, xml);
-    fly(&library, xml, model, c);
+    simulate(&library, xml, model, c);
     if (leave_open) {
         CHECK(left_count < 16);
         left_open[left_count++] = c;
@@ -101,7 +101,7 @@ static void flight(const char *path, const char *model, int number, int leave_op
     CHECK(is_mapped(copy + 1));
     CHECK(dlclose(library.handle) == 0);
     if (is_mapped(copy + 1)) {
-        fprintf(stderr, "%s: still mapped after flight %d of %s\n", copy, number, model);
+        fprintf(stderr, "%s: still mapped after simulation %d of %s\n", copy, number, model);
         exit(1);
     }
     CHECK(unlink(copy) == 0);
@@ -109,38 +109,38 @@ static void flight(const char *path, const char *model, int number, int leave_op
 
 int main(int count, char **arguments) {
     if (count < 3) {
-        fprintf(stderr, "usage: %s libheliotorque libprobe [flights]\n", arguments[0]);
+        fprintf(stderr, "usage: %s libheliotorque libprobe [simulations]\n", arguments[0]);
         return 2;
     }
     /* Backtraces must not keep a copy of the library either. */
     setenv("RUST_BACKTRACE", "1", 1);
-    int flights = count > 3 ? atoi(arguments[3]) : 1000;
+    int simulations = count > 3 ? atoi(arguments[3]) : 1000;
     const struct { const char *library, *model; } rows[] = {
         {arguments[1], "MomentumPlant"}, {arguments[1], "SpinPlant"}, {arguments[1], "DisturbanceTorque"},
         {arguments[2], "AllTypes"},      {arguments[2], "Panicking"},
     };
     for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
-        /* The first flights warm up the loader and the heap. */
-        int warm = flights / 10 + 2;
-        for (int i = 0; i < warm; i++) flight(rows[row].library, rows[row].model, i, 0);
+        /* The first simulations warm up the loader and the heap. */
+        int warm = simulations / 10 + 2;
+        for (int i = 0; i < warm; i++) simulation(rows[row].library, rows[row].model, i, 0);
         size_t bytes_before = mallinfo2().uordblks;
         long before_kb = anonymous_kb();
-        for (int i = 0; i < flights; i++) flight(rows[row].library, rows[row].model, warm + i, 0);
+        for (int i = 0; i < simulations; i++) simulation(rows[row].library, rows[row].model, warm + i, 0);
         long grown = (long)mallinfo2().uordblks - (long)bytes_before;
         long grown_kb = anonymous_kb() - before_kb;
-        printf("%s: %d flights, heap %+ld bytes, memory %+ld kB\n", rows[row].model, flights, grown, grown_kb);
-        /* malloc counts the blocks it keeps for reuse; the smallest block lost in each of a thousand flights is 24 kB. */
+        printf("%s: %d simulations, heap %+ld bytes, memory %+ld kB\n", rows[row].model, simulations, grown, grown_kb);
+        /* malloc counts the blocks it keeps for reuse; the smallest block lost in each of a thousand simulations is 24 kB. */
         CHECK(grown < 128 * 1024);
-        /* A checker's own pages grow; a copy of the library in each flight is megabytes. */
-        CHECK(flights < 100 || grown_kb <= 1024);
+        /* A checker's own pages grow; a copy of the library in each simulation is megabytes. */
+        CHECK(simulations < 100 || grown_kb <= 1024);
     }
     for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
         size_t bytes_before = mallinfo2().uordblks;
-        for (int i = 0; i < 3; i++) flight(rows[row].library, rows[row].model, i, 1);
+        for (int i = 0; i < 3; i++) simulation(rows[row].library, rows[row].model, i, 1);
         long each = ((long)mallinfo2().uordblks - (long)bytes_before) / 3;
         printf("%s: an instance left open keeps %ld bytes\n", rows[row].model, each);
         CHECK(each < 1 << 20);
     }
-    puts("C client: every flight unloaded its library");
+    puts("C client: every simulation unloaded its library");
     return 0;
 }

@@ -34,8 +34,8 @@ def split(path):
     return component, name
 
 
-def fly_ssp(folder, components, connections, step_s, stop_s, outputs=(), zeros=()):
-    """Flies an SSP and records what is connected and `outputs`; inputs in `zeros` are set to 0 each step."""
+def simulate_ssp(folder, components, connections, step_s, stop_s, outputs=(), zeros=()):
+    """Runs an SSP and records what is connected and `outputs`; inputs in `zeros` are set to 0 each step."""
     connectors = {component: {} for component in components}
     for source, target in connections:
         connectors[split(source)[0]][split(source)[1]] = "output"

@@ -59,10 +59,10 @@ def urchin(plates):
 
 def solar_torque(text, sun, pressure, angles=()):
     """Torque about the centre of mass: the flat-plate law over every face of the file (paper 000, eq 1)."""
-    craft = tomllib.loads(text)
-    center_of_mass = np.array(craft["mass_properties"]["center_of_mass_m"], dtype=float)
-    faces = [(p, np.array(p["normal"], dtype=float), np.array(p["center_m"], dtype=float)) for p in craft.get("plates", [])]
-    for panel, angle in zip(craft.get("panels", []), angles, strict=True):
+    spacecraft = tomllib.loads(text)
+    center_of_mass = np.array(spacecraft["mass_properties"]["center_of_mass_m"], dtype=float)
+    faces = [(p, np.array(p["normal"], dtype=float), np.array(p["center_m"], dtype=float)) for p in spacecraft.get("plates", [])]
+    for panel, angle in zip(spacecraft.get("panels", []), angles, strict=True):
         turn = _turn(*np.radians(panel.get("rotation_deg", [0.0, 0.0, 0.0])))
         axis, zero = np.array(panel["axis"], dtype=float), np.array(panel["zero_normal"], dtype=float)
         normal = np.cos(angle) * zero + np.sin(angle) * np.cross(axis, zero)
@@ -74,7 +74,7 @@ def solar_torque(text, sun, pressure, angles=()):
             cosine = side @ sun
             if cosine <= 0.0 or key not in face:
                 continue
-            optics = craft["optics"][face[key]]
+            optics = spacecraft["optics"][face[key]]
             specular, diffuse = optics["specular"], optics["diffuse"]
             force = (1.0 - specular) * sun + 2.0 * (specular * cosine + diffuse / 3.0) * side
             torque += np.cross(center - center_of_mass, -pressure * face["area_m2"] * cosine * force)

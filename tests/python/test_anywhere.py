@@ -35,9 +35,9 @@ def test_a_guid_is_the_same_on_every_processor(heliotorque, dist, tmp_path, monk
                 "--output", fmu,
             )
             assert packed.returncode == 0, packed.stderr
-            # What is packed here is flown there.
-            flown = call(heliotorque, "run", tmp_path / "Here.fmu", "--stop", "1h", "--output", tmp_path / f"{name}.csv")
-            assert flown.returncode == 0, flown.stderr
+            # What is packed here is simulated there.
+            simulated = call(heliotorque, "run", tmp_path / "Here.fmu", "--stop", "1h", "--output", tmp_path / f"{name}.csv")
+            assert simulated.returncode == 0, simulated.stderr
         guids.append(read_model_description(str(fmu)).guid)
     assert guids[0] == guids[1]
 

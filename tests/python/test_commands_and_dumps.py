@@ -5,12 +5,12 @@ import tomllib
 import numpy as np
 import pytest
 
-from flight import DAY_S, PAPER, QUATERNION, Stepped, fly, stack, to_body, turned, vector
+from simulation import DAY_S, PAPER, QUATERNION, Stepped, simulate, stack, to_body, turned, vector
 from spacecraft import RESOURCES
 
-CRAFT = tomllib.loads((RESOURCES / "messenger.toml").read_text(encoding="utf-8"))
-INERTIA = np.array(CRAFT["mass_properties"]["inertia_kg_m2"])
-AXES = np.array([np.array(wheel["axis"]) / np.linalg.norm(wheel["axis"]) for wheel in CRAFT["wheels"]])
+SPACECRAFT = tomllib.loads((RESOURCES / "messenger.toml").read_text(encoding="utf-8"))
+INERTIA = np.array(SPACECRAFT["mass_properties"]["inertia_kg_m2"])
+AXES = np.array([np.array(wheel["axis"]) / np.linalg.norm(wheel["axis"]) for wheel in SPACECRAFT["wheels"]])
 
 
 def elements(name, values):
@@ -107,7 +107,7 @@ FIRST_S = THRESHOLD / TORQUE[0]
 def test_a_dump_leaves_the_component_where_the_policy_says(momentum_plant, convention, left, policy):
     start = DARK | policy | {"momentum.convention": convention, "dump.threshold[1]": THRESHOLD}
     start |= {"dump.threshold[2]": 1e6, "dump.threshold[3]": 1e6}
-    result = fly(momentum_plant, 600.0, days=2.0, start=start, output=DUMPED)
+    result = simulate(momentum_plant, 600.0, days=2.0, start=start, output=DUMPED)
     time, cycle_s = result["time"], (THRESHOLD - left) / TORQUE[0]
     count = np.where(time < FIRST_S, 0, 1 + np.floor((time - FIRST_S) / cycle_s))
     # A dump may be seen or not where a communication point meets it.
@@ -131,7 +131,7 @@ def test_a_dump_leaves_the_component_where_the_policy_says(momentum_plant, conve
 def test_the_missions_five_days_between_dumps_are_watched(momentum_plant, gap_d, flagged):
     start = DARK | {"dump.reinitTo": 2, "torque.applied[1]": 2.0 / (gap_d * DAY_S)}
     start |= {f"dump.threshold[{axis}]": threshold for axis, threshold in ((1, 2.0), (2, 1e6), (3, 1e6))}
-    result = fly(momentum_plant, 3600.0, days=16.0, start=start, output=DUMPED)
+    result = simulate(momentum_plant, 3600.0, days=16.0, start=start, output=DUMPED)
     assert result["dump.count"][-1] == 3
     assert result["dump.closest"][-1] == pytest.approx(gap_d * DAY_S, abs=1e-3)
     assert (result["dump.tooClose"] != 0).any() == flagged
@@ -141,7 +141,7 @@ def test_the_missions_five_days_between_dumps_are_watched(momentum_plant, gap_d,
 def test_the_required_spacing_can_be_chosen(momentum_plant, required_s, flagged):
     start = DARK | {"dump.reinitTo": 2, "dump.threshold[1]": 1.0, "dump.requiredSpacing": required_s}
     start |= {"dump.threshold[2]": 1e6, "dump.threshold[3]": 1e6}
-    result = fly(momentum_plant, 600.0, days=0.5, start=start, output=DUMPED)
+    result = simulate(momentum_plant, 600.0, days=0.5, start=start, output=DUMPED)
     assert result["dump.closest"][-1] == pytest.approx(10_000.0, abs=1e-3)
     assert bool(result["dump.tooClose"][-1]) == flagged
 
@@ -170,7 +170,7 @@ def guided(momentum_plant):
     start = {"guided.slewRate": 1e-3, "wheel[2].capacity": 1.2} | elements("start.momentum", [0.5, -1.0, 2.0])
     start |= elements("dump.threshold", [3.0, 2.0, 2.5])
     wheels = [f"wheel[{k}].{what}" for k in (1, 2, 3, 4) for what in ("momentum", "saturated", "capacity")]
-    return fly(momentum_plant, 600.0, days=60.0, start=start, output=MOMENTA + wheels + ["dump.lastTime", "dump.closest"])
+    return simulate(momentum_plant, 600.0, days=60.0, start=start, output=MOMENTA + wheels + ["dump.lastTime", "dump.closest"])
 
 
 def test_the_closest_dumps_are_those_of_the_smallest_gap(guided):
@@ -206,7 +206,7 @@ def test_wheels_hold_the_total_less_the_bodys_own(guided):
 
 def test_wheels_hold_the_physical_momentum_in_the_papers_convention_too(momentum_plant):
     names = MOMENTA + [f"wheel[{k}].momentum" for k in (1, 2, 3, 4)]
-    result = fly(momentum_plant, 600.0, days=20.0, start=PAPER, output=names)
+    result = simulate(momentum_plant, 600.0, days=20.0, start=PAPER, output=names)
     total = np.einsum("kij,kj->ki", to_body(result), stack(result, "momentum.inertial"))
     assert np.abs(total - stack(result, "momentum.body")).max() > 0.1
     momentum = np.column_stack([result[f"wheel[{k}].momentum"] for k in (1, 2, 3, 4)])

@@ -111,8 +111,8 @@ def test_plates_reported_one_by_one_add_up_to_the_force(heliotorque, dist, tmp_p
     assert validate_fmu(str(fmu)) == []
     names = [variable.name for variable in read_model_description(str(fmu)).modelVariables]
     temperatures = [name for name in names if name.startswith("plate[") and name.endswith("].temperature")]
-    craft = tomllib.loads(file.read_text(encoding="utf-8"))
-    surfaces = craft.get("plates", []) + craft.get("sunshade", {}).get("plates", []) + craft.get("panels", [])
+    spacecraft = tomllib.loads(file.read_text(encoding="utf-8"))
+    surfaces = spacecraft.get("plates", []) + spacecraft.get("sunshade", {}).get("plates", []) + spacecraft.get("panels", [])
     assert len(temperatures) == sum(2 if "rear_optics" in surface else 1 for surface in surfaces) > 8
     forces = [name.replace("temperature", f"force[{i}]") for name in temperatures for i in (1, 2, 3)]
     total = [f"force.total[{i}]" for i in (1, 2, 3)]
@@ -125,7 +125,7 @@ def test_plates_reported_one_by_one_add_up_to_the_force(heliotorque, dist, tmp_p
     # Without a planet an insulated plate that radiates as well as it absorbs has the temperature of a black one.
     result = simulate_fmu(str(fmu), stop_time=60, step_size=60, start_values={"planet.present": False}, output=output)
     sun_m = 5.791e10
-    for k, plate in enumerate(craft["plates"], 1):
+    for k, plate in enumerate(spacecraft["plates"], 1):
         sunlit = 1365.0 * (1.495978707e11 / sun_m) ** 2 * max(0.0, -plate["normal"][1])
         assert np.isclose(result[f"plate[{k}].temperature"][-1], (sunlit / 5.670374419e-8) ** 0.25, rtol=1e-9)
 
@@ -138,20 +138,20 @@ IMPOSSIBLE = {
 
 
 @pytest.mark.parametrize("place", IMPOSSIBLE)
-@pytest.mark.parametrize("flying", [False, True], ids=["at the start", "in flight"])
-def test_an_impossible_place_is_an_error_that_names_it_and_reset_forgets_it(place, flying, disturbance_torque, tmp_path):
+@pytest.mark.parametrize("running", [False, True], ids=["at the start", "in a step"])
+def test_an_impossible_place_is_an_error_that_names_it_and_reset_forgets_it(place, running, disturbance_torque, tmp_path):
     variable, values, why = IMPOSSIBLE[place]
     untouched = Placed(disturbance_torque, tmp_path / "untouched")
     untouched.start()
     untouched.step()
     placed = Placed(disturbance_torque, tmp_path / "placed")
-    if flying:
+    if running:
         placed.start()
         placed.step()
     assert placed.messages == []
     with pytest.raises(FMICallException) as refused:
         placed.put(variable, values)
-        placed.step() if flying else placed.start()
+        placed.step() if running else placed.start()
     assert refused.value.status == fmi2Error
     assert any(variable in message and why in message for message in placed.messages), placed.messages
     placed.slave.reset()

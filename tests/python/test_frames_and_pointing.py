@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flight import QUATERNION, fly, stack, to_body, turned, vector
+from simulation import QUATERNION, simulate, stack, to_body, turned, vector
 from spacecraft import RESOURCES, solar_torque
 
 X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
@@ -41,7 +41,7 @@ STATE = vector("position") + vector("velocity") + vector("heliocentric.position"
 @pytest.mark.parametrize("frame", [1, 2, 3, 4])
 def test_the_orbit_stands_in_the_frame_of_its_elements(momentum_plant, frame):
     start = ELEMENTS | {"orbit.frame": frame, "orbit.semiMajorAxis": 1e7, "orbit.eccentricity": 0.5}
-    result = fly(momentum_plant, 600.0, days=600.0 / 86_400.0, start=start, output=STATE)
+    result = simulate(momentum_plant, 600.0, days=600.0 / 86_400.0, start=start, output=STATE)
     first, north = frame_axes(frame)
     node = turned(first, north, ELEMENTS["orbit.ascendingNode"])
     normal = turned(north, node, ELEMENTS["orbit.inclination"])
@@ -53,14 +53,14 @@ def test_the_orbit_stands_in_the_frame_of_its_elements(momentum_plant, frame):
     assert np.abs(velocity / speed - np.cross(normal, periapsis)).max() < 1e-4
 
 
-def test_paper_004s_frame_lies_in_the_orbit_that_mercury_flies(momentum_plant):
+def test_paper_004s_frame_lies_in_the_orbit_in_which_mercury_moves(momentum_plant):
     """Without its Table 4: the plane that VSOP87 moves Mercury in, within the hundredths of a degree it is rounded to."""
     start = {"orbit.frame": 1, "orbit.inclination": 0.0, "orbit.semiMajorAxis": 1e7}
-    result = fly(momentum_plant, 3600.0, days=20.0, start=start, output=STATE)
+    result = simulate(momentum_plant, 3600.0, days=20.0, start=start, output=STATE)
     mercury = stack(result, "heliocentric.position") - stack(result, "position")
-    flown = unit(np.cross(mercury[0], mercury[-1]))
+    simulated = unit(np.cross(mercury[0], mercury[-1]))
     normal = unit(np.cross(stack(result, "position")[0], stack(result, "velocity")[0]))
-    assert np.degrees(np.linalg.norm(flown - normal)) < 0.01
+    assert np.degrees(np.linalg.norm(simulated - normal)) < 0.01
 
 
 LOOK = QUATERNION + vector("position") + vector("heliocentric.position") + vector("sun.direction") + [
@@ -85,7 +85,7 @@ def test_azimuth_elevation_and_margin_are_those_of_the_directions(momentum_plant
     sun, earth = np.array([0.02, -0.3, 0.01]) * AU_M, np.array([-0.9, 0.2, 0.6]) * AU_M
     given = {"ephemeris.source": 3, "attitude.source": 2, "command.rate[1]": 6e-5, "command.rate[3]": 2e-5}
     given |= {f"{body}.position[{k + 1}]": at[k] for body, at in (("sun", sun), ("earth", earth)) for k in range(3)}
-    result = fly(momentum_plant, 600.0, days=10.0, start=given, output=LOOK)
+    result = simulate(momentum_plant, 600.0, days=10.0, start=given, output=LOOK)
     position = stack(result, "position")
     assert np.abs(stack(result, "heliocentric.position") - (position - sun)).max() < 1e-4
     angles = azimuth_elevation(seen(result, sun - position))
@@ -105,17 +105,17 @@ def test_azimuth_elevation_and_margin_are_those_of_the_directions(momentum_plant
 def test_the_nadir_rule_points_z_at_the_planet_as_far_as_the_zone_allows(momentum_plant, limit_deg):
     limit = np.radians(limit_deg)
     start = {"guided.scienceRule": 2, "guided.downlinkEvery": 0, "keepIn.elevation": limit}
-    result = fly(momentum_plant, 300.0, days=3.0, start=start, output=LOOK)
+    result = simulate(momentum_plant, 300.0, days=3.0, start=start, output=LOOK)
     nadir = seen(result, -stack(result, "position"))
     sun = seen(result, -stack(result, "heliocentric.position"))
     azimuth, elevation = azimuth_elevation(sun)
     # The Sun in the YZ plane on the side of -Y, the planet in the same plane on the side of +Z.
     assert np.abs(azimuth).max() < 1e-9 and np.abs(nadir[:, 0]).max() < 1e-9 and nadir[:, 2].min() > 0.0
-    wanted = np.arccos(np.einsum("ki,ki->k", nadir, sun)) - 0.5 * np.pi
-    inside = np.abs(wanted) < limit
+    expected = np.arccos(np.einsum("ki,ki->k", nadir, sun)) - 0.5 * np.pi
+    inside = np.abs(expected) < limit
     assert 0.05 < inside.mean() < 0.99
     assert np.abs(nadir[inside] - Z).max() < 1e-9
-    assert np.abs(elevation - np.clip(wanted, -limit, limit)).max() < 1e-9
+    assert np.abs(elevation - np.clip(expected, -limit, limit)).max() < 1e-9
     assert result["keepIn.margin"].min() > -1e-9
 
 
@@ -126,11 +126,11 @@ PANELS = vector("sun.direction") + vector("torque.solar") + ["panel[1].angleActu
 
 
 def panels_torque(momentum_plant, start):
-    """Flies with panels and, in the same attitudes, with the sunshade alone; the panels' torque is the difference."""
+    """Runs with panels and, in the same attitudes, with the sunshade alone; the panels' torque is the difference."""
     start = FIXED_LIGHT | TUMBLE | start
-    result = fly(momentum_plant, 1800.0, days=3.0, start=start, output=PANELS)
+    result = simulate(momentum_plant, 1800.0, days=3.0, start=start, output=PANELS)
     bare = {"panel[1].enabled": False, "panel[2].enabled": False}
-    shade = fly(momentum_plant, 1800.0, days=3.0, start=start | bare, output=PANELS)
+    shade = simulate(momentum_plant, 1800.0, days=3.0, start=start | bare, output=PANELS)
     sun, angles = stack(result, "sun.direction"), np.column_stack([result[name] for name in PANELS[-2:]])
     expected = np.array([solar_torque(MESSENGER, *row) for row in zip(sun, [PRESSURE_PA] * len(sun), angles)])
     torque = stack(result, "torque.solar") - stack(shade, "torque.solar")

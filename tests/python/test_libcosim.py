@@ -3,11 +3,11 @@
 import pytest
 from fmpy import simulate_fmu
 
-from flight import fly, vector
+from simulation import simulate, vector
 from spacecraft import RESOURCES, pack
 
 # FMU, step and how many, outputs, which of them must have moved.
-FLIGHTS = {
+SIMULATIONS = {
     "MomentumPlant": (600.0, 3 * 144, [*vector("momentum.body"), *vector("position")]),
     "SpinPlant": (0.5, 1200, ["nutation.angle", *vector("momentum.inertial"), *vector("attitude.rate")]),
     "DisturbanceTorque": (60.0, 3, [f"torque.{source}[1]" for source in ("solar", "albedo", "infrared", "thermal")]),
@@ -29,13 +29,13 @@ def libcosim_values(fmu, step_s, steps, names):
 
     references = {text(v.name): v.reference for v in execution.slave_variables(slave_index=slave)}
     assert execution.step(step_count=steps)
-    wanted = [references[name] for name in names]
-    return observer.last_real_values(slave_index=slave, variable_references=wanted)
+    expected = [references[name] for name in names]
+    return observer.last_real_values(slave_index=slave, variable_references=expected)
 
 
-@pytest.mark.parametrize("model", FLIGHTS)
+@pytest.mark.parametrize("model", SIMULATIONS)
 def test_libcosim_and_fmpy_agree_to_the_bit(dist, model):
-    step_s, steps, names = FLIGHTS[model]
+    step_s, steps, names = SIMULATIONS[model]
     fmu = str(dist / f"{model}.fmu")
     result = simulate_fmu(fmu, stop_time=step_s * steps, step_size=step_s, output_interval=step_s, output=names)
     ours = [float(result[name][-1]) for name in names]
@@ -43,7 +43,7 @@ def test_libcosim_and_fmpy_agree_to_the_bit(dist, model):
     assert any(value != 0.0 for value in ours)
 
 
-def test_libcosim_flies_options_that_it_cannot_set(heliotorque, dist, tmp_path):
+def test_libcosim_runs_options_that_it_cannot_set(heliotorque, dist, tmp_path):
     options = {"momentum.convention": ("bodyIntegral", 2), "eclipse.method": ("off", 4)}
     table = "\n".join(f'"{name}" = "{item}"' for name, (item, _) in options.items())
     text = (RESOURCES / "messenger.toml").read_text(encoding="utf-8") + f"\n[start]\n{table}\n"
@@ -52,7 +52,7 @@ def test_libcosim_flies_options_that_it_cannot_set(heliotorque, dist, tmp_path):
     shipped = str(dist / "MomentumPlant.fmu")
 
     def last(start):
-        result = fly(shipped, days=3.0, start=start, output=names)
+        result = simulate(shipped, days=3.0, start=start, output=names)
         return [float(result[name][-1]) for name in names]
 
     chosen = last({name: number for name, (_, number) in options.items()})

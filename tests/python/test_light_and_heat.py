@@ -1,4 +1,4 @@
-"""Light and heat at Mercury inside MomentumPlant, flown by FMPy: albedo against a plain sum over the planet's surface, the same
+"""Light and heat at Mercury inside MomentumPlant, simulated by FMPy: albedo against a plain sum over the planet's surface, the same
 bits for any step through eclipses, states carried over an eclipse's edge, stored heat."""
 
 import re
@@ -10,7 +10,7 @@ from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
-from flight import stack
+from simulation import stack
 from spacecraft import RESOURCES, call
 
 DAY_S = 86_400.0
@@ -41,7 +41,7 @@ def vector(name, count=3):
     return [f"{name}[{i}]" for i in range(1, count + 1)]
 
 
-def fly(fmu, step_s, stop_s, start, output):
+def simulate(fmu, step_s, stop_s, start, output):
     return simulate_fmu(
         fmu, stop_time=stop_s, step_size=step_s, output_interval=step_s, start_values=start, output=output
     )
@@ -66,7 +66,7 @@ def test_steps_of_60_and_600_s_give_the_same_bits_through_eclipses(orbiter):
     for source in ("albedo", "infrared", "thermal", "solar"):
         output += vector(f"torque.{source}") + vector(f"force.{source}")
     start = {**EFFECTS, **ECLIPSES, **DISTURBED}
-    fine, coarse = (fly(orbiter, step_s, DAY_S, start, output) for step_s in (60.0, 600.0))
+    fine, coarse = (simulate(orbiter, step_s, DAY_S, start, output) for step_s in (60.0, 600.0))
     at = fine[::10]
     assert np.array_equal(at["time"], coarse["time"])
     for name in output:
@@ -74,7 +74,7 @@ def test_steps_of_60_and_600_s_give_the_same_bits_through_eclipses(orbiter):
     dark = fine["sun.litFraction"] == 0.0
     assert 10 < dark.sum() < len(fine) / 2
     assert not stack(fine, "force.solar")[dark].any()
-    # The craft is its own mirror image across its Y-Z plane: whatever stays warm pushes within it.
+    # The spacecraft is its own mirror image across its Y-Z plane: whatever stays warm pushes within it.
     thermal = np.abs(stack(fine, "force.thermal")[dark])
     assert thermal[:, 1:].max(axis=1).min() > 1e-9 and thermal[:, 0].max() < 1e-20
 
@@ -83,7 +83,7 @@ def test_stored_heat_does_not_jump_where_light_does(orbiter):
     start = {**EFFECTS, **ECLIPSES}
     output = ["sun.litFraction", "plate[7].temperature", "plate[1].temperature"]
     stored, balanced = (
-        fly(orbiter, 10.0, 0.6 * DAY_S, {**start, "thermal.storage": storage}, output) for storage in (True, False)
+        simulate(orbiter, 10.0, 0.6 * DAY_S, {**start, "thermal.storage": storage}, output) for storage in (True, False)
     )
     # At most the sunlight absorbed in 10 s, 35 % of 13 kW/m2, over the heat capacity; a radiator sees the planet alone.
     for plate, moved_k in (("plate[1].temperature", 0.35 * 13e3 * 10.0 / 900.0), ("plate[7].temperature", 5.0)):
@@ -92,7 +92,7 @@ def test_stored_heat_does_not_jump_where_light_does(orbiter):
     assert np.abs(balanced["plate[1].temperature"][3:] - balanced["plate[1].temperature"][:-3]).max() > 150.0
 
 
-def albedo_force(result, row, craft):
+def albedo_force(result, row, spacecraft):
     """Force of reflected sunlight in the body frame: a sum over squares of the planet's surface."""
     def at(name, count=3):
         return np.array([result[element][row] for element in vector(name, count)])
@@ -130,7 +130,7 @@ def albedo_force(result, row, craft):
     direction = direction @ body.T
 
     force = np.zeros(3)
-    for normal, area_m2, optics in faces(craft, [result[f"panel[{k}].angleActual"][row] for k in (1, 2)]):
+    for normal, area_m2, optics in faces(spacecraft, [result[f"panel[{k}].angleActual"][row] for k in (1, 2)]):
         cosine = np.maximum(0.0, direction @ normal)
         specular, diffuse = optics["specular"], optics["diffuse"]
         received = pressure * cosine * area_m2
@@ -139,24 +139,24 @@ def albedo_force(result, row, craft):
     return force
 
 
-def faces(craft, angles):
-    for surface in craft["plates"] + craft["panels"]:
+def faces(spacecraft, angles):
+    for surface in spacecraft["plates"] + spacecraft["panels"]:
         corners = np.array(surface["polygon_m"])
         across = sum(np.cross(a, b) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True))
         area_m2 = 0.5 * np.linalg.norm(across)
         if "axis" in surface:
-            angle = angles[craft["panels"].index(surface)]
+            angle = angles[spacecraft["panels"].index(surface)]
             axis, zero = np.array(surface["axis"]), np.array(surface["zero_normal"])
             normal = np.cos(angle) * zero + np.sin(angle) * np.cross(axis, zero)
         else:
             normal = np.array(surface["normal"])
-        yield normal, area_m2, craft["optics"][surface["optics"]]
+        yield normal, area_m2, spacecraft["optics"][surface["optics"]]
         if "rear_optics" in surface:
-            yield -normal, area_m2, craft["optics"][surface["rear_optics"]]
+            yield -normal, area_m2, spacecraft["optics"][surface["rear_optics"]]
 
 
 def test_albedo_is_a_sum_over_the_planets_surface(orbiter):
-    craft = tomllib.loads(FILE.read_text(encoding="utf-8"))
+    spacecraft = tomllib.loads(FILE.read_text(encoding="utf-8"))
     output = [
         *vector("attitude.q", 4), *vector("position"), *vector("heliocentric.position"), *vector("force.albedo"),
         "panel[1].angleActual", "panel[2].angleActual",
@@ -164,11 +164,11 @@ def test_albedo_is_a_sum_over_the_planets_surface(orbiter):
     start = {"planetLight.enabled": True, "planet.radius": RADIUS_M, "solar.flux": FLUX_W_M2, "planetLight.nodes": 12,
              "planet.diffuseReflectivity": REFLECTED, "solver.disturbanceTolerance": 1e-8}
     # From periapsis out to several radii.
-    result = fly(orbiter, 400.0, 6_000.0, start, output)
+    result = simulate(orbiter, 400.0, 6_000.0, start, output)
     ours = stack(result, "force.albedo")
     compared = 0
     for row in range(len(result)):
-        expected = albedo_force(result, row, craft)
+        expected = albedo_force(result, row, spacecraft)
         size = np.linalg.norm(expected)
         if size > 0.0:
             compared += size > 1e-6
@@ -199,24 +199,24 @@ def test_a_state_is_carried_over_the_edge_of_an_eclipse(orbiter, tmp_path):
     watched = [*vector("momentum.inertial"), *vector("torque.thermal"), "plate[7].temperature", *vector("position")]
     watched = [references[name] for name in watched]
     lit = [references["sun.litFraction"]]
-    flying, other = launched("flying"), launched("other")
+    running, other = launched("running"), launched("other")
     time_s, edges, last = 0.0, 0, 1.0
     while time_s < 0.55 * DAY_S:
-        state = flying.getFMUstate()
-        blob = flying.serializeFMUstate(state)
-        flying.freeFMUstate(state)
-        flying.doStep(time_s, 90.0)
-        now = flying.getReal(lit)[0]
+        state = running.getFMUstate()
+        blob = running.serializeFMUstate(state)
+        running.freeFMUstate(state)
+        running.doStep(time_s, 90.0)
+        now = running.getReal(lit)[0]
         if (now < 1.0) != (last < 1.0):
-            # From before the edge in the other instance, which has flown elsewhere.
+            # From before the edge in the other instance, which has stepped elsewhere.
             state = other.deSerializeFMUstate(blob)
             other.setFMUstate(state)
             other.freeFMUstate(state)
             other.doStep(time_s, 90.0)
-            assert other.getReal(watched) == flying.getReal(watched)
+            assert other.getReal(watched) == running.getReal(watched)
             edges += 1
         time_s, last = time_s + 90.0, now
     assert edges >= 2
-    for slave in (flying, other):
+    for slave in (running, other):
         slave.terminate()
         slave.freeInstance()

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from fmpy import read_model_description, simulate_fmu
 
-from flight import vector
-from masters import container, elements, fly_ssp, wires
+from simulation import vector
+from masters import container, elements, simulate_ssp, wires
 from spacecraft import RESOURCES, call
 
 LIGHT_W_M2 = 1361.0
@@ -26,21 +26,21 @@ def packed(heliotorque, dist, folder, model, name, spacecraft, *settings):
 
 
 @pytest.fixture(scope="module")
-def room(tmp_path_factory):
+def scratch(tmp_path_factory):
     return tmp_path_factory.mktemp("loops")
 
 
 @pytest.fixture(scope="module")
-def light_loop(heliotorque, dist, room):
+def light_loop(heliotorque, dist, scratch):
     """A plant in the dark, lit by a DisturbanceTorque of the same spacecraft; and the plant that does it alone."""
     # Body components integrated on their own: a delayed torque is the same torque, whatever way the body has turned.
     settings = ("gravityGradient.enabled=false", "momentum.convention=bodyIntegral")
     flux = f"solar.flux={LIGHT_W_M2}"
     center = "spacecraft.centerOfMass=0.02,0.01,-0.05"
-    dark = packed(heliotorque, dist, room, "MomentumPlant", "dark", "messenger.toml", *settings, center, "solar.flux=0")
-    alone = packed(heliotorque, dist, room, "MomentumPlant", "alone", "messenger.toml", *settings, center, flux)
+    dark = packed(heliotorque, dist, scratch, "MomentumPlant", "dark", "messenger.toml", *settings, center, "solar.flux=0")
+    alone = packed(heliotorque, dist, scratch, "MomentumPlant", "alone", "messenger.toml", *settings, center, flux)
     light = packed(
-        heliotorque, dist, room, "DisturbanceTorque", "light", "messenger.toml", center, flux, "shadowing.enabled=false"
+        heliotorque, dist, scratch, "DisturbanceTorque", "light", "messenger.toml", center, flux, "shadowing.enabled=false"
     )
     connections = [
         *wires("plant.sun.positionBody", "light.sun.positionBody", 3),
@@ -68,13 +68,13 @@ def assert_close(momentum, alone, step_s):
     return np.linalg.norm(momentum - expected)
 
 
-def test_an_ssp_of_plant_and_torque_flies_as_the_plant_alone(light_loop, tmp_path):
+def test_an_ssp_of_plant_and_torque_runs_as_the_plant_alone(light_loop, tmp_path):
     components, connections, alone = light_loop
     lags = []
     for step_s in (STEP_S, 2.0 * STEP_S):
         folder = tmp_path / f"{step_s:.0f}"
         folder.mkdir()
-        result = fly_ssp(folder, components, connections, step_s, STOP_S, outputs=elements("plant.momentum.body", 3))
+        result = simulate_ssp(folder, components, connections, step_s, STOP_S, outputs=elements("plant.momentum.body", 3))
         momentum = np.array([result[name][-1] for name in elements("plant.momentum.body", 3)])
         lags.append(assert_close(momentum, alone, step_s))
         # Both were sent zeros before the first exchange, and answered with none.
@@ -85,7 +85,7 @@ def test_an_ssp_of_plant_and_torque_flies_as_the_plant_alone(light_loop, tmp_pat
     assert 1.8 < lags[1] / lags[0] < 2.2
 
 
-def test_a_container_of_plant_and_torque_flies_as_the_plant_alone(light_loop, tmp_path):
+def test_a_container_of_plant_and_torque_runs_as_the_plant_alone(light_loop, tmp_path):
     components, connections, alone = light_loop
     outputs = [*elements("plant.momentum.body", 3), *elements("light.torque.solar", 3)]
     fmu = container(tmp_path / "light-container.fmu", components, connections, STEP_S, outputs)
@@ -95,14 +95,14 @@ def test_a_container_of_plant_and_torque_flies_as_the_plant_alone(light_loop, tm
 
 
 @pytest.fixture(scope="module")
-def ring(heliotorque, dist, room):
+def ring(heliotorque, dist, scratch):
     """All three: the spinner commands the plant's attitude, the plant lights the torque model, which turns the spinner."""
     plant = packed(
-        heliotorque, dist, room, "MomentumPlant", "follower", "messenger.toml",
+        heliotorque, dist, scratch, "MomentumPlant", "follower", "messenger.toml",
         "attitude.source=commanded", "command.kind=attitude",
     )
-    spinner = packed(heliotorque, dist, room, "SpinPlant", "spinner", "ace.toml", "geometry.source=inputs")
-    light = packed(heliotorque, dist, room, "DisturbanceTorque", "lamp", "messenger.toml")
+    spinner = packed(heliotorque, dist, scratch, "SpinPlant", "spinner", "ace.toml", "geometry.source=inputs")
+    light = packed(heliotorque, dist, scratch, "DisturbanceTorque", "torque", "messenger.toml")
     connections = [
         *wires("spinner.attitude.q", "plant.command.q", 4),
         *wires("plant.sun.positionBody", "light.sun.positionBody", 3),
@@ -124,9 +124,9 @@ def assert_followed(plant, spinner, lag):
     assert np.ptp(done, axis=0).max() > 0.5, "nothing turned"
 
 
-def test_an_ssp_of_all_three_flies(ring, tmp_path):
+def test_an_ssp_of_all_three_runs(ring, tmp_path):
     components, connections = ring
-    result = fly_ssp(tmp_path, components, connections, 1.0, 60.0, outputs=elements("plant.attitude.q", 4))
+    result = simulate_ssp(tmp_path, components, connections, 1.0, 60.0, outputs=elements("plant.attitude.q", 4))
     plant, spinner = stack(result, "plant.attitude.q", 4), stack(result, "spinner.attitude.q", 4)
     # A command of zeros is none: the plant holds the attitude that it began with.
     assert plant[0].tolist() == [0.0, 0.0, 0.0, 1.0]
@@ -135,7 +135,7 @@ def test_an_ssp_of_all_three_flies(ring, tmp_path):
     assert torque[0].tolist() == [0.0, 0.0, 0.0] and (np.linalg.norm(torque[1:], axis=1) > 0.0).all()
 
 
-def test_a_container_of_all_three_flies(ring, tmp_path):
+def test_a_container_of_all_three_runs(ring, tmp_path):
     components, connections = ring
     outputs = [*elements("plant.attitude.q", 4), *elements("spinner.attitude.q", 4), *elements("light.torque.total", 3)]
     fmu = container(tmp_path / "ring-container.fmu", components, connections, 1.0, outputs)
@@ -164,7 +164,7 @@ def test_every_input_may_be_zero_for_ever(heliotorque, dist, tmp_path, model):
     fmu = packed(heliotorque, dist, tmp_path, model, "zero", spacecraft, *settings)
     inputs = [f"it.{variable.name}" for variable in inputs_of(fmu)]
     assert len(inputs) >= 10
-    result = fly_ssp(tmp_path, {"it": fmu}, [], step_s, 20 * step_s, zeros=inputs, outputs=elements(f"it.{held}", size))
+    result = simulate_ssp(tmp_path, {"it": fmu}, [], step_s, 20 * step_s, zeros=inputs, outputs=elements(f"it.{held}", size))
     kept = stack(result, f"it.{held}", size)
     assert np.isfinite(kept).all()
     if model == "DisturbanceTorque":

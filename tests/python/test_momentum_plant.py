@@ -1,11 +1,11 @@
-"""MomentumPlant in FMPy: it validates, flies 90 days, and no choice of step changes what it says."""
+"""MomentumPlant in FMPy: it validates, runs 90 days, and no choice of step changes what it says."""
 
 import numpy as np
 import pytest
 from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
-from flight import PAPER, dump_times, fly, stack, vector
+from simulation import PAPER, dump_times, simulate, stack, vector
 
 
 def test_fmpy_has_nothing_to_report(momentum_plant):
@@ -19,8 +19,8 @@ def test_description_passes_the_schema(momentum_plant):
 
 
 def test_communication_steps_change_no_bit(momentum_plant):
-    fine = fly(momentum_plant, 60.0, start=PAPER)
-    coarse = fly(momentum_plant, 600.0, start=PAPER)
+    fine = simulate(momentum_plant, 60.0, start=PAPER)
+    coarse = simulate(momentum_plant, 600.0, start=PAPER)
     common = stack(fine, "momentum.body")[::10]
     assert common.shape == stack(coarse, "momentum.body").shape
     assert np.array_equal(common, stack(coarse, "momentum.body"))
@@ -31,10 +31,10 @@ def test_communication_steps_change_no_bit(momentum_plant):
 @pytest.mark.parametrize("convention", [1, 2])
 def test_halving_the_internal_step_changes_nothing_that_matters(momentum_plant, convention):
     start = PAPER | {"momentum.convention": convention}
-    whole = fly(momentum_plant, start=start | {"solver.step": 600.0})
-    half = fly(momentum_plant, start=start | {"solver.step": 300.0})
+    whole = simulate(momentum_plant, start=start | {"solver.step": 600.0})
+    half = simulate(momentum_plant, start=start | {"solver.step": 300.0})
     assert np.abs(dump_times(whole) - dump_times(half)).max() < 1.0
-    # A communication point between two nearly equal dump times sees one flight before and one after its dump.
+    # A communication point between two nearly equal dump times sees one simulation before and one after its dump.
     same = whole["dump.count"] == half["dump.count"]
     assert same.mean() > 0.999
     difference = np.abs(stack(whole, "momentum.body") - stack(half, "momentum.body"))[same]
@@ -43,7 +43,7 @@ def test_halving_the_internal_step_changes_nothing_that_matters(momentum_plant, 
 
 def test_centre_of_mass_and_threshold_matter(momentum_plant):
     def dumps(**changes):
-        return fly(momentum_plant, start=PAPER | changes)["dump.count"][-1]
+        return simulate(momentum_plant, start=PAPER | changes)["dump.count"][-1]
 
     near, far = dumps(), dumps(**{"spacecraft.centerOfMass[3]": -0.0508})
     assert far > near
@@ -57,7 +57,7 @@ def test_momentum_without_dumps_is_the_quadrature_of_torque(momentum_plant):
     # Without downlink and with a wide keep-in zone the attitude has neither jump nor kink.
     start |= {"guided.downlinkEvery": 0, "keepIn.elevation": 0.5}
     names = vector("momentum.body") + vector("torque.total")
-    result = fly(momentum_plant, 10.0, days=5.0, start=start, output=names)
+    result = simulate(momentum_plant, 10.0, days=5.0, start=start, output=names)
     torque, momentum = stack(result, "torque.total"), stack(result, "momentum.body")
     gained = 20.0 / 6.0 * (torque[:-2:2] + 4.0 * torque[1:-1:2] + torque[2::2]).cumsum(axis=0)
     assert np.abs(momentum[-1]).max() > 0.1
@@ -67,11 +67,11 @@ def test_momentum_without_dumps_is_the_quadrature_of_torque(momentum_plant):
 def test_inertial_momentum_is_the_physical_total_in_both_conventions(momentum_plant):
     names = vector("momentum.inertial")
     free = {f"dump.threshold[{i}]": 1e9 for i in (1, 2, 3)}
-    flights = [
-        stack(fly(momentum_plant, days=5.0, start=PAPER | free | {"momentum.convention": c}, output=names), "momentum.inertial")
+    simulations = [
+        stack(simulate(momentum_plant, days=5.0, start=PAPER | free | {"momentum.convention": c}, output=names), "momentum.inertial")
         for c in (1, 2)
     ]
-    assert np.abs(flights[0] - flights[1]).max() < 1e-9
+    assert np.abs(simulations[0] - simulations[1]).max() < 1e-9
 
 
 def test_commanded_attitude_is_followed(momentum_plant):
@@ -79,7 +79,7 @@ def test_commanded_attitude_is_followed(momentum_plant):
     rate = 1e-4
     start = {"attitude.source": 2, "command.rate[3]": rate, "command.q[1]": 0.6, "command.q[4]": 0.8}
     names = [f"attitude.q[{i}]" for i in (1, 2, 3, 4)]
-    result = fly(momentum_plant, 600.0, days=0.25, start=start, output=names)
+    result = simulate(momentum_plant, 600.0, days=0.25, start=start, output=names)
     q = np.column_stack([result[name] for name in names])
     half = 0.5 * rate * result["time"]
     # (0.6, 0, 0, 0.8) followed by a turn about body Z, written out by hand.
@@ -96,13 +96,13 @@ def test_what_is_not_there_is_refused_by_name(momentum_plant, source, name):
         messages.append(message.decode())
 
     with pytest.raises(Exception):
-        fly(momentum_plant, days=1.0, start={"attitude.source": source}, logger=logger)
+        simulate(momentum_plant, days=1.0, start={"attitude.source": source}, logger=logger)
     assert any("attitude.source" in m and name in m for m in messages), messages
 
 
 def test_first_downlink_starts_where_the_schedule_says(momentum_plant):
     """The Sun stands on -Y in downlink; the pitch toward the planet ends exactly at the window's begin."""
-    result = fly(momentum_plant, 60.0, days=1.0, start=PAPER, output=["sun.elevation", "orbit.timeSincePeriapsis"])
+    result = simulate(momentum_plant, 60.0, days=1.0, start=PAPER, output=["sun.elevation", "orbit.timeSincePeriapsis"])
     hours = result["time"] / 3600.0
     downlink = np.abs(result["sun.elevation"]) < 1e-9
     assert downlink.sum() * 60.0 == pytest.approx(8 * 3600.0, abs=120.0)

@@ -1,4 +1,4 @@
-"""`heliotorque study momentum/*` flies what FMPy flies, and says of its own numbers what they say."""
+"""`heliotorque study momentum/*` runs what FMPy runs, and says of its own numbers what they say."""
 
 import itertools
 import re
@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from flight import COUNTS, DAY_S, PAPER, PAPER_COUNTS, dump_times, fly
+from simulation import COUNTS, DAY_S, PAPER, PAPER_COUNTS, dump_times, simulate
 from studies import table
 
 # As the study writes its rows.
@@ -56,7 +56,7 @@ ASSUMPTIONS = {
 
 
 @pytest.fixture(scope="module")
-def flown(studied):
+def simulated(studied):
     return {name: studied(f"momentum/{name}") for name in ("table2", "table3", "figure4", "assumptions")}
 
 
@@ -80,8 +80,8 @@ def cylinder(rows):
     return cells
 
 
-def test_table_2_counts_as_its_verdicts_say(flown):
-    text, files = flown["table2"]
+def test_table_2_counts_as_its_verdicts_say(simulated):
+    text, files = simulated["table2"]
     rows = table(files, "table2.csv")
     for row in rows:
         number = re.fullmatch(r"(\d+)", row["paper"])
@@ -102,18 +102,18 @@ def test_table_2_counts_as_its_verdicts_say(flown):
 
 
 @pytest.mark.parametrize("threshold, offset_cm, rule", [(4, -5.08, 0.9), (7, -2.54, 0.9), (4, -2.54, 1.0)])
-def test_dumps_are_those_that_fmpy_flies(flown, momentum_plant, threshold, offset_cm, rule):
+def test_dumps_are_those_that_fmpy_simulates(simulated, momentum_plant, threshold, offset_cm, rule):
     start = PAPER | {"sunshade.shape": 2, "spacecraft.centerOfMass[3]": offset_cm / 100.0, "dump.reinitFraction": rule}
     start |= {f"dump.threshold[{axis}]": float(threshold) for axis in (1, 2, 3)}
-    expected = [f"{time / DAY_S:.6f}" for time in dump_times(fly(momentum_plant, start=start))]
+    expected = [f"{time / DAY_S:.6f}" for time in dump_times(simulate(momentum_plant, start=start))]
     label = [f" {threshold} N.m.s, to {rule:.1f}, ", CYLINDER, PAPERS, f"Z {offset_cm} cm"]
     for name in ("table2", "table3"):
-        found = table(flown[name][1], "dumps.csv")
+        found = table(simulated[name][1], "dumps.csv")
         assert [row["dump_time_d"] for row in found if all(part in row["case"] for part in label)] == expected
 
 
-def test_table_3_has_the_gaps_of_its_dumps(flown):
-    text, files = flown["table3"]
+def test_table_3_has_the_gaps_of_its_dumps(simulated):
+    text, files = simulated["table3"]
     rows = table(files, "table3.csv")
     for cell, row in cylinder(rows).items():
         assert re.match(r"closest|2, 55 d apart", row["paper"]) and row["ours"] in text and row["verdict"], cell
@@ -128,10 +128,10 @@ def test_table_3_has_the_gaps_of_its_dumps(flown):
         assert (row["mission requirement"] == "closer than 5 days") == bool((gaps < 5.0).any()), row
 
 
-def test_figure_4_draws_the_momentum_that_fmpy_flies(flown, momentum_plant):
-    _, files = flown["figure4"]
+def test_figure_4_draws_the_momentum_that_fmpy_simulates(simulated, momentum_plant):
+    _, files = simulated["figure4"]
     start = PAPER | {"sunshade.shape": 2, "dump.reinitFraction": 1.0} | {f"dump.threshold[{axis}]": 4.0 for axis in (1, 2, 3)}
-    result = fly(momentum_plant, start=start)
+    result = simulate(momentum_plant, start=start)
     rows = [row for row in table(files, "figure4.csv") if row["case"].endswith("Z 0 cm")]
     hourly = slice(None, None, 6)
     assert np.abs(np.array([float(row["time_d"]) for row in rows]) - result["time"][hourly] / DAY_S).max() < 1e-6
@@ -140,11 +140,11 @@ def test_figure_4_draws_the_momentum_that_fmpy_flies(flown, momentum_plant):
     picture = "".join(ElementTree.fromstring(files["figure4.svg"]).itertext())
     for offset, count in zip(("0 cm", "-2.54 cm", "-5.08 cm"), COUNTS["1.0"][4.0]):
         assert f"Z = {offset}, {count} dumps" in picture
-    assert files["figure4.svg"] == flown["table2"][1]["figure4.svg"]
+    assert files["figure4.svg"] == simulated["table2"][1]["figure4.svg"]
 
 
-def test_choices_that_the_paper_leaves_open_move_the_counts(flown):
-    text, files = flown["assumptions"]
+def test_choices_that_the_paper_leaves_open_move_the_counts(simulated):
+    text, files = simulated["assumptions"]
     rows = table(files, "assumptions.csv")
     ours = {(row["dumps to"], row["threshold"], row["choice"]): row for row in rows}
     assert list(ours) == list(ASSUMPTIONS) and len(rows) == len(ours)
@@ -160,7 +160,7 @@ def test_choices_that_the_paper_leaves_open_move_the_counts(flown):
             ranges = [[int(bound) for bound in part.split(" to ")] for part in row["paper"].split(" / ")]
             inside = all(least <= count <= most for count, (least, most) in zip(counts, ranges))
             assert row["verdict"] == ("comparable" if inside else "off"), row
-    # Under the default rule panels that tilt against each other turn the craft about the Sun line.
+    # Under the default rule panels that tilt against each other turn the spacecraft about the Sun line.
     equal = [ours["0.9", "5.5 N.m.s", f"panel tilts {signs}"]["verdict"] for signs in ("+ +", "- -", "+ -", "- +")]
     assert equal == ["comparable", "comparable", "off", "off"]
 
@@ -174,9 +174,9 @@ def test_choices_that_the_paper_leaves_open_move_the_counts(flown):
         (("1.0", "7 N.m.s", "ecliptic"), -2.54, {"orbit.frame": 4, "dump.reinitFraction": 1.0}),
     ],
 )
-def test_choices_are_those_that_fmpy_flies(momentum_plant, key, offset_cm, start):
+def test_choices_are_those_that_fmpy_simulates(momentum_plant, key, offset_cm, start):
     threshold = float(key[1].split()[0])
     start = PAPER | start | {"sunshade.shape": 2, "spacecraft.centerOfMass[3]": offset_cm / 100.0}
     start |= {f"dump.threshold[{axis}]": threshold for axis in (1, 2, 3)}
-    count = fly(momentum_plant, start=start)["dump.count"][-1]
+    count = simulate(momentum_plant, start=start)["dump.count"][-1]
     assert count == ASSUMPTIONS[key][[0.0, -2.54, -5.08].index(offset_cm)]

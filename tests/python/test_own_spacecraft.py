@@ -1,4 +1,4 @@
-"""Your own spacecraft: packed without a compiler, it flies in FMPy as its file says, and a bad file is refused by line."""
+"""Your own spacecraft: packed without a compiler, it runs in FMPy as its file says, and a bad file is refused by line."""
 
 import itertools
 import json
@@ -11,7 +11,7 @@ import pytest
 from fmpy import extract, read_model_description
 from fmpy.validation import validate_fmu
 
-from flight import Stepped, fly, stack, vector
+from simulation import Stepped, simulate, stack, vector
 from spacecraft import HEAD, RESOURCES, SAILER, call, pack, solar_torque, urchin
 
 PRESSURE_PA = 9e-6
@@ -33,7 +33,7 @@ def assert_torque_is_the_sum_over_the_file(fmu, text, panels):
     names = vector("torque.solar") + vector("sun.direction") + angles
     # Tumbling, so that the Sun comes from everywhere: fronts, rears and panels edge-on.
     tumble = {"attitude.source": 2} | {f"command.rate[{axis}]": rate for axis, rate in ((1, 6.3e-5), (2, -7.3e-5), (3, 1e-5))}
-    result = fly(fmu, 1800.0, days=3.0, start=FIXED_LIGHT | tumble, output=names)
+    result = simulate(fmu, 1800.0, days=3.0, start=FIXED_LIGHT | tumble, output=names)
     torque, sun = stack(result, "torque.solar"), stack(result, "sun.direction")
     expected = np.array([
         solar_torque(text, sun[row], PRESSURE_PA, [result[name][row] for name in angles]) for row in range(len(sun))
@@ -43,7 +43,7 @@ def assert_torque_is_the_sum_over_the_file(fmu, text, panels):
     assert np.abs(torque - expected).max() < 1e-12 * np.abs(expected).max()
 
 
-def test_the_example_flies_with_its_own_three_panels_and_no_shade(sailer):
+def test_the_example_runs_with_its_own_three_panels_and_no_shade(sailer):
     assert validate_fmu(sailer) == []
     description = read_model_description(sailer, validate=True)
     assert description.modelName == "SolarSailer"
@@ -54,8 +54,8 @@ def test_the_example_flies_with_its_own_three_panels_and_no_shade(sailer):
     assert_torque_is_the_sum_over_the_file(sailer, SAILER, panels=3)
 
 
-def test_the_example_flies_ninety_days_and_dumps(sailer):
-    result = fly(sailer, 3600.0)
+def test_the_example_runs_ninety_days_and_dumps(sailer):
+    result = simulate(sailer, 3600.0)
     assert result["time"][-1] == 90 * 86_400.0
     assert result["dump.count"][-1] >= 1
     assert np.abs(stack(result, "momentum.body")).max() <= 1.0 + 1e-9
@@ -69,24 +69,24 @@ def test_sixty_five_plates_without_panels_and_wheels(urchin_65):
 
 
 def test_two_spacecraft_in_one_process_do_not_disturb_each_other(sailer, urchin_65, tmp_path):
-    def step(craft):
-        craft.step(600.0)
-        return list(craft.get(*vector("momentum.inertial"), *vector("torque.total")))
+    def step(spacecraft):
+        spacecraft.step(600.0)
+        return list(spacecraft.get(*vector("momentum.inertial"), *vector("torque.total")))
 
     def alone(fmu, folder):
-        craft = Stepped(extract(fmu, unzipdir=str(folder)))
-        flown = [step(craft) for _ in range(300)]
-        craft.close()
-        return flown
+        spacecraft = Stepped(extract(fmu, unzipdir=str(folder)))
+        simulated = [step(spacecraft) for _ in range(300)]
+        spacecraft.close()
+        return simulated
 
     expected = [alone(sailer, tmp_path / "a"), alone(urchin_65, tmp_path / "b")]
-    crafts = [Stepped(extract(fmu, unzipdir=str(tmp_path / name))) for fmu, name in ((sailer, "c"), (urchin_65, "d"))]
+    spacecraft_list = [Stepped(extract(fmu, unzipdir=str(tmp_path / name))) for fmu, name in ((sailer, "c"), (urchin_65, "d"))]
     together = [[], []]
     for _ in range(300):
-        for craft, flown in zip(crafts, together):
-            flown.append(step(craft))
-    for craft in crafts:
-        craft.close()
+        for spacecraft, simulated in zip(spacecraft_list, together):
+            simulated.append(step(spacecraft))
+    for spacecraft in spacecraft_list:
+        spacecraft.close()
     assert together == expected
     assert expected[0] != expected[1]
 
@@ -111,14 +111,14 @@ def refusal(fmu):
         messages.append(message.decode())
 
     with pytest.raises(Exception):
-        fly(fmu, 3600.0, days=0.5, output=["dump.count"], logger=logger)
+        simulate(fmu, 3600.0, days=0.5, output=["dump.count"], logger=logger)
     assert len(messages) == 1, messages
     return messages[0]
 
 
-@pytest.mark.parametrize("craft", ["SolarSailer", "MomentumPlant"])
-def test_a_file_changed_inside_the_fmu_is_refused_with_the_reason(craft, sailer, momentum_plant, tmp_path):
-    fmu = sailer if craft == "SolarSailer" else momentum_plant
+@pytest.mark.parametrize("spacecraft", ["SolarSailer", "MomentumPlant"])
+def test_a_file_changed_inside_the_fmu_is_refused_with_the_reason(spacecraft, sailer, momentum_plant, tmp_path):
+    fmu = sailer if spacecraft == "SolarSailer" else momentum_plant
     changed = rewritten(
         fmu, tmp_path / "changed.fmu", lambda text: re.sub(r"\nmass_kg = \S+", "\nmass_kg = 49.0", text)
     )
@@ -136,7 +136,7 @@ def test_a_bad_value_put_inside_the_fmu_is_refused_by_line(sailer, tmp_path):
 
 def test_a_comment_added_inside_the_fmu_changes_nothing(sailer, tmp_path):
     noted = rewritten(sailer, tmp_path / "noted.fmu", lambda text: "# mine\n" + text)
-    assert np.array_equal(fly(noted, 3600.0, days=2.0), fly(sailer, 3600.0, days=2.0))
+    assert np.array_equal(simulate(noted, 3600.0, days=2.0), simulate(sailer, 3600.0, days=2.0))
 
 
 PLATE = """
@@ -265,13 +265,13 @@ optics = "paint"
 """
 
 
-def test_a_shade_given_as_cylinder_alone_flies_as_one_and_not_as_plates(heliotorque, dist, tmp_path):
+def test_a_shade_given_as_cylinder_alone_runs_as_one_and_not_as_plates(heliotorque, dist, tmp_path):
     fmu = pack(heliotorque, dist, tmp_path, HEAD.format(name="Shade & 'Co' <ü>") + SHADE, "Shade")
     assert validate_fmu(fmu) == []
     assert "a sunshade of a cylinder" in call(
         heliotorque, "check", "Shade.toml", "--template", (dist / "MomentumPlant.fmu").resolve(), folder=tmp_path
     ).stdout
-    result = fly(fmu, 3600.0, days=1.0, start=FIXED_LIGHT, output=vector("torque.solar"))
+    result = simulate(fmu, 3600.0, days=1.0, start=FIXED_LIGHT, output=vector("torque.solar"))
     assert np.abs(stack(result, "torque.solar")).max() > 1e-8
     messages = []
 
@@ -279,7 +279,7 @@ def test_a_shade_given_as_cylinder_alone_flies_as_one_and_not_as_plates(heliotor
         messages.append(message.decode())
 
     with pytest.raises(Exception):
-        fly(fmu, 3600.0, days=1.0, start={"sunshade.shape": 1}, logger=logger)
+        simulate(fmu, 3600.0, days=1.0, start={"sunshade.shape": 1}, logger=logger)
     assert any("sunshade.shape: found plates, allowed: cylinder" in message for message in messages), messages
 
 
@@ -356,8 +356,8 @@ def test_thresholds_stand_beside_the_papers(heliotorque, momentum_plant):
     assert [(capacity, stated) for capacity, _, _, stated in found] == [("4", "4"), ("8", "5.5"), ("12", "7")]
     assert [f"{float(threshold):.1f}" for _, threshold, _, _ in found] == ["3.1", "6.2", "9.2"]
     assert [f"{float(threshold):.1f}" for _, _, threshold, _ in found] == ["4.6", "9.2", "13.9"]
-    craft = tomllib.loads((RESOURCES / "messenger.toml").read_text(encoding="utf-8"))
-    axes = np.array([np.array(wheel["axis"]) / np.linalg.norm(wheel["axis"]) for wheel in craft["wheels"]])
+    spacecraft = tomllib.loads((RESOURCES / "messenger.toml").read_text(encoding="utf-8"))
+    axes = np.array([np.array(wheel["axis"]) / np.linalg.norm(wheel["axis"]) for wheel in spacecraft["wheels"]])
     smallest_norm = max(corner_loads(axes, lambda matrix, momentum: np.linalg.pinv(matrix) @ momentum))
     least_load = max(corner_loads(axes, least_greatest_load))
     for capacity, by_norm, by_load, _ in found:

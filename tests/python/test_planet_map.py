@@ -7,7 +7,7 @@ from fmpy.fmi1 import FMICallException
 
 from spacecraft import RESOURCES, call
 
-CRAFT = (RESOURCES / "messenger-thermal.toml").read_text(encoding="utf-8")
+SPACECRAFT = (RESOURCES / "messenger-thermal.toml").read_text(encoding="utf-8")
 STEFAN_BOLTZMANN = 5.670374419e-8
 BELTS = 8
 MAP = {"planetLight.method": 3}
@@ -25,10 +25,10 @@ def planet_map(temperature_k, diffuse=0.12, emissivity=0.9):
 @pytest.fixture
 def pack(heliotorque, dist, tmp_path):
     def packed(section):
-        (tmp_path / "craft.toml").write_text(CRAFT + section, encoding="utf-8")
+        (tmp_path / "spacecraft.toml").write_text(SPACECRAFT + section, encoding="utf-8")
         fmu = tmp_path / "Craft.fmu"
         done = call(
-            heliotorque, "pack", "--spacecraft", tmp_path / "craft.toml", "--template", (dist / "DisturbanceTorque.fmu").resolve(),
+            heliotorque, "pack", "--spacecraft", tmp_path / "spacecraft.toml", "--template", (dist / "DisturbanceTorque.fmu").resolve(),
             "--name", "Craft", "--output", fmu,
         )
         assert done.returncode == 0, done.stderr
@@ -90,7 +90,7 @@ def test_a_torn_map_is_told_by_line_and_cell(heliotorque, tmp_path):
     section = planet_map(lambda belt, column: -5.0 if (belt, column) == (2, 3) else 300.0, emissivity=1.5)
     torn = section.replace("1.5, 1.5]]", "1.5]]")
     assert torn != section
-    (tmp_path / "torn.toml").write_text(CRAFT + torn, encoding="utf-8")
+    (tmp_path / "torn.toml").write_text(SPACECRAFT + torn, encoding="utf-8")
     told = call(heliotorque, "check", tmp_path / "torn.toml")
     assert told.returncode == 1
     text = told.stdout + told.stderr

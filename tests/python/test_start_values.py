@@ -1,10 +1,10 @@
-"""Start values in a spacecraft file: what an importer reads and flies is what it would have set itself."""
+"""Start values in a spacecraft file: what an importer reads and runs is what it would have set itself."""
 
 import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from flight import fly
+from simulation import simulate
 from spacecraft import RESOURCES, call, pack
 
 # As the command line writes them, and as FMPy would set them.
@@ -37,14 +37,14 @@ def told(heliotorque, dist, tmp_path_factory):
     return str(fmu)
 
 
-def test_fmpy_reads_what_was_packed_and_flies_it_as_if_it_had_set_it(told, momentum_plant):
+def test_fmpy_reads_what_was_packed_and_runs_it_as_if_it_had_set_it(told, momentum_plant):
     before, after = starts(momentum_plant), starts(told)
     changed = {name for name in after if after[name] != before[name]}
     assert changed == set(SET)
     assert all(str(value).lower() == after[name] or float(after[name]) == value for name, (_, value) in SET.items())
 
-    by_master = fly(momentum_plant, days=20.0, start={name: value for name, (_, value) in SET.items()})
-    from_file, unset = fly(told, days=20.0), fly(momentum_plant, days=20.0)
+    by_master = simulate(momentum_plant, days=20.0, start={name: value for name, (_, value) in SET.items()})
+    from_file, unset = simulate(told, days=20.0), simulate(momentum_plant, days=20.0)
     assert from_file.tobytes() == by_master.tobytes()
     assert from_file.tobytes() != unset.tobytes()
 

@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from flight import COUNTS, DAY_S, OFFSETS_M, PAPER, PAPER_COUNTS, Stepped
+from simulation import COUNTS, DAY_S, OFFSETS_M, PAPER, PAPER_COUNTS, Stepped
 
 # The paper says of the plates that "the number and spacing of thruster dumps was comparable".
 SHADES = {"plates": 1, "cylinder": 2}
@@ -16,16 +16,16 @@ OURS = {"cylinder": COUNTS["0.9"], "plates": {4.0: (6, 7, 14), 7.0: (2, 4, 8)}}
 
 @pytest.fixture(scope="module")
 def dumps(unpacked_plant):
-    """Times of all dumps in 90 days, by shade, threshold, offset and communication step; flown once each."""
-    flown = {}
+    """Times of all dumps in 90 days, by shade, threshold, offset and communication step; simulated once each."""
+    simulated = {}
 
-    def fly(shade, threshold, offset, step_s=LOOK_S):
+    def simulate(shade, threshold, offset, step_s=LOOK_S):
         key = (shade, threshold, offset, step_s)
-        if key not in flown:
-            flown[key] = flight(*key)
-        return flown[key]
+        if key not in simulated:
+            simulated[key] = simulation(*key)
+        return simulated[key]
 
-    def flight(shade, threshold, offset, step_s):
+    def simulation(shade, threshold, offset, step_s):
         start = PAPER | {"sunshade.shape": SHADES[shade], "spacecraft.centerOfMass[3]": offset}
         start |= {f"dump.threshold[{axis}]": threshold for axis in (1, 2, 3)}
         plant = Stepped(unpacked_plant, start)
@@ -38,7 +38,7 @@ def dumps(unpacked_plant):
         plant.close()
         return times
 
-    return fly
+    return simulate
 
 
 CELLS = list(itertools.product(SHADES, PAPER_COUNTS, range(len(OFFSETS_M))))

@@ -1,34 +1,34 @@
-//! Real, Integer and Boolean get and set and doStep ask for no memory once an instance has flown a while.
+//! Real, Integer and Boolean get and set and doStep ask for no memory once an instance has simulated a while.
 
-use fmi_export::Status;
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use heliotorque_tests::counting::{Count, counted};
+use model_description::Status;
 
-use crate::flights::{Flight, Style};
+use crate::scenarios::{Scenario, Simulation};
 use crate::support::{Base, LIBRARY, Names, library, names, ok, silent};
 
-/// References and room for values, made before counting begins.
+/// References and scratch for values, made before counting begins.
 struct Client {
-    style: Style,
+    scenario: Scenario,
     reals: (Vec<u32>, Vec<f64>),
     integers: (Vec<u32>, Vec<i32>),
     booleans: (Vec<u32>, Vec<i32>),
     torque: [u32; 3],
-    /// Inputs of the style beside the torque: Reals, and a Boolean.
+    /// Inputs of the scenario beside the torque: Reals, and a Boolean.
     moved: Vec<u32>,
     switched: u32,
 }
 
 impl Client {
-    fn new(style: Style, names: &Names) -> Self {
+    fn new(scenario: Scenario, names: &Names) -> Self {
         let (reals, integers) = (names.all(Base::Real), names.all(Base::Integer));
         let booleans = names.all(Base::Boolean);
-        let (moved, switched): (&[&str], _) = match style.model() {
+        let (moved, switched): (&[&str], _) = match scenario.model() {
             "MomentumPlant" => (&["command.rate[1]", "spacecraft.centerOfMass[2]"], "dump.request"),
             _ => (&["thruster[8].onTime", "thruster[8].onDelay"], "thruster[1].fire"),
         };
         Self {
-            style,
+            scenario,
             reals: (reals.clone(), vec![0.0; reals.len()]),
             integers: (integers.clone(), vec![0; integers.len()]),
             booleans: (booleans.clone(), vec![0; booleans.len()]),
@@ -43,7 +43,7 @@ impl Client {
         ok(instance.get_real(&self.reals.0, &mut self.reals.1));
         ok(instance.get_integer(&self.integers.0, &mut self.integers.1));
         ok(instance.get_boolean(&self.booleans.0, &mut self.booleans.1));
-        if matches!(self.style, Style::Commanded | Style::Fired) {
+        if matches!(self.scenario, Scenario::Commanded | Scenario::Fired) {
             let wave = (step as f64 * 0.1).sin();
             ok(instance.set_real(&self.torque, &[1e-5 * wave, 2e-6, -1e-6]));
             ok(instance.set_input_derivatives(&self.torque, &[1, 1, 1], &[1e-9 * wave, 0.0, 1e-10]));
@@ -56,14 +56,14 @@ impl Client {
 }
 
 #[test]
-fn flights_allocate_nothing() {
-    for style in Style::ALL.into_iter().filter(|style| *style != Style::Placed) {
-        let mut flight = Flight::new(style);
-        let mut client = Client::new(style, &flight.names);
-        let step_s = if style.model() == "MomentumPlant" { 600.0 } else { 0.7 };
-        (0..50).for_each(|_| flight.step());
-        let events = happened(&mut flight);
-        let (mut instance, mut time_s) = (flight.instance, flight.time_s);
+fn simulations_allocate_nothing() {
+    for scenario in Scenario::ALL.into_iter().filter(|scenario| *scenario != Scenario::Placed) {
+        let mut simulation = Simulation::new(scenario);
+        let mut client = Client::new(scenario, &simulation.names);
+        let step_s = if scenario.model() == "MomentumPlant" { 600.0 } else { 0.7 };
+        (0..50).for_each(|_| simulation.step());
+        let events = happened(&mut simulation);
+        let (mut instance, mut time_s) = (simulation.instance, simulation.time_s);
         let ((), count) = counted(|| {
             for step in 0..4_000 {
                 client.turn(&mut instance, step);
@@ -71,17 +71,18 @@ fn flights_allocate_nothing() {
                 time_s += step_s;
             }
         });
-        assert_eq!(count, Count::default(), "{style:?}");
-        flight.instance = instance;
-        assert!(happened(&mut flight) > events, "{style:?}: nothing happened in the flight");
+        assert_eq!(count, Count::default(), "{scenario:?}");
+        simulation.instance = instance;
+        assert!(happened(&mut simulation) > events, "{scenario:?}: nothing happened in the simulation");
     }
 }
 
-/// Dumps so far, or Sun crossings: what a flight without events would not have.
-fn happened(flight: &mut Flight) -> i32 {
-    let name = if flight.style.model() == "MomentumPlant" { "dump.count" } else { "spin.sunCrossings" };
+/// Dumps so far, or Sun crossings: what a simulation without events would not have.
+fn happened(simulation: &mut Simulation) -> i32 {
+    let name =
+        if simulation.scenario.model() == "MomentumPlant" { "dump.count" } else { "spin.sunCrossings" };
     let mut count = [0];
-    ok(flight.instance.get_integer(&[flight.names.of(Base::Integer, name)], &mut count));
+    ok(simulation.instance.get_integer(&[simulation.names.of(Base::Integer, name)], &mut count));
     count[0]
 }
 
@@ -98,7 +99,7 @@ fn stored_heat_allocates_nothing() {
     let mut instance =
         InProcess::instantiate(library("MomentumPlant"), &description.guid, Some(&location)).unwrap();
     ok(instance.set_debug_logging(false, &[]));
-    Style::Lit.prepare(&mut instance, &names);
+    Scenario::Lit.prepare(&mut instance, &names);
     ok(instance.start(0.0, None));
     let watched = [names.real("sun.litFraction"), names.real("force.thermal[2]")];
     let mut step = |number: u32| {
@@ -125,8 +126,8 @@ fn stored_heat_allocates_nothing() {
 /// The memoryless model: Sun, planet, panels and mass placed anew before every step, through eclipses.
 #[test]
 fn placing_allocates_nothing() {
-    let mut flight = Flight::new(Style::Placed);
-    let names = &flight.names;
+    let mut simulation = Simulation::new(Scenario::Placed);
+    let names = &simulation.names;
     let (reals, booleans) = (names.all(Base::Real), names.all(Base::Boolean));
     let integers = names.all(Base::Integer);
     let planet = names.vector::<3>("planet.positionBody");
@@ -138,8 +139,8 @@ fn placing_allocates_nothing() {
     let lit = names.real("sun.litFraction");
     let (mut values, mut switches) = (vec![0.0; reals.len()], vec![0; booleans.len()]);
     let mut choices = vec![0; integers.len()];
-    (0..50).for_each(|_| flight.step());
-    let (mut instance, mut time_s) = (flight.instance, flight.time_s);
+    (0..50).for_each(|_| simulation.step());
+    let (mut instance, mut time_s) = (simulation.instance, simulation.time_s);
     let mut dark = 0;
     let ((), count) = counted(|| {
         for step in 0..4_000 {

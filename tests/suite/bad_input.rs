@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fmi_export::abi::{InProcess, Message};
+use client::{InProcess, Message};
 use fmi_export::{Library, Model, Status};
 use models::MomentumPlant;
 
@@ -129,7 +129,7 @@ fn a_spacecraft_file_that_cannot_be_used_is_told_by_file_and_key() {
     says(&refused(library(PLANT), guid(PLANT), Some(&uri(&folder))), &["spacecraft.toml", "UTF-8"]);
 }
 
-fn flying() -> (InProcess, Names) {
+fn running() -> (InProcess, Names) {
     let mut instance = fresh(PLANT);
     ok(instance.start(0.0, Some(6_000.0)));
     ok(instance.do_step(0.0, 600.0));
@@ -139,7 +139,7 @@ fn flying() -> (InProcess, Names) {
 
 #[test]
 fn nan_and_infinity_are_discarded_and_the_instance_lives() {
-    let (mut instance, names) = flying();
+    let (mut instance, names) = running();
     let torque = names.vector::<3>("torque.applied");
     let before = everything(&mut instance, &names);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -156,14 +156,14 @@ fn nan_and_infinity_are_discarded_and_the_instance_lives() {
     assert_eq!(instance.set_integer(&[kind], &[17]), Status::Discard);
     // None of it leaves a trace.
     ok(instance.do_step(600.0, 600.0));
-    let (mut untouched, _) = flying();
+    let (mut untouched, _) = running();
     ok(untouched.do_step(600.0, 600.0));
     assert_eq!(everything(&mut instance, &names), everything(&mut untouched, &names));
 }
 
 #[test]
 fn a_step_past_the_stop_time_is_an_error() {
-    let (mut instance, names) = flying();
+    let (mut instance, names) = running();
     ok(instance.do_step(600.0, 5_400.0));
     let before = real_bits(&mut instance, &names.all(Base::Real));
     assert_eq!(instance.do_step(6_000.0, 600.0), Status::Error);
@@ -177,7 +177,7 @@ fn a_step_past_the_stop_time_is_an_error() {
 
 #[test]
 fn an_unknown_reference_in_a_vector_writes_nothing() {
-    let (mut instance, names) = flying();
+    let (mut instance, names) = running();
     let torque = names.vector::<3>("torque.applied");
     let before = real_bits(&mut instance, &names.all(Base::Real));
     assert_eq!(instance.set_real(&[torque[0], 4_000_000, torque[2]], &[1.0, 2.0, 3.0]), Status::Error);
@@ -189,17 +189,18 @@ fn an_unknown_reference_in_a_vector_writes_nothing() {
 }
 
 #[test]
-fn two_spacecraft_fly_in_one_process_as_each_does_alone() {
+fn two_spacecraft_simulate_in_one_process_as_each_does_alone() {
     let base = tempfile::tempdir().unwrap();
     let heavy = MomentumPlant::DEFAULT_SETUP
         .replace("name = \"MESSENGER\"", "name = \"Heavy\"")
         .replace("mass_kg = 700.0", "mass_kg = 1400.0")
         .replace("center_of_mass_m = [0.0, 0.0, 0.0]", "center_of_mass_m = [0.01, 0.02, -0.05]");
-    let craft = [MomentumPlant::DEFAULT_SETUP, &heavy];
+    let spacecraft = [MomentumPlant::DEFAULT_SETUP, &heavy];
     let made = |number: usize| {
-        let folder = resources(&base.path().join(format!("craft {number}")), craft[number]);
+        let folder = resources(&base.path().join(format!("spacecraft {number}")), spacecraft[number]);
         let mut instance =
-            InProcess::instantiate(library(PLANT), &guid_of(craft[number]), Some(&uri(&folder))).unwrap();
+            InProcess::instantiate(library(PLANT), &guid_of(spacecraft[number]), Some(&uri(&folder)))
+                .unwrap();
         ok(instance.start(0.0, None));
         instance
     };

@@ -1,8 +1,8 @@
 //! Whatever bytes reach fmi2DeSerializeFMUstate, the answer is a status and the instance lives.
 
-use fmi_export::Status;
-use fmi_export::abi::{InProcess, StatePointer};
+use client::{InProcess, StatePointer};
 use heliotorque_tests::counting::counted;
+use model_description::Status;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
@@ -31,7 +31,7 @@ fn seal(like: &[u8], payload: &[u8]) -> Vec<u8> {
     sealed
 }
 
-/// Blobs of the three states a master saves most: fresh, initializing, flying.
+/// Blobs of the three states a master saves most: fresh, initializing, running.
 fn genuine(model: &str) -> Vec<Vec<u8>> {
     let mut blobs = Vec::new();
     let mut instance = fresh(model);
@@ -162,7 +162,7 @@ impl Target {
         let limit = 200_000 + 100 * bytes.len() as u64;
         assert!(count.bytes < limit, "{}: {} bytes asked for {}", self.model, count.bytes, bytes.len());
         match status {
-            Status::Ok => self.live_in(&state),
+            Status::Ok => self.use_restored(&state),
             Status::Error => assert!(state.is_null()),
             other => panic!("{}: {other:?}", self.model),
         }
@@ -171,7 +171,7 @@ impl Target {
         assert_eq!(self.instance.state_bytes(), (Status::Ok, self.fresh_bytes.clone()), "{}", self.model);
     }
 
-    fn live_in(&mut self, state: &StatePointer) {
+    fn use_restored(&mut self, state: &StatePointer) {
         self.accepted += 1;
         ok(self.instance.set_state(state));
         // What is well formed may still be nonsense: any status, but an answer, and soon.
@@ -214,22 +214,22 @@ fn resealed(model: &'static str, cases: u32) {
 }
 
 #[test]
-fn resealed_payloads_of_all_types_are_refused_or_lived_in() {
+fn resealed_payloads_of_all_types_are_refused_or_usable() {
     resealed("AllTypes", 20_000);
 }
 
 #[test]
-fn resealed_payloads_of_the_plant_are_refused_or_lived_in() {
+fn resealed_payloads_of_the_plant_are_refused_or_usable() {
     resealed("MomentumPlant", 5_000);
 }
 
 #[test]
-fn resealed_payloads_of_the_spinner_are_refused_or_lived_in() {
+fn resealed_payloads_of_the_spinner_are_refused_or_usable() {
     resealed("SpinPlant", 5_000);
 }
 
 #[test]
-fn resealed_payloads_of_the_memoryless_model_are_refused_or_lived_in() {
+fn resealed_payloads_of_the_memoryless_model_are_refused_or_usable() {
     resealed("DisturbanceTorque", 5_000);
 }
 

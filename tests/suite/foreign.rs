@@ -1,4 +1,4 @@
-//! The harness flies an FMU that others built: FMPy's container, whose C library loads our plant in turn.
+//! The harness runs an FMU that others built: FMPy's container, whose C library loads our plant in turn.
 
 use loader::{Fmu, Options, simulate};
 
@@ -8,12 +8,12 @@ const STEP_S: f64 = 600.0;
 const DAYS: f64 = 10.0;
 
 #[test]
-fn a_foreign_fmu_flies_in_our_harness_to_our_numbers() {
+fn a_foreign_fmu_runs_in_our_harness_to_our_numbers() {
     let Some(path) = built("HELIOTORQUE_FOREIGN_FMU") else { return };
     let fmu = Fmu::open(path).unwrap();
     let options = Options { stop_s: Some(DAYS * 86_400.0), step_s: Some(STEP_S), ..Options::default() };
-    let flight = simulate(&fmu, options).unwrap();
-    let recording = flight.recording;
+    let simulation = simulate(&fmu, options).unwrap();
+    let recording = simulation.recording;
     let names = names("MomentumPlant");
     let (mut plant, mut value) = (silent("MomentumPlant"), [0.0]);
     ok(plant.start(0.0, None));
@@ -26,5 +26,5 @@ fn a_foreign_fmu_flies_in_our_harness_to_our_numbers() {
         }
     }
     assert_eq!(recording.times_s.len(), (DAYS * 86_400.0 / STEP_S) as usize + 1);
-    assert!(value[0].abs() > 0.01, "the flight moved nothing");
+    assert!(value[0].abs() > 0.01, "the simulation moved nothing");
 }

@@ -85,9 +85,9 @@ fn the_library_exports_what_it_must_and_nothing_else() {
         let listed = String::from_utf8(output.stdout).unwrap();
         let mut found: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().last()).collect();
         found.sort_unstable();
-        let mut wanted = EXPORTS.to_vec();
-        wanted.sort_unstable();
-        assert_eq!(found, wanted, "{}", library.display());
+        let mut expected = EXPORTS.to_vec();
+        expected.sort_unstable();
+        assert_eq!(found, expected, "{}", library.display());
         Binary::load(&library).unwrap();
     }
 }

@@ -4,7 +4,7 @@ use heliotorque_tests::counting::counted;
 #[cfg(target_os = "linux")]
 use loader::{Fmu, InstanceOptions};
 
-use crate::flights::{Flight, Style};
+use crate::scenarios::{Scenario, Simulation};
 #[cfg(target_os = "linux")]
 use crate::support::built;
 use crate::support::{fresh, ok};
@@ -13,48 +13,52 @@ const INSTANCES: usize = 64;
 const THREADS: usize = 8;
 const STEPS: usize = 150;
 
-/// The bytes of the state after the whole flight: everything there is.
-fn alone(style: Style) -> Vec<u8> {
-    let mut flight = Flight::new(style);
-    (0..STEPS).for_each(|_| flight.step());
-    flight.bytes()
+/// The bytes of the state after the whole simulation: everything there is.
+fn alone(scenario: Scenario) -> Vec<u8> {
+    let mut simulation = Simulation::new(scenario);
+    (0..STEPS).for_each(|_| simulation.step());
+    simulation.bytes()
 }
 
 #[test]
-fn sixty_four_instances_on_eight_threads_fly_as_one() {
-    let wanted = Style::ALL.map(alone);
+fn sixty_four_instances_on_eight_threads_simulate_as_one() {
+    let expected = Scenario::ALL.map(alone);
     std::thread::scope(|scope| {
         for _ in 0..THREADS {
             scope.spawn(|| {
-                let mut flights: Vec<Flight> = (0..INSTANCES / THREADS)
-                    .map(|number| Flight::new(Style::ALL[number % Style::ALL.len()]))
+                let mut simulations: Vec<Simulation> = (0..INSTANCES / THREADS)
+                    .map(|number| Simulation::new(Scenario::ALL[number % Scenario::ALL.len()]))
                     .collect();
                 // Turn and turn about, so that each finds the others' leavings.
                 for _ in 0..STEPS {
-                    flights.iter_mut().for_each(Flight::step);
+                    simulations.iter_mut().for_each(Simulation::step);
                 }
-                for (number, flight) in flights.iter_mut().enumerate() {
-                    assert!(flight.bytes() == wanted[number % Style::ALL.len()], "{:?}", flight.style);
+                for (number, simulation) in simulations.iter_mut().enumerate() {
+                    assert!(
+                        simulation.bytes() == expected[number % Scenario::ALL.len()],
+                        "{:?}",
+                        simulation.scenario
+                    );
                 }
             });
         }
     });
 }
 
-/// The seam between two threads: made on one, flown on another, freed on a third.
+/// The seam between two threads: made on one, simulated on another, freed on a third.
 #[test]
 fn an_instance_may_change_threads() {
-    let wanted = alone(Style::Commanded);
-    let flight = std::thread::spawn(|| Flight::new(Style::Commanded)).join().unwrap();
+    let expected = alone(Scenario::Commanded);
+    let simulation = std::thread::spawn(|| Simulation::new(Scenario::Commanded)).join().unwrap();
     let found = std::thread::spawn(move || {
-        let mut flight = flight;
-        (0..STEPS).for_each(|_| flight.step());
-        let bytes = flight.bytes();
-        (flight, bytes)
+        let mut simulation = simulation;
+        (0..STEPS).for_each(|_| simulation.step());
+        let bytes = simulation.bytes();
+        (simulation, bytes)
     });
-    let (flight, bytes) = found.join().unwrap();
-    assert!(bytes == wanted);
-    std::thread::spawn(move || drop(flight)).join().unwrap();
+    let (simulation, bytes) = found.join().unwrap();
+    assert!(bytes == expected);
+    std::thread::spawn(move || drop(simulation)).join().unwrap();
 }
 
 fn cycle(model: &str) {
@@ -70,13 +74,13 @@ fn freeing_an_instance_gives_back_every_byte() {
         let ((), count) = counted(|| (0..200).for_each(|_| cycle(model)));
         assert_eq!(count.live_bytes, 0, "{model}");
     }
-    for style in Style::ALL {
+    for scenario in Scenario::ALL {
         let ((), count) = counted(|| {
-            let mut flight = Flight::new(style);
-            (0..20).for_each(|_| flight.step());
-            let _ = flight.bytes();
+            let mut simulation = Simulation::new(scenario);
+            (0..20).for_each(|_| simulation.step());
+            let _ = simulation.bytes();
         });
-        assert_eq!(count.live_bytes, 0, "{style:?}");
+        assert_eq!(count.live_bytes, 0, "{scenario:?}");
     }
 }
 
@@ -112,10 +116,10 @@ fn memory_stays_flat_over_many_instances() {
         eprint!("{}", crate::support::in_a_process_of_its_own(name, CHILD, "1".as_ref()));
         return;
     }
-    let room = tempfile::tempdir().unwrap();
+    let scratch = tempfile::tempdir().unwrap();
     for (model, cycles) in CYCLES {
         let fmu = match model {
-            "Empty" => crate::shared_library::folder(room.path(), model, &probe),
+            "Empty" => crate::shared_library::folder(scratch.path(), model, &probe),
             _ => Fmu::open(dist.join(format!("{model}.fmu"))).unwrap(),
         };
         let many = |cycles| {

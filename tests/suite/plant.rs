@@ -1,6 +1,6 @@
 //! The plant at the edges of what a master may ask for.
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 
 use crate::support::{Base, Names, fresh, names, ok, real_bits, silent};
 
@@ -17,14 +17,14 @@ fn every_rising_edge_of_the_request_dumps_once() {
     ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[1e6; 3]));
     ok(instance.start(0.0, None));
     let request = names.of(Base::Boolean, "dump.request");
-    let mut wanted = 0;
+    let mut expected = 0;
     for (step, (on, rises)) in
         [(0, 0), (1, 1), (1, 0), (0, 0), (1, 1), (0, 0), (0, 0), (1, 1), (1, 0)].into_iter().enumerate()
     {
         ok(instance.set_boolean(&[request], &[on]));
         ok(instance.do_step(60.0 * step as f64, 60.0));
-        wanted += rises;
-        assert_eq!(integer(&mut instance, &names, "dump.count"), wanted, "step {step}");
+        expected += rises;
+        assert_eq!(integer(&mut instance, &names, "dump.count"), expected, "step {step}");
     }
 }
 
@@ -76,7 +76,7 @@ fn looking_and_setting_the_same_change_no_bit() {
     for step in 0..200 {
         let at_s = 600.0 * f64::from(step);
         ok(plain.do_step(at_s, 600.0));
-        // The same flight, cut at odd places.
+        // The same simulation, cut at odd places.
         ok(watched.set_real(&torque, &[0.0; 3]));
         ok(watched.do_step(at_s, 100.0));
         let _ = real_bits(&mut watched, &reals);

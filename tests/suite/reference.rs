@@ -1,6 +1,6 @@
 //! Recorded trajectories under `tests/reference`: a change that moves a number is seen, and made on purpose.
 //!
-//! Every flight is a `heliotorque run` of a packed FMU. A value may differ from the recorded one by 1e-12 of its column's
+//! Every simulation is a `heliotorque run` of a packed FMU. A value may differ from the recorded one by 1e-12 of its column's
 //! largest magnitude (sines come from the host's libm), a time of an event by 1e-9 s and four units in the last place.
 //! After a deliberate change `HELIOTORQUE_BLESS=1 cargo xtask test` writes the files and their pictures anew.
 
@@ -21,7 +21,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("reference")
 }
 
-/// Flies `fmu` with `arguments` and compares with `reference/<name>.csv`.
+/// Runs `fmu` with `arguments` and compares with `reference/<name>.csv`.
 #[track_caller]
 fn compare(heliotorque: &Path, fmu: &Path, name: &str, arguments: &[&str]) {
     let scratch = tempfile::tempdir().unwrap();
@@ -86,7 +86,7 @@ fn difference(recorded: &str, found: &str) -> Option<String> {
 }
 
 #[test]
-fn messenger_flies_90_days_as_recorded() {
+fn messenger_runs_90_days_as_recorded() {
     let (Some(heliotorque), Some(dist)) = (built("HELIOTORQUE"), built("HELIOTORQUE_DIST")) else { return };
     let arguments = [
         "--stop=90d",
@@ -102,7 +102,7 @@ fn messenger_flies_90_days_as_recorded() {
 }
 
 #[test]
-fn the_orbiter_flies_10_days_with_every_effect_as_recorded() {
+fn the_orbiter_runs_10_days_with_every_effect_as_recorded() {
     let (Some(heliotorque), Some(dist)) = (built("HELIOTORQUE"), built("HELIOTORQUE_DIST")) else { return };
     let scratch = tempfile::tempdir().unwrap();
     let fmu = scratch.path().join("Orbiter.fmu");
@@ -134,7 +134,7 @@ fn the_orbiter_flies_10_days_with_every_effect_as_recorded() {
 }
 
 #[test]
-fn ace_flies_its_manoeuvre_as_recorded() {
+fn ace_runs_its_manoeuvre_as_recorded() {
     let (Some(heliotorque), Some(dist)) = (built("HELIOTORQUE"), built("HELIOTORQUE_DIST")) else { return };
     let arguments = [
         "--stop=1400",

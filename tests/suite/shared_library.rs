@@ -6,7 +6,7 @@ use std::path::Path;
 
 use fmi_export::Enumeration;
 use loader::{Fmu, InstanceOptions, Value, platform_folders};
-use probe::panicking::Accident;
+use probe::panicking::Fault;
 
 use crate::support::{LIBRARY, built, description};
 
@@ -25,7 +25,7 @@ pub fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
     Fmu::open(&folder).unwrap()
 }
 
-fn flying(fmu: &Fmu, name: &str) -> loader::Instance {
+fn running(fmu: &Fmu, name: &str) -> loader::Instance {
     let mut instance = fmu.instantiate(name, &InstanceOptions::default()).unwrap();
     instance.setup_experiment(None, 0.0, None).unwrap();
     instance.enter_initialization_mode().unwrap();
@@ -39,17 +39,17 @@ fn panics_stay_inside_the_library() {
     let base = tempfile::tempdir().unwrap();
     let fmu = folder(base.path(), "Panicking", &library);
     let other = folder(base.path(), "AllTypes", &library);
-    let (mut neighbour, mut stranger) = (flying(&fmu, "neighbour"), flying(&other, "stranger"));
-    let in_step = [Accident::Step, Accident::StepPayload, Accident::StepPayloadDrop, Accident::StepIndex];
-    for (number, accident) in in_step.into_iter().enumerate() {
-        let mut unlucky = flying(&fmu, "unlucky");
-        let value = Value::Integer(accident.value());
-        unlucky.set("accident", &value).unwrap();
+    let (mut neighbour, mut stranger) = (running(&fmu, "neighbour"), running(&other, "stranger"));
+    let in_step = [Fault::Step, Fault::StepPayload, Fault::StepPayloadDrop, Fault::StepIndex];
+    for (number, fault) in in_step.into_iter().enumerate() {
+        let mut unlucky = running(&fmu, "unlucky");
+        let value = Value::Integer(fault.value());
+        unlucky.set("fault", &value).unwrap();
         let error = unlucky.do_step(0.0, 0.5, true).unwrap_err().to_string();
-        assert!(error.contains("fmi2DoStep"), "{accident:?}: {error}");
-        assert!(unlucky.messages().iter().any(|it| it.text.contains("panic")), "{accident:?}");
+        assert!(error.contains("fmi2DoStep"), "{fault:?}: {error}");
+        assert!(unlucky.messages().iter().any(|it| it.text.contains("panic")), "{fault:?}");
         // Nothing but freeing works, and that does.
-        assert!(unlucky.reset().is_err(), "{accident:?}");
+        assert!(unlucky.reset().is_err(), "{fault:?}");
         drop(unlucky);
         let time_s = 0.5 * number as f64;
         neighbour.do_step(time_s, 0.5, true).unwrap();
@@ -76,7 +76,7 @@ fn both_copies_of_a_library_serve_their_own_states() {
     let Some(library) = built("HELIOTORQUE_PROBE_LIBRARY") else { return };
     let base = tempfile::tempdir().unwrap();
     let copies = ["one", "two"].map(|name| folder(&base.path().join(name), "AllTypes", &library));
-    let mut instances = copies.each_ref().map(|fmu| flying(fmu, "all types"));
+    let mut instances = copies.each_ref().map(|fmu| running(fmu, "all types"));
     for (number, instance) in instances.iter_mut().enumerate() {
         instance.set_real("input.real", number as f64 + 1.0).unwrap();
         instance.do_step(0.0, 1.0, true).unwrap();

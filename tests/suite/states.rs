@@ -4,10 +4,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fmi_export::abi::{InProcess, StatePointer};
+use client::{InProcess, StatePointer};
 
-use crate::flights::{Flight, Style};
-use crate::support::{self, Base, Dice, everything, fresh, in_a_process_of_its_own, names, ok};
+use crate::scenarios::{Scenario, Simulation};
+use crate::support::{self, Base, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok};
 
 const POINTS: usize = 12;
 const STEPS: u64 = 50;
@@ -20,15 +20,16 @@ struct Place {
 }
 
 /// All that a master can see after each of the steps that follow a restored state, as text.
-fn onward(instance: InProcess, style: Style, place: Place) -> (String, InProcess) {
+fn onward(instance: InProcess, scenario: Scenario, place: Place) -> (String, InProcess) {
     let Place { step_number, time_s } = place;
-    let mut flight = Flight { instance, names: names(style.model()), style, step_number, time_s };
+    let mut simulation =
+        Simulation { instance, names: names(scenario.model()), scenario, step_number, time_s };
     let mut seen = String::new();
     for _ in 0..STEPS {
-        flight.step();
-        writeln!(seen, "{:?}", everything(&mut flight.instance, &flight.names)).unwrap();
+        simulation.step();
+        writeln!(seen, "{:?}", everything(&mut simulation.instance, &simulation.names)).unwrap();
     }
-    (seen, flight.instance)
+    (seen, simulation.instance)
 }
 
 fn restored(mut instance: InProcess, bytes: &[u8]) -> InProcess {
@@ -38,39 +39,39 @@ fn restored(mut instance: InProcess, bytes: &[u8]) -> InProcess {
     instance
 }
 
-/// Length of a flight, in s: the plant's 90 days, the spinner's burn and what follows, some hundred geometries.
-fn length_s(style: Style) -> f64 {
-    match style.model() {
+/// Length of a simulation, in s: the plant's 90 days, the spinner's burn and what follows, some hundred geometries.
+fn length_s(scenario: Scenario) -> f64 {
+    match scenario.model() {
         "MomentumPlant" => 90.0 * 86_400.0,
         _ => 3_000.0,
     }
 }
 
-fn saved_flights_go_on(style: Style, child_test: &str) {
-    let mut dice = Dice(style as u64 + 7);
-    let mut times_s: Vec<f64> = (0..POINTS).map(|_| length_s(style) * dice.unit()).collect();
+fn saved_simulations_go_on(scenario: Scenario, child_test: &str) {
+    let mut random = RandomNumbers(scenario as u64 + 7);
+    let mut times_s: Vec<f64> = (0..POINTS).map(|_| length_s(scenario) * random.unit()).collect();
     times_s.sort_by(f64::total_cmp);
     let folder = tempfile::tempdir().unwrap();
-    let mut flight = Flight::new(style);
+    let mut simulation = Simulation::new(scenario);
     let mut elsewhere = Vec::new();
     for (number, until_s) in times_s.iter().enumerate() {
-        while flight.time_s < *until_s {
-            flight.step();
+        while simulation.time_s < *until_s {
+            simulation.step();
         }
-        let place = Place { step_number: flight.step_number, time_s: flight.time_s };
+        let place = Place { step_number: simulation.step_number, time_s: simulation.time_s };
         let mut state = StatePointer::null();
-        ok(flight.instance.get_state(&mut state));
-        let (status, bytes) = flight.instance.serialize(&state);
+        ok(simulation.instance.get_state(&mut state));
+        let (status, bytes) = simulation.instance.serialize(&state);
         ok(status);
-        let (straight, mut instance) = onward(flight.instance, style, place);
+        let (straight, mut instance) = onward(simulation.instance, scenario, place);
         ok(instance.set_state(&state));
-        let (again, mut instance) = onward(instance, style, place);
-        assert!(again == straight, "{style:?} at {until_s} s: the same instance");
+        let (again, mut instance) = onward(instance, scenario, place);
+        assert!(again == straight, "{scenario:?} at {until_s} s: the same instance");
         ok(instance.reset());
-        let (after_reset, instance) = onward(restored(instance, &bytes), style, place);
-        assert!(after_reset == straight, "{style:?} at {until_s} s: after Reset");
-        let (other, _) = onward(restored(fresh(style.model()), &bytes), style, place);
-        assert!(other == straight, "{style:?} at {until_s} s: another instance");
+        let (after_reset, instance) = onward(restored(instance, &bytes), scenario, place);
+        assert!(after_reset == straight, "{scenario:?} at {until_s} s: after Reset");
+        let (other, _) = onward(restored(fresh(scenario.model()), &bytes), scenario, place);
+        assert!(other == straight, "{scenario:?} at {until_s} s: another instance");
         std::fs::write(folder.path().join(format!("{number}.state")), &bytes).unwrap();
         std::fs::write(
             folder.path().join(format!("{number}.place")),
@@ -78,85 +79,88 @@ fn saved_flights_go_on(style: Style, child_test: &str) {
         )
         .unwrap();
         elsewhere.push(straight);
-        // The flight itself goes on from the saved point.
-        flight.instance = restored(instance, &bytes);
+        // The simulation itself goes on from the saved point.
+        simulation.instance = restored(instance, &bytes);
     }
     in_a_process_of_its_own(child_test, CHILD_FOLDER, folder.path().as_os_str());
     for (number, straight) in elsewhere.iter().enumerate() {
         let seen = std::fs::read_to_string(folder.path().join(format!("{number}.seen"))).unwrap();
-        assert!(seen == *straight, "{style:?} point {number}: another process");
+        assert!(seen == *straight, "{scenario:?} point {number}: another process");
     }
 }
 
 const CHILD_FOLDER: &str = "HELIOTORQUE_TEST_STATES";
 
 /// What the other process does.
-fn child(style: Style, folder: &Path) {
+fn child(scenario: Scenario, folder: &Path) {
     for number in 0..POINTS {
         let read = |kind: &str| std::fs::read(folder.join(format!("{number}.{kind}"))).unwrap();
         let place = String::from_utf8(read("place")).unwrap();
         let (step_number, time_s) = place.split_once(' ').unwrap();
         let place = Place { step_number: step_number.parse().unwrap(), time_s: time_s.parse().unwrap() };
-        let (seen, _) = onward(restored(fresh(style.model()), &read("state")), style, place);
+        let (seen, _) = onward(restored(fresh(scenario.model()), &read("state")), scenario, place);
         std::fs::write(folder.join(format!("{number}.seen")), seen).unwrap();
     }
 }
 
-fn in_this_process_and_another(style: Style, test: &str) {
+fn in_this_process_and_another(scenario: Scenario, test: &str) {
     match std::env::var_os(CHILD_FOLDER) {
-        Some(folder) => child(style, Path::new(&folder)),
-        None => saved_flights_go_on(style, test),
+        Some(folder) => child(scenario, Path::new(&folder)),
+        None => saved_simulations_go_on(scenario, test),
     }
 }
 
 #[test]
-fn a_guided_flight_goes_on_from_any_saved_point() {
-    in_this_process_and_another(Style::Guided, "states::a_guided_flight_goes_on_from_any_saved_point");
+fn a_guided_simulation_goes_on_from_any_saved_point() {
+    in_this_process_and_another(Scenario::Guided, "states::a_guided_simulation_goes_on_from_any_saved_point");
 }
 
 #[test]
-fn a_commanded_flight_goes_on_from_any_saved_point() {
-    in_this_process_and_another(Style::Commanded, "states::a_commanded_flight_goes_on_from_any_saved_point");
+fn a_commanded_simulation_goes_on_from_any_saved_point() {
+    in_this_process_and_another(
+        Scenario::Commanded,
+        "states::a_commanded_simulation_goes_on_from_any_saved_point",
+    );
 }
 
 #[test]
-fn a_lit_flight_goes_on_from_any_saved_point() {
-    in_this_process_and_another(Style::Lit, "states::a_lit_flight_goes_on_from_any_saved_point");
+fn a_lit_simulation_goes_on_from_any_saved_point() {
+    in_this_process_and_another(Scenario::Lit, "states::a_lit_simulation_goes_on_from_any_saved_point");
 }
 
 #[test]
 fn a_burn_goes_on_from_any_saved_point() {
-    in_this_process_and_another(Style::Burning, "states::a_burn_goes_on_from_any_saved_point");
+    in_this_process_and_another(Scenario::Burning, "states::a_burn_goes_on_from_any_saved_point");
 }
 
 #[test]
 fn a_memoryless_model_goes_on_from_any_saved_point() {
-    in_this_process_and_another(Style::Placed, "states::a_memoryless_model_goes_on_from_any_saved_point");
+    in_this_process_and_another(Scenario::Placed, "states::a_memoryless_model_goes_on_from_any_saved_point");
 }
 
 #[test]
 fn a_fired_spinner_goes_on_from_any_saved_point() {
-    in_this_process_and_another(Style::Fired, "states::a_fired_spinner_goes_on_from_any_saved_point");
+    in_this_process_and_another(Scenario::Fired, "states::a_fired_spinner_goes_on_from_any_saved_point");
 }
 
 /// Time, values, derivatives, model state, history: Reset leaves none of them.
 #[test]
 fn reset_is_a_fresh_instance_to_the_byte() {
-    for style in Style::ALL {
-        let mut flight = Flight::new(style);
-        (0..200).for_each(|_| flight.step());
-        ok(flight.instance.reset());
-        assert_eq!(flight.bytes(), fresh(style.model()).state_bytes().1);
-        // And it flies like one.
-        let mut fresh_flight = Flight::new(style);
-        ok(flight.instance.set_debug_logging(false, &[]));
-        style.prepare(&mut flight.instance, &flight.names);
-        ok(flight.instance.start(0.0, None));
-        (flight.step_number, flight.time_s) = (0, 0.0);
+    for scenario in Scenario::ALL {
+        let mut simulation = Simulation::new(scenario);
+        (0..200).for_each(|_| simulation.step());
+        ok(simulation.instance.reset());
+        assert_eq!(simulation.bytes(), fresh(scenario.model()).state_bytes().1);
+        // And it runs like one.
+        let mut fresh_simulation = Simulation::new(scenario);
+        ok(simulation.instance.set_debug_logging(false, &[]));
+        scenario.prepare(&mut simulation.instance, &simulation.names);
+        ok(simulation.instance.start(0.0, None));
+        (simulation.step_number, simulation.time_s) = (0, 0.0);
         for _ in 0..50 {
-            flight.step();
-            fresh_flight.step();
-            assert_eq!(flight.bytes(), fresh_flight.bytes());
+            simulation.step();
+            fresh_simulation.step();
+            assert_eq!(simulation.bytes(), fresh_simulation.bytes());
         }
     }
 }
@@ -164,7 +168,7 @@ fn reset_is_a_fresh_instance_to_the_byte() {
 #[test]
 fn reset_is_a_fresh_instance_from_every_mode() {
     for model in ["Empty", "AllTypes", "Panicking"] {
-        let wanted = fresh(model).state_bytes();
+        let expected = fresh(model).state_bytes();
         let stages: [fn(&mut InProcess); 5] = [
             |instance| ok(instance.setup_experiment(3.0, Some(9.0))),
             |instance| ok(instance.enter_initialization_mode()),
@@ -176,17 +180,17 @@ fn reset_is_a_fresh_instance_from_every_mode() {
             let mut instance = fresh(model);
             stages[..=last].iter().for_each(|stage| stage(&mut instance));
             ok(instance.reset());
-            assert_eq!(instance.state_bytes(), wanted, "{model} after stage {last}");
+            assert_eq!(instance.state_bytes(), expected, "{model} after stage {last}");
         }
         // Out of the error state.
         let mut instance = fresh(model);
-        assert_ne!(instance.terminate(), fmi_export::Status::Ok);
+        assert_ne!(instance.terminate(), model_description::Status::Ok);
         ok(instance.reset());
-        assert_eq!(instance.state_bytes(), wanted, "{model} after an error");
+        assert_eq!(instance.state_bytes(), expected, "{model} after an error");
     }
     let names = support::names("AllTypes");
     let mut instance = fresh("AllTypes");
-    let wanted = instance.state_bytes();
+    let expected = instance.state_bytes();
     ok(instance.set_string(&[names.of(Base::Text, "tunable.text")], &[b"other"]));
     ok(instance.start(0.0, None));
     ok(instance.set_real(&[names.real("input.real")], &[2.0]));
@@ -194,5 +198,5 @@ fn reset_is_a_fresh_instance_from_every_mode() {
     ok(instance.do_step(0.0, 1.0));
     ok(instance.set_boolean(&[names.of(Base::Boolean, "input.boolean")], &[1]));
     ok(instance.reset());
-    assert_eq!(instance.state_bytes(), wanted);
+    assert_eq!(instance.state_bytes(), expected);
 }

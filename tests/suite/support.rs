@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library, Status};
 use model_description::{Description, VariableKind};
 use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
@@ -153,9 +153,9 @@ pub fn everything(instance: &mut InProcess, names: &Names) -> (Vec<u64>, Vec<i32
 }
 
 /// Pseudo-random numbers, the same in every run: a Weyl sequence through an avalanche (splitmix64).
-pub struct Dice(pub u64);
+pub struct RandomNumbers(pub u64);
 
-impl Dice {
+impl RandomNumbers {
     /// Any 64 bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -176,7 +176,7 @@ impl Dice {
 }
 
 /// Runs one test of this program again, in a process of its own with an environment variable set, and gives what it
-/// said. Fails unless that test was there, ran and passed.
+/// printed. Fails unless that test was there, ran and passed.
 #[track_caller]
 pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> String {
     let output = Command::new(std::env::current_exe().unwrap())
@@ -184,11 +184,11 @@ pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> Str
         .env(variable, value)
         .output()
         .unwrap();
-    let said =
+    let printed =
         [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
     // A name that matches nothing succeeds too.
-    assert!(output.status.success() && said.contains("test result: ok. 1 passed"), "{test}: {said}");
-    said
+    assert!(output.status.success() && printed.contains("test result: ok. 1 passed"), "{test}: {printed}");
+    printed
 }
 
 /// The path in an environment variable that `cargo xtask test` sets; without it the test says so and ends, and fails in

@@ -9,7 +9,7 @@ use crate::test::compile_c;
 
 /// Kernel benchmarks, as examples of `physics`.
 const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
-/// The study is flown this often; the median counts.
+/// The study is simulated this often; the median counts.
 const STUDY_RUNS: usize = 3;
 
 /// Kernels (Rust examples of `physics`), the C interface, a whole study.
@@ -63,6 +63,6 @@ fn study(built: &Built) -> Outcome {
         seconds.push(begin.elapsed().as_secs_f64());
     }
     seconds.sort_by(f64::total_cmp);
-    println!("bench study_momentum_table2_30_flights {:.2} s", seconds[STUDY_RUNS / 2]);
+    println!("bench study_momentum_table2_30_simulations {:.2} s", seconds[STUDY_RUNS / 2]);
     Ok(())
 }

@@ -19,14 +19,14 @@ pub fn environment() -> Result<Option<(&'static str, PathBuf)>, String> {
     }
     let folder = target().join("locale");
     if !is_in(&folder) {
-        if !need("localedef", "the flight under a comma locale")? {
+        if !need("localedef", "the simulation under a comma locale")? {
             return Ok(None);
         }
         if !Path::new(SOURCE).exists() {
             return if std::env::var_os("CI").is_some() {
-                Err(format!("`{SOURCE}` is missing, needed for the flight under a comma locale"))
+                Err(format!("`{SOURCE}` is missing, needed for the simulation under a comma locale"))
             } else {
-                eprintln!("skipped: the flight under a comma locale (no `{SOURCE}` on this machine)");
+                eprintln!("skipped: the simulation under a comma locale (no `{SOURCE}` on this machine)");
                 Ok(None)
             };
         }

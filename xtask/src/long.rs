@@ -212,18 +212,18 @@ fn on_a_full_disk(
     full_disk: &Path,
     (arguments, option, file): (&[&str], &str, &str),
 ) -> Outcome {
-    let [room, unpacked] = [scratch.join("room"), scratch.join("unpacked")];
-    let target = room.join(file);
+    let [target_folder, unpacked] = [scratch.join("full-disk"), scratch.join("unpacked")];
+    let target = target_folder.join(file);
     let named = format!("heliotorque {} {option} {file}", arguments[0]);
-    let at_room = |error: std::io::Error| format!("{}: {error}", room.display());
+    let at_target = |error: std::io::Error| format!("{}: {error}", target_folder.display());
     for write in 1..=MOST_WRITES {
-        for folder in [&room, &unpacked] {
+        for folder in [&target_folder, &unpacked] {
             if folder.exists() {
-                fs::remove_dir_all(folder).map_err(at_room)?;
+                fs::remove_dir_all(folder).map_err(at_target)?;
             }
-            fs::create_dir_all(folder).map_err(at_room)?;
+            fs::create_dir_all(folder).map_err(at_target)?;
         }
-        fs::write(&target, OLD).map_err(at_room)?;
+        fs::write(&target, OLD).map_err(at_target)?;
         let output = command(&built.heliotorque)
             .args(arguments)
             .arg(option)
@@ -237,27 +237,29 @@ fn on_a_full_disk(
             eprintln!("{named}: {} writes failed in turn, each told and none torn", write - 1);
             return if write > 1 { Ok(()) } else { Err(format!("{named}: wrote nothing that could fail")) };
         }
-        let said = String::from_utf8_lossy(&output.stderr);
+        let stderr = String::from_utf8_lossy(&output.stderr);
         let fault =
-            |what: &str| Err(format!("{named}, disk full from write {write} on: {what}; it said: {said}"));
+            |what: &str| Err(format!("{named}, disk full from write {write} on: {what}; stderr: {stderr}"));
         if output.status.code().is_none() {
             return fault("it crashed");
         }
-        if !said.contains("No space left") {
+        if !stderr.contains("No space left") {
             return fault("the cause is not told");
         }
-        if !said.contains(file) && !said.contains(&*unpacked.to_string_lossy()) {
+        if !stderr.contains(file) && !stderr.contains(&*unpacked.to_string_lossy()) {
             return fault("no file is named");
         }
         if fs::read(&target).ok().as_deref() != Some(OLD.as_bytes()) {
             return fault("the old file is torn or gone");
         }
-        if fs::read_dir(&unpacked).map_err(at_room)?.next().is_some() {
+        if fs::read_dir(&unpacked).map_err(at_target)?.next().is_some() {
             return fault("it left what it unpacked");
         }
         // A recording in progress stays as far as it came.
-        let left =
-            fs::read_dir(&room).map_err(at_room)?.filter_map(Result::ok).map(|entry| entry.file_name());
+        let left = fs::read_dir(&target_folder)
+            .map_err(at_target)?
+            .filter_map(Result::ok)
+            .map(|entry| entry.file_name());
         if let Some(left) = left.into_iter().find(|name| name != file && *name != *format!("{file}.part")) {
             return fault(&format!("it left {}", left.display()));
         }

@@ -16,7 +16,7 @@ use shell::Outcome;
 const HELP: &str = "\
 cargo xtask <task>
 
-  demo    build the library, pack dist/MomentumPlant.fmu, fly paper 000's 90 days, compare with its Table 2
+  demo    build the library, pack dist/MomentumPlant.fmu, simulate paper 000's 90 days, compare with its Table 2
   test    everything that must hold: format, lints, Rust tests, FMPy, C client
   test --long
           the same, then what hunts longer: each fuzz target of tests/fuzz for a minute (cargo-fuzz, nightly), the C

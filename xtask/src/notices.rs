@@ -1,6 +1,9 @@
 //! `cargo xtask notices`: the licences of the crates linked into the shared library, as every FMU carries them.
 //!
 //! The text is committed, so that packing needs no sources, and a test compares it with what `Cargo.lock` asks for.
+//!
+//! Why not `cargo-about`: it is a program to install, from the network and in minutes, before the test could run on a
+//! fresh machine; and it knows neither the Rust standard library nor GCC's unwinder, whose notices stand here too.
 
 use std::{
     collections::BTreeMap,
@@ -168,8 +171,8 @@ mod tests {
     #[test]
     fn lines_of_the_tree_are_crates_of_others() {
         let found = crate_of("toml v1.2.1+spec-1.1.0|MIT OR Apache-2.0 (*)").unwrap();
-        let wanted = ["toml", "1.2.1+spec-1.1.0", "MIT OR Apache-2.0"];
-        assert_eq!([found.name.as_str(), found.version.as_str(), found.license.as_str()], wanted);
+        let expected = ["toml", "1.2.1+spec-1.1.0", "MIT OR Apache-2.0"];
+        assert_eq!([found.name.as_str(), found.version.as_str(), found.license.as_str()], expected);
         assert_eq!(crate_of("physics v0.1.0 (/home/me/physics)|MIT OR Apache-2.0"), None);
         assert_eq!(crate_of(""), None);
     }

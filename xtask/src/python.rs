@@ -7,19 +7,19 @@ use crate::shell::{self, command, output, root, run};
 /// Python interpreter of the tests' environment, set up on first use and again when the pins change.
 pub fn interpreter() -> Result<PathBuf, String> {
     let requirements = root().join("tests").join("python").join("requirements.txt");
-    let wanted = std::fs::read_to_string(&requirements)
+    let expected = std::fs::read_to_string(&requirements)
         .map_err(|error| format!("cannot read {}: {error}", requirements.display()))?;
     let folder = shell::target().join("python");
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let stamp = folder.join("requirements.txt");
-    if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) && shell_ok(&python) {
+    if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == expected) && shell_ok(&python) {
         return Ok(python);
     }
     run(command("python3").args(["-m", "venv", "--clear"]).arg(&folder))?;
     run(command(&python)
         .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"])
         .arg(&requirements))?;
-    std::fs::write(&stamp, wanted).map_err(|error| format!("cannot write {}: {error}", stamp.display()))?;
+    std::fs::write(&stamp, expected).map_err(|error| format!("cannot write {}: {error}", stamp.display()))?;
     Ok(python)
 }
 

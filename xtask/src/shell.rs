@@ -44,8 +44,8 @@ pub fn output(command: &mut Command) -> Result<String, String> {
     let shown = show(command);
     let output = command.output().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
     if !output.status.success() {
-        let complaint = String::from_utf8_lossy(&output.stderr);
-        return Err(format!("`{shown}` ended with {}: {complaint}", output.status));
+        let message = String::from_utf8_lossy(&output.stderr);
+        return Err(format!("`{shown}` ended with {}: {message}", output.status));
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }

@@ -35,18 +35,13 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     Ok(quote! {
         #[automatically_derived]
         impl ::fmi_export::Enumeration for #ident {
-            const TYPE_NAME: &'static str = #type_name;
-            const DESCRIPTION: &'static str = #about;
-
-            fn items() -> ::std::vec::Vec<::fmi_export::variables::EnumerationItem> {
-                ::std::vec![#(
-                    ::fmi_export::variables::EnumerationItem {
-                        name: ::std::string::String::from(#names),
-                        value: #values,
-                        description: ::core::option::Option::Some(::std::string::String::from(#descriptions)),
-                    }
-                ),*]
-            }
+            const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
+                name: #type_name,
+                description: #about,
+                items: &[#(
+                    ::fmi_export::variables::Item { name: #names, value: #values, description: #descriptions }
+                ),*],
+            };
 
             fn from_value(value: i32) -> ::core::option::Option<Self> {
                 match value {

@@ -1,9 +1,13 @@
-//! The model trait: what an author writes, and in which order it is called.
+//! The model traits: what an author writes, and in which order it is called. They are free of any version of FMI.
+//!
+//! [`Model`] is for every model. [`OutputRates`] and [`Differentiable`] are optional and named in
+//! [`Model::EXTENSIONS`]; what else a model may offer (continuous states with rates and event indicators) becomes another
+//! trait and another field there.
 
-use serde::{Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::dependencies::Dependencies;
-use crate::start::StartValue;
+use crate::fmi2::StartValue;
 use crate::variables::{Real, RealVector, Values, Variables};
 
 /// A co-simulation model.
@@ -12,7 +16,7 @@ use crate::variables::{Real, RealVector, Values, Variables};
 /// parameters changed before the first step (it is a pure function of its arguments and may run several
 /// times), then [`Model::step`] with strictly increasing times. Between two steps the state may be cloned,
 /// serialised, restored or thrown away. All a model knows is in `Setup` (immutable, shared), `Values` (what
-/// the master sees) and `State` (what only the model sees); there is nothing else, so restoring these
+/// the importer sees) and `State` (what only the model sees); there is nothing else, so restoring these
 /// restores the model to the bit.
 pub trait Model: Sized + 'static {
     /// `modelName` and default `modelIdentifier`: a C identifier.
@@ -25,12 +29,8 @@ pub trait Model: Sized + 'static {
     const DEFAULT_SETUP: &'static str;
     /// By what the model computes, for its manual.
     const SOURCES: &'static [Source] = &[];
-    /// Highest order `fmi2GetRealOutputDerivatives` answers.
-    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 0;
-    /// Whether input derivatives have an effect.
-    const CAN_INTERPOLATE_INPUTS: bool = true;
-    /// Whether [`Model::directional_derivative`] is implemented.
-    const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = false;
+    /// The optional traits that the model has beside this one.
+    const EXTENSIONS: Extensions<Self> = Extensions::none();
 
     /// What the resources describe; serialised only to enter the GUID.
     type Setup: Serialize + Send + Sync + 'static;
@@ -59,15 +59,15 @@ pub trait Model: Sized + 'static {
         start_time_s: f64,
     ) -> Result<Self::State, Failure>;
 
-    /// Advances from `step.start_s` to exactly `step.end_s` and writes the outputs there.
+    /// Advances from `step.start_s` to `step.end_s`, or to an earlier time that it gives back, and writes the outputs there.
     ///
-    /// On an error the instance is in FMI's error state: `state` and `values` may be half written.
+    /// After an error the instance is not used further: `state` and `values` may be half written.
     fn step(
         context: &Context<'_, Self>,
         values: &mut Values,
         state: &mut Self::State,
         step: &Step<'_>,
-    ) -> Result<(), Failure>;
+    ) -> Result<StepEnd, Failure>;
 
     /// Checks a length or index inside a decoded state against the setup; an error refuses the blob.
     fn check_state(_setup: &Self::Setup, _state: &Self::State) -> Result<(), Failure> {
@@ -80,39 +80,81 @@ pub trait Model: Sized + 'static {
         Ok(())
     }
 
-    /// First time derivative of an output at the last communication point; `None` counts as 0.
-    fn output_derivative(
-        _context: &Context<'_, Self>,
-        _values: &Values,
-        _state: &Self::State,
-        _output: Real,
-    ) -> Option<f64> {
-        None
-    }
-
-    /// The parameter by which the master chooses how exact the results are, if there is one. A tolerance given to
-    /// `fmi2SetupExperiment` becomes its value (within its limits) before [`Model::initialize`], unless the master set the
-    /// parameter itself. Its default should be [`About::tolerance`]: masters give that back.
+    /// The parameter by which the importer chooses how exact the results are, if there is one. A tolerance of the experiment
+    /// becomes its value (within its limits) before [`Model::initialize`], unless the importer set the parameter itself. Its
+    /// default should be [`About::tolerance`]: importers give that back.
     fn tolerance(_variables: &Self::Variables) -> Option<Real> {
         None
     }
 
-    /// What every output and calculated parameter depends on: the union over all values of all options. Written as
-    /// `dependencies` under `ModelStructure`; an unknown without a row is refused.
+    /// What every output and calculated parameter depends on: the union over all values of all options. An unknown without
+    /// a row is refused.
     fn dependencies(setup: &Self::Setup, variables: &Self::Variables) -> Dependencies;
+}
 
-    /// Product of the Jacobian d(unknown)/d(known) with `seed` at the last communication point.
-    /// `unknowns`, `knowns` are value references of Reals; `result` is as long as `unknowns`.
-    fn directional_derivative(
-        _context: &Context<'_, Self>,
-        _values: &Values,
-        _state: &Self::State,
-        _unknowns: &[u32],
-        _knowns: &[u32],
-        _seed: &[f64],
-        _result: &mut [f64],
-    ) -> Result<(), Failure> {
-        Err(Failure::new("this model provides no directional derivatives"))
+/// A model that knows how fast its outputs change.
+pub trait OutputRates: Model {
+    /// First time derivative of an output at the last communication point; `None` counts as 0.
+    fn output_rate(
+        context: &Context<'_, Self>,
+        values: &Values,
+        state: &Self::State,
+        output: Real,
+    ) -> Option<f64>;
+}
+
+/// A model with partial derivatives.
+pub trait Differentiable: Model {
+    /// The Jacobian d(unknowns)/d(knowns) at the last communication point times a vector: `seeds` are the knowns, each with
+    /// its component of the vector, one known perhaps several times; `products` is as long as `unknowns`.
+    fn jacobian_vector_product(
+        context: &Context<'_, Self>,
+        values: &Values,
+        state: &Self::State,
+        unknowns: &[Real],
+        seeds: &[(Real, f64)],
+        products: &mut [f64],
+    ) -> Result<(), Failure>;
+}
+
+type OutputRate<M> = fn(&Context<'_, M>, &Values, &<M as Model>::State, Real) -> Option<f64>;
+type JacobianVectorProduct<M> = fn(
+    &Context<'_, M>,
+    &Values,
+    &<M as Model>::State,
+    &[Real],
+    &[(Real, f64)],
+    &mut [f64],
+) -> Result<(), Failure>;
+
+/// The optional traits that a model has: `Extensions::none().output_rates().differentiable()`.
+pub struct Extensions<M: Model> {
+    pub(crate) output_rate: Option<OutputRate<M>>,
+    pub(crate) jacobian_vector_product: Option<JacobianVectorProduct<M>>,
+}
+
+impl<M: Model> Extensions<M> {
+    /// [`Model`] alone.
+    pub const fn none() -> Self {
+        Self { output_rate: None, jacobian_vector_product: None }
+    }
+
+    /// With [`OutputRates`].
+    #[must_use]
+    pub const fn output_rates(self) -> Self
+    where
+        M: OutputRates,
+    {
+        Self { output_rate: Some(M::output_rate), ..self }
+    }
+
+    /// With [`Differentiable`].
+    #[must_use]
+    pub const fn differentiable(self) -> Self
+    where
+        M: Differentiable,
+    {
+        Self { jacobian_vector_product: Some(M::jacobian_vector_product), ..self }
     }
 }
 
@@ -128,53 +170,110 @@ pub struct Context<'a, M: Model> {
 
 /// Receives a model's messages.
 pub trait Log {
-    /// Whether the category `logEvents` is listened to; ask before formatting a message.
+    /// Whether events are logged; ask before formatting a message.
     fn events_enabled(&self) -> bool;
     /// Reports an event at a time; `message` is plain text.
     fn event(&self, time_s: f64, message: &str);
-    /// Reports something odd the instance lives with.
+    /// Reports something that the simulation goes on with and its user should know.
     fn warning(&self, message: &str);
 }
 
-/// One communication step.
+/// One step.
 #[derive(Clone, Copy)]
 pub struct Step<'a> {
     /// Where the last step ended, in s.
     pub start_s: f64,
     /// Where this one ends, in s; later than `start_s`.
     pub end_s: f64,
-    /// Whether an input or tunable parameter was set to a *different* value since the last step, or input
-    /// derivatives are given for this one or ended with the last: whatever was computed ahead of `start_s` is void.
+    /// Whether an input or tunable parameter was set to a *different* value since the last step, or inputs move in this one
+    /// or did in the last: whatever was computed ahead of `start_s` is void.
     pub changed: bool,
-    /// Input derivatives (value reference, order from 1, value) at `start_s`, in no particular order.
-    pub input_derivatives: &'a [(u32, u32, f64)],
+    /// The inputs within the step.
+    pub inputs: InputsOverTime<'a>,
 }
 
-impl Step<'_> {
-    /// The input `handle` at `time_s` by its Taylor polynomial u(t) = u + sum u_k (t - start)^k / k!.
-    pub fn input(&self, values: &Values, handle: Real, time_s: f64) -> f64 {
-        let mut sum = values.real(handle);
-        for &(reference, order, derivative) in self.input_derivatives {
-            if reference == handle.reference() {
+/// Continuous inputs as functions of time: u(t) = u + sum u_k (t - start)^k / k!, with u as [`Values`] hold it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct InputsOverTime<'a> {
+    start_s: f64,
+    derivatives: &'a [InputDerivative],
+}
+
+/// One derivative of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InputDerivative {
+    /// The input.
+    pub input: Real,
+    /// Order, from 1.
+    pub order: u32,
+    /// Value at the start, in the input's unit over s to the power of the order.
+    pub value: f64,
+}
+
+impl<'a> InputsOverTime<'a> {
+    /// Inputs that keep their values.
+    pub const fn held() -> Self {
+        Self { start_s: 0.0, derivatives: &[] }
+    }
+
+    /// Inputs with these derivatives at `start_s`, in no particular order.
+    pub const fn new(start_s: f64, derivatives: &'a [InputDerivative]) -> Self {
+        Self { start_s, derivatives }
+    }
+
+    /// The time at which the derivatives hold, in s.
+    pub const fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// The derivatives of an input, by order and value.
+    pub fn derivatives(&self, input: Real) -> impl Iterator<Item = (u32, f64)> + use<'a> {
+        self.derivatives.iter().filter(move |it| it.input == input).map(|it| (it.order, it.value))
+    }
+
+    /// An input at `time_s`.
+    pub fn real(&self, values: &Values, input: Real, time_s: f64) -> f64 {
+        let mut sum = values.real(input);
+        for &InputDerivative { input: of, order, value } in self.derivatives {
+            if of == input {
                 let dt_s = time_s - self.start_s;
-                sum += (1..=order).fold(derivative, |term, k| term * dt_s / f64::from(k));
+                sum += (1..=order).fold(value, |term, k| term * dt_s / f64::from(k));
             }
         }
         sum
     }
 
-    /// The vector input `handle` at `time_s`, see [`Step::input`].
-    pub fn input_vector<const N: usize>(
-        &self,
-        values: &Values,
-        handle: RealVector<N>,
-        time_s: f64,
-    ) -> [f64; N] {
-        core::array::from_fn(|i| self.input(values, handle.element(i), time_s))
+    /// A vector of inputs at `time_s`.
+    pub fn vector<const N: usize>(&self, values: &Values, inputs: RealVector<N>, time_s: f64) -> [f64; N] {
+        core::array::from_fn(|i| self.real(values, inputs.element(i), time_s))
     }
 }
 
-/// What the XML says of a model beside its variables.
+/// Where a step ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepEnd {
+    /// The time, in s, for which the outputs are; the end of the step or earlier.
+    pub time_s: f64,
+    /// Whether something happens there that importers may want to see at its time.
+    pub event: bool,
+    /// Why the model ends the simulation here, if it does.
+    pub terminate: Option<String>,
+}
+
+impl StepEnd {
+    /// A step that ended at `time_s` without an event.
+    pub const fn at(time_s: f64) -> Self {
+        Self { time_s, event: false, terminate: None }
+    }
+
+    /// The simulation ends here, for this reason.
+    #[must_use]
+    pub fn terminate(self, reason: impl Into<String>) -> Self {
+        Self { terminate: Some(reason.into()), ..self }
+    }
+}
+
+/// What is told of a model beside its variables.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct About {
     /// One or two sentences.
@@ -187,11 +286,11 @@ pub struct About {
     pub step_size_s: f64,
     /// Relative tolerance of the results.
     pub tolerance: f64,
-    /// Who made the model; empty = not said.
+    /// Who made the model; empty: not told.
     pub author: String,
-    /// Version of the model; empty = not said.
+    /// Version of the model; empty: not told.
     pub version: String,
-    /// Licence of the model in one line; empty = not said.
+    /// Licence of the model in one line; empty: not told.
     pub license: String,
 }
 
@@ -204,40 +303,15 @@ pub struct Source {
     pub by: &'static str,
 }
 
-/// Why a model cannot go on; the text reaches the master's log.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{message}")]
-pub struct Failure {
-    message: String,
-    terminated: bool,
-    last_time_s: Option<f64>,
-}
+/// Why a model cannot go on; the text reaches the log.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Failure(String);
 
 impl Failure {
-    /// An error: the step was not carried out.
+    /// From its text.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), terminated: false, last_time_s: None }
-    }
-
-    /// The model ended by itself where the step began: `fmi2Discard` with `fmi2Terminated`.
-    pub fn terminated(message: impl Into<String>) -> Self {
-        Self { message: message.into(), terminated: true, last_time_s: None }
-    }
-
-    /// The model ended by itself at `time_s` within the step (`fmi2LastSuccessfulTime`); `values` hold the
-    /// outputs there.
-    pub fn terminated_at(message: impl Into<String>, time_s: f64) -> Self {
-        Self { message: message.into(), terminated: true, last_time_s: Some(time_s) }
-    }
-
-    /// Where the model ended, if it said so.
-    pub fn last_time_s(&self) -> Option<f64> {
-        self.last_time_s
-    }
-
-    /// Whether the model ended by itself.
-    pub fn is_terminated(&self) -> bool {
-        self.terminated
+        Self(message.into())
     }
 }
 

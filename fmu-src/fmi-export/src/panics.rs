@@ -1,4 +1,4 @@
-//! A panic stays inside: caught, turned into text, and its payload buried.
+//! A panic stays inside: caught, turned into text, and its payload dropped.
 
 use core::cell::Cell;
 use std::any::Any;
@@ -21,11 +21,11 @@ thread_local! {
     static PLACE: Cell<Option<Place>> = const { Cell::new(None) };
 }
 
-/// For a shared library, whose every panic is contained: nothing goes to standard error, where the usual hook, if
-/// RUST_BACKTRACE is set, also maps the library's file into memory for good.
-pub(crate) fn keep_quiet() {
+/// For a shared library, whose every panic is contained: nothing goes to standard error. The standard hook, if RUST_BACKTRACE
+/// is set, would also map the library's file into memory for good.
+pub(crate) fn silence() {
     static ONCE: Once = Once::new();
-    // Neither captures anything: nothing is allocated that nobody could free.
+    // Neither captures anything, so nothing is allocated that an unloaded library would leak.
     ONCE.call_once(|| set_hook(Box::new(note)));
 }
 
@@ -47,12 +47,12 @@ fn note(info: &PanicHookInfo<'_>) {
 /// drop it or to read plain data.
 #[inline]
 pub(crate) fn contain<T>(body: impl FnOnce() -> T) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(body)).map_err(bury)
+    catch_unwind(AssertUnwindSafe(body)).map_err(text_of)
 }
 
 /// The text of a panic. Dropping the payload may panic in turn; then that payload is dropped if it is text, else leaked.
 #[cold]
-fn bury(payload: Box<dyn Any + Send>) -> String {
+fn text_of(payload: Box<dyn Any + Send>) -> String {
     let mut text = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
         (Some(text), _) => (*text).to_owned(),
         (_, Some(text)) => text.clone(),
@@ -63,7 +63,7 @@ fn bury(payload: Box<dyn Any + Send>) -> String {
         text.push_str(&format!(" ({}, line {line})", file.trim_end_matches('\0')));
     }
     if let Err(second) = catch_unwind(AssertUnwindSafe(|| drop(payload))) {
-        // Text is dropped without accident; what else it may be, nobody knows.
+        // Text is dropped without a panic; anything else may panic again.
         if !second.is::<String>() && !second.is::<&str>() {
             core::mem::forget(second);
         }

@@ -2,10 +2,7 @@
 
 use std::any::Any;
 
-use crate::access::AccessTable;
-use crate::memory::content;
-use crate::model::{Context, Failure, Log, Model, Step};
-use crate::problem::{Problem, StateMismatch};
+use crate::model::{Context, Failure, Log, Model, Step, StepEnd};
 use crate::variables::{Real, Values};
 
 /// A model's state, its type erased: an `Option<M::State>`, `None` before initialization.
@@ -14,17 +11,18 @@ pub(crate) type ErasedState = Box<dyn Any + Send>;
 /// One model instance; every method is one call of the [`Model`] trait.
 pub(crate) trait Runtime: Send {
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure>;
-    fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<(), Problem>;
-    fn output_derivative(&self, values: &Values, output: u32, log: &dyn Log) -> Result<f64, Problem>;
-    fn directional_derivative(
+    fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
+    /// Whether the model knows how fast its outputs change.
+    fn has_output_rates(&self) -> bool;
+    fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure>;
+    fn jacobian_vector_product(
         &self,
         values: &Values,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        result: &mut [f64],
+        unknowns: &[Real],
+        seeds: &[(Real, f64)],
+        products: &mut [f64],
         log: &dyn Log,
-    ) -> Result<(), Problem>;
+    ) -> Result<(), Failure>;
     /// The parameter that the experiment's tolerance stands in for.
     fn tolerance(&self) -> Option<Real>;
     /// Forgets the state.
@@ -32,17 +30,17 @@ pub(crate) trait Runtime: Send {
     /// A copy of the state, in `reuse` where its type allows.
     fn save(&self, reuse: Option<ErasedState>) -> ErasedState;
     /// Takes over a saved state.
-    fn restore(&mut self, saved: &ErasedState) -> Result<(), StateMismatch>;
+    fn restore(&mut self, saved: &ErasedState) -> Result<(), Failure>;
     /// Whether a saved state holds one, that is, was taken after initialization.
     fn is_initialized(&self, saved: &ErasedState) -> bool;
     /// Bytes that [`Runtime::encode`] needs.
-    fn encoded_size(&self, saved: &ErasedState) -> Result<usize, StateMismatch>;
+    fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure>;
     /// Writes a saved state into `bytes` and says how many it took.
-    fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, StateMismatch>;
+    fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, Failure>;
     /// Reads what [`Runtime::encode`] wrote, all of `bytes`; total: any bytes give a state or an error.
-    fn decode(&self, bytes: &[u8]) -> Result<ErasedState, StateMismatch>;
+    fn decode(&self, bytes: &[u8]) -> Result<ErasedState, Failure>;
     /// Whether a decoded state belongs to a communication point.
-    fn check_time(&self, decoded: &ErasedState, time_s: f64) -> Result<(), StateMismatch>;
+    fn check_time(&self, decoded: &ErasedState, time_s: f64) -> Result<(), Failure>;
 }
 
 /// The one [`Runtime`].
@@ -57,8 +55,8 @@ impl<M: Model> Typed<M> {
         Context { setup: &self.setup, variables: &self.variables, log }
     }
 
-    fn own(saved: &ErasedState) -> Result<&Option<M::State>, StateMismatch> {
-        saved.downcast_ref().ok_or(StateMismatch::Mark)
+    fn own(saved: &ErasedState) -> Result<&Option<M::State>, Failure> {
+        saved.downcast_ref().ok_or_else(|| Failure::new("it is the state of another model"))
     }
 }
 
@@ -68,31 +66,35 @@ impl<M: Model> Runtime for Typed<M> {
         Ok(())
     }
 
-    fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<(), Problem> {
+    fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure> {
         let context = Context { setup: &self.setup, variables: &self.variables, log };
-        let state = self.state.as_mut().ok_or(Problem::NotInitialized)?;
-        Ok(M::step(&context, values, state, step)?)
+        let state = self.state.as_mut().ok_or_else(not_initialized)?;
+        M::step(&context, values, state, step)
     }
 
-    fn output_derivative(&self, values: &Values, output: u32, log: &dyn Log) -> Result<f64, Problem> {
-        let state = self.state.as_ref().ok_or(Problem::NotInitialized)?;
-        let derivative =
-            M::output_derivative(&self.context(log), values, state, Real::from_reference(output));
-        Ok(derivative.unwrap_or(0.0))
+    fn has_output_rates(&self) -> bool {
+        M::EXTENSIONS.output_rate.is_some()
     }
 
-    fn directional_derivative(
+    fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure> {
+        let state = self.state.as_ref().ok_or_else(not_initialized)?;
+        let rate = M::EXTENSIONS.output_rate.and_then(|rate| rate(&self.context(log), values, state, output));
+        Ok(rate.unwrap_or(0.0))
+    }
+
+    fn jacobian_vector_product(
         &self,
         values: &Values,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        result: &mut [f64],
+        unknowns: &[Real],
+        seeds: &[(Real, f64)],
+        products: &mut [f64],
         log: &dyn Log,
-    ) -> Result<(), Problem> {
-        let state = self.state.as_ref().ok_or(Problem::NotInitialized)?;
-        let context = self.context(log);
-        Ok(M::directional_derivative(&context, values, state, unknowns, knowns, seed, result)?)
+    ) -> Result<(), Failure> {
+        let state = self.state.as_ref().ok_or_else(not_initialized)?;
+        let Some(product) = M::EXTENSIONS.jacobian_vector_product else {
+            return Err(Failure::new("this model provides no directional derivatives"));
+        };
+        product(&self.context(log), values, state, unknowns, seeds, products)
     }
 
     fn tolerance(&self) -> Option<Real> {
@@ -113,7 +115,7 @@ impl<M: Model> Runtime for Typed<M> {
         }
     }
 
-    fn restore(&mut self, saved: &ErasedState) -> Result<(), StateMismatch> {
+    fn restore(&mut self, saved: &ErasedState) -> Result<(), Failure> {
         self.state.clone_from(Self::own(saved)?);
         Ok(())
     }
@@ -122,51 +124,39 @@ impl<M: Model> Runtime for Typed<M> {
         Self::own(saved).is_ok_and(Option::is_some)
     }
 
-    fn encoded_size(&self, saved: &ErasedState) -> Result<usize, StateMismatch> {
+    fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure> {
         postcard::serialize_with_flavor(Self::own(saved)?, postcard::ser_flavors::Size::default())
             .map_err(unencodable)
     }
 
-    fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, StateMismatch> {
+    fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, Failure> {
         postcard::to_slice(Self::own(saved)?, bytes).map(|used| used.len()).map_err(unencodable)
     }
 
-    fn decode(&self, bytes: &[u8]) -> Result<ErasedState, StateMismatch> {
+    fn decode(&self, bytes: &[u8]) -> Result<ErasedState, Failure> {
         let (state, rest) = postcard::take_from_bytes::<Option<M::State>>(bytes)
-            .map_err(|error| content(format!("model state: {error}")))?;
+            .map_err(|error| Failure::new(format!("model state: {error}")))?;
         if !rest.is_empty() {
-            return Err(content(format!("{} bytes after the model state", rest.len())));
+            return Err(Failure::new(format!("{} bytes after the model state", rest.len())));
         }
         if let Some(state) = &state {
-            M::check_state(&self.setup, state).map_err(|failure| content(failure.to_string()))?;
+            M::check_state(&self.setup, state)?;
         }
         Ok(Box::new(state))
     }
 
-    fn check_time(&self, decoded: &ErasedState, time_s: f64) -> Result<(), StateMismatch> {
+    fn check_time(&self, decoded: &ErasedState, time_s: f64) -> Result<(), Failure> {
         match Self::own(decoded)? {
-            Some(state) => M::check_time(state, time_s).map_err(|failure| content(failure.to_string())),
+            Some(state) => M::check_time(state, time_s),
             None => Ok(()),
         }
     }
 }
 
-pub(crate) fn unencodable(error: postcard::Error) -> StateMismatch {
-    content(format!("cannot be encoded: {error}"))
+pub(crate) fn unencodable(error: postcard::Error) -> Failure {
+    Failure::new(format!("cannot be encoded: {error}"))
 }
 
-/// Everything an instance is made from.
-pub(crate) struct Parts {
-    pub(crate) access: AccessTable,
-    pub(crate) start: Values,
-    pub(crate) runtime: Box<dyn Runtime>,
-    pub(crate) digest: uuid::Uuid,
-    pub(crate) capabilities: Capabilities,
-}
-
-/// What the model's constants say.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Capabilities {
-    pub(crate) max_output_derivative_order: u32,
-    pub(crate) interpolates_inputs: bool,
+fn not_initialized() -> Failure {
+    Failure::new("nothing has been computed: the initialization failed or never ran")
 }

@@ -1,6 +1,6 @@
 //! Start values of a setup file, from the file's own words to the exporter's.
 
-use fmi_export::{Given, StartValue};
+use fmi_export::{SetupValue, StartValue};
 use physics::spacecraft::{StartEntry, StartValue as FileValue};
 
 /// The entries of a file's `[start]` as start values of variables.
@@ -15,12 +15,12 @@ pub fn start_values(entries: &[StartEntry]) -> Vec<StartValue> {
     entries.iter().map(convert).collect()
 }
 
-fn given(value: &FileValue) -> Given {
+fn given(value: &FileValue) -> SetupValue {
     match value {
-        FileValue::Real(number) => Given::Number(*number),
-        FileValue::Integer(number) => Given::Integer(*number),
-        FileValue::Boolean(truth) => Given::Truth(*truth),
-        FileValue::Text(text) => Given::Text(text.clone()),
-        FileValue::List(items) => Given::List(items.iter().map(given).collect()),
+        FileValue::Real(number) => SetupValue::Number(*number),
+        FileValue::Integer(number) => SetupValue::Integer(*number),
+        FileValue::Boolean(truth) => SetupValue::Boolean(*truth),
+        FileValue::Text(text) => SetupValue::Text(text.clone()),
+        FileValue::List(items) => SetupValue::List(items.iter().map(given).collect()),
     }
 }

@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command},
-    check, fly, info, interrupt, output, pack, plan, study,
+    check, info, interrupt, pack, plan, run as simulation, study,
 };
 
 /// JSON Schema of the spacecraft file, kept in step with its reader by a test of `physics`.
@@ -29,11 +29,11 @@ pub fn run() -> Outcome {
         Command::Info(arguments) => info::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Probe(arguments) => check::run_probe(&arguments),
-        Command::Run(arguments) => fly::run(&arguments),
-        Command::RunInChild(arguments) => fly::run_in_child(&arguments),
+        Command::Run(arguments) => simulation::run(&arguments),
+        Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema => {
-            output::print(SPACECRAFT_SCHEMA.trim_end())?;
+            terminal::print(SPACECRAFT_SCHEMA.trim_end())?;
             Ok(ExitCode::SUCCESS)
         }
         Command::Plan(arguments) => plan::run(&arguments),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// The FMU whose library reads and flies new spacecraft unless another is named.
+/// The FMU whose library reads and runs new spacecraft unless another is named.
 pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
 
 const PACK_EXAMPLE: &str = "\
@@ -12,7 +12,7 @@ Example:
   heliotorque check my.toml                                  what is wrong with it, by line
   heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
 
-/// Spacecraft disturbance torque and momentum as FMUs: look at them, check them, fly them, make your own.
+/// Spacecraft disturbance torque and momentum as FMUs: look at them, check them, simulate them, make your own.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100)]
 pub struct Arguments {
@@ -28,14 +28,14 @@ pub enum Command {
     Info(Info),
     /// Check an FMU, or a spacecraft before it is packed
     Check(Check),
-    /// Fly an FMU from start to stop
+    /// Run an FMU from start to stop
     Run(Run),
     /// Make an FMU of your own spacecraft; nothing is compiled
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),
     /// Print the JSON Schema of the spacecraft file, for editors that complete and check TOML
     Schema,
-    /// Fly a study of the papers, or list them
+    /// Run a study of the papers, or list them
     Study(Study),
     /// Find an optimal plan
     #[command(subcommand)]
@@ -211,7 +211,7 @@ pub struct Study {
     /// Folder for CSV files and pictures; otherwise dist/<study>
     #[arg(long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
-    /// Fly only the cases whose label contains this text
+    /// Run only the cases whose label contains this text
     #[arg(long, value_name = "TEXT")]
     pub only: Option<String>,
     /// Show no progress

@@ -7,13 +7,13 @@ use model_description::{
     Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind,
 };
 
-use crate::{app::Outcome, args::Info, coefficients, output};
+use crate::{app::Outcome, args::Info, coefficients};
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
     let fmu = Fmu::open(&arguments.fmu)?;
     if arguments.coefficients {
-        output::print(&coefficients::text(&fmu, &arguments.set)?)?;
+        terminal::print(&coefficients::text(&fmu, &arguments.set)?)?;
         return Ok(ExitCode::SUCCESS);
     }
     let mut text = vec![summary(&fmu), capabilities(&fmu)];
@@ -31,13 +31,13 @@ pub fn run(arguments: &Info) -> Outcome {
         };
         text.push(variables(fmu.description(), &positions));
     }
-    output::print(&text.join("\n\n"))?;
+    terminal::print(&text.join("\n\n"))?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn summary(fmu: &Fmu) -> String {
     let description = fmu.description();
-    let mut table = output::table(&[description.model_name.as_str(), ""]);
+    let mut table = terminal::table(&[description.model_name.as_str(), ""]);
     let mut row = |name: &str, value: Option<String>| {
         if let Some(value) = value.filter(|value| !value.is_empty()) {
             table.add_row([name.to_owned(), value]);
@@ -52,13 +52,14 @@ fn summary(fmu: &Fmu) -> String {
     row("GUID", Some(description.guid.clone()));
     row("variables", Some(count_by_causality(description)));
     if let Some(experiment) = description.default_experiment {
-        let time =
-            |name: &str, value: Option<f64>| value.map(|value| format!("{name} {} s", output::short(value)));
+        let time = |name: &str, value: Option<f64>| {
+            value.map(|value| format!("{name} {} s", terminal::short(value)))
+        };
         let times: Vec<String> = [
             time("start", experiment.start_time),
             time("stop", experiment.stop_time),
             time("step", experiment.step_size),
-            experiment.tolerance.map(|tolerance| format!("tolerance {}", output::short(tolerance))),
+            experiment.tolerance.map(|tolerance| format!("tolerance {}", terminal::short(tolerance))),
         ]
         .into_iter()
         .flatten()
@@ -102,7 +103,7 @@ fn capabilities(fmu: &Fmu) -> String {
     let Some(flags) = &fmu.description().co_simulation else {
         return "No co-simulation: this FMU cannot be stepped here.".to_owned();
     };
-    let mut table = output::table(&["co-simulation", ""]);
+    let mut table = terminal::table(&["co-simulation", ""]);
     table.add_row(["modelIdentifier".to_owned(), flags.model_identifier.clone()]);
     for (name, value) in self::flags(flags) {
         table.add_row([name, if value { "yes" } else { "no" }]);
@@ -127,7 +128,7 @@ pub fn flags(flags: &CoSimulation) -> [(&'static str, bool); 9] {
 }
 
 fn units(description: &Description) -> String {
-    let mut table = output::table(&["unit", "also shown as"]);
+    let mut table = terminal::table(&["unit", "also shown as"]);
     for unit in &description.units {
         let displays: Vec<&str> = unit.display_units.iter().map(|display| display.name.as_str()).collect();
         table.add_row([unit.name.clone(), displays.join(", ")]);
@@ -136,7 +137,7 @@ fn units(description: &Description) -> String {
 }
 
 fn enumerations(description: &Description) -> Option<String> {
-    let mut table = output::table(&["option", "item", "number", "meaning"]);
+    let mut table = terminal::table(&["option", "item", "number", "meaning"]);
     for simple_type in &description.types {
         let SimpleTypeKind::Enumeration { items, .. } = &simple_type.kind else { continue };
         for (index, item) in items.iter().enumerate() {
@@ -152,7 +153,7 @@ fn enumerations(description: &Description) -> Option<String> {
 }
 
 fn variables(description: &Description, positions: &[usize]) -> String {
-    let mut table = output::table(&["variable", "causality", "start", "unit", "description"]);
+    let mut table = terminal::table(&["variable", "causality", "start", "unit", "description"]);
     for &position in positions {
         let variable = &description.variables[position];
         table.add_row([
@@ -188,10 +189,10 @@ pub fn causality(variable: &ScalarVariable) -> String {
 pub fn start(description: &Description, variable: &ScalarVariable) -> String {
     match &variable.kind {
         VariableKind::Real { start: Some(start), .. } => {
-            let own = output::short(*start);
+            let own = terminal::short(*start);
             match loader::display_unit(description, variable) {
                 Some((name, factor, offset)) if *start != 0.0 => {
-                    format!("{own} ({} {name})", output::short(factor * start + offset))
+                    format!("{own} ({} {name})", terminal::short(factor * start + offset))
                 }
                 _ => own,
             }

@@ -8,20 +8,19 @@ mod args;
 mod check;
 mod child;
 mod coefficients;
-mod fly;
 mod info;
 mod interrupt;
-mod output;
 mod pack;
 mod plan;
 mod plot;
+mod run;
 mod study;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     app::run().unwrap_or_else(|error| {
-        output::note(&format!("heliotorque: {}", output::chain(error.as_ref())));
+        terminal::note(&format!("heliotorque: {}", loader::Error::chain(error.as_ref())));
         ExitCode::FAILURE
     })
 }

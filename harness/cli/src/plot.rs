@@ -6,8 +6,6 @@ use loader::{Column, Fmu, Recording};
 use model_description::Causality;
 use studies::chart::{COLOURS, Chart, Panel, Series};
 
-use crate::output;
-
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
 
@@ -82,7 +80,7 @@ pub fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
     }
     if left_out > 0 {
         let limit = format!("the picture shows the first {PANELS} panels");
-        output::note(&format!("{limit} and leaves out {left_out} variables: see --record"));
+        terminal::note(&format!("{limit} and leaves out {left_out} variables: see --record"));
     }
     Chart {
         title: fmu.name().to_owned(),

@@ -4,16 +4,16 @@ use std::{io::IsTerminal, process::ExitCode};
 
 use studies::{Options, STUDIES};
 
-use crate::{app::Outcome, args::Study, output};
+use crate::{app::Outcome, args::Study};
 
 /// Runs a study, or lists them.
 pub fn run(arguments: &Study) -> Outcome {
     if arguments.name == "list" {
-        let mut table = output::table(&["study", "paper", "what it shows"]);
+        let mut table = terminal::table(&["study", "paper", "what it shows"]);
         for study in STUDIES {
             table.add_row([study.name, study.paper, study.title]);
         }
-        output::print(&table.to_string())?;
+        terminal::print(&table.to_string())?;
         return Ok(ExitCode::SUCCESS);
     }
     let report = studies::run(
@@ -25,9 +25,9 @@ pub fn run(arguments: &Study) -> Outcome {
             progress: !arguments.quiet && std::io::stderr().is_terminal(),
         },
     )?;
-    output::print(&report.text)?;
+    terminal::print(&report.text)?;
     for file in &report.files {
-        output::note(&file.display().to_string());
+        terminal::note(&file.display().to_string());
     }
     Ok(ExitCode::SUCCESS)
 }

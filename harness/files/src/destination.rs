@@ -40,7 +40,7 @@ impl Destination {
         check(&target, inputs).map_err(refuse)?;
         let destination = Self { path: path.to_owned(), option, target: Some(target) };
         // Its folder has to take a new file.
-        destination.temporary().map_err(|error| destination.told(&error))?;
+        destination.temporary().map_err(|error| destination.message(&error))?;
         Ok(destination)
     }
 
@@ -60,7 +60,7 @@ impl Destination {
 
     /// Replaces the content by what `write` writes, all of it or nothing.
     pub fn fill(self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), String> {
-        self.replace(write).map_err(|error| self.told(&error))
+        self.replace(write).map_err(|error| self.message(&error))
     }
 
     /// Takes a recording in progress: it grows as `<name>.part`, on the standard output as it is.
@@ -108,7 +108,7 @@ impl Destination {
         Ok((temporary, registered))
     }
 
-    fn told(&self, error: &io::Error) -> String {
+    fn message(&self, error: &io::Error) -> String {
         format!("{}: {error}: see {}", self.path.display(), self.option)
     }
 }
@@ -126,13 +126,13 @@ impl Growing {
     pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
         self.write(bytes).map_err(|error| match &self.part {
             Some(part) => format!("{}: {error}: see {}", part.display(), self.destination.option),
-            None => self.destination.told(&error),
+            None => self.destination.message(&error),
         })
     }
 
     /// Gives the complete recording its name.
     pub fn finish(mut self) -> Result<(), String> {
-        self.rename().map_err(|error| self.destination.told(&error))
+        self.rename().map_err(|error| self.destination.message(&error))
     }
 
     /// Leaves what was recorded as it is and tells where, if anything was.
@@ -281,47 +281,47 @@ mod tests {
 
     #[test]
     fn an_unused_destination_leaves_no_trace() {
-        let room = tempfile::tempdir().unwrap();
-        let (new, old) = (room.path().join("new"), room.path().join("old"));
+        let scratch = tempfile::tempdir().unwrap();
+        let (new, old) = (scratch.path().join("new"), scratch.path().join("old"));
         fs::write(&old, "precious").unwrap();
         for path in [&new, &old] {
             drop(open(path).unwrap());
             drop(open(path).unwrap().grow(&[]).unwrap());
         }
-        assert_eq!(names(room.path()), ["old"]);
+        assert_eq!(names(scratch.path()), ["old"]);
         assert_eq!(fs::read_to_string(&old).unwrap(), "precious");
     }
 
     #[test]
     fn a_filled_destination_holds_the_new_content_only() {
-        let room = tempfile::tempdir().unwrap();
-        let (new, old) = (room.path().join("new"), room.path().join("old"));
+        let scratch = tempfile::tempdir().unwrap();
+        let (new, old) = (scratch.path().join("new"), scratch.path().join("old"));
         fs::write(&old, "precious").unwrap();
         for path in [&new, &old] {
             open(path).unwrap().fill(|file| file.write_all(b"ours")).unwrap();
             assert_eq!(fs::read_to_string(path).unwrap(), "ours");
         }
-        assert_eq!(names(room.path()), ["new", "old"]);
+        assert_eq!(names(scratch.path()), ["new", "old"]);
     }
 
     #[test]
     fn content_that_cannot_be_completed_changes_nothing() {
-        let room = tempfile::tempdir().unwrap();
-        let old = room.path().join("old");
+        let scratch = tempfile::tempdir().unwrap();
+        let old = scratch.path().join("old");
         fs::write(&old, "precious").unwrap();
-        let told = open(&old).unwrap().fill(|file| {
+        let message = open(&old).unwrap().fill(|file| {
             file.write_all(b"torn")?;
             Err(io::Error::other("the disk is full"))
         });
-        assert!(told.unwrap_err().ends_with("old: the disk is full: see --output"));
+        assert!(message.unwrap_err().ends_with("old: the disk is full: see --output"));
         assert_eq!(fs::read_to_string(&old).unwrap(), "precious");
-        assert_eq!(names(room.path()), ["old"]);
+        assert_eq!(names(scratch.path()), ["old"]);
     }
 
     #[test]
     fn a_recording_grows_as_part_until_it_is_complete() {
-        let room = tempfile::tempdir().unwrap();
-        let (path, part) = (room.path().join("a.csv"), room.path().join("a.csv.part"));
+        let scratch = tempfile::tempdir().unwrap();
+        let (path, part) = (scratch.path().join("a.csv"), scratch.path().join("a.csv.part"));
         fs::write(&path, "old").unwrap();
         let mut growing = open(&path).unwrap().grow(&[]).unwrap();
         growing.append(b"1\n").unwrap();
@@ -329,7 +329,7 @@ mod tests {
         growing.append(b"2\n").unwrap();
         growing.finish().unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"1\n2\n");
-        assert_eq!(names(room.path()), ["a.csv"]);
+        assert_eq!(names(scratch.path()), ["a.csv"]);
 
         let mut growing = open(&path).unwrap().grow(&[]).unwrap();
         growing.append(b"3\n").unwrap();
@@ -339,37 +339,37 @@ mod tests {
             (b"1\n2\n".to_vec(), b"3\n".to_vec())
         );
         // What is in the way of the recording is an input: it is kept.
-        let told = open(&path).unwrap().grow(&[&part]).unwrap_err();
-        assert!(told.contains("an input too"), "{told}");
+        let message = open(&path).unwrap().grow(&[&part]).unwrap_err();
+        assert!(message.contains("an input too"), "{message}");
     }
 
     #[test]
     fn what_cannot_be_written_is_told_with_its_option() {
-        let room = tempfile::tempdir().unwrap();
-        let told = |path: &Path| Destination::open(path, "--plot", &[]).err().unwrap();
-        let folder = told(&room.path().join("no/such/a.svg"));
+        let scratch = tempfile::tempdir().unwrap();
+        let message = |path: &Path| Destination::open(path, "--plot", &[]).err().unwrap();
+        let folder = message(&scratch.path().join("no/such/a.svg"));
         assert!(folder.contains("there is no folder") && folder.ends_with("see --plot"), "{folder}");
-        let folder = told(room.path());
+        let folder = message(scratch.path());
         assert!(folder.contains("found a directory") && folder.ends_with("see --plot"), "{folder}");
     }
 
     #[cfg(unix)]
     #[test]
     fn an_input_is_no_target_under_any_name() {
-        let room = tempfile::tempdir().unwrap();
-        let at = |name: &str| room.path().join(name);
+        let scratch = tempfile::tempdir().unwrap();
+        let at = |name: &str| scratch.path().join(name);
         fs::write(at("input"), "precious").unwrap();
         fs::hard_link(at("input"), at("hard")).unwrap();
         std::os::unix::fs::symlink(at("input"), at("soft")).unwrap();
         std::os::unix::fs::symlink("soft", at("softer")).unwrap();
         fs::create_dir(at("folder")).unwrap();
         for name in ["input", "folder/../input", "hard", "soft", "softer"] {
-            let told = Destination::open(&at(name), "--output", &[&at("input")]).unwrap_err();
-            assert!(told.contains("it is an input too") && told.ends_with("see --output"), "{told}");
+            let message = Destination::open(&at(name), "--output", &[&at("input")]).unwrap_err();
+            assert!(message.contains("it is an input too") && message.ends_with("see --output"), "{message}");
         }
         for name in ["folder/new", "folder/../folder/new"] {
-            let told = Destination::open(&at(name), "--output", &[&at("folder")]).unwrap_err();
-            assert!(told.contains("it is an input too"), "{told}");
+            let message = Destination::open(&at(name), "--output", &[&at("folder")]).unwrap_err();
+            assert!(message.contains("it is an input too"), "{message}");
         }
         let (one, two) = (open(&at("new")).unwrap(), open(&at("folder/../new")).unwrap());
         assert!(one.is_same(&two) && !one.is_same(&open(&at("other")).unwrap()));
@@ -379,8 +379,8 @@ mod tests {
     #[test]
     fn links_and_permissions_are_kept_and_devices_refused() {
         use std::os::unix::fs::PermissionsExt;
-        let room = tempfile::tempdir().unwrap();
-        let at = |name: &str| room.path().join(name);
+        let scratch = tempfile::tempdir().unwrap();
+        let at = |name: &str| scratch.path().join(name);
         fs::write(at("old"), "old").unwrap();
         fs::set_permissions(at("old"), fs::Permissions::from_mode(0o640)).unwrap();
         std::os::unix::fs::symlink("old", at("link")).unwrap();
@@ -391,7 +391,7 @@ mod tests {
             assert_eq!(fs::read(at(target)).unwrap(), b"ours");
         }
         assert_eq!(fs::metadata(at("old")).unwrap().permissions().mode() & 0o777, 0o640);
-        let told = open(Path::new("/dev/null")).unwrap_err();
-        assert!(told.contains("found a character device, allowed: a regular file or -"), "{told}");
+        let message = open(Path::new("/dev/null")).unwrap_err();
+        assert!(message.contains("found a character device, allowed: a regular file or -"), "{message}");
     }
 }

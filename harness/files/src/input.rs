@@ -57,12 +57,12 @@ mod tests {
 
     #[test]
     fn only_regular_files_are_read() {
-        let room = tempfile::tempdir().unwrap();
-        let file = room.path().join("file");
+        let scratch = tempfile::tempdir().unwrap();
+        let file = scratch.path().join("file");
         std::fs::write(&file, "text").unwrap();
         assert_eq!(read(&file).unwrap(), b"text");
-        assert!(read(room.path()).unwrap_err().to_string().contains("a directory"));
-        assert_eq!(read(&room.path().join("none")).unwrap_err().kind(), io::ErrorKind::NotFound);
+        assert!(read(scratch.path()).unwrap_err().to_string().contains("a directory"));
+        assert_eq!(read(&scratch.path().join("none")).unwrap_err().kind(), io::ErrorKind::NotFound);
         #[cfg(unix)]
         assert!(read(Path::new("/dev/null")).unwrap_err().to_string().contains("a character device"));
     }

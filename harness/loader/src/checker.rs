@@ -2,8 +2,9 @@
 
 use std::cell::Cell;
 
-use fmi_export::call_table::{Access, Condition, Function, Next, State, after, allowed};
-use model_description::{Description, VariableKind, rules};
+use bitflags::bitflags;
+use model_description::call_table::{Access, Condition, Function, Next, State, after, allowed};
+use model_description::{BaseType, Description};
 
 use crate::{Fmu, Status, abi::StateKey};
 
@@ -17,39 +18,40 @@ pub enum Checking {
     Off,
 }
 
-/// Base type at the C interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Base {
-    Real,
-    Integer,
-    Boolean,
-    Text,
+bitflags! {
+    /// Which of the conditions that restrict variables a variable meets.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    struct Conditions: u8 {
+        const SETTABLE_BEFORE_INITIALIZATION = 1;
+        const OUTPUT_OR_INITIAL_UNKNOWN = 1 << 1;
+        const SETTABLE_IN_INITIALIZATION = 1 << 2;
+        const INPUT_OR_TUNABLE = 1 << 3;
+    }
 }
 
-impl Base {
-    pub fn of(kind: &VariableKind) -> Self {
-        match kind {
-            VariableKind::Real { .. } => Self::Real,
-            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Self::Integer,
-            VariableKind::Boolean { .. } => Self::Boolean,
-            VariableKind::String { .. } => Self::Text,
+/// The conditions that restrict which variables may be set or read.
+const RESTRICTING: [Condition; 4] = [
+    Condition::SettableBeforeInitialization,
+    Condition::OutputOrInitialUnknown,
+    Condition::SettableInInitialization,
+    Condition::InputOrTunable,
+];
+
+impl From<Condition> for Conditions {
+    fn from(condition: Condition) -> Self {
+        match condition {
+            Condition::SettableBeforeInitialization => Self::SETTABLE_BEFORE_INITIALIZATION,
+            Condition::OutputOrInitialUnknown => Self::OUTPUT_OR_INITIAL_UNKNOWN,
+            Condition::SettableInInitialization => Self::SETTABLE_IN_INITIALIZATION,
+            Condition::InputOrTunable => Self::INPUT_OR_TUNABLE,
+            // These restrict what the values are good for, not which variables may be read.
+            Condition::Debugging | Condition::DebuggingUnlessTerminated => Self::empty(),
         }
     }
 }
 
 /// For every value reference, by base type and sorted: which of the table's conditions it meets.
-pub(crate) struct AccessTable([Vec<(u32, u8)>; 4]);
-
-const fn bit(condition: Condition) -> u8 {
-    match condition {
-        Condition::SettableBeforeInitialization => 1,
-        Condition::OutputOrInitialUnknown => 2,
-        Condition::SettableInInitialization => 4,
-        Condition::InputOrTunable => 8,
-        // These restrict what the values are good for, not which variables may be read.
-        Condition::Debugging | Condition::DebuggingUnlessTerminated => 0,
-    }
-}
+pub(crate) struct AccessTable([Vec<(u32, Conditions)>; 4]);
 
 impl AccessTable {
     pub fn of(description: &Description) -> Self {
@@ -59,31 +61,16 @@ impl AccessTable {
                 *flag = true;
             }
         }
-        let mut tables: [Vec<(u32, u8)>; 4] = Default::default();
+        let mut tables: [Vec<(u32, Conditions)>; 4] = Default::default();
         for (position, variable) in description.variables.iter().enumerate() {
             let listed = initial_unknown[position + 1];
-            let meets = [
-                (
-                    Condition::SettableBeforeInitialization,
-                    rules::settable(variable, rules::Phase::Instantiated),
-                ),
-                (
-                    Condition::OutputOrInitialUnknown,
-                    rules::gettable(variable, listed, rules::Phase::InitializationMode),
-                ),
-                (
-                    Condition::SettableInInitialization,
-                    rules::settable(variable, rules::Phase::InitializationMode),
-                ),
-                (Condition::InputOrTunable, rules::settable(variable, rules::Phase::StepComplete)),
-            ];
-            let bits =
-                meets.iter().filter(|(_, met)| *met).fold(0, |bits, (condition, _)| bits | bit(*condition));
-            tables[Base::of(&variable.kind) as usize].push((variable.value_reference, bits));
+            let met = RESTRICTING.into_iter().filter(|condition| condition.admits(variable, listed));
+            let met = met.map(Conditions::from).fold(Conditions::empty(), Conditions::union);
+            tables[variable.kind.base_type() as usize].push((variable.value_reference, met));
         }
         for table in &mut tables {
             // Aliases share a reference: what one of them may, all may.
-            table.sort_unstable();
+            table.sort_unstable_by_key(|row| row.0);
             table.dedup_by(|next, kept| {
                 let alias = next.0 == kept.0;
                 if alias {
@@ -95,7 +82,7 @@ impl AccessTable {
         Self(tables)
     }
 
-    fn bits(&self, base: Base, reference: u32) -> Option<u8> {
+    fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
         let table = &self.0[base as usize];
         table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
     }
@@ -128,14 +115,22 @@ impl Checker {
     }
 
     /// As [`Checker::allow`], and every variable meets the condition of the state.
-    pub fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), String> {
+    pub fn allow_variables(
+        &self,
+        function: Function,
+        references: &[u32],
+        base: BaseType,
+    ) -> Result<(), String> {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
-        let needed = bit(condition);
+        let needed = Conditions::from(condition);
         for &reference in references {
-            let Some(bits) = self.fmu.access().bits(base, reference) else {
-                return Err(format!("the description has no {base:?} with value reference {reference}"));
+            let Some(met) = self.fmu.access().met(base, reference) else {
+                return Err(format!(
+                    "the description has no {} with value reference {reference}",
+                    base.name()
+                ));
             };
-            if bits & needed != needed {
+            if !met.contains(needed) {
                 return Err(format!(
                     "in state {} it takes only {}, and {} is none",
                     self.state.get().map_or("unknown", State::name),
@@ -161,10 +156,10 @@ impl Checker {
         Ok(access)
     }
 
-    fn name_of(&self, base: Base, reference: u32) -> String {
+    fn name_of(&self, base: BaseType, reference: u32) -> String {
         let mut variables = self.fmu.description().variables.iter();
         variables
-            .find(|variable| variable.value_reference == reference && Base::of(&variable.kind) == base)
+            .find(|variable| variable.value_reference == reference && variable.kind.base_type() == base)
             .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
     }
 
@@ -177,14 +172,6 @@ impl Checker {
                 _ => {}
             }
         }
-        let status = match status {
-            Status::Ok => fmi_export::Status::Ok,
-            Status::Warning => fmi_export::Status::Warning,
-            Status::Discard => fmi_export::Status::Discard,
-            Status::Error | Status::Invalid(_) => fmi_export::Status::Error,
-            Status::Fatal => fmi_export::Status::Fatal,
-            Status::Pending => fmi_export::Status::Pending,
-        };
         // From an unknown state, what happens next tells as if the steps were complete.
         let known = self.state.get();
         let next = after(function, known.unwrap_or(State::StepComplete), status);
@@ -216,8 +203,8 @@ impl Checker {
 }
 
 /// Whether the call's answer fixes the state whatever it was before.
-fn tells_state(function: Function, status: fmi_export::Status) -> bool {
-    use fmi_export::Status::{Discard, Error, Fatal, Ok, Warning};
+fn tells_state(function: Function, status: model_description::Status) -> bool {
+    use model_description::Status::{Discard, Error, Fatal, Ok, Warning};
     match status {
         Error | Fatal => true,
         Ok | Warning | Discard => matches!(

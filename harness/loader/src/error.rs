@@ -131,6 +131,8 @@ pub struct CallError {
 pub enum Outcome {
     /// The FMU's answer.
     Status(Status),
+    /// The FMU answered a number that is no status of FMI 2.0.
+    UnknownStatus(i32),
     /// The library does not export the function.
     Missing,
     /// `fmi2Instantiate` gave NULL.
@@ -147,6 +149,7 @@ impl std::fmt::Display for Outcome {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Status(status) => write!(f, "answered {status}"),
+            Self::UnknownStatus(code) => write!(f, "answered status {code}, which FMI 2.0 does not have"),
             Self::Missing => write!(f, "the library does not export this function"),
             Self::NoInstance => write!(f, "gave no instance"),
             Self::NotAllowed(why) => write!(f, "not made: {why}"),
@@ -180,6 +183,11 @@ impl Error {
             Self::Call(call) => call.status(),
             _ => None,
         }
+    }
+
+    /// Whether an FMI call was answered with a number that is no status.
+    pub fn has_unknown_status(&self) -> bool {
+        matches!(self, Self::Call(call) if matches!(call.outcome, Outcome::UnknownStatus(_)))
     }
 
     /// Joins an error with all its sources.

@@ -11,7 +11,7 @@ use model_description::{CoSimulation, Description, Parsed, ScalarVariable};
 
 use crate::{Binary, Error, Instance, InstanceOptions, archive, checker::AccessTable, select::unknown};
 
-/// An opened FMU. Cheap to clone; instances may be made and flown on many threads.
+/// An opened FMU. Cheap to clone; instances may be made and simulated on many threads.
 #[derive(Clone)]
 pub struct Fmu(Arc<Inner>);
 

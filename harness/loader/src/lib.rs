@@ -1,6 +1,6 @@
-//! Loads, steps and watches any FMI 2.0 co-simulation FMU.
+//! Loads and steps any FMI 2.0 co-simulation FMU.
 //!
-//! [`Fmu::open`] unpacks and reads an FMU, [`Fmu::instantiate`] makes a safe [`Instance`], and [`simulate`] flies
+//! [`Fmu::open`] unpacks and reads an FMU, [`Fmu::instantiate`] makes a safe [`Instance`], and [`simulate`] runs
 //! one from start to stop. Everything this crate knows of an FMU it reads from the FMU; no model is linked here.
 //!
 //! All unsafe code of the harness stands in one folder, `abi/`.
@@ -29,13 +29,14 @@ pub use error::{CallError, Error, Outcome};
 pub use fmu::{Fmu, platform_folders};
 pub use inputs::InputTable;
 pub use instance::{Instance, InstanceOptions, Resources, State};
+pub use model_description::Status;
 pub use model_description::value::{Value, display_unit, unit};
 pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
 pub use select::select;
 pub use simulate::{
-    Ended, Flight, Options, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
+    Ended, Options, Simulation, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
 };
-pub use status::{LogMessage, Status};
+pub use status::LogMessage;
 pub use uri::file_uri;
 pub use values::{Assigned, assignment, parse_assignment, parse_value};

@@ -95,7 +95,7 @@ impl Collector {
         Self { recording, columns: groups(fmu, positions).map(|group| group.columns), text_bytes: 0 }
     }
 
-    /// Refuses more points than memory is given for, before anything is flown.
+    /// Refuses more points than memory is given for, before anything is simulated.
     pub fn fits(&self, points: u64) -> Result<(), Error> {
         let row: u64 = self.recording.columns.iter().map(column_bytes).sum::<u64>() + TIME_BYTES;
         if points <= MAX_BYTES / row {

@@ -1,7 +1,8 @@
-//! Flies an FMU from start to stop and records it.
+//! Runs an FMU from start to stop and records it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use model_description::call_table::Condition;
 use model_description::{Causality, Initial, Variability, rules};
 
 use crate::{
@@ -9,7 +10,7 @@ use crate::{
     recorder::{Collector, Reader, Rows},
 };
 
-/// What to fly. `Options::default()` flies the FMU's default experiment and records its outputs.
+/// What to simulate. `Options::default()` runs the FMU's default experiment and records its outputs.
 #[derive(Default)]
 pub struct Options<'a> {
     /// Start in s; otherwise the default experiment's, otherwise 0.
@@ -66,7 +67,7 @@ impl From<Error> for Box<Stopped> {
 
 /// A finished run.
 #[derive(Debug)]
-pub struct Flight {
+pub struct Simulation {
     /// What was recorded.
     pub recording: Recording,
     /// Why it ended.
@@ -138,11 +139,11 @@ impl Times {
     }
 }
 
-/// Flies an FMU and records it.
+/// Runs an FMU and records it.
 ///
 /// Communication points are `start + k*step`; the last step ends at the stop time. Inputs are set at the start
 /// of each step, and only if their value changed. A recorded Real that is NaN is an error.
-pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Flight, Box<Stopped>> {
+pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Simulation, Box<Stopped>> {
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu));
     let mut collector = Collector::new(fmu, &positions);
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
@@ -150,7 +151,7 @@ pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Flight, Box<Stopp
     collector.fits(times.steps().div_ceil(every).saturating_add(1))?;
     options.record = Some(positions);
     match simulate_into(fmu, options, &mut collector) {
-        Ok((ended, messages)) => Ok(Flight { recording: collector.into_recording(), ended, messages }),
+        Ok((ended, messages)) => Ok(Simulation { recording: collector.into_recording(), ended, messages }),
         Err(error) => Err(Box::new(Stopped { error, partial: collector.into_recording() })),
     }
 }
@@ -167,7 +168,7 @@ pub fn simulate_into(
     let mut reader = Reader::new(fmu, &positions);
     let mut instance = fmu.instantiate("run", &options.instance)?;
     let mut record = |instance: &mut Instance, time_s: f64| reader.read(instance, time_s, rows);
-    let ended = fly(fmu, &mut instance, (&times, every), &mut options, &mut record)?;
+    let ended = run_steps(fmu, &mut instance, (&times, every), &mut options, &mut record)?;
     Ok((ended, instance.messages()))
 }
 
@@ -182,7 +183,7 @@ pub fn steps_between_points(times: &Times, every_s: Option<f64>) -> Result<u64, 
     }
 }
 
-fn fly(
+fn run_steps(
     fmu: &Fmu,
     instance: &mut Instance,
     (times, every): (&Times, u64),
@@ -202,9 +203,9 @@ fn fly(
             instance.set(name, value)?;
         }
     }
-    let mut feed = options.inputs.map(|table| Feed::new(fmu, table, options.input_derivatives));
-    if let Some(feed) = &mut feed {
-        feed.set(instance, times.start_s, true)?;
+    let mut inputs = options.inputs.map(|table| InputSetter::new(fmu, table, options.input_derivatives));
+    if let Some(inputs) = &mut inputs {
+        inputs.set(instance, times.start_s, true)?;
     }
     instance.exit_initialization_mode()?;
     record(instance, times.start_s)?;
@@ -213,9 +214,9 @@ fn fly(
     for k in 0..steps {
         let time_s = times.point_s(k);
         let end_s = times.point_s(k + 1);
-        if let Some(feed) = &mut feed {
-            feed.set(instance, time_s, false)?;
-            feed.set_slopes(instance, time_s)?;
+        if let Some(inputs) = &mut inputs {
+            inputs.set(instance, time_s, false)?;
+            inputs.set_slopes(instance, time_s)?;
         }
         // Every step but the last has the step size itself: not each difference of two points is it to the bit.
         let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
@@ -267,7 +268,7 @@ fn set_early(fmu: &Fmu, name: &str) -> Result<bool, Error> {
 }
 
 /// Sets inputs from a table, each only when it changes.
-struct Feed<'a> {
+struct InputSetter<'a> {
     table: &'a InputTable,
     variables: Vec<&'a model_description::ScalarVariable>,
     last: Vec<Option<Value>>,
@@ -277,7 +278,7 @@ struct Feed<'a> {
     values: Vec<f64>,
 }
 
-impl<'a> Feed<'a> {
+impl<'a> InputSetter<'a> {
     fn new(fmu: &'a Fmu, table: &'a InputTable, slopes: bool) -> Self {
         let variables: Vec<_> =
             table.positions().map(|position| &fmu.description().variables[position]).collect();
@@ -297,7 +298,7 @@ impl<'a> Feed<'a> {
     fn set(&mut self, instance: &mut Instance, time_s: f64, initializing: bool) -> Result<(), Error> {
         for (column, variable) in self.variables.iter().enumerate() {
             // A tunable parameter keeps its start value through initialization mode if it is not exact.
-            if initializing && !rules::settable(variable, rules::Phase::InitializationMode) {
+            if initializing && !Condition::SettableInInitialization.admits(variable, false) {
                 continue;
             }
             let value = self.table.value(column, time_s);

@@ -2,21 +2,20 @@
 
 use std::path::Path;
 
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
+
+/// Everything outside RFC 3986's unreserved set and the slash.
+const RESERVED: &AsciiSet =
+    &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_').remove(b'~').remove(b'/');
+
 /// `file:///…` for an absolute path, every byte outside RFC 3986's unreserved set percent-encoded.
 pub fn file_uri(path: &Path) -> String {
     let text = path.to_string_lossy().replace('\\', "/");
-    let mut uri = String::from(if text.starts_with('/') { "file://" } else { "file:///" });
-    let drive_colon = text.as_bytes().get(1) == Some(&b':');
-    for (position, byte) in text.bytes().enumerate() {
-        let plain =
-            byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) || (drive_colon && position == 1);
-        if plain {
-            uri.push(char::from(byte));
-        } else {
-            uri.push_str(&format!("%{byte:02X}"));
-        }
-    }
-    uri
+    // The colon of a drive stays.
+    let drive = if text.as_bytes().get(1) == Some(&b':') { 2 } else { 0 };
+    let (drive, rest) = text.split_at(drive);
+    let slashes = if text.starts_with('/') { "//" } else { "///" };
+    format!("file:{slashes}{drive}{}", utf8_percent_encode(rest, RESERVED))
 }
 
 #[cfg(test)]

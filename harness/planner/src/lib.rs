@@ -1,6 +1,6 @@
 //! Optimal plans.
 //!
 //! The planner is the only part of the harness that uses the physics directly: it searches with the fast linear
-//! theory, then flies what it found through the FMU, which knows nothing of the planner.
+//! theory, then runs what it found through the FMU, which knows nothing of the planner.
 
 pub mod spin;

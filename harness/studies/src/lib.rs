@@ -1,8 +1,9 @@
-//! The papers' tables and figures, flown with real FMUs.
+//! The papers' tables and figures, simulated with real FMUs.
 //!
-//! A study loads FMUs from a folder, flies them through their C interface, and leaves text, CSV files and
+//! A study loads FMUs from a folder, runs them through their C interface, and leaves text, CSV files and
 //! pictures. It knows nothing of the models but what their descriptions say.
 
+mod case;
 pub mod chart;
 mod momentum;
 mod report;
@@ -22,7 +23,7 @@ pub struct Options {
     pub dist: PathBuf,
     /// Folder for CSV files and pictures; created if missing.
     pub output: PathBuf,
-    /// Flies only the cases whose label contains this text.
+    /// Runs only the cases whose label contains this text.
     pub only: Option<String>,
     /// Whether to show progress.
     pub progress: bool,
@@ -59,9 +60,9 @@ pub enum StudyError {
     /// An FMU could not be loaded; the error names its file.
     #[error("{0}: see --dist")]
     Fmu(Box<loader::Error>),
-    /// An FMU could not be flown.
+    /// An FMU could not be simulated.
     #[error("{case}: {source}")]
-    Flight {
+    Simulation {
         /// Which case.
         case: String,
         /// Why.
@@ -80,7 +81,7 @@ pub struct Study {
     pub paper: &'static str,
     /// One line.
     pub title: &'static str,
-    /// Flies it.
+    /// Runs it.
     pub run: fn(&Options) -> Result<Report, StudyError>,
 }
 
@@ -175,7 +176,7 @@ pub const STUDIES: &[Study] = &[
 /// Runs the study called `name`.
 ///
 /// # Errors
-/// An unknown name, an FMU that cannot be flown, a file that cannot be written.
+/// An unknown name, an FMU that cannot be simulated, a file that cannot be written.
 pub fn run(name: &str, options: &Options) -> Result<Report, StudyError> {
     let study = STUDIES.iter().find(|study| study.name == name).ok_or_else(|| StudyError::Unknown {
         found: name.to_owned(),

@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use comfy_table::{ContentArrangement, Table, presets};
 use files::Destination;
 
 use crate::chart::Chart;
@@ -27,9 +26,7 @@ impl Report {
 
     /// Adds a table.
     pub(crate) fn table(&mut self, header: &[&str], rows: &[Vec<String>]) {
-        let mut table = Table::new();
-        table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled);
-        table.set_header(header);
+        let mut table = terminal::table(header);
         for row in rows {
             table.add_row(row);
         }
@@ -67,7 +64,7 @@ impl Report {
         fs::create_dir_all(folder)
             .map_err(|error| StudyError::Write(format!("{}: {error}", folder.display())))?;
         let path = folder.join(file);
-        // An FMU that is flown is never written over.
+        // An FMU that is simulated is never written over.
         let fmus: Vec<PathBuf> = fs::read_dir(&options.dist)
             .map(|entries| {
                 entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect()

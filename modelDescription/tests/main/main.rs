@@ -3,7 +3,6 @@
 
 mod arbitrary;
 mod corpus;
-mod digest;
 mod faults;
 mod names;
 mod reader;

@@ -1,6 +1,7 @@
 //! The rule tables agree with the standard's reasons for them, and the structure lists what 2.2.8 demands.
 
-use model_description::rules::{self, Phase, StartRule};
+use model_description::call_table::Condition;
+use model_description::rules::{self, StartRule};
 use model_description::*;
 
 use crate::samples::{real, rich, variable};
@@ -70,29 +71,28 @@ fn start_is_required_or_forbidden_never_open() {
     }
 }
 
-/// Names of what may be set in a phase.
-fn settable(phase: Phase) -> Vec<String> {
+/// Names of what meets a condition.
+fn admitted(condition: Condition) -> Vec<String> {
     let mut variables = rich().variables;
     let mut state = variable("state", 3, Causality::Local, Variability::Continuous, real(Some(1.0), None));
     state.initial = Some(Initial::Exact);
     variables.push(state);
     variables.push(variable("c", 4, Causality::Local, Variability::Constant, real(Some(1.0), None)));
-    variables.into_iter().filter(|v| rules::settable(v, phase)).map(|v| v.name).collect()
+    variables.into_iter().filter(|v| condition.admits(v, false)).map(|v| v.name).collect()
 }
 
 #[test]
-fn each_phase_opens_its_own_variables() {
-    assert_eq!(settable(Phase::Instantiated), ["limit", "source", "file", "guess", "state"]);
-    assert_eq!(settable(Phase::InitializationMode), ["angle", "limit", "source", "file", "state"]);
-    assert_eq!(settable(Phase::StepComplete), ["angle", "limit"]);
+fn each_condition_admits_its_own_variables() {
+    use Condition::*;
+    assert_eq!(admitted(SettableBeforeInitialization), ["limit", "source", "file", "guess", "state"]);
+    assert_eq!(admitted(SettableInInitialization), ["angle", "limit", "source", "file", "state"]);
+    assert_eq!(admitted(InputOrTunable), ["angle", "limit"]);
     let rich = rich();
-    let output = &rich.variables[2];
-    let input = &rich.variables[1];
-    assert!(!rules::gettable(output, true, Phase::Instantiated));
-    assert!(rules::gettable(output, false, Phase::InitializationMode));
-    assert!(!rules::gettable(input, false, Phase::InitializationMode));
-    assert!(rules::gettable(&rich.variables[7], true, Phase::InitializationMode));
-    assert!(rules::gettable(input, false, Phase::StepComplete));
+    let [input, output, listed] = [1, 2, 7].map(|index| &rich.variables[index]);
+    assert!(OutputOrInitialUnknown.admits(output, false));
+    assert!(!OutputOrInitialUnknown.admits(input, false));
+    assert!(OutputOrInitialUnknown.admits(listed, true));
+    assert!(Debugging.admits(input, false));
 }
 
 fn indices(unknowns: &[Unknown]) -> Vec<u32> {

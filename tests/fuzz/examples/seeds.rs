@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use fmi_export::Status;
+use fmi_export::model_description::Status;
 use heliotorque_fuzz::{HEADER, MODELS, Subject};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -33,8 +33,8 @@ fn main() {
             seed("state", &format!("{model}-{name}"), &[&[choice], payload.as_slice()].concat());
         }
         // Set up, initialize, step, save, set a Real, step, serialize, restore, step, read, end.
-        let flight = [0, 2, 3, 4, 10, 17, 8, 3, 0, 0, 9, 5, 12, 19, 18, 6, 8, 21, 16, 3, 0, 5, 0, 22, 23];
-        seed("calls", model, &[&[choice], flight.as_slice()].concat());
+        let simulation = [0, 2, 3, 4, 10, 17, 8, 3, 0, 0, 9, 5, 12, 19, 18, 6, 8, 21, 16, 3, 0, 5, 0, 22, 23];
+        seed("calls", model, &[&[choice], simulation.as_slice()].concat());
     }
     for (name, method) in [("stored", CompressionMethod::Stored), ("deflated", CompressionMethod::Deflated)] {
         seed("zip", name, &archive(method, small.as_bytes()));
@@ -50,8 +50,8 @@ fn states(choice: u8) -> Vec<(&'static str, Vec<u8>)> {
         for step in 0..5 {
             assert_eq!(instance.do_step(60.0 * f64::from(step), 60.0), Status::Ok);
         }
-        let flying = instance.state_bytes().1;
-        vec![("fresh", fresh[HEADER..].to_vec()), ("flying", flying[HEADER..].to_vec())]
+        let running = instance.state_bytes().1;
+        vec![("fresh", fresh[HEADER..].to_vec()), ("running", running[HEADER..].to_vec())]
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library, Status};
 use model_description::VariableKind;
 use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
@@ -49,11 +49,11 @@ impl Subject {
         let library = library(model);
         let description = library.find(model).unwrap().describe(None, None).unwrap();
         let mut instance = InProcess::of(library, model).unwrap();
-        let references = |wanted: fn(&VariableKind) -> bool| {
+        let references = |is_kind: fn(&VariableKind) -> bool| {
             let mut all: Vec<u32> = description
                 .variables
                 .iter()
-                .filter(|variable| wanted(&variable.kind))
+                .filter(|variable| is_kind(&variable.kind))
                 .map(|variable| variable.value_reference)
                 .collect();
             all.sort_unstable();
@@ -101,7 +101,7 @@ impl Subject {
     }
 
     /// What was logged tells of no panic, and an error has a message.
-    pub fn heard(&self, status: Status) {
+    pub fn check_messages(&self, status: Status) {
         let messages = self.instance.take_messages();
         assert!(!messages.iter().any(|message| message.text.contains("panic")), "{messages:?}");
         assert_ne!(status, Status::Fatal, "{messages:?}");

@@ -3,8 +3,8 @@
 //! The call table itself is held by the tests of call sequences; here coverage leads deeper into the models.
 #![no_main]
 
-use fmi_export::Status;
-use fmi_export::abi::StatePointer;
+use fmi_export::model_description::Status;
+use client::StatePointer;
 use heliotorque_fuzz::Subject;
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
@@ -147,12 +147,12 @@ impl Master<'_> {
                 instance.reset()
             }
         };
-        self.subject.heard(status);
+        self.subject.check_messages(status);
         self.failed |= status == Status::Error;
         if !self.failed {
             let status = self.subject.read_reals();
             self.failed |= status == Status::Error;
-            self.subject.heard(status);
+            self.subject.check_messages(status);
         }
         Ok(())
     }

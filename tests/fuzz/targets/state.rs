@@ -1,7 +1,7 @@
-//! Any bytes under a right seal are refused or lived in: the first byte picks the model, the others are the payload.
+//! Any bytes under a right seal are refused or usable: the first byte picks the model, the others are the payload.
 #![no_main]
 
-use fmi_export::Status;
+use fmi_export::model_description::Status;
 use heliotorque_fuzz::Subject;
 use libfuzzer_sys::{Corpus, fuzz_target};
 
@@ -10,7 +10,7 @@ fuzz_target!(|input: &[u8]| -> Corpus {
     Subject::with(*choice, |subject| {
         let sealed = subject.seal(payload);
         let (status, state) = subject.instance.deserialize(&sealed);
-        subject.heard(status);
+        subject.check_messages(status);
         if status != Status::Ok {
             return Corpus::Keep;
         }
@@ -28,7 +28,7 @@ fuzz_target!(|input: &[u8]| -> Corpus {
             }
             subject.read_reals();
             let status = subject.instance.do_step(time_s, 60.0);
-            subject.heard(status);
+            subject.check_messages(status);
             if status != Status::Ok {
                 break;
             }

@@ -27,8 +27,8 @@ fn held(folder: &Path) -> (usize, u64) {
 }
 
 fuzz_target!(|bytes: &[u8]| {
-    let room = tempfile::tempdir().unwrap();
-    let (archive, into) = (room.path().join("any.fmu"), room.path().join("into"));
+    let scratch = tempfile::tempdir().unwrap();
+    let (archive, into) = (scratch.path().join("any.fmu"), scratch.path().join("into"));
     fs::write(&archive, bytes).unwrap();
     fs::create_dir(&into).unwrap();
     let outcome = unpack(&archive, &into, LIMITS);
@@ -42,5 +42,5 @@ fuzz_target!(|bytes: &[u8]| {
     // The byte that is too many is written before it is noticed.
     assert!(files <= LIMITS.entries && bytes <= LIMITS.total_bytes + 1, "{files} files of {bytes} bytes");
     // Nothing beside the two.
-    assert_eq!(fs::read_dir(room.path()).unwrap().count(), 2);
+    assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 2);
 });

@@ -1,7 +1,7 @@
 //! The smallest model: one output, no setup, no state.
 
 use fmi_export::{
-    About, Context, Dependencies, Failure, Model, Real, SetupError, Step, Values, Variables, knowns,
+    About, Context, Dependencies, Failure, Model, Real, SetupError, Step, StepEnd, Values, Variables, knowns,
 };
 
 /// A model of one output.
@@ -12,7 +12,7 @@ pub struct Empty;
 pub struct EmptyVariables {
     /// Time of the last communication point.
     #[output(unit = "s", name = "clock")]
-    clock: Real,
+    pub clock: Real,
 }
 
 impl Model for Empty {
@@ -20,7 +20,6 @@ impl Model for Empty {
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = None;
     const DEFAULT_SETUP: &'static str = "";
-    const CAN_INTERPOLATE_INPUTS: bool = false;
 
     type Setup = ();
     type Variables = EmptyVariables;
@@ -55,9 +54,9 @@ impl Model for Empty {
         values: &mut Values,
         _state: &mut (),
         step: &Step<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<StepEnd, Failure> {
         values.set_real(context.variables.clock, step.end_s);
-        Ok(())
+        Ok(StepEnd::at(step.end_s))
     }
 
     fn dependencies(_setup: &(), variables: &EmptyVariables) -> Dependencies {

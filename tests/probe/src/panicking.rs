@@ -1,12 +1,12 @@
-//! The model that panics: in the callback it is told to by its setup or by the parameter `accident`.
+//! The model that panics: in the callback it is told to by its setup or by the parameter `fault`.
 
 use fmi_export::{
-    About, Choice, Context, Dependencies, Enumeration, Failure, Model, Real, SetupError, Step, Values,
-    Variables, knowns,
+    About, Choice, Context, Dependencies, Differentiable, Enumeration, Extensions, Failure, Model,
+    OutputRates, Real, SetupError, Step, StepEnd, Values, Variables, knowns,
 };
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 
-/// A model that has accidents.
+/// A model that has faults.
 pub struct Panicking;
 
 /// Where the setup makes [`Panicking`] panic.
@@ -29,7 +29,7 @@ pub struct Setup {
 
 /// Where and how the model goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum Accident {
+pub enum Fault {
     /// Never.
     Nowhere,
     /// Panic in initialize.
@@ -38,9 +38,9 @@ pub enum Accident {
     Step,
     /// Panic in `check_state`.
     CheckState,
-    /// Panic in `output_derivative`.
+    /// Panic in `output_rate`.
     OutputDerivative,
-    /// Panic in `directional_derivative`.
+    /// Panic in `jacobian_vector_product`.
     DirectionalDerivative,
     /// Panic when the state is dropped.
     DropState,
@@ -66,6 +66,10 @@ pub enum Accident {
     FailCheckState,
     /// Panic in step by an index out of range.
     StepIndex,
+    /// Leave every step longer than 0.2 s in the middle.
+    StepShort,
+    /// Leave every step where it began.
+    StepStill,
 }
 
 /// The variables of [`Panicking`].
@@ -73,8 +77,8 @@ pub enum Accident {
 #[variables(setup = Setup)]
 pub struct PanickingVariables {
     /// Where and how the model goes wrong.
-    #[parameter(tunable, start = setup.accident_at_start())]
-    pub accident: Choice<Accident>,
+    #[parameter(tunable, start = setup.fault_at_start())]
+    pub fault: Choice<Fault>,
     /// Goes to `output`.
     #[input(unit = "1", start = 1.0)]
     pub input: Real,
@@ -86,18 +90,18 @@ pub struct PanickingVariables {
     pub clock: Real,
 }
 
-/// The state: a count of steps and the accident waiting in it.
+/// The state: a count of steps and the fault waiting in it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct State {
-    #[serde(serialize_with = "serialize_accident", deserialize_with = "deserialize_accident")]
-    accident: Accident,
+    #[serde(serialize_with = "serialize_fault", deserialize_with = "deserialize_fault")]
+    fault: Fault,
     steps: u32,
 }
 
 #[allow(clippy::panic, reason = "panicking is what this model is for")]
-fn panic_if(accident: bool, place: &str) {
-    if accident {
-        panic!("this is the accident in {place}: 100 % deliberate");
+fn panic_if(fault: bool, place: &str) {
+    if fault {
+        panic!("this is the fault in {place}: 100 % deliberate");
     }
 }
 
@@ -107,9 +111,9 @@ fn panic_with<T: Send + 'static>(payload: T) -> ! {
 }
 
 /// A panic's payload that panics in its own Drop.
-struct Landmine;
+struct PanicsOnDrop;
 
-impl Drop for Landmine {
+impl Drop for PanicsOnDrop {
     fn drop(&mut self) {
         panic_if(!std::thread::panicking(), "the payload's Drop");
     }
@@ -120,9 +124,9 @@ impl Setup {
         panic_if(self.panic_in == place, &format!("{place:?}"));
     }
 
-    fn accident_at_start(&self) -> Accident {
+    fn fault_at_start(&self) -> Fault {
         self.panic_if(Place::Declare);
-        Accident::Nowhere
+        Fault::Nowhere
     }
 }
 
@@ -134,15 +138,15 @@ impl Serialize for Setup {
 }
 
 impl State {
-    fn panic_if(&self, accident: Accident) {
-        panic_if(self.accident == accident, &format!("{accident:?}"));
+    fn panic_if(&self, fault: Fault) {
+        panic_if(self.fault == fault, &format!("{fault:?}"));
     }
 }
 
 impl Clone for State {
     fn clone(&self) -> Self {
-        self.panic_if(Accident::CloneState);
-        Self { accident: self.accident, steps: self.steps }
+        self.panic_if(Fault::CloneState);
+        Self { fault: self.fault, steps: self.steps }
     }
 }
 
@@ -150,30 +154,30 @@ impl Drop for State {
     fn drop(&mut self) {
         // A second panic while unwinding aborts the process; no boundary can catch that.
         if !std::thread::panicking() {
-            self.panic_if(Accident::DropState);
+            self.panic_if(Fault::DropState);
         }
     }
 }
 
-fn serialize_accident<S: Serializer>(accident: &Accident, serializer: S) -> Result<S::Ok, S::Error> {
-    panic_if(*accident == Accident::SerializeState, "SerializeState");
-    if *accident == Accident::FailSerializeState {
+fn serialize_fault<S: Serializer>(fault: &Fault, serializer: S) -> Result<S::Ok, S::Error> {
+    panic_if(*fault == Fault::SerializeState, "SerializeState");
+    if *fault == Fault::FailSerializeState {
         return Err(ser::Error::custom("this state cannot be serialised"));
     }
-    serializer.serialize_i32(accident.value())
+    serializer.serialize_i32(fault.value())
 }
 
-fn deserialize_accident<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Accident, D::Error> {
+fn deserialize_fault<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Fault, D::Error> {
     let value = i32::deserialize(deserializer)?;
-    let accident = Accident::from_value(value)
-        .ok_or_else(|| de::Error::custom(format!("{value} is no item of Accident")))?;
-    panic_if(accident == Accident::DeserializeState, "DeserializeState");
-    Ok(accident)
+    let fault =
+        Fault::from_value(value).ok_or_else(|| de::Error::custom(format!("{value} is no item of Fault")))?;
+    panic_if(fault == Fault::DeserializeState, "DeserializeState");
+    Ok(fault)
 }
 
-/// The accident chosen now.
-fn chosen(context: &Context<'_, Panicking>, values: &Values) -> Accident {
-    values.choice(context.variables.accident).unwrap_or(Accident::Nowhere)
+/// The fault chosen now.
+fn chosen(context: &Context<'_, Panicking>, values: &Values) -> Fault {
+    values.choice(context.variables.fault).unwrap_or(Fault::Nowhere)
 }
 
 impl Model for Panicking {
@@ -181,8 +185,7 @@ impl Model for Panicking {
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("panicking.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../resources/panicking.toml");
-    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
-    const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = true;
+    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates().differentiable();
 
     type Setup = Setup;
     type Variables = PanickingVariables;
@@ -197,7 +200,7 @@ impl Model for Panicking {
     fn about(setup: &Setup) -> About {
         setup.panic_if(Place::About);
         About {
-            description: "Panics or fails where `accident` says.".to_owned(),
+            description: "Panics or fails where `fault` says.".to_owned(),
             start_time_s: 0.0,
             stop_time_s: 1.0,
             step_size_s: 0.1,
@@ -211,14 +214,14 @@ impl Model for Panicking {
         values: &mut Values,
         start_time_s: f64,
     ) -> Result<State, Failure> {
-        let accident = chosen(context, values);
-        panic_if(accident == Accident::Initialize, "Initialize");
-        if accident == Accident::FailInitialize {
+        let fault = chosen(context, values);
+        panic_if(fault == Fault::Initialize, "Initialize");
+        if fault == Fault::FailInitialize {
             return Err(Failure::new("initialize fails, 100 % deliberately"));
         }
         values.set_real(context.variables.output, values.real(context.variables.input));
         values.set_real(context.variables.clock, start_time_s);
-        Ok(State { accident, steps: 0 })
+        Ok(State { fault, steps: 0 })
     }
 
     fn step(
@@ -226,42 +229,40 @@ impl Model for Panicking {
         values: &mut Values,
         state: &mut State,
         step: &Step<'_>,
-    ) -> Result<(), Failure> {
-        state.accident = chosen(context, values);
+    ) -> Result<StepEnd, Failure> {
+        state.fault = chosen(context, values);
         state.steps = state.steps.saturating_add(1);
-        let input = step.input(values, context.variables.input, step.end_s);
+        let input = step.inputs.real(values, context.variables.input, step.end_s);
         values.set_real(context.variables.output, input);
-        state.panic_if(Accident::Step);
-        match state.accident {
-            Accident::StepPayload => panic_with(42_u8),
-            Accident::StepPayloadDrop => panic_with(Landmine),
-            Accident::StepIndex => {
-                values.set_real(Real::from_reference(u32::MAX), input);
+        state.panic_if(Fault::Step);
+        match state.fault {
+            Fault::StepPayload => panic_with(42_u8),
+            Fault::StepPayloadDrop => panic_with(PanicsOnDrop),
+            Fault::StepIndex => {
+                values.set_real(context.variables.output, [input][state.steps as usize]);
             }
-            Accident::FailStep => return Err(Failure::new("step fails, 100 % deliberately")),
-            Accident::TerminateStep => return Err(Failure::terminated("the model ends here")),
+            Fault::FailStep => return Err(Failure::new("step fails, 100 % deliberately")),
+            Fault::TerminateStep => return Ok(StepEnd::at(step.start_s).terminate("the model ends here")),
             _ => {}
         }
-        values.set_real(context.variables.clock, step.end_s);
-        Ok(())
+        let length_s = step.end_s - step.start_s;
+        let end_s = match state.fault {
+            Fault::StepShort if length_s > 0.2 => step.start_s + length_s / 2.0,
+            Fault::StepStill => step.start_s,
+            _ => step.end_s,
+        };
+        let input = step.inputs.real(values, context.variables.input, end_s);
+        values.set_real(context.variables.output, input);
+        values.set_real(context.variables.clock, end_s);
+        Ok(StepEnd::at(end_s))
     }
 
     fn check_state(_setup: &Setup, state: &State) -> Result<(), Failure> {
-        state.panic_if(Accident::CheckState);
-        if state.accident == Accident::FailCheckState {
+        state.panic_if(Fault::CheckState);
+        if state.fault == Fault::FailCheckState {
             return Err(Failure::new("this state is refused, 100 % deliberately"));
         }
         Ok(())
-    }
-
-    fn output_derivative(
-        context: &Context<'_, Self>,
-        values: &Values,
-        _state: &State,
-        _output: Real,
-    ) -> Option<f64> {
-        panic_if(chosen(context, values) == Accident::OutputDerivative, "OutputDerivative");
-        None
     }
 
     fn dependencies(_setup: &Setup, variables: &PanickingVariables) -> Dependencies {
@@ -270,21 +271,34 @@ impl Model for Panicking {
         table.output(variables.clock, knowns![], knowns![]);
         table
     }
+}
 
-    fn directional_derivative(
+impl OutputRates for Panicking {
+    fn output_rate(
         context: &Context<'_, Self>,
         values: &Values,
         _state: &State,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        result: &mut [f64],
+        _output: Real,
+    ) -> Option<f64> {
+        panic_if(chosen(context, values) == Fault::OutputDerivative, "OutputDerivative");
+        None
+    }
+}
+
+impl Differentiable for Panicking {
+    fn jacobian_vector_product(
+        context: &Context<'_, Self>,
+        values: &Values,
+        _state: &State,
+        unknowns: &[Real],
+        seeds: &[(Real, f64)],
+        products: &mut [f64],
     ) -> Result<(), Failure> {
-        panic_if(chosen(context, values) == Accident::DirectionalDerivative, "DirectionalDerivative");
-        let (from, to) = (context.variables.input.reference(), context.variables.output.reference());
-        for (unknown, result) in unknowns.iter().zip(result) {
-            let seeds = knowns.iter().zip(seed).filter(|(known, _)| *unknown == to && **known == from);
-            *result = seeds.map(|(_, seed)| seed).sum();
+        panic_if(chosen(context, values) == Fault::DirectionalDerivative, "DirectionalDerivative");
+        let (from, to) = (context.variables.input, context.variables.output);
+        for (unknown, product) in unknowns.iter().zip(products) {
+            let along = seeds.iter().filter(|(known, _)| *unknown == to && *known == from);
+            *product = along.map(|(_, seed)| seed).sum();
         }
         Ok(())
     }

@@ -75,12 +75,12 @@ pub enum Answer {
 
 /// All that `fmi2SetFMUstate` brings back.
 #[derive(Clone)]
-pub struct Moment {
+pub struct InstanceState {
     pub state: char,
     experiment: Option<(f64, Option<f64>)>,
     time_s: f64,
     terminated: bool,
-    given: [Value; VARIABLES.len()],
+    set_values: [Value; VARIABLES.len()],
     /// What outputs show; none before the first computation.
     computed: Option<Computed>,
     derivatives: Vec<(i32, f64)>,
@@ -88,7 +88,7 @@ pub struct Moment {
 
 #[derive(Clone)]
 struct Computed {
-    given: [Value; VARIABLES.len()],
+    set_values: [Value; VARIABLES.len()],
     output_real: f64,
     slope: f64,
 }
@@ -96,9 +96,9 @@ struct Computed {
 /// The reference instance with the states its master keeps.
 #[derive(Clone)]
 pub struct Master {
-    pub now: Moment,
-    slots: [Option<Box<Moment>>; 2],
-    bytes: Option<Box<Moment>>,
+    pub now: InstanceState,
+    slots: [Option<Box<InstanceState>>; 2],
+    bytes: Option<Box<InstanceState>>,
     pub logging: bool,
     pub answer: Answer,
     misprint: Option<Misprint>,
@@ -112,21 +112,21 @@ pub struct Misprint {
     pub cell: char,
 }
 
-impl Moment {
+impl InstanceState {
     fn fresh() -> Self {
         Self {
             state: 'I',
             experiment: None,
             time_s: 0.0,
             terminated: false,
-            given: std::array::from_fn(|row| VARIABLES[row].start),
+            set_values: std::array::from_fn(|row| VARIABLES[row].start),
             computed: None,
             derivatives: Vec::new(),
         }
     }
 
     fn number(&self, name: &str) -> f64 {
-        match self.given[position(name)] {
+        match self.set_values[position(name)] {
             Value::Real(value) => value,
             other => panic!("{name} is {other:?}"),
         }
@@ -140,14 +140,14 @@ impl Moment {
             output_real += value * length_s.powi(order) / factorial;
             slope += value * length_s.powi(order - 1) * f64::from(order) / factorial;
         }
-        self.computed = Some(Computed { given: self.given, output_real, slope });
+        self.computed = Some(Computed { set_values: self.set_values, output_real, slope });
     }
 
     fn read(&self, row: usize) -> Option<Value> {
         match (VARIABLES[row].content, echoes()[row], &self.computed) {
-            (Content::Given, ..) => Some(self.given[row]),
+            (Content::AsSet, ..) => Some(self.set_values[row]),
             (Content::Echo("input.real"), _, Some(computed)) => Some(Value::Real(computed.output_real)),
-            (Content::Echo(_), Some(source), Some(computed)) => Some(computed.given[source]),
+            (Content::Echo(_), Some(source), Some(computed)) => Some(computed.set_values[source]),
             _ => None,
         }
     }
@@ -163,7 +163,7 @@ impl std::fmt::Debug for Master {
 impl Master {
     pub fn new() -> Self {
         Self {
-            now: Moment::fresh(),
+            now: InstanceState::fresh(),
             slots: [None, None],
             bytes: None,
             logging: true,
@@ -221,11 +221,11 @@ impl Master {
             }
             Call::Terminate => now.state = 'T',
             Call::Reset | Call::Replace => {
-                *now = Moment::fresh();
+                *now = InstanceState::fresh();
                 self.logging = true;
             }
             Call::Get(_, ref picked) => return self.get(picked),
-            Call::Set(_, ref wanted) => return self.set(wanted, note),
+            Call::Set(_, ref expected) => return self.set(expected, note),
             Call::GetState(slot) => self.slots[slot] = Some(Box::new(now.clone())),
             Call::SetState(slot) => match &self.slots[slot] {
                 Some(saved) => *now = (**saved).clone(),
@@ -295,8 +295,8 @@ impl Master {
     }
 
     /// All or nothing; the first element that is wrong decides.
-    fn set(&mut self, wanted: &[(Picked, Value)], note: char) -> Answer {
-        for (picked, value) in wanted {
+    fn set(&mut self, expected: &[(Picked, Value)], note: char) -> Answer {
+        for (picked, value) in expected {
             let Picked::Row(row) = *picked else { return Answer::Error };
             let variable: &Variable = &VARIABLES[row];
             // Declared leniency: inputs before Initialization Mode.
@@ -307,9 +307,9 @@ impl Master {
                 return Answer::Discard;
             }
         }
-        for (picked, value) in wanted {
+        for (picked, value) in expected {
             if let Picked::Row(row) = *picked {
-                self.now.given[row] = *value;
+                self.now.set_values[row] = *value;
             }
         }
         Answer::Ok

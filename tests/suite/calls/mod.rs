@@ -8,8 +8,8 @@ mod variables;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use fmi_export::Status;
-use fmi_export::abi::{InProcess, Message, StatePointer};
+use client::{InProcess, Message, StatePointer};
+use model_description::Status;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
@@ -109,9 +109,9 @@ impl Subject {
         }
     }
 
-    fn set(&mut self, base: Base, wanted: &[(Picked, Value)]) -> Status {
-        let references: Vec<u32> = wanted.iter().map(|(picked, _)| reference(picked)).collect();
-        let values = wanted.iter().map(|(_, value)| value);
+    fn set(&mut self, base: Base, expected: &[(Picked, Value)]) -> Status {
+        let references: Vec<u32> = expected.iter().map(|(picked, _)| reference(picked)).collect();
+        let values = expected.iter().map(|(_, value)| value);
         match base {
             Base::Real => {
                 let values: Vec<f64> =
@@ -157,7 +157,7 @@ impl Subject {
                 Status::Ok
             }
             Call::Get(base, picked) => return self.get(*base, picked),
-            Call::Set(base, wanted) => self.set(*base, wanted),
+            Call::Set(base, expected) => self.set(*base, expected),
             Call::GetState(slot) => instance.get_state(&mut self.slots[*slot]),
             Call::SetState(slot) => instance.set_state(&self.slots[*slot]),
             Call::FreeState(slot) => instance.free_state(&mut self.slots[*slot]),
@@ -254,10 +254,11 @@ fn judge(
         return complain(format!("{status:?} not {expected:?}"));
     }
     let wrong = match &master.answer {
-        Answer::Values(wanted) => {
-            wanted.iter().zip(values).any(|(wanted, found)| wanted.is_some_and(|wanted| wanted != *found))
-        }
-        Answer::Number(wanted) => *values != [Value::Real(*wanted)],
+        Answer::Values(expected) => expected
+            .iter()
+            .zip(values)
+            .any(|(expected, found)| expected.is_some_and(|expected| expected != *found)),
+        Answer::Number(expected) => *values != [Value::Real(*expected)],
         _ => false,
     };
     if wrong {
@@ -291,7 +292,7 @@ impl StateMachineTest for Sequence {
     fn apply(mut sequence: Self, master: &Master, call: Call) -> Self {
         let answer = sequence.subject.call(&call, sequence.before);
         let messages = sequence.subject.instance.take_messages();
-        judge(master, &call, &answer, &messages).unwrap_or_else(|complaint| panic!("{complaint}"));
+        judge(master, &call, &answer, &messages).unwrap_or_else(|message| panic!("{message}"));
         sequence.before = Before::of(master);
         sequence
     }
@@ -313,10 +314,10 @@ const WALKED: &str = "IMCFTE";
 
 #[test]
 fn any_sequence_of_calls_is_answered_by_the_table() {
-    let wanted = std::env::var("HELIOTORQUE_CALLS").ok().and_then(|it| it.parse().ok()).unwrap_or(CALLS);
+    let expected = std::env::var("HELIOTORQUE_CALLS").ok().and_then(|it| it.parse().ok()).unwrap_or(CALLS);
     let made = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut batch = 0;
-    while made().values().sum::<u64>() < wanted {
+    while made().values().sum::<u64>() < expected {
         let mut config = Config { cases: 500, failure_persistence: None, ..Config::default() };
         if let RngSeed::Fixed(seed) = config.rng_seed {
             config.rng_seed = RngSeed::Fixed(seed.wrapping_add(batch));
@@ -335,7 +336,7 @@ fn any_sequence_of_calls_is_answered_by_the_table() {
     for function in walked() {
         for state in WALKED.chars() {
             let count = made.get(&(function, state)).copied().unwrap_or_default();
-            assert!(count >= wanted / 200_000, "{function} was called {count} times in {state}");
+            assert!(count >= expected / 200_000, "{function} was called {count} times in {state}");
         }
     }
 }

@@ -63,7 +63,8 @@ fn set(state: char, settable: bool) -> BoxedStrategy<Call> {
                 true => select(fitting).prop_map(Picked::Row).boxed(),
                 false => picked(base).boxed(),
             };
-            prop::collection::vec((picked, value(base)), 0..4).prop_map(move |wanted| Call::Set(base, wanted))
+            prop::collection::vec((picked, value(base)), 0..4)
+                .prop_map(move |expected| Call::Set(base, expected))
         })
         .boxed()
 }

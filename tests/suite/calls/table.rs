@@ -36,7 +36,7 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
 }
 
 mod tests {
-    use fmi_export::call_table::{Access, CALL_TABLE, Function, State};
+    use model_description::call_table::{Access, CALL_TABLE, Function, State};
 
     use super::{STATES, cell, functions};
 

@@ -8,7 +8,7 @@ use crate::support::{self, Base};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Content {
     /// What was set, or the start value.
-    Given,
+    AsSet,
     /// The input or tunable parameter of this name, as the last computation saw it.
     Echo(&'static str),
     /// Not predicted here.
@@ -40,7 +40,7 @@ pub struct Variable {
 }
 
 use Base::{Boolean, Integer, Real, Text};
-use Content::{Echo, Given, Other};
+use Content::{AsSet, Echo, Other};
 
 const PARAMETER: (&str, &str, &str) = ("parameter", "fixed", "exact");
 const TUNABLE: (&str, &str, &str) = ("parameter", "tunable", "exact");
@@ -62,11 +62,11 @@ const fn row(
 
 /// By base type; the order within is free.
 pub const VARIABLES: &[Variable] = &[
-    row("parameter.real", Real, PARAMETER, Value::Real(1.5), Given, finite),
-    row("tunable.real", Real, TUNABLE, Value::Real(2.5), Given, |v| real(v, 0.0, 10.0)),
-    row("input.real", Real, INPUT, Value::Real(0.0), Given, |v| real(v, -1e6, 1e6)),
-    row("input.discreteReal", Real, DISCRETE_INPUT, Value::Real(0.25), Given, finite),
-    row("end.time", Real, TUNABLE, Value::Real(1e6), Given, finite),
+    row("parameter.real", Real, PARAMETER, Value::Real(1.5), AsSet, finite),
+    row("tunable.real", Real, TUNABLE, Value::Real(2.5), AsSet, |v| real(v, 0.0, 10.0)),
+    row("input.real", Real, INPUT, Value::Real(0.0), AsSet, |v| real(v, -1e6, 1e6)),
+    row("input.discreteReal", Real, DISCRETE_INPUT, Value::Real(0.25), AsSet, finite),
+    row("end.time", Real, TUNABLE, Value::Real(1e6), AsSet, finite),
     row("output.real", Real, OUTPUT, Value::Real(0.0), Echo("input.real"), finite),
     row("output.discreteReal", Real, DISCRETE_OUTPUT, Value::Real(0.0), Echo("input.discreteReal"), finite),
     row("echo.real", Real, DISCRETE_OUTPUT, Value::Real(0.0), Echo("tunable.real"), finite),
@@ -86,30 +86,30 @@ pub const VARIABLES: &[Variable] = &[
         Other,
         finite,
     ),
-    row("role.outputConstant", Real, ("output", "constant", "exact"), Value::Real(42.0), Given, finite),
+    row("role.outputConstant", Real, ("output", "constant", "exact"), Value::Real(42.0), AsSet, finite),
     row("role.outputApprox", Real, ("output", "continuous", "approx"), Value::Real(0.5), Other, finite),
     row("role.localContinuous", Real, ("local", "continuous", "calculated"), Value::Real(0.0), Other, finite),
-    row("role.localExact", Real, ("local", "continuous", "exact"), Value::Real(9.0), Given, finite),
-    row("parameter.integer", Integer, PARAMETER, Value::Integer(-7), Given, |v| integer(v, -1000, 1000)),
-    row("tunable.integer", Integer, TUNABLE, Value::Integer(8), Given, |v| integer(v, -10, 10)),
-    row("tunable.choice", Integer, TUNABLE, Value::Integer(2), Given, colour),
-    row("input.integer", Integer, DISCRETE_INPUT, Value::Integer(1), Given, |v| integer(v, -1000, 1000)),
-    row("input.choice", Integer, DISCRETE_INPUT, Value::Integer(1), Given, colour),
+    row("role.localExact", Real, ("local", "continuous", "exact"), Value::Real(9.0), AsSet, finite),
+    row("parameter.integer", Integer, PARAMETER, Value::Integer(-7), AsSet, |v| integer(v, -1000, 1000)),
+    row("tunable.integer", Integer, TUNABLE, Value::Integer(8), AsSet, |v| integer(v, -10, 10)),
+    row("tunable.choice", Integer, TUNABLE, Value::Integer(2), AsSet, colour),
+    row("input.integer", Integer, DISCRETE_INPUT, Value::Integer(1), AsSet, |v| integer(v, -1000, 1000)),
+    row("input.choice", Integer, DISCRETE_INPUT, Value::Integer(1), AsSet, colour),
     row("output.integer", Integer, DISCRETE_OUTPUT, Value::Integer(0), Echo("input.integer"), any),
     row("output.choice", Integer, DISCRETE_OUTPUT, Value::Integer(0), Echo("input.choice"), colour),
     row("echo.choice", Integer, DISCRETE_OUTPUT, Value::Integer(0), Echo("tunable.choice"), colour),
     row("role.localFixed", Integer, ("local", "fixed", "calculated"), Value::Integer(0), Other, any),
     row("role.outputExact", Integer, ("output", "discrete", "exact"), Value::Integer(100), Other, any),
-    row("parameter.boolean", Boolean, PARAMETER, Value::Boolean(1), Given, boolean),
-    row("tunable.boolean", Boolean, TUNABLE, Value::Boolean(0), Given, boolean),
-    row("input.boolean", Boolean, DISCRETE_INPUT, Value::Boolean(0), Given, boolean),
+    row("parameter.boolean", Boolean, PARAMETER, Value::Boolean(1), AsSet, boolean),
+    row("tunable.boolean", Boolean, TUNABLE, Value::Boolean(0), AsSet, boolean),
+    row("input.boolean", Boolean, DISCRETE_INPUT, Value::Boolean(0), AsSet, boolean),
     row("output.boolean", Boolean, DISCRETE_OUTPUT, Value::Boolean(0), Echo("input.boolean"), boolean),
     row("role.localTunable", Boolean, ("local", "tunable", "calculated"), Value::Boolean(0), Other, boolean),
-    row("parameter.text", Text, PARAMETER, Value::Text("Grüße, 世界 <&\"'> 🛰"), Given, any),
-    row("tunable.text", Text, TUNABLE, Value::Text("naïve café"), Given, any),
-    row("input.text", Text, DISCRETE_INPUT, Value::Text(""), Given, any),
+    row("parameter.text", Text, PARAMETER, Value::Text("Grüße, 世界 <&\"'> 🛰"), AsSet, any),
+    row("tunable.text", Text, TUNABLE, Value::Text("naïve café"), AsSet, any),
+    row("input.text", Text, DISCRETE_INPUT, Value::Text(""), AsSet, any),
     row("output.text", Text, DISCRETE_OUTPUT, Value::Text(""), Echo("input.text"), any),
-    row("role.localConstant", Text, ("local", "constant", "exact"), Value::Text("constant"), Given, any),
+    row("role.localConstant", Text, ("local", "constant", "exact"), Value::Text("constant"), AsSet, any),
 ];
 
 fn real(value: Value, min: f64, max: f64) -> bool {
@@ -156,7 +156,7 @@ pub fn echoes() -> &'static [Option<usize>] {
     ECHOES.get_or_init(|| {
         let source = |variable: &Variable| match variable.content {
             Echo(name) => Some(position(name)),
-            Given | Other => None,
+            AsSet | Other => None,
         };
         VARIABLES.iter().map(source).collect()
     })

@@ -3,11 +3,11 @@
 use core::fmt::Display;
 
 use model_description::{
-    EnumerationItem, Variability, names,
+    Variability, names,
     rules::{self, StartRule},
 };
 
-use super::declare::Role;
+use super::variable::{Item, Role};
 
 /// Result of a check: the problem in words.
 pub type Checked = Result<(), String>;
@@ -74,7 +74,7 @@ pub fn text(what: &str, text: &str) -> Checked {
 }
 
 /// Checks the items of an enumeration type: some, with distinct names and values.
-pub fn items(items: &[EnumerationItem]) -> Checked {
+pub fn items(items: &[Item]) -> Checked {
     if items.is_empty() {
         return Err("its enumeration has no items".to_owned());
     }
@@ -91,7 +91,7 @@ pub fn items(items: &[EnumerationItem]) -> Checked {
 }
 
 /// Checks that an enumeration can be an input: masters send 0 before the first exchange.
-pub fn has_none(items: &[EnumerationItem]) -> Checked {
+pub fn has_none(items: &[Item]) -> Checked {
     match items.iter().any(|item| item.value == 0 && item.name == "none") {
         true => Ok(()),
         false => {

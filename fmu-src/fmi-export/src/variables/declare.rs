@@ -1,17 +1,14 @@
-//! The builder behind `#[derive(Variables)]`: turns declarations into XML variables, start values and access rules.
+//! The builder behind `#[derive(Variables)]`: checks declarations and gives each variable its place in the tables of values.
 
 use core::marker::PhantomData;
 use std::collections::BTreeSet;
 
-use model_description::{
-    Causality, Initial, RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind, Variability,
-    VariableKind, rules, units,
-};
+use model_description::{Causality, units};
 
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
-use super::values::Values;
-use crate::access::BaseType;
+use super::interface::Interface;
+use super::variable::{Element, Kind, Role, Variable};
 
 /// Why a declaration is wrong; names the variable.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,17 +18,6 @@ pub struct DeclareError {
     pub name: String,
     /// What is wrong and what is allowed.
     pub problem: String,
-}
-
-/// Causality, variability and initial of a declaration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Role {
-    /// Causality.
-    pub causality: Causality,
-    /// Variability.
-    pub variability: Variability,
-    /// `initial` where it differs from the standard's default.
-    pub initial: Option<Initial>,
 }
 
 /// What is declared of a Real scalar, vector or matrix.
@@ -66,23 +52,12 @@ pub struct ScalarSpec<'a> {
     pub role: Role,
 }
 
-/// Everything declared: the XML variables in order, start values, types and units used.
-#[derive(Clone, Debug, Default)]
-pub struct Table {
-    /// XML variables in declaration order.
-    pub variables: Vec<ScalarVariable>,
-    /// Enumeration types used, in order of first use.
-    pub types: Vec<SimpleType>,
-    /// Start values (0, false, "" where none is declared).
-    pub start: Values,
-}
-
 /// Collects declarations; see [`super::Variables`].
 #[derive(Debug, Default)]
 pub struct Declare {
     prefix: String,
     names: BTreeSet<String>,
-    table: Table,
+    interface: Interface,
 }
 
 impl Declare {
@@ -92,8 +67,8 @@ impl Declare {
     }
 
     /// What was declared.
-    pub fn finish(self) -> Table {
-        self.table
+    pub fn finish(self) -> Interface {
+        self.interface
     }
 
     /// Declares a nested group under `prefix.name.`; an empty name adds no prefix.
@@ -126,7 +101,7 @@ impl Declare {
 
     /// Declares a Real; `start` must be given where the role demands one.
     pub fn real(&mut self, spec: &RealSpec<'_>, start: Option<f64>) -> Result<Real, DeclareError> {
-        self.push_real(spec, spec.name, start)
+        self.push_reals(spec, &[], start.as_ref().map(core::slice::from_ref)).map(Real)
     }
 
     /// Declares `x[1]`..`x[N]`.
@@ -135,12 +110,7 @@ impl Declare {
         spec: &RealSpec<'_>,
         start: Option<[f64; N]>,
     ) -> Result<RealVector<N>, DeclareError> {
-        let first = self.table.start.reals.len() as u32;
-        for i in 0..N {
-            let name = format!("{}[{}]", spec.name, i + 1);
-            self.push_real(spec, &name, start.map(|values| values[i]))?;
-        }
-        Ok(RealVector(first))
+        self.push_reals(spec, &[N], start.as_ref().map(|it| it.as_slice())).map(RealVector)
     }
 
     /// Declares `x[1,1]`..`x[R,C]`, row by row.
@@ -149,14 +119,7 @@ impl Declare {
         spec: &RealSpec<'_>,
         start: Option<[[f64; C]; R]>,
     ) -> Result<RealMatrix<R, C>, DeclareError> {
-        let first = self.table.start.reals.len() as u32;
-        for r in 0..R {
-            for c in 0..C {
-                let name = format!("{}[{},{}]", spec.name, r + 1, c + 1);
-                self.push_real(spec, &name, start.map(|values| values[r][c]))?;
-            }
-        }
-        Ok(RealMatrix(first))
+        self.push_reals(spec, &[R, C], start.as_ref().map(|it| it.as_flattened())).map(RealMatrix)
     }
 
     /// Declares an Integer.
@@ -168,30 +131,27 @@ impl Declare {
         max: Option<i32>,
     ) -> Result<Integer, DeclareError> {
         self.checked(spec.name, check::range(start, min, max))?;
-        let index = self.table.start.integers.len() as u32;
-        let kind = VariableKind::Integer { start, declared_type: None, quantity: None, min, max };
-        self.push(spec.name, spec.description, spec.role, index, kind)?;
-        self.table.start.integers.push(start.unwrap_or(0));
-        Ok(Integer(index))
+        let at = self.interface.start.integers.len() as u32;
+        self.push(spec, &[], Element::Integer(at), Kind::Integer { min, max }, start.is_some())?;
+        self.interface.start.integers.push(start.unwrap_or(0));
+        Ok(Integer(at))
     }
 
     /// Declares a Boolean.
     pub fn boolean(&mut self, spec: &ScalarSpec<'_>, start: Option<bool>) -> Result<Boolean, DeclareError> {
-        let index = self.table.start.booleans.len() as u32;
-        let kind = VariableKind::Boolean { start, declared_type: None };
-        self.push(spec.name, spec.description, spec.role, index, kind)?;
-        self.table.start.booleans.push(start.unwrap_or(false));
-        Ok(Boolean(index))
+        let at = self.interface.start.booleans.len() as u32;
+        self.push(spec, &[], Element::Boolean(at), Kind::Boolean, start.is_some())?;
+        self.interface.start.booleans.push(start.unwrap_or(false));
+        Ok(Boolean(at))
     }
 
     /// Declares a String.
     pub fn text(&mut self, spec: &ScalarSpec<'_>, start: Option<&str>) -> Result<Text, DeclareError> {
-        let index = self.table.start.strings.len() as u32;
+        let at = self.interface.start.strings.len() as u32;
         self.checked(spec.name, check::text("start", start.unwrap_or_default()))?;
-        let kind = VariableKind::String { start: start.map(str::to_owned), declared_type: None };
-        self.push(spec.name, spec.description, spec.role, index, kind)?;
-        self.table.start.strings.push(start.unwrap_or_default().to_owned());
-        Ok(Text(index))
+        self.push(spec, &[], Element::Text(at), Kind::Text, start.is_some())?;
+        self.interface.start.strings.push(start.unwrap_or_default().to_owned());
+        Ok(Text(at))
     }
 
     /// Declares an Enumeration; its values live in the Integer table.
@@ -202,125 +162,127 @@ impl Declare {
     ) -> Result<Choice<E>, DeclareError> {
         let first = self.enumeration_type::<E>(spec.name)?;
         if spec.role.causality == Causality::Input {
-            self.checked(spec.name, check::has_none(&E::items()))?;
+            self.checked(spec.name, check::has_none(E::TYPE.items))?;
         }
-        let index = self.table.start.integers.len() as u32;
-        let kind = VariableKind::Enumeration {
-            start: start.map(E::value),
-            declared_type: E::TYPE_NAME.to_owned(),
-            quantity: None,
-            min: None,
-            max: None,
-        };
-        self.push(spec.name, spec.description, spec.role, index, kind)?;
-        self.table.start.integers.push(start.map_or(first, E::value));
-        Ok(Choice(index, PhantomData))
+        let at = self.interface.start.integers.len() as u32;
+        self.push(spec, &[], Element::Integer(at), Kind::Enumeration(E::TYPE.name), start.is_some())?;
+        self.interface.start.integers.push(start.map_or(first, E::value));
+        Ok(Choice(at, PhantomData))
     }
 
-    /// Adds the type definition of `E` where it is new; the value of its first item.
+    /// Adds the type of `E` where it is new; the value of its first item.
     fn enumeration_type<E: Enumeration>(&mut self, name: &str) -> Result<i32, DeclareError> {
-        let items = E::items();
-        self.checked(name, check::items(&items))?;
-        let first = items.first().map_or(1, |item| item.value);
-        let declared = SimpleType {
-            name: E::TYPE_NAME.to_owned(),
-            description: Some(E::DESCRIPTION.to_owned()),
-            kind: SimpleTypeKind::Enumeration { quantity: None, items },
-        };
-        match self.table.types.iter().find(|known| known.name == E::TYPE_NAME) {
+        let declared = E::TYPE;
+        self.checked(name, check::items(declared.items))?;
+        match self.interface.enumerations.iter().find(|known| known.name == declared.name) {
             Some(known) if *known == declared => {}
             Some(_) => {
-                let problem = format!("two different enumerations are named `{}`", E::TYPE_NAME);
+                let problem = format!("two different enumerations are named `{}`", declared.name);
                 return Err(self.error(name, problem));
             }
-            None if self.names.contains(E::TYPE_NAME) => {
-                let problem = format!("its enumeration is named `{}` as a variable is", E::TYPE_NAME);
+            None if self.names.contains(declared.name) => {
+                let problem = format!("its enumeration is named `{}` as a variable is", declared.name);
                 return Err(self.error(name, problem));
             }
-            None => self.table.types.push(declared),
+            None => self.interface.enumerations.push(declared),
         }
-        Ok(first)
+        Ok(declared.items.first().map_or(1, |item| item.value))
     }
 
-    fn push_real(
+    /// Declares a scalar or an array with its start values row by row; the place of the first element.
+    fn push_reals(
         &mut self,
         spec: &RealSpec<'_>,
-        name: &str,
-        start: Option<f64>,
-    ) -> Result<Real, DeclareError> {
-        let RealSpec { unit, display_unit, min, max, nominal, .. } = *spec;
+        dimensions: &[usize],
+        start: Option<&[f64]>,
+    ) -> Result<u32, DeclareError> {
+        let RealSpec { name, description, role, unit, display_unit, min, max, nominal } = *spec;
+        let first = if dimensions.is_empty() { name.to_owned() } else { first_element(name, dimensions) };
         let known = units::find(unit)
-            .ok_or_else(|| self.error(name, format!("unit `{unit}` is not in the unit table")))?;
+            .ok_or_else(|| self.error(&first, format!("unit `{unit}` is not in the unit table")))?;
         if let Some(display) = display_unit
             && !known.has_display(display)
         {
-            return Err(self.error(name, format!("`{display}` is no display unit of `{unit}`")));
+            return Err(self.error(&first, format!("`{display}` is no display unit of `{unit}`")));
         }
-        let given = [("start", start), ("min", min), ("max", max), ("nominal", nominal)];
-        for (what, value) in given {
-            self.checked(name, check::finite(what, value))?;
+        for (what, value) in [("min", min), ("max", max), ("nominal", nominal)] {
+            self.checked(&first, check::finite(what, value))?;
         }
-        self.checked(name, check::range(start, min, max))?;
+        self.checked(&first, check::range(None, min, max))?;
         if let Some(nominal) = nominal
             && nominal <= 0.0
         {
-            return Err(self.error(name, format!("nominal is {nominal}; it must be above 0")));
+            return Err(self.error(&first, format!("nominal is {nominal}; it must be above 0")));
         }
-        let index = self.table.start.reals.len() as u32;
-        let attributes = RealAttributes {
-            unit: Some(unit.to_owned()),
+        let at = self.interface.start.reals.len() as u32;
+        let kind = Kind::Real {
+            unit: unit.to_owned(),
             display_unit: display_unit.map(str::to_owned),
             min,
             max,
             nominal,
-            ..RealAttributes::default()
         };
-        let kind =
-            VariableKind::Real { start, declared_type: None, attributes, derivative: None, reinit: None };
-        self.push(name, spec.description, spec.role, index, kind)?;
-        self.table.start.reals.push(start.unwrap_or(0.0));
-        Ok(Real(index))
+        let scalar = ScalarSpec { name, description, role };
+        let variable = self.variable(&scalar, dimensions, Element::Real(at), kind);
+        for ((full, _), &value) in variable.elements().zip(start.unwrap_or_default()) {
+            let checked =
+                check::finite("start", Some(value)).and_then(|()| check::range(Some(value), min, max));
+            checked.map_err(|problem| DeclareError { name: full, problem })?;
+        }
+        let count = variable.count();
+        self.add(variable, start.is_some())?;
+        match start {
+            Some(values) => self.interface.start.reals.extend(values),
+            None => self.interface.start.reals.resize(at as usize + count, 0.0),
+        }
+        Ok(at)
     }
 
     fn push(
         &mut self,
-        name: &str,
-        description: &str,
-        role: Role,
-        index: u32,
-        kind: VariableKind,
+        spec: &ScalarSpec<'_>,
+        dimensions: &[usize],
+        first: Element,
+        kind: Kind,
+        has_start: bool,
     ) -> Result<(), DeclareError> {
-        let full = format!("{}{name}", self.prefix);
-        let mut variable = ScalarVariable {
-            name: full.clone(),
-            value_reference: index,
-            description: Some(description.to_owned()),
-            causality: role.causality,
-            variability: role.variability,
-            initial: role.initial,
-            can_handle_multiple_set_per_time_instant: None,
+        let variable = self.variable(spec, dimensions, first, kind);
+        self.add(variable, has_start)
+    }
+
+    fn variable(&self, spec: &ScalarSpec<'_>, dimensions: &[usize], first: Element, kind: Kind) -> Variable {
+        Variable {
+            name: format!("{}{}", self.prefix, spec.name),
+            description: spec.description.to_owned(),
+            role: spec.role,
+            dimensions: dimensions.to_vec(),
+            first,
             kind,
-        };
-        let base = BaseType::of(&variable);
-        if index >= BaseType::MOST {
-            let problem = format!("is one {} too many; at most {} are allowed", base.name(), BaseType::MOST);
-            return Err(self.error(name, problem));
         }
-        variable.value_reference = base.first_reference() + index;
-        let is_real = base == BaseType::Real;
-        self.checked(name, check::name(&full))?;
-        self.checked(name, check::role(role, is_real, rules::has_start(&variable)))?;
-        self.checked(name, check::text("description", description))?;
-        if description.trim().is_empty() {
-            return Err(self.error(name, "needs a description".to_owned()));
+    }
+
+    fn add(&mut self, variable: Variable, has_start: bool) -> Result<(), DeclareError> {
+        let is_real = matches!(variable.kind, Kind::Real { .. });
+        for (full, _) in variable.elements() {
+            let result = check::name(&full)
+                .and_then(|()| check::role(variable.role, is_real, has_start))
+                .and_then(|()| check::text("description", &variable.description))
+                .and_then(|()| match variable.description.trim().is_empty() {
+                    true => Err("needs a description".to_owned()),
+                    false => Ok(()),
+                })
+                .and_then(|()| match self.interface.enumerations.iter().any(|known| known.name == full) {
+                    true => Err("an enumeration type has this name".to_owned()),
+                    false => Ok(()),
+                });
+            if let Err(problem) = result {
+                return Err(DeclareError { name: full, problem });
+            }
+            if !self.names.insert(full.clone()) {
+                return Err(DeclareError { name: full, problem: "is declared twice".to_owned() });
+            }
         }
-        if self.table.types.iter().any(|known| known.name == full) {
-            return Err(self.error(name, "an enumeration type has this name".to_owned()));
-        }
-        if !self.names.insert(full) {
-            return Err(self.error(name, "is declared twice".to_owned()));
-        }
-        self.table.variables.push(variable);
+        self.interface.variables.push(variable);
         Ok(())
     }
 
@@ -331,4 +293,9 @@ impl Declare {
     fn error(&self, name: &str, problem: String) -> DeclareError {
         DeclareError { name: format!("{}{name}", self.prefix), problem }
     }
+}
+
+/// `x[1]` or `x[1,1]`: where a problem of a whole array is reported.
+fn first_element(name: &str, dimensions: &[usize]) -> String {
+    format!("{name}[{}]", vec!["1"; dimensions.len()].join(","))
 }

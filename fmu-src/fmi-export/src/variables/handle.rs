@@ -1,21 +1,21 @@
-//! Handles: what a declared variable is to the model's code. Each holds the index into the table of its type.
+//! Handles: what a declared variable is to the model's code. Each holds the place of its first element in the table of its
+//! type.
 
 use core::marker::PhantomData;
 
-use model_description::EnumerationItem;
+use serde::{Deserialize, Serialize};
 
-use crate::access::BaseType;
+use super::variable::{Element, EnumerationType};
 
 macro_rules! scalar_handle {
-    ($(#[$doc:meta])* $name:ident, $base:ident) => {
+    ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub struct $name(pub(super) u32);
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub struct $name(pub(crate) u32);
 
-        impl $name {
-            /// The FMI value reference.
-            pub fn reference(self) -> u32 {
-                BaseType::$base.first_reference() + self.0
+        impl From<$name> for Element {
+            fn from(handle: $name) -> Self {
+                Self::$name(handle.0)
             }
         }
     };
@@ -23,46 +23,35 @@ macro_rules! scalar_handle {
 
 scalar_handle!(
     /// A Real variable.
-    Real,
     Real
 );
 scalar_handle!(
     /// An Integer variable.
-    Integer,
     Integer
 );
 scalar_handle!(
     /// A Boolean variable.
-    Boolean,
     Boolean
 );
 scalar_handle!(
     /// A String variable.
-    Text,
-    String
+    Text
 );
 
-impl Real {
-    /// The handle of a value reference, for code that walks references.
-    pub fn from_reference(reference: u32) -> Self {
-        Self(reference.wrapping_sub(BaseType::Real.first_reference()))
-    }
-}
-
-/// `N` Real variables `x[1]`..`x[N]` with consecutive references.
+/// `N` Real variables `x[1]`..`x[N]`, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RealVector<const N: usize>(pub(super) u32);
 
 impl<const N: usize> RealVector<N> {
-    /// Reference of the first element.
-    pub fn reference(self) -> u32 {
-        BaseType::Real.first_reference() + self.0
-    }
-
     /// Element `index`, 0-based, below `N`.
     pub fn element(self, index: usize) -> Real {
         debug_assert!(index < N);
         Real(self.0 + index as u32)
+    }
+
+    /// The 0-based index of an element of this vector; `None` for any other Real.
+    pub fn index_of(self, element: Real) -> Option<usize> {
+        element.0.checked_sub(self.0).map(|index| index as usize).filter(|index| *index < N)
     }
 }
 
@@ -71,15 +60,16 @@ impl<const N: usize> RealVector<N> {
 pub struct RealMatrix<const R: usize, const C: usize>(pub(super) u32);
 
 impl<const R: usize, const C: usize> RealMatrix<R, C> {
-    /// Reference of element (1,1).
-    pub fn reference(self) -> u32 {
-        BaseType::Real.first_reference() + self.0
-    }
-
     /// Element at 0-based `row` and `column`.
     pub fn element(self, row: usize, column: usize) -> Real {
         debug_assert!(row < R && column < C);
         Real(self.0 + (row * C + column) as u32)
+    }
+
+    /// The 0-based row and column of an element of this matrix; `None` for any other Real.
+    pub fn index_of(self, element: Real) -> Option<(usize, usize)> {
+        let index = element.0.checked_sub(self.0)? as usize;
+        (index < R * C).then(|| (index / C, index % C))
     }
 }
 
@@ -95,21 +85,16 @@ impl<E> Clone for Choice<E> {
 
 impl<E> Copy for Choice<E> {}
 
-impl<E> Choice<E> {
-    /// The FMI value reference, one of the Integers'.
-    pub fn reference(self) -> u32 {
-        BaseType::Integer.first_reference() + self.0
+impl<E> From<Choice<E>> for Element {
+    fn from(handle: Choice<E>) -> Self {
+        Self::Integer(handle.0)
     }
 }
 
-/// A Rust enum offered as an FMI enumeration; derived with `#[derive(Enumeration)]`.
+/// A Rust enum offered as an enumeration; derived with `#[derive(Enumeration)]`.
 pub trait Enumeration: Copy + 'static {
-    /// Name of the type definition.
-    const TYPE_NAME: &'static str;
-    /// What the choice is about.
-    const DESCRIPTION: &'static str;
-    /// The items in declaration order.
-    fn items() -> Vec<EnumerationItem>;
+    /// The type with its items.
+    const TYPE: EnumerationType;
     /// The variant of an item value.
     fn from_value(value: i32) -> Option<Self>;
     /// The item value of a variant.

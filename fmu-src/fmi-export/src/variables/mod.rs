@@ -1,19 +1,22 @@
-//! Variables: typed handles into flat tables, one table a base type.
+//! Variables: what is declared of them, typed handles to them, and the flat tables of their values.
 //!
-//! A value reference is the index into its table beyond the type's first reference, so a get or set is a subtraction and
-//! one bounds-checked array access.
+//! A handle is a place in the table of its type, so reading and writing a value is one bounds-checked array access.
 
 mod check;
 mod declare;
 mod handle;
+mod interface;
 mod values;
+mod variable;
 
-pub use declare::{Declare, DeclareError, RealSpec, Role, ScalarSpec, Table};
-/// Names of `model-description` that a declaration uses.
-pub use model_description::{Causality, EnumerationItem, Initial, Variability};
+/// The standard's words for roles, which are the same in FMI 2.0 and 3.0.
+pub use model_description::{Causality, Initial, Variability};
 
+pub use declare::{Declare, DeclareError, RealSpec, ScalarSpec};
 pub use handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
+pub use interface::Interface;
 pub use values::Values;
+pub use variable::{Element, EnumerationType, Item, Kind, Role, Variable};
 
 /// A group of declared variables; derived with `#[derive(Variables)]`.
 pub trait Variables<Setup>: Sized {

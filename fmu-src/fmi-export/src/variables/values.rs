@@ -1,11 +1,11 @@
-//! The values of one instance: four flat tables.
+//! The values of one instance: one flat table a type.
 
 use model_description::value::Value;
 use serde::{Deserialize, Serialize};
 
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 
-/// The values of every variable of one instance, by base type and value reference.
+/// The values of every variable of one instance, by type and place.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Values {
     pub(crate) reals: Vec<f64>,
@@ -15,7 +15,7 @@ pub struct Values {
 }
 
 impl Values {
-    /// Writes the value at a position in the table of its base type.
+    /// Writes the value at a place in the table of its type.
     pub(crate) fn set(&mut self, position: usize, value: Value) {
         match value {
             Value::Real(value) => self.reals[position] = value,

@@ -1,13 +1,14 @@
 //! What `#[derive(Variables)]` declares is what the builder's table holds: names, references, roles, starts.
 
-use fmi_export::variables::{Causality, Initial, Table, Variability};
+use fmi_export::variables::{Causality, Initial, Variability};
 use std::collections::BTreeSet;
 
 use fmi_export::{
-    BaseType, Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Real, RealMatrix, RealVector,
-    Text, Variables,
+    BaseType, Boolean, Choice, Declare, DeclareError, Enumeration, Integer, Interface, Real, RealMatrix,
+    RealVector, Text, Variables,
+    fmi2::{references, scalar_variables},
 };
-use model_description::{ScalarVariable, SimpleTypeKind, VariableKind};
+use model_description::{ScalarVariable, VariableKind};
 
 /// Where the attitude
 /// comes from.
@@ -115,18 +116,25 @@ struct MassVariables {
     half: Real,
 }
 
-fn declare<S, V: Variables<S>>(setup: &S) -> Result<(V, Table), DeclareError> {
+fn declare<S, V: Variables<S>>(setup: &S) -> Result<(V, Declared), DeclareError> {
     let mut scope = Declare::new();
     let variables = V::declare(&mut scope, setup, 0)?;
-    Ok((variables, scope.finish()))
+    let interface = scope.finish();
+    Ok((variables, Declared { variables: scalar_variables(&interface), interface }))
 }
 
-fn craft() -> (CraftVariables, Table) {
+/// What was declared, and its elements in FMI 2.0.
+struct Declared {
+    variables: Vec<ScalarVariable>,
+    interface: Interface,
+}
+
+fn craft() -> (CraftVariables, Declared) {
     let setup = Craft { mass_kg: 500.0, name: "Prüfling".to_owned(), panel_angles_rad: vec![0.25, 0.5] };
     declare(&setup).unwrap()
 }
 
-fn find<'a>(table: &'a Table, name: &str) -> &'a ScalarVariable {
+fn find<'a>(table: &'a Declared, name: &str) -> &'a ScalarVariable {
     table.variables.iter().find(|variable| variable.name == name).unwrap()
 }
 
@@ -147,7 +155,7 @@ fn references_are_unique_and_dense_for_each_base_type_in_order() {
     let (variables, table) = craft();
     let all: BTreeSet<_> = table.variables.iter().map(|variable| variable.value_reference).collect();
     assert_eq!(all.len(), table.variables.len());
-    let mut next = BaseType::ALL.map(BaseType::first_reference);
+    let mut next = BaseType::ALL.map(references::first);
     for variable in &table.variables {
         let base = match variable.kind {
             VariableKind::Real { .. } => 0,
@@ -159,22 +167,22 @@ fn references_are_unique_and_dense_for_each_base_type_in_order() {
         next[base] += 1;
     }
     for (reference, name) in [
-        (variables.mass.reference(), "mass"),
-        (variables.inertia.element(1, 0).reference(), "inertia[2,1]"),
-        (variables.center_of_mass.element(2).reference(), "centerOfMass[3]"),
-        (variables.source.reference(), "source"),
-        (variables.label.reference(), "label"),
-        (variables.external.reference(), "external[1]"),
-        (variables.dump_request.reference(), "dumpRequest"),
-        (variables.sun_elevation.reference(), "sun.elevation"),
-        (variables.count.reference(), "count"),
-        (variables.largest.reference(), "largest"),
-        (variables.work.reference(), "work"),
-        (variables.orbit.semi_major_axis.reference(), "orbit.semiMajorAxis"),
-        (variables.panel[1].angle.reference(), "panel[2].angle"),
-        (variables.panel[1].optics.number.reference(), "panel[2].optics.number"),
-        (variables.flat.flag.reference(), "flag"),
-        (variables.projected.half.reference(), "inner.half"),
+        (references::of(variables.mass), "mass"),
+        (references::of(variables.inertia.element(1, 0)), "inertia[2,1]"),
+        (references::of(variables.center_of_mass.element(2)), "centerOfMass[3]"),
+        (references::of(variables.source), "source"),
+        (references::of(variables.label), "label"),
+        (references::of(variables.external.element(0)), "external[1]"),
+        (references::of(variables.dump_request), "dumpRequest"),
+        (references::of(variables.sun_elevation), "sun.elevation"),
+        (references::of(variables.count), "count"),
+        (references::of(variables.largest), "largest"),
+        (references::of(variables.work), "work"),
+        (references::of(variables.orbit.semi_major_axis), "orbit.semiMajorAxis"),
+        (references::of(variables.panel[1].angle), "panel[2].angle"),
+        (references::of(variables.panel[1].optics.number), "panel[2].optics.number"),
+        (references::of(variables.flat.flag), "flag"),
+        (references::of(variables.projected.half), "inner.half"),
     ] {
         assert_eq!(reference, find(&table, name).value_reference, "{name}");
     }
@@ -183,7 +191,7 @@ fn references_are_unique_and_dense_for_each_base_type_in_order() {
 #[test]
 fn starts_come_from_setup_index_and_literals() {
     let (variables, table) = craft();
-    let start = &table.start;
+    let start = &table.interface.start;
     assert_eq!(start.real(variables.mass), 500.0);
     assert_eq!(start.matrix(variables.inertia), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     assert_eq!(start.vector(variables.center_of_mass), [0.1, 0.2, 0.3]);
@@ -230,13 +238,29 @@ fn roles_and_attributes_reach_the_table() {
 }
 
 #[test]
+fn an_array_is_one_variable() {
+    let (variables, table) = craft();
+    let find = |name| table.interface.variables.iter().find(|variable| variable.name == name).unwrap();
+    assert!(find("mass").dimensions.is_empty());
+    assert_eq!(
+        (find("centerOfMass").dimensions.as_slice(), find("inertia").dimensions.as_slice()),
+        (&[3][..], &[2, 3][..])
+    );
+    let last = find("inertia").elements().last().unwrap();
+    assert_eq!(last, ("inertia[2,3]".to_owned(), variables.inertia.element(1, 2).into()));
+    assert_eq!(variables.inertia.index_of(variables.inertia.element(1, 2)), Some((1, 2)));
+    assert_eq!(variables.inertia.index_of(variables.mass), None);
+    assert_eq!(variables.center_of_mass.index_of(variables.center_of_mass.element(2)), Some(2));
+    assert_eq!(variables.center_of_mass.index_of(variables.inertia.element(0, 0)), None);
+}
+
+#[test]
 fn enumeration_items_follow_variants_and_discriminants() {
     let (_, table) = craft();
-    let [source] = table.types.as_slice() else { panic!() };
+    let [source] = table.interface.enumerations.as_slice() else { panic!() };
     assert_eq!(source.name, "AttitudeSource");
-    assert_eq!(source.description.as_deref(), Some("Where the attitude comes from."));
-    let SimpleTypeKind::Enumeration { items, .. } = &source.kind else { panic!() };
-    let items: Vec<_> = items.iter().map(|item| (item.name.as_str(), item.value)).collect();
+    assert_eq!(source.description, "Where the attitude comes from.");
+    let items: Vec<_> = source.items.iter().map(|item| (item.name, item.value)).collect();
     assert_eq!(items, [("guided", 1), ("byCommand", 4), ("freeMotion", 5)]);
     for value in -1..8 {
         let back = AttitudeSource::from_value(value).map(Enumeration::value);

@@ -1,8 +1,8 @@
 //! A set is checked as a whole before anything is written, and values out of range are discarded by name.
 
-use fmi_export::Status::{Discard, Error, Ok};
+use fmi_export::model_description::Status::{Discard, Error, Ok};
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::model_description::Description;
 
 use super::{fresh, only_message, real, reference, started};

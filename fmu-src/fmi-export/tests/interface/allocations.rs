@@ -4,7 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use fmi_export::Status::Ok;
+use fmi_export::model_description::Status::Ok;
 
 use super::{described, fresh, reference};
 
@@ -91,7 +91,7 @@ fn a_discarded_set_costs_nothing_when_nobody_listens() {
     let input = [reference(&described("AllTypes"), "input.real")];
     assert_eq!(instance.set_debug_logging(false, &[]), Ok);
     let count = counted(|| {
-        assert_eq!(instance.set_real(&input, &[f64::NAN]), fmi_export::Status::Discard);
+        assert_eq!(instance.set_real(&input, &[f64::NAN]), fmi_export::model_description::Status::Discard);
     });
     assert_eq!(count, 0);
 }

@@ -1,7 +1,7 @@
 //! Input derivatives are a Taylor polynomial for exactly one step; output derivatives belong to its end.
 
-use fmi_export::MAX_INPUT_DERIVATIVE_ORDER;
-use fmi_export::Status::{Discard, Error, Ok};
+use fmi_export::fmi2::MAX_INPUT_DERIVATIVE_ORDER;
+use fmi_export::model_description::Status::{Discard, Error, Ok};
 
 use super::{fresh, only_message, real, reference, started};
 

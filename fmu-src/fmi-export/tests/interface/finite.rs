@@ -1,7 +1,7 @@
 //! Nothing that is no finite number is answered under OK: AllTypes multiplies what it is given, also beyond what a Real
 //! can hold.
 
-use fmi_export::Status::{Error, Ok};
+use fmi_export::model_description::Status::{Error, Ok};
 
 use super::{fresh, only_message, reference, started};
 

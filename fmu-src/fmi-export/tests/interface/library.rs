@@ -1,6 +1,6 @@
 //! The GUID finds the model; when it does not, the log tells everything one needs to know.
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::model_description::Description;
 
 use super::{PROBE, described};

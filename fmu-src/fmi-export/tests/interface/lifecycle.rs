@@ -1,7 +1,7 @@
 //! The way through the states, and Reset as the way back to the very beginning.
 
-use fmi_export::Status::{Error, Ok};
-use fmi_export::abi::StatePointer;
+use client::StatePointer;
+use fmi_export::model_description::Status::{Error, Ok};
 
 use super::{all_reals, fresh, only_message, reference, started};
 

@@ -1,6 +1,6 @@
 //! The log tells what the master asked for, in text that no receiver can stumble over.
 
-use fmi_export::Status::{Discard, Error, Ok, Warning};
+use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
 
 use super::{fresh, only_message, reference, started};
 

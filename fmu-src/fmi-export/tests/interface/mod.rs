@@ -15,8 +15,8 @@ mod states;
 mod stepping;
 mod threads;
 
+use client::InProcess;
 use fmi_export::Library;
-use fmi_export::abi::InProcess;
 use fmi_export::model_description::{Description, VariableKind};
 
 static PROBE: &Library = &probe::LIBRARY;
@@ -34,7 +34,7 @@ fn fresh(model: &str) -> (InProcess, Description) {
 /// An instance at its first communication point, 0 s, without a stop time.
 fn started(model: &str) -> (InProcess, Description) {
     let (mut instance, description) = fresh(model);
-    assert_eq!(instance.start(0.0, None), fmi_export::Status::Ok);
+    assert_eq!(instance.start(0.0, None), fmi_export::model_description::Status::Ok);
     (instance, description)
 }
 
@@ -52,7 +52,7 @@ fn all_reals(description: &Description) -> Vec<u32> {
 
 fn real(instance: &mut InProcess, reference: u32) -> f64 {
     let mut value = [f64::NAN];
-    assert_eq!(instance.get_real(&[reference], &mut value), fmi_export::Status::Ok);
+    assert_eq!(instance.get_real(&[reference], &mut value), fmi_export::model_description::Status::Ok);
     value[0]
 }
 

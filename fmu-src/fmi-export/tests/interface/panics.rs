@@ -1,15 +1,15 @@
 //! A panic in any callback ends its instance with an error and a message; everybody else lives.
 
+use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;
-use fmi_export::Status::{self, Error, Ok};
-use fmi_export::abi::{InProcess, StatePointer};
-use probe::panicking::Accident;
+use fmi_export::model_description::Status::{self, Error, Ok};
+use probe::panicking::Fault;
 
 use super::{reference, started};
 
-fn with_accident(accident: Accident) -> InProcess {
+fn with_fault(fault: Fault) -> InProcess {
     let (mut instance, description) = started("Panicking");
-    assert_eq!(instance.set_integer(&[reference(&description, "accident")], &[accident.value()]), Ok);
+    assert_eq!(instance.set_integer(&[reference(&description, "fault")], &[fault.value()]), Ok);
     instance
 }
 
@@ -43,29 +43,32 @@ fn run(instance: &mut InProcess, output: u32, input: u32) -> Status {
 }
 
 #[test]
-fn every_accident_stays_in_its_instance() {
+fn every_fault_stays_in_its_instance() {
     let (mut bystander, description) = started("AllTypes");
     let bystander_output = reference(&description, "output.integral");
     let (_, description) = started("Panicking");
     let at = |name| reference(&description, name);
     let mut time_s = 0.0;
-    for item in Accident::items() {
-        let accident = Accident::from_value(item.value).unwrap();
-        if matches!(accident, Accident::Initialize | Accident::FailInitialize | Accident::TerminateStep) {
+    for item in Fault::TYPE.items {
+        let fault = Fault::from_value(item.value).unwrap();
+        if matches!(fault, Fault::Initialize | Fault::FailInitialize | Fault::TerminateStep) {
             continue;
         }
-        let mut instance = with_accident(accident);
+        let mut instance = with_fault(fault);
         let status = run(&mut instance, at("output"), at("input"));
         let messages = instance.take_messages();
         let panicked = messages.iter().any(|message| message.text.contains("panic"));
-        match accident {
-            Accident::Nowhere => assert_eq!((status, panicked), (Ok, false)),
-            Accident::FailStep | Accident::FailSerializeState | Accident::FailCheckState => {
-                assert_eq!((status, panicked), (Error, false), "{accident:?}");
+        match fault {
+            Fault::Nowhere | Fault::StepShort => assert_eq!((status, panicked), (Ok, false)),
+            Fault::FailStep
+            | Fault::StepStill
+            | Fault::FailSerializeState
+            | Fault::FailCheckState => {
+                assert_eq!((status, panicked), (Error, false), "{fault:?}");
                 assert_eq!(instance.reset(), Ok);
             }
             _ => {
-                assert_eq!((status, panicked), (Error, true), "{accident:?} {messages:?}");
+                assert_eq!((status, panicked), (Error, true), "{fault:?} {messages:?}");
                 // Poisoned: nothing works but to free it.
                 assert_eq!(instance.get_real(&[at("clock")], &mut [0.0]), Error);
                 assert_eq!(instance.reset(), Error);
@@ -85,8 +88,8 @@ fn every_accident_stays_in_its_instance() {
 fn a_panic_during_initialization_is_an_error_wherever_it_happens() {
     for read_first in [false, true] {
         let (mut instance, description) = super::fresh("Panicking");
-        let accident = [reference(&description, "accident")];
-        assert_eq!(instance.set_integer(&accident, &[Accident::Initialize.value()]), Ok);
+        let fault = [reference(&description, "fault")];
+        assert_eq!(instance.set_integer(&fault, &[Fault::Initialize.value()]), Ok);
         assert_eq!(instance.setup_experiment(0.0, None), Ok);
         assert_eq!(instance.enter_initialization_mode(), Ok);
         let status = match read_first {
@@ -94,11 +97,11 @@ fn a_panic_during_initialization_is_an_error_wherever_it_happens() {
             false => instance.exit_initialization_mode(),
         };
         assert_eq!(status, Error);
-        assert!(super::only_message(&instance).contains("panic: this is the accident in Initialize: 100 %%"));
+        assert!(super::only_message(&instance).contains("panic: this is the fault in Initialize: 100 %%"));
     }
     let (mut instance, description) = super::fresh("Panicking");
-    let accident = [reference(&description, "accident")];
-    assert_eq!(instance.set_integer(&accident, &[Accident::FailInitialize.value()]), Ok);
+    let fault = [reference(&description, "fault")];
+    assert_eq!(instance.set_integer(&fault, &[Fault::FailInitialize.value()]), Ok);
     assert_eq!(instance.start(0.0, None), Error);
     assert!(super::only_message(&instance).contains("initialize fails"));
     assert_eq!(instance.reset(), Ok);
@@ -107,7 +110,7 @@ fn a_panic_during_initialization_is_an_error_wherever_it_happens() {
 
 #[test]
 fn a_state_that_panics_when_dropped_is_freed_once() {
-    let mut instance = with_accident(Accident::DropState);
+    let mut instance = with_fault(Fault::DropState);
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
     let mut state = StatePointer::null();
     assert_eq!(instance.get_state(&mut state), Ok);

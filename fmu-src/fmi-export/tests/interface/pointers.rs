@@ -6,7 +6,8 @@ use core::ptr::{null, null_mut};
 use std::cell::Cell;
 use std::ffi::CString;
 
-use fmi_export::abi::{self, CallbackFunctions, LoggerCallback};
+use fmi_export::fmi2;
+use fmi_export::model_description::functions::types::{CallbackFunctions, CallbackLogger};
 
 use super::{PROBE, described};
 
@@ -25,9 +26,9 @@ unsafe extern "C" fn log(_: *mut c_void, _: *const c_char, _: c_int, _: *const c
     let component = CALL_BACK.get();
     if !component.is_null() {
         // SAFETY: a live instance; calling it from here is the mistake under test.
-        ANSWER.set(unsafe { abi::reset(component) });
+        ANSWER.set(unsafe { fmi2::fmi2Reset(component) });
         // SAFETY: as above; must not free what is in use.
-        unsafe { abi::free_instance(component) };
+        unsafe { fmi2::fmi2FreeInstance(component) };
     }
 }
 
@@ -36,7 +37,7 @@ fn callbacks() -> CallbackFunctions {
     let logger = unsafe {
         core::mem::transmute::<
             unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
-            LoggerCallback,
+            CallbackLogger,
         >(log)
     };
     CallbackFunctions {
@@ -52,7 +53,7 @@ fn instantiate(name: *const c_char, kind: c_int, guid: *const c_char, flag: c_in
     let mut functions = Box::new(callbacks());
     // SAFETY: everything lives for the call, or is NULL.
     let component =
-        unsafe { abi::instantiate(PROBE, name, kind, guid, null(), &raw const *functions, 0, flag) };
+        unsafe { fmi2::instantiate(PROBE, name, kind, guid, null(), &raw const *functions, 0, flag) };
     // The struct dies, and what it held is gone.
     functions.logger = None;
     drop(functions);
@@ -65,9 +66,9 @@ fn started(model: &str) -> *mut c_void {
     assert!(!component.is_null());
     // SAFETY: a live instance.
     unsafe {
-        assert_eq!(abi::setup_experiment(component, 0, 0.0, 0.0, 0, 0.0), OK);
-        assert_eq!(abi::enter_initialization_mode(component), OK);
-        assert_eq!(abi::exit_initialization_mode(component), OK);
+        assert_eq!(fmi2::fmi2SetupExperiment(component, 0, 0.0, 0.0, 0, 0.0), OK);
+        assert_eq!(fmi2::fmi2EnterInitializationMode(component), OK);
+        assert_eq!(fmi2::fmi2ExitInitializationMode(component), OK);
     }
     component
 }
@@ -94,9 +95,9 @@ fn instantiation_refuses_what_it_cannot_use() {
     silent.logger = None;
     // SAFETY: everything lives for the call, or is NULL.
     unsafe {
-        assert!(abi::instantiate(PROBE, name, 1, guid, null(), null(), 0, 0).is_null());
-        assert!(abi::instantiate(PROBE, name, 1, guid, null(), &raw const silent, 0, 0).is_null());
-        abi::free_instance(null_mut());
+        assert!(fmi2::instantiate(PROBE, name, 1, guid, null(), null(), 0, 0).is_null());
+        assert!(fmi2::instantiate(PROBE, name, 1, guid, null(), &raw const silent, 0, 0).is_null());
+        fmi2::fmi2FreeInstance(null_mut());
     }
 }
 
@@ -105,23 +106,26 @@ fn null_is_an_error_and_no_elements_need_no_pointer() {
     // SAFETY: NULL is what is under test; everything else is live.
     unsafe {
         let component = started("AllTypes");
-        assert_eq!(abi::get_real(component, null(), 0, null_mut()), OK);
-        assert_eq!(abi::set_string(component, null(), 0, null()), OK);
-        assert_eq!(abi::get_directional_derivative(component, null(), 0, null(), 0, null(), null_mut()), OK);
-        abi::free_instance(component);
+        assert_eq!(fmi2::fmi2GetReal(component, null(), 0, null_mut()), OK);
+        assert_eq!(fmi2::fmi2SetString(component, null(), 0, null()), OK);
+        assert_eq!(
+            fmi2::fmi2GetDirectionalDerivative(component, null(), 0, null(), 0, null(), null_mut()),
+            OK
+        );
+        fmi2::fmi2FreeInstance(component);
         let calls: [&dyn Fn(*mut c_void) -> c_int; 12] = [
-            &|c| abi::get_real(c, null(), 1, [0.0].as_mut_ptr()),
-            &|c| abi::get_real(c, [0].as_ptr(), 1, null_mut()),
-            &|c| abi::get_real(c, [0].as_ptr(), usize::MAX, [0.0].as_mut_ptr()),
-            &|c| abi::set_string(c, [0].as_ptr(), 1, [null()].as_ptr()),
-            &|c| abi::get_fmu_state(c, null_mut()),
-            &|c| abi::set_fmu_state(c, null_mut()),
-            &|c| abi::serialized_fmu_state_size(c, null_mut(), &mut 0),
-            &|c| abi::deserialize_fmu_state(c, null(), 5, &mut null_mut()),
-            &|c| abi::set_debug_logging(c, 2, 0, null()),
-            &|c| abi::set_debug_logging(c, 1, 1, [null()].as_ptr()),
-            &|c| abi::do_step(c, 0.0, 1.0, 5),
-            &|c| abi::get_real_status(c, 2, null_mut()),
+            &|c| fmi2::fmi2GetReal(c, null(), 1, [0.0].as_mut_ptr()),
+            &|c| fmi2::fmi2GetReal(c, [0].as_ptr(), 1, null_mut()),
+            &|c| fmi2::fmi2GetReal(c, [0].as_ptr(), usize::MAX, [0.0].as_mut_ptr()),
+            &|c| fmi2::fmi2SetString(c, [0].as_ptr(), 1, [null()].as_ptr()),
+            &|c| fmi2::fmi2GetFMUstate(c, null_mut()),
+            &|c| fmi2::fmi2SetFMUstate(c, null_mut()),
+            &|c| fmi2::fmi2SerializedFMUstateSize(c, null_mut(), &mut 0),
+            &|c| fmi2::fmi2DeSerializeFMUstate(c, null(), 5, &mut null_mut()),
+            &|c| fmi2::fmi2SetDebugLogging(c, 2, 0, null()),
+            &|c| fmi2::fmi2SetDebugLogging(c, 1, 1, [null()].as_ptr()),
+            &|c| fmi2::fmi2DoStep(c, 0.0, 1.0, 5),
+            &|c| fmi2::fmi2GetRealStatus(c, 2, null_mut()),
         ];
         for (i, call) in calls.iter().enumerate() {
             let component = started("AllTypes");
@@ -129,12 +133,12 @@ fn null_is_an_error_and_no_elements_need_no_pointer() {
             assert_eq!(call(component), ERROR, "call {i}");
             assert_eq!(LOGGED.get(), before + 1, "call {i}");
             assert_eq!(call(null_mut()), ERROR, "call {i}");
-            abi::free_instance(component);
+            fmi2::fmi2FreeInstance(component);
         }
         let component = started("AllTypes");
-        assert_eq!(abi::free_fmu_state(component, null_mut()), OK);
-        assert_eq!(abi::free_fmu_state(component, &mut null_mut()), OK);
-        abi::free_instance(component);
+        assert_eq!(fmi2::fmi2FreeFMUstate(component, null_mut()), OK);
+        assert_eq!(fmi2::fmi2FreeFMUstate(component, &mut null_mut()), OK);
+        fmi2::fmi2FreeInstance(component);
     }
 }
 
@@ -144,18 +148,18 @@ fn handles_of_others_are_recognised() {
     let component = foreign.as_mut_ptr().cast::<c_void>();
     // SAFETY: large enough to be looked at; that it is no handle is what is under test.
     unsafe {
-        assert_eq!(abi::reset(component), ERROR);
-        assert_eq!(abi::do_step(component, 0.0, 1.0, 0), ERROR);
-        abi::free_instance(component);
+        assert_eq!(fmi2::fmi2Reset(component), ERROR);
+        assert_eq!(fmi2::fmi2DoStep(component, 0.0, 1.0, 0), ERROR);
+        fmi2::fmi2FreeInstance(component);
         let ours = started("AllTypes");
-        assert_eq!(abi::set_fmu_state(ours, component), ERROR);
+        assert_eq!(fmi2::fmi2SetFMUstate(ours, component), ERROR);
         let mut state = component;
-        assert_eq!(abi::free_fmu_state(ours, &raw mut state), ERROR);
+        assert_eq!(fmi2::fmi2FreeFMUstate(ours, &raw mut state), ERROR);
         assert_eq!(state, component);
         // An instance is no state either.
-        assert_eq!(abi::reset(ours), OK);
-        assert_eq!(abi::set_fmu_state(ours, ours), ERROR);
-        abi::free_instance(ours);
+        assert_eq!(fmi2::fmi2Reset(ours), OK);
+        assert_eq!(fmi2::fmi2SetFMUstate(ours, ours), ERROR);
+        fmi2::fmi2FreeInstance(ours);
     }
 }
 
@@ -165,11 +169,11 @@ fn a_call_from_the_logger_is_refused() {
     unsafe {
         let component = started("AllTypes");
         CALL_BACK.set(component);
-        assert_eq!(abi::do_step(component, 55.0, 1.0, 0), ERROR);
+        assert_eq!(fmi2::fmi2DoStep(component, 55.0, 1.0, 0), ERROR);
         CALL_BACK.set(null_mut());
         assert_eq!(ANSWER.get(), ERROR);
-        assert_eq!(abi::reset(component), OK);
-        abi::free_instance(component);
+        assert_eq!(fmi2::fmi2Reset(component), OK);
+        fmi2::fmi2FreeInstance(component);
     }
 }
 
@@ -181,17 +185,17 @@ fn strings_live_until_they_are_read_with_another_value() {
     unsafe {
         let component = started("AllTypes");
         let (mut first, mut second) = (null(), null());
-        assert_eq!(abi::set_string(component, text.as_ptr(), 1, [c"one".as_ptr()].as_ptr()), OK);
-        assert_eq!(abi::get_string(component, text.as_ptr(), 1, &raw mut first), OK);
-        assert_eq!(abi::do_step(component, 0.0, 1.0, 0), OK);
+        assert_eq!(fmi2::fmi2SetString(component, text.as_ptr(), 1, [c"one".as_ptr()].as_ptr()), OK);
+        assert_eq!(fmi2::fmi2GetString(component, text.as_ptr(), 1, &raw mut first), OK);
+        assert_eq!(fmi2::fmi2DoStep(component, 0.0, 1.0, 0), OK);
         assert_eq!(core::ffi::CStr::from_ptr(first), c"one");
-        assert_eq!(abi::get_string(component, text.as_ptr(), 1, &raw mut second), OK);
+        assert_eq!(fmi2::fmi2GetString(component, text.as_ptr(), 1, &raw mut second), OK);
         assert_eq!(first, second);
-        assert_eq!(abi::set_boolean(component, [0].as_ptr(), 1, [7].as_ptr()), ERROR);
-        abi::free_instance(component);
+        assert_eq!(fmi2::fmi2SetBoolean(component, [0].as_ptr(), 1, [7].as_ptr()), ERROR);
+        fmi2::fmi2FreeInstance(component);
         let component = started("AllTypes");
         let boolean = [super::reference(&description, "input.boolean")];
-        assert_eq!(abi::set_boolean(component, boolean.as_ptr(), 1, [7].as_ptr()), DISCARD);
-        abi::free_instance(component);
+        assert_eq!(fmi2::fmi2SetBoolean(component, boolean.as_ptr(), 1, [7].as_ptr()), DISCARD);
+        fmi2::fmi2FreeInstance(component);
     }
 }

@@ -1,9 +1,9 @@
 //! Random legal and illegal calls are answered as the standard's text says, state by state.
 
+use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;
-use fmi_export::Status::{self, Discard, Error, Ok};
-use fmi_export::abi::{InProcess, StatePointer};
-use probe::panicking::Accident;
+use fmi_export::model_description::Status::{self, Discard, Error, Ok};
+use probe::panicking::Fault;
 
 use super::{Random, fresh, reference};
 
@@ -85,7 +85,7 @@ struct Walk {
     expected: Expected,
     saved: Option<Expected>,
     state: StatePointer,
-    accident: u32,
+    fault: u32,
     output: u32,
     input: u32,
     random: Random,
@@ -112,9 +112,9 @@ impl Walk {
             "ExitInitializationMode" => (instance.exit_initialization_mode(), Ok),
             "DoStep" => {
                 let ends = self.random.below(4) == 0;
-                let accident = if ends { Accident::TerminateStep } else { Accident::Nowhere };
+                let fault = if ends { Fault::TerminateStep } else { Fault::Nowhere };
                 if expected.place == Place::Complete {
-                    assert_eq!(instance.set_integer(&[self.accident], &[accident.value()]), Ok);
+                    assert_eq!(instance.set_integer(&[self.fault], &[fault.value()]), Ok);
                 }
                 (instance.do_step(expected.time_s, 0.5), if ends { Discard } else { Ok })
             }
@@ -130,8 +130,8 @@ impl Walk {
                 _ => (instance.get_string(&[]).0, Ok),
             },
             "Set" => match self.random.below(4) {
-                // Accident is a tunable parameter: settable wherever anything is.
-                0 => (instance.set_integer(&[self.accident], &[Accident::Nowhere.value()]), Ok),
+                // Fault is a tunable parameter: settable wherever anything is.
+                0 => (instance.set_integer(&[self.fault], &[Fault::Nowhere.value()]), Ok),
                 1 => (instance.set_real(&[], &[]), Ok),
                 2 => (instance.set_boolean(&[], &[]), Ok),
                 _ => (instance.set_string(&[], &[]), Ok),
@@ -209,13 +209,13 @@ impl Walk {
 fn two_hundred_thousand_random_calls() {
     let (instance, description) = fresh("Panicking");
     let at = |name| reference(&description, name);
-    let (accident, output, input) = (at("accident"), at("output"), at("input"));
+    let (fault, output, input) = (at("fault"), at("output"), at("input"));
     let mut walk = Walk {
         instance,
         expected: FRESH,
         saved: None,
         state: StatePointer::null(),
-        accident,
+        fault,
         output,
         input,
         random: Random(2026),

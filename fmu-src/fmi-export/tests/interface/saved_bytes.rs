@@ -1,7 +1,7 @@
 //! Whatever bytes are given to DeSerialize, the answer is a state or an error that says what is wrong.
 
-use fmi_export::Status::{Error, Ok};
-use fmi_export::abi::InProcess;
+use client::InProcess;
+use fmi_export::model_description::Status::{Error, Ok};
 
 use super::{Random, fresh, started};
 

@@ -1,7 +1,7 @@
 //! A saved state continues to the bit: in this instance, in another, and from bytes.
 
-use fmi_export::Status::{self, Error, Ok};
-use fmi_export::abi::{InProcess, StatePointer};
+use client::{InProcess, StatePointer};
+use fmi_export::model_description::Status::{self, Error, Ok};
 
 use super::{Random, fresh, only_message, reference, started};
 

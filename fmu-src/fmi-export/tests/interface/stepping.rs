@@ -1,7 +1,10 @@
 //! Steps end where they should, whatever roundings the master's clock has; wrong times are errors.
 
-use fmi_export::Status::{Discard, Error, Ok, Warning};
-use fmi_export::abi::StatePointer;
+use client::StatePointer;
+use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
+
+use fmi_export::Enumeration;
+use probe::panicking::Accident;
 
 use super::{fresh, only_message, real, reference, started};
 
@@ -53,11 +56,11 @@ fn a_step_past_the_stop_time_is_an_error() {
 #[test]
 fn a_model_that_ends_by_itself_answers_discard_with_terminated() {
     let (mut instance, description) = started("Panicking");
-    let accident = [reference(&description, "accident")];
+    let fault = [reference(&description, "fault")];
     assert_eq!(instance.do_step(0.0, 1.0), Ok);
     assert_eq!((instance.terminated(), instance.last_successful_time()), ((Ok, false), (Ok, 1.0)));
-    let terminate = probe::panicking::Accident::TerminateStep as i32 + 1;
-    assert_eq!(instance.set_integer(&accident, &[terminate]), Ok);
+    let terminate = probe::panicking::Fault::TerminateStep as i32 + 1;
+    assert_eq!(instance.set_integer(&fault, &[terminate]), Ok);
     assert_eq!(instance.do_step(1.0, 1.0), Discard);
     assert!(only_message(&instance).contains("the model ends here"));
     assert_eq!((instance.terminated(), instance.last_successful_time()), ((Ok, true), (Ok, 1.0)));
@@ -120,4 +123,22 @@ fn roundings_of_late_times_are_taken() {
             time_s = instance.last_successful_time().1;
         }
     }
+}
+
+/// FMI 2.0 has no step that ends early without ending the simulation.
+#[test]
+fn a_step_that_the_model_leaves_early_goes_on_to_its_end() {
+    let (mut instance, description) = started("Panicking");
+    let [accident, input, output, clock] =
+        ["accident", "input", "output", "clock"].map(|name| reference(&description, name));
+    assert_eq!(instance.set_integer(&[accident], &[Accident::StepShort.value()]), Ok);
+    assert_eq!(instance.set_real(&[input], &[2.0]), Ok);
+    assert_eq!(instance.set_input_derivatives(&[input], &[1], &[3.0]), Ok);
+    assert_eq!(instance.do_step(0.0, 1.0), Ok);
+    assert_eq!((real(&mut instance, clock), real(&mut instance, output)), (1.0, 5.0));
+    assert_eq!(instance.set_integer(&[accident], &[Accident::StepStill.value()]), Ok);
+    instance.take_messages();
+    assert_eq!(instance.do_step(1.0, 1.0), Error);
+    let text = only_message(&instance);
+    assert!(text.contains("from 1.0 to 2.0 s at 1.0 s"), "{text}");
 }

@@ -1,7 +1,7 @@
 //! Instances know nothing of each other: on many threads they compute the bits that one computes alone, and
 //! a thousand of them made and freed leave nothing behind.
 
-use fmi_export::Status::Ok;
+use fmi_export::model_description::Status::Ok;
 
 use super::{PROBE, Random, described, fresh, reference};
 
@@ -52,7 +52,7 @@ fn what_an_instance_takes_it_gives_back() {
     let live = || {
         let before = super::allocations::live();
         for _ in 0..300 {
-            let mut instance = fmi_export::abi::InProcess::instantiate(PROBE, &guid, None).unwrap();
+            let mut instance = client::InProcess::instantiate(PROBE, &guid, None).unwrap();
             assert_eq!(instance.start(0.0, None), Ok);
             assert_eq!(instance.do_step(0.0, 1.0), Ok);
             let _ = instance.state_bytes();

@@ -10,7 +10,8 @@ mod variables;
 use std::sync::Arc;
 
 use fmi_export::{
-    About, Context, Dependencies, Failure, Model, SetupError, Source, StartValue, Step, Values,
+    About, Context, Dependencies, Differentiable, Extensions, Failure, Model, Real, SetupError, Source,
+    StartValue, Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
 use physics::radiation::disturbance::Workspace;
@@ -43,7 +44,7 @@ impl Model for DisturbanceTorque {
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const SOURCES: &'static [Source] = crate::sources::DISTURBANCE_TORQUE;
-    const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = true;
+    const EXTENSIONS: Extensions<Self> = Extensions::none().differentiable();
 
     type Setup = DisturbanceSetup;
     type Variables = DisturbanceVariables;
@@ -97,12 +98,12 @@ impl Model for DisturbanceTorque {
         values: &mut Values,
         state: &mut DisturbanceState,
         step: &Step<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<StepEnd, Failure> {
         let prepared = match state.prepared.take() {
             Some(prepared) => prepared,
             None => Arc::new(Prepared::new(context, values)?),
         };
-        state.inputs.refresh(context.variables, |handle| step.input(values, handle, step.end_s));
+        state.inputs.refresh(context.variables, |handle| step.inputs.real(values, handle, step.end_s));
         if !state.said_unset {
             let unset = prepared.unset(&state.inputs);
             state.said_unset = !unset.is_empty();
@@ -116,7 +117,7 @@ impl Model for DisturbanceTorque {
         }
         let outcome = update(context, values, state, &prepared);
         state.prepared = Some(prepared);
-        outcome
+        outcome.map(|()| StepEnd::at(step.end_s))
     }
 
     fn check_state(setup: &DisturbanceSetup, state: &DisturbanceState) -> Result<(), Failure> {
@@ -129,42 +130,38 @@ impl Model for DisturbanceTorque {
         }
         Err(Failure::new(format!("the saved state has {found} panel angles, allowed: {allowed}")))
     }
+}
 
-    fn directional_derivative(
+impl Differentiable for DisturbanceTorque {
+    fn jacobian_vector_product(
         context: &Plan<'_>,
         values: &Values,
         state: &DisturbanceState,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        result: &mut [f64],
+        unknowns: &[Real],
+        seeds: &[(Real, f64)],
+        products: &mut [f64],
     ) -> Result<(), Failure> {
         let variables = context.variables;
-        let known = |at: u32| Inputs::<f64>::has(variables, at) || Parameters::<f64>::has(variables, at);
-        if let Some(stranger) = knowns.iter().find(|at| !known(**at)) {
-            return Err(Failure::new(format!(
-                "no directional derivative with respect to the Real of value reference {stranger}, allowed: the inputs, and \
-                 in Initialization Mode the parameters"
-            )));
+        let known = |at: Real| Inputs::<f64>::has(variables, at) || Parameters::<f64>::has(variables, at);
+        if seeds.iter().any(|(at, _)| !known(*at)) {
+            return Err(Failure::new(
+                "directional derivatives are known with respect to the inputs, and in Initialization Mode to the Real \
+                 parameters, only",
+            ));
         }
         let prepared = match &state.prepared {
             Some(prepared) => prepared.clone(),
             None => Arc::new(Prepared::new(context, values)?),
         };
-        let along = |reference: u32| -> f64 {
-            knowns.iter().zip(seed).filter(|(known, _)| **known == reference).map(|(_, seed)| seed).sum()
-        };
+        let along =
+            |known: Real| -> f64 { seeds.iter().filter(|(at, _)| *at == known).map(|(_, seed)| seed).sum() };
         let inputs = state.inputs.with_seed(variables, along);
         let mut workspace = Workspace::<Dual64>::default();
         let parameters = prepared.parameters.with_seed(variables, along);
         let outcome = prepared.evaluate(&parameters, &inputs, &mut workspace)?;
-        for (unknown, slope) in unknowns.iter().zip(result) {
-            *slope = outputs::value(variables, &outcome, &workspace, *unknown)
-                .ok_or_else(|| {
-                    Failure::new(format!(
-                        "no directional derivative of the Real of value reference {unknown}, allowed: the outputs"
-                    ))
-                })?
+        for (unknown, product) in unknowns.iter().zip(products) {
+            *product = outputs::value(variables, &outcome, &workspace, *unknown)
+                .ok_or_else(|| Failure::new("directional derivatives are known of the outputs only"))?
                 .eps;
         }
         Ok(())

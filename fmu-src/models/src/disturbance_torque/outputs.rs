@@ -1,6 +1,6 @@
 //! From an outcome to the output variables.
 
-use fmi_export::{RealVector, Values};
+use fmi_export::{Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::numerics::scalar::Scalar;
 use physics::radiation::disturbance::Workspace;
@@ -25,26 +25,24 @@ pub fn write(
     }
 }
 
-/// The value of an output by its reference.
+/// The value of an output.
 pub fn value<T: Scalar>(
     variables: &DisturbanceVariables,
     outcome: &Outcome<T>,
     workspace: &Workspace<T>,
-    reference: u32,
+    output: Real,
 ) -> Option<T> {
-    if reference == variables.sun.lit_fraction.reference() {
+    if output == variables.sun.lit_fraction {
         return Some(outcome.lit_fraction);
     }
-    let element = |(handle, vector): (RealVector<3>, Vector3<T>)| {
-        let index = reference.checked_sub(handle.reference())? as usize;
-        vector.as_slice().get(index).copied()
-    };
+    let element =
+        |(handle, vector): (RealVector<3>, Vector3<T>)| handle.index_of(output).map(|index| vector[index]);
     if let Some(value) = vectors(variables, outcome).into_iter().find_map(element) {
         return Some(value);
     }
     variables.plate.iter().zip(workspace.faces()).find_map(|(plate, face)| {
         let force = || element((plate.force, face.force_body_n()));
-        (reference == plate.temperature.reference()).then_some(face.temperature_k).or_else(force)
+        (output == plate.temperature).then_some(face.temperature_k).or_else(force)
     })
 }
 

@@ -87,9 +87,9 @@ impl Inputs<f64> {
         vectors.into_iter().flatten().chain(&self.panel_angles_rad).all(|x| x.is_finite())
     }
 
-    /// The same inputs as dual numbers; `along` gives an input's seed by its value reference.
-    pub fn with_seed(&self, variables: &DisturbanceVariables, along: impl Fn(u32) -> f64) -> Inputs<Dual64> {
-        let dual = |value: f64, handle: Real| Dual64::new(value, along(handle.reference()));
+    /// The same inputs as dual numbers; `along` gives an input's seed.
+    pub fn with_seed(&self, variables: &DisturbanceVariables, along: impl Fn(Real) -> f64) -> Inputs<Dual64> {
+        let dual = |value: f64, handle: Real| Dual64::new(value, along(handle));
         let angles = self.panel_angles_rad.iter().zip(&variables.panel);
         Inputs {
             sun_m: core::array::from_fn(|i| dual(self.sun_m[i], variables.sun.position_body.element(i))),
@@ -106,8 +106,8 @@ impl Inputs<f64> {
 }
 
 impl<T> Inputs<T> {
-    /// Whether a value reference is one of the inputs.
-    pub fn has(variables: &DisturbanceVariables, reference: u32) -> bool {
+    /// Whether a Real is one of the inputs.
+    pub fn has(variables: &DisturbanceVariables, real: Real) -> bool {
         let planet = &variables.planet;
         let vectors = [
             variables.sun.position_body,
@@ -115,19 +115,19 @@ impl<T> Inputs<T> {
             planet.pole,
             variables.spacecraft.center_of_mass,
         ];
-        vectors.iter().any(|v| (v.reference()..v.reference() + 3).contains(&reference))
-            || variables.panel.iter().any(|panel| panel.angle.reference() == reference)
+        vectors.iter().any(|vector| vector.index_of(real).is_some())
+            || variables.panel.iter().any(|panel| panel.angle == real)
     }
 }
 
 impl Parameters<f64> {
-    /// The same parameters as dual numbers; `along` gives a parameter's seed by its value reference.
+    /// The same parameters as dual numbers; `along` gives a parameter's seed.
     pub fn with_seed(
         &self,
         variables: &DisturbanceVariables,
-        along: impl Fn(u32) -> f64,
+        along: impl Fn(Real) -> f64,
     ) -> Parameters<Dual64> {
-        let dual = |value: f64, handle: Real| Dual64::new(value, along(handle.reference()));
+        let dual = |value: f64, handle: Real| Dual64::new(value, along(handle));
         let (planet, surface) = (&variables.planet, &self.planet);
         let inertia = |i: usize, j: usize| {
             dual(self.inertia_body_kg_m2[(i, j)], variables.spacecraft.inertia.element(i, j))
@@ -149,9 +149,9 @@ impl Parameters<f64> {
 }
 
 impl<T> Parameters<T> {
-    /// Whether a value reference is one of the Real parameters.
-    pub fn has(variables: &DisturbanceVariables, reference: u32) -> bool {
-        let (planet, first) = (&variables.planet, variables.spacecraft.inertia.reference());
+    /// Whether a Real is one of the parameters.
+    pub fn has(variables: &DisturbanceVariables, real: Real) -> bool {
+        let planet = &variables.planet;
         let surface = &planet.surface;
         let numbers = [
             variables.solar.flux,
@@ -162,8 +162,7 @@ impl<T> Parameters<T> {
             surface.emissivity,
             surface.night_temperature,
         ];
-        numbers.iter().any(|number| number.reference() == reference)
-            || (first..first + 9).contains(&reference)
+        numbers.contains(&real) || variables.spacecraft.inertia.index_of(real).is_some()
     }
 }
 

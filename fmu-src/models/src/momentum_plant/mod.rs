@@ -12,7 +12,8 @@ mod state;
 mod variables;
 
 use fmi_export::{
-    About, Context, Dependencies, Failure, Model, Real, SetupError, Source, StartValue, Step, Values,
+    About, Context, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source,
+    StartValue, Step, StepEnd, Values,
 };
 use physics::constants::RADIUS_SUN_M;
 use physics::momentum::{DumpEvent, MomentumIntegrator, TorqueModel, Totals};
@@ -34,7 +35,7 @@ impl Model for MomentumPlant {
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
-    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
+    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 
     type Setup = PlantSetup;
     type Variables = PlantVariables;
@@ -82,7 +83,7 @@ impl Model for MomentumPlant {
         values: &mut Values,
         state: &mut PlantState,
         step: &Step<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<StepEnd, Failure> {
         let mut changed = step.changed;
         let changes =
             if changed { state.inputs_changed(context, values, step.start_s)? } else { Changes::default() };
@@ -93,7 +94,8 @@ impl Model for MomentumPlant {
         }
         state.say_unset(context, values);
         if state.waiting {
-            return wait(context, values, state, step.end_s);
+            wait(context, values, state, step.end_s)?;
+            return Ok(StepEnd::at(step.end_s));
         }
         if changed {
             state.integrator.cut(step.start_s);
@@ -115,8 +117,8 @@ impl Model for MomentumPlant {
             }
         }
         let load = |time_s| ExternalLoad {
-            force_body_n: physics_vector(step.input_vector(values, context.variables.force.applied, time_s)),
-            torque_body_n_m: physics_vector(step.input_vector(
+            force_body_n: physics_vector(step.inputs.vector(values, context.variables.force.applied, time_s)),
+            torque_body_n_m: physics_vector(step.inputs.vector(
                 values,
                 context.variables.torque.applied,
                 time_s,
@@ -145,7 +147,7 @@ impl Model for MomentumPlant {
         let totals = state.integrator.totals(step.end_s);
         outputs::write(context, values, state, &configuration, &evaluation, &totals, step.end_s);
         state.configuration = Some(configuration);
-        Ok(())
+        Ok(StepEnd::at(step.end_s))
     }
 
     fn tolerance(variables: &PlantVariables) -> Option<Real> {
@@ -168,13 +170,10 @@ impl Model for MomentumPlant {
         }
         Err(Failure::new(format!("the momentum was accumulated elsewhere than at {time_s:?} s")))
     }
+}
 
-    fn output_derivative(
-        context: &Plan<'_>,
-        values: &Values,
-        state: &PlantState,
-        output: Real,
-    ) -> Option<f64> {
+impl OutputRates for MomentumPlant {
+    fn output_rate(context: &Plan<'_>, values: &Values, state: &PlantState, output: Real) -> Option<f64> {
         outputs::derivative(context, values, state, output)
     }
 }

@@ -181,10 +181,8 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     }
     let variables = context.variables;
     let convention = state.configuration.as_ref()?.momentum.convention;
-    let within =
-        |first: u32| output.reference().checked_sub(first).filter(|&axis| axis < 3).map(|axis| axis as usize);
     let torque_body = Vector3::from(values.vector(variables.torque.total));
-    if let Some(axis) = within(variables.momentum.body.reference()) {
+    if let Some(axis) = variables.momentum.body.index_of(output) {
         let rate = match convention {
             Convention::BodyIntegral => torque_body,
             Convention::Inertial => {
@@ -194,14 +192,14 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
         };
         return Some(rate[axis]);
     }
-    if let Some(axis) = within(variables.momentum.inertial.reference()) {
+    if let Some(axis) = variables.momentum.inertial.index_of(output) {
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
         return Some((attitude.inertial_from_body() * torque_body)[axis]);
     }
-    if let Some(axis) = within(variables.delta_v.reference()) {
+    if let Some(axis) = variables.delta_v.index_of(output) {
         return Some(values.vector(variables.acceleration)[axis]);
     }
-    if let Some(axis) = within(variables.position.reference()) {
+    if let Some(axis) = variables.position.index_of(output) {
         return Some(values.vector(variables.velocity)[axis]);
     }
     None

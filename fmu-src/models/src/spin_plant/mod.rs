@@ -8,7 +8,8 @@ mod read;
 mod variables;
 
 use fmi_export::{
-    About, Context, Dependencies, Failure, Model, Real, SetupError, Source, StartValue, Step, Values,
+    About, Context, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source,
+    StartValue, Step, StepEnd, Values,
 };
 use nalgebra::Vector3;
 use physics::numerics::spacing::spacing;
@@ -28,7 +29,7 @@ impl Model for SpinPlant {
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/ace.toml");
     const SOURCES: &'static [Source] = crate::sources::SPIN_PLANT;
-    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
+    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 
     type Setup = Spinner;
     type Variables = SpinVariables;
@@ -83,12 +84,12 @@ impl Model for SpinPlant {
         values: &mut Values,
         plant: &mut Plant,
         step: &Step<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<StepEnd, Failure> {
         if step.changed {
             let mut commands = read::commands(context, values);
             commands.torque = read::torque(context, values, step)?;
             // Directions that move within the step are taken where it ends: they are read, not integrated.
-            let at_end = |handle| step.input_vector(values, handle, step.end_s);
+            let at_end = |handle| step.inputs.vector(values, handle, step.end_s);
             if let Some(name) = cut_pulse(context, &commands, step) {
                 context.log.warning(&format!(
                     "a pulse of thruster {name} reaches beyond the step from {} to {} s and is cut there",
@@ -115,7 +116,7 @@ impl Model for SpinPlant {
             log.event(step.end_s, &format!("burn: {} of {count} pulses fired", sequencer.fired()));
         }
         outputs::write(context, values, plant);
-        Ok(())
+        Ok(StepEnd::at(step.end_s))
     }
 
     fn check_state(setup: &Spinner, state: &Plant) -> Result<(), Failure> {
@@ -133,8 +134,10 @@ impl Model for SpinPlant {
         }
         Err(Failure::new(format!("the state is one of {} s, not of {time_s} s", state.time_s())))
     }
+}
 
-    fn output_derivative(
+impl OutputRates for SpinPlant {
+    fn output_rate(
         context: &Context<'_, Self>,
         _values: &Values,
         state: &Plant,

@@ -88,13 +88,10 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
 pub fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
     let v = context.variables;
     let rates: Rates = plant.rates(context.setup);
-    let reference = output.reference();
-    let of = |handle: Real, value: f64| (handle.reference() == reference).then_some(value);
-    let of_vector = |handle: RealVector<3>, value: &Vector3<f64>| {
-        (0..3).find(|&i| handle.element(i).reference() == reference).map(|i| value[i])
-    };
-    let of_q =
-        (0..4).find(|&i| v.attitude.q.element(i).reference() == reference).map(|i| rates.attitude_1_s[i]);
+    let of = |handle: Real, value: f64| (handle == output).then_some(value);
+    let of_vector =
+        |handle: RealVector<3>, value: &Vector3<f64>| handle.index_of(output).map(|index| value[index]);
+    let of_q = v.attitude.q.index_of(output).map(|index| rates.attitude_1_s[index]);
     of_q.or_else(|| of_vector(v.attitude.rate, &rates.rate_rad_s2))
         .or_else(|| of_vector(v.momentum.inertial, &rates.momentum_inertial_n_m))
         .or_else(|| of_vector(v.momentum.body, &rates.momentum_body_n_m))

@@ -119,21 +119,19 @@ pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
 pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<BodyTorque, Failure> {
     let handle = context.variables.torque.applied;
     let mut torque = BodyTorque::constant(values.vector(handle).into());
-    for &(reference, order, derivative) in step.input_derivatives {
-        for axis in 0..3 {
-            if reference == handle.element(axis).reference() {
-                let k = order as usize;
-                if k >= TORQUE_TERMS {
-                    return Err(Failure::new(format!(
-                        "torque.applied[{}]: a derivative of order {order} was given; orders 1 to {} are used",
-                        axis + 1,
-                        TORQUE_TERMS - 1
-                    )));
-                }
-                torque.origin_s = step.start_s;
-                let factorial: f64 = (1..=order).map(f64::from).product();
-                torque.coefficients_n_m[k][axis] = derivative / factorial;
+    for axis in 0..3 {
+        for (order, derivative) in step.inputs.derivatives(handle.element(axis)) {
+            let k = order as usize;
+            if k >= TORQUE_TERMS {
+                return Err(Failure::new(format!(
+                    "torque.applied[{}]: a derivative of order {order} was given; orders 1 to {} are used",
+                    axis + 1,
+                    TORQUE_TERMS - 1
+                )));
             }
+            torque.origin_s = step.inputs.start_s();
+            let factorial: f64 = (1..=order).map(f64::from).product();
+            torque.coefficients_n_m[k][axis] = derivative / factorial;
         }
     }
     Ok(torque)

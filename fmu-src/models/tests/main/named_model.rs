@@ -3,8 +3,9 @@
 use fmi_export::model::Log;
 use std::cell::RefCell;
 
-use fmi_export::model_description::{Causality, SimpleTypeKind, Variability, VariableKind};
-use fmi_export::{BaseType, Context, Declare, Failure, Model, Step, Values, Variables};
+use fmi_export::fmi2::{references, scalar_variables};
+use fmi_export::model_description::{Causality, Variability, VariableKind};
+use fmi_export::{BaseType, Context, Declare, Failure, InputsOverTime, Model, Step, Values, Variables};
 use physics::numerics::intervals::next_multiple_s;
 
 /// Keeps warnings.
@@ -60,8 +61,9 @@ impl<M: Model> NamedModel<M> {
         let setup = M::parse_setup(file, text).unwrap();
         let mut scope = Declare::new();
         let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
-        let table = scope.finish();
-        let names = table.variables.iter().map(|variable| {
+        let interface = scope.finish();
+        let variables = scalar_variables(&interface);
+        let names = variables.iter().map(|variable| {
             let (kind, base) = match variable.kind {
                 VariableKind::Real { .. } => (Kind::Real, BaseType::Real),
                 VariableKind::Boolean { .. } => (Kind::Boolean, BaseType::Boolean),
@@ -69,12 +71,9 @@ impl<M: Model> NamedModel<M> {
                 _ => (Kind::Integer, BaseType::Integer),
             };
             let items = |name: &str| {
-                let found = table.types.iter().find(|it| it.name == name).map(|it| &it.kind);
-                let Some(SimpleTypeKind::Enumeration { items, .. }) = found else { panic!("no type {name}") };
-                (
-                    items.iter().map(|it| it.value).min().unwrap(),
-                    items.iter().map(|it| it.value).max().unwrap(),
-                )
+                let found = interface.enumerations.iter().find(|it| it.name == name);
+                let values = || found.unwrap().items.iter().map(|it| it.value);
+                (values().min().unwrap(), values().max().unwrap())
             };
             let limits = match &variable.kind {
                 VariableKind::Real { attributes, .. } => {
@@ -96,13 +95,13 @@ impl<M: Model> NamedModel<M> {
                 input: variable.causality == Causality::Input,
                 name: variable.name.clone(),
                 kind,
-                reference: (variable.value_reference - base.first_reference()) as usize,
+                reference: (variable.value_reference - references::first(base)) as usize,
                 output: variable.causality == Causality::Output,
                 varies: variable.variability == Variability::Continuous,
             }
         });
         let names = names.collect();
-        Self { names, setup, handles, start: table.start, warnings: Warnings::default() }
+        Self { names, setup, handles, start: interface.start, warnings: Warnings::default() }
     }
 
     /// What a master may set, with its limits and whether it is a whole number.
@@ -199,7 +198,7 @@ impl<M: Model> NamedInstance<'_, M> {
     /// One step.
     pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
         let changed = self.before.as_ref().is_some_and(|before| *before != self.values);
-        let step = Step { start_s: self.time_s, end_s, changed, input_derivatives: &[] };
+        let step = Step { start_s: self.time_s, end_s, changed, inputs: InputsOverTime::held() };
         M::step(&self.named.context(), &mut self.values, &mut self.state, &step)?;
         self.time_s = end_s;
         self.before = None;

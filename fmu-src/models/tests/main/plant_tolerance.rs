@@ -1,8 +1,8 @@
 //! A tolerance given to `fmi2SetupExperiment` is `solver.tolerance`, unless the user set that.
 
-use fmi_export::Status::Ok;
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library};
+use model_description::Status::Ok;
 use models::MomentumPlant;
 
 static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fmi_export::abi::InProcess;
+use client::InProcess;
 use fmi_export::{Entry, Library, Model, Status};
 use model_description::{Description, VariableKind};
 use models::{DisturbanceTorque, MomentumPlant, SpinPlant};

@@ -2,11 +2,11 @@
 
 use std::ffi::OsString;
 
+use conformance::{Finding, Verdict};
 use files::Scratch;
 use loader::Fmu;
 
-use super::{Finding, Verdict};
-use crate::child::{Bounds, Limits, Link, Payload, Started, push_text};
+use crate::child::{Bounds, ChildProcess, Limits, Link, Payload, push_text};
 
 /// Kinds of frames: a finding, the probe's end.
 const FINDING: u8 = 1;
@@ -29,10 +29,10 @@ pub fn run(fmu: &Fmu, probe: &str, timeout_s: f64) -> Vec<Finding> {
         let environment: Vec<(&str, OsString)> =
             ["TMPDIR", "TMP", "TEMP"].map(|name| (name, scratch.path().into())).to_vec();
         let limits = Limits { memory: Some(MEMORY), files: Some(FILES) };
-        Ok::<_, std::io::Error>((Started::new(arguments, limits, &environment)?, scratch))
+        Ok::<_, std::io::Error>((ChildProcess::new(arguments, limits, &environment)?, scratch))
     };
     match started() {
-        Ok((child, _scratch)) => watch(child, timeout_s),
+        Ok((child, _scratch)) => supervise(child, timeout_s),
         Err(error) => vec![Finding::bad(format!("the probe cannot be started: {error}"))],
     }
 }
@@ -56,7 +56,7 @@ fn decode(mut payload: Payload<'_>) -> Option<Finding> {
     Some(Finding::new(verdict, payload.text()?))
 }
 
-fn watch(child: Started, timeout_s: f64) -> Vec<Finding> {
+fn supervise(child: ChildProcess, timeout_s: f64) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut finished = false;
     let mut take = |kind: u8, payload: Payload<'_>| match kind {
@@ -73,10 +73,10 @@ fn watch(child: Started, timeout_s: f64) -> Vec<Finding> {
         _ => Err("it sent what is no finding".to_owned()),
     };
     let bounds = Bounds { time_s: Some(timeout_s), call_s: None, printed: Some(PRINTED) };
-    let watched = child.watch(bounds, &mut take, &mut |_| {}, &mut |_| Ok(()));
-    match watched.fault() {
+    let supervised = child.supervise(bounds, &mut take, &mut |_| {}, &mut |_| Ok(()));
+    match supervised.fault() {
         Some(fault) => findings.push(Finding::bad(fault)),
-        None if !finished => findings.push(Finding::bad(watched.silence())),
+        None if !finished => findings.push(Finding::bad(supervised.without_result())),
         None => {}
     }
     findings

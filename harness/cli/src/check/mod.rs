@@ -4,83 +4,18 @@
 //! each in a process of its own, so that an FMU that crashes or hangs is a finding and not the end.
 
 mod child;
-mod probes;
 mod spacecraft;
-mod still;
 
 use std::{process::ExitCode, time::Instant};
 
+use conformance::{Finding, PROBES, Probe, Trial, Verdict};
 use loader::Fmu;
 
 use crate::{
     app::Outcome,
-    args::{Check, Probe},
+    args::{self, Check},
     child::Link,
-    output,
 };
-use probes::Trial;
-
-/// What a check found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
-    /// As it should be.
-    Good,
-    /// Not applicable, or not possible on this computer.
-    Skipped,
-    /// Odd, but the standard or its users live with it.
-    Note,
-    /// Wrong.
-    Bad,
-}
-
-impl Verdict {
-    const ALL: [Self; 4] = [Self::Good, Self::Skipped, Self::Note, Self::Bad];
-
-    fn word(self) -> &'static str {
-        match self {
-            Self::Good => "ok",
-            Self::Skipped => "skipped",
-            Self::Note => "note",
-            Self::Bad => "WRONG",
-        }
-    }
-}
-
-/// One line of the report.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
-    /// Good or bad.
-    pub verdict: Verdict,
-    /// What was checked or found.
-    pub text: String,
-}
-
-impl Finding {
-    fn new(verdict: Verdict, text: impl Into<String>) -> Self {
-        Self { verdict, text: text.into() }
-    }
-
-    fn good(text: impl Into<String>) -> Self {
-        Self::new(Verdict::Good, text)
-    }
-
-    fn skipped(text: impl Into<String>) -> Self {
-        Self::new(Verdict::Skipped, text)
-    }
-
-    fn note(text: impl Into<String>) -> Self {
-        Self::new(Verdict::Note, text)
-    }
-
-    fn bad(text: impl Into<String>) -> Self {
-        Self::new(Verdict::Bad, text)
-    }
-
-    /// Good if `right`, else bad.
-    fn expect(right: bool, text: impl Into<String>) -> Self {
-        Self::new(if right { Verdict::Good } else { Verdict::Bad }, text)
-    }
-}
 
 /// A group of findings under one heading.
 struct Section {
@@ -109,13 +44,12 @@ pub fn run(arguments: &Check) -> Outcome {
     if arguments.template.is_some() {
         return Err("--template is for a spacecraft (.toml): an FMU is checked by its own library".into());
     }
-    let is_wanted = |probe: &&probes::Probe| {
-        arguments.only.as_ref().is_none_or(|only| probe.name.contains(only.as_str()))
-    };
+    let is_selected =
+        |probe: &&Probe| arguments.only.as_ref().is_none_or(|only| probe.name.contains(only.as_str()));
     if let Some(only) = &arguments.only
-        && !probes::ALL.iter().any(|probe| is_wanted(&probe))
+        && !PROBES.iter().any(|probe| is_selected(&probe))
     {
-        let names: Vec<&str> = probes::ALL.iter().map(|probe| probe.name).collect();
+        let names: Vec<&str> = PROBES.iter().map(|probe| probe.name).collect();
         return Err(
             format!("no probe's name contains {only:?}, allowed: {}: see --only", names.join(", ")).into()
         );
@@ -124,13 +58,14 @@ pub fn run(arguments: &Check) -> Outcome {
     let fmu = match Fmu::open(&arguments.subject) {
         Ok(fmu) => fmu,
         Err(error) => {
-            let finding = Finding::bad(output::chain(&error));
+            let finding = Finding::bad(loader::Error::chain(&error));
             sections.push(Section { title: "archive".to_owned(), findings: vec![finding] });
             return report(arguments, &sections);
         }
     };
-    sections.push(Section { title: "archive".to_owned(), findings: still::archive(&fmu) });
-    sections.push(Section { title: "modelDescription.xml".to_owned(), findings: still::description(&fmu) });
+    sections.push(Section { title: "archive".to_owned(), findings: conformance::archive(&fmu) });
+    sections
+        .push(Section { title: "modelDescription.xml".to_owned(), findings: conformance::description(&fmu) });
     let runnable = !arguments.is_static && fmu.co_simulation().is_ok();
     if runnable {
         let loads = child::run(&fmu, "library", arguments.timeout);
@@ -138,9 +73,9 @@ pub fn run(arguments: &Check) -> Outcome {
         let usable = loads.first().is_some_and(|finding| finding.verdict == Verdict::Good);
         sections.push(Section { title: "library".to_owned(), findings: loads });
         if usable {
-            for probe in probes::ALL.iter().filter(|probe| probe.name != "library").filter(is_wanted) {
+            for probe in PROBES.iter().filter(|probe| probe.name != "library").filter(is_selected) {
                 let mut findings = child::run(&fmu, probe.name, arguments.timeout);
-                for trial in probes::trials().filter(|trial| trial.probe == probe.name) {
+                for trial in conformance::trials().filter(|trial| trial.probe == probe.name) {
                     findings.extend(try_out(&fmu, trial, arguments.timeout));
                 }
                 sections.push(Section { title: format!("{}: {}", probe.name, probe.title), findings });
@@ -169,17 +104,11 @@ fn try_out(fmu: &Fmu, trial: &Trial, patience_s: f64) -> Vec<Finding> {
 }
 
 /// Runs one probe or trial in this process and sends its findings to the parent.
-pub fn run_probe(arguments: &Probe) -> Outcome {
+pub fn run_probe(arguments: &args::Probe) -> Outcome {
     let mut link = Link::attach().map_err(|error| format!("`heliotorque check` starts this: {error}"))?;
     let fmu = Fmu::open(&arguments.fmu)?;
-    let outcome = if let Some(probe) = probes::ALL.iter().find(|probe| probe.name == arguments.name) {
-        (probe.run)(&fmu)
-    } else if let Some(trial) = probes::trials().find(|trial| trial.name() == arguments.name) {
-        (trial.run)(&fmu, trial)
-    } else {
-        return Err(format!("there is no probe {:?}", arguments.name).into());
-    };
-    let findings = outcome.unwrap_or_else(|error| vec![Finding::bad(output::chain(&error))]);
+    let findings = conformance::run(&fmu, &arguments.name)
+        .ok_or_else(|| format!("there is no probe {:?}", arguments.name))?;
     child::report(&mut link, &findings)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -207,6 +136,6 @@ fn report(arguments: &Check, sections: &[Section]) -> Outcome {
         count(Verdict::Note),
         count(Verdict::Bad)
     ));
-    output::print(&text)?;
+    terminal::print(&text)?;
     Ok(if count(Verdict::Bad) == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -10,7 +10,6 @@ use toml::{Table, Value, de::DeTable};
 use crate::{
     app::Outcome,
     args::{Check, DEFAULT_TEMPLATE},
-    output,
     pack::{read_text, source},
 };
 
@@ -43,13 +42,13 @@ pub fn run(arguments: &Check) -> Outcome {
         let description = model_description::parse(described.xml.as_bytes())?.description;
         let variables = description.variables.len();
         let model = &described.model;
-        output::print(&format!(
+        terminal::print(&format!(
             "{file}: ok for {model}: {}; the FMU will have {variables} variables",
             contents(&text)
         ))?;
         return Ok(ExitCode::SUCCESS);
     }
-    // The kinds of file are far apart: what the other models miss in it would bury what is wrong.
+    // The kinds of file are far apart: what the other models miss in it would hide what is wrong.
     let is_own = |model: &Described| Some(&model.model) == own.as_ref();
     let rank = |model: &Described| (common_keys(&text, &model.default_setup), is_own(model));
     let Some(fittest) = refusals.iter().max_by_key(|(model, _)| rank(model)) else {
@@ -64,11 +63,11 @@ pub fn run(arguments: &Check) -> Outcome {
 
 /// Tells the problems that a model finds in the file.
 fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
-    output::print(problems)?;
+    terminal::print(problems)?;
     let count = problems.lines().filter(|line| line.starts_with(file)).count().max(1);
     let plural = if count == 1 { "problem" } else { "problems" };
     let model = &model.model;
-    output::note(&format!(
+    terminal::note(&format!(
         "{file}: {count} {plural}, judged as a file of {model}, which cannot be packed with it"
     ));
     Ok(ExitCode::FAILURE)
@@ -81,14 +80,14 @@ fn without_start_values(text: &str) -> Option<String> {
     Some(file.to_string())
 }
 
-/// How many keys two files have in common, tables inside of tables left out.
+/// EndReason many keys two files have in common, tables inside of tables left out.
 fn common_keys(one: &str, other: &str) -> usize {
     // What can be read of a torn file tells its kind too.
     let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
     one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }
 
-/// How many of each part the file describes: its lists of tables, and what its sunshade is given as.
+/// EndReason many of each part the file describes: its lists of tables, and what its sunshade is given as.
 fn contents(text: &str) -> String {
     let Ok(file) = text.parse::<Table>() else { return String::new() };
     let mut parts = lists(&file);

@@ -31,9 +31,9 @@ const RING: usize = 64;
 pub const RING_WORDS: usize = 1 << 19;
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;
-/// How often a child looks whether a full ring has room again, and how much has to be free before it goes on.
+/// EndReason often a child looks whether a full ring has room again, and how much has to be free before it goes on.
 const PAUSE: Duration = Duration::from_millis(1);
-const ROOM: u64 = RING_WORDS as u64 / 4;
+const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
 
 /// The child's end.
 pub struct Link {
@@ -96,7 +96,7 @@ impl Link {
             let at = (self.head % RING_WORDS as u64) as usize;
             let count = (self.free() as usize).min(rest.len()).min(RING_WORDS - at);
             if count == 0 {
-                while self.free() < ROOM {
+                while self.free() < FREE_WORDS {
                     std::thread::sleep(PAUSE);
                 }
                 continue;
@@ -204,12 +204,12 @@ impl Inbox {
         }
         let mut left = came as usize;
         while left > 0 {
-            let wanted = match self.frame.first() {
+            let expected = match self.frame.first() {
                 Some(head) => 2 + (head >> 8) as usize - self.frame.len(),
                 None => 1,
             };
             let at = (self.tail % RING_WORDS as u64) as usize;
-            let count = wanted.min(left).min(RING_WORDS - at);
+            let count = expected.min(left).min(RING_WORDS - at);
             let part = &self.words[RING + at..RING + at + count];
             self.frame.extend(part.iter().map(|word| word.load(Ordering::Relaxed)));
             self.tail = self.tail.wrapping_add(count as u64);

@@ -1,4 +1,4 @@
-//! An FMU in a process of its own: this program again, watched from outside.
+//! An FMU in a process of its own: this program again, supervised from outside.
 //!
 //! Parent and child share one memory without a name. In it the child marks the FMI call under way and sends frames:
 //! rows of a recording, findings of a probe, its end. What stands there after a crash is still read. Whatever the
@@ -6,10 +6,10 @@
 
 mod channel;
 mod printed;
+mod supervisor;
 mod system;
-mod watch;
 
 pub use channel::{Link, Payload, push_text};
 pub use printed::BYTES_FORWARDED;
+pub use supervisor::{Bounds, ChildProcess, EndReason, Limits};
 pub use system::end_all;
-pub use watch::{Bounds, How, Limits, Started};

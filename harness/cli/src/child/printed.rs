@@ -6,7 +6,7 @@ use std::{
     process::{Child, Stdio},
 };
 
-/// How much of what an FMU prints is handed on.
+/// EndReason much of what an FMU prints is handed on.
 pub const BYTES_FORWARDED: u64 = 1 << 20;
 /// Longest line that is handed on; the rest of it is a line of its own.
 const LINE: usize = 4096;
@@ -28,7 +28,7 @@ struct Stream {
 }
 
 impl Printed {
-    /// How a stream has to be set up before the child is started.
+    /// EndReason a stream has to be set up before the child is started.
     pub fn stdio() -> Stdio {
         // Elsewhere pipes cannot be read without waiting.
         if cfg!(unix) { Stdio::piped() } else { Stdio::null() }

@@ -131,7 +131,7 @@ pub fn never_wait(pipe: &impl std::os::fd::AsFd) -> io::Result<()> {
     Ok(rustix::io::ioctl_fionbio(pipe, true)?)
 }
 
-/// How a process ended, for people.
+/// EndReason a process ended, for people.
 pub fn how(status: ExitStatus) -> String {
     #[cfg(unix)]
     {

@@ -6,8 +6,6 @@ mod wheels;
 use loader::{Error, Fmu, Instance, InstanceOptions, Times, Value};
 use model_description::{Causality, ScalarVariable, Variability};
 
-use crate::output;
-
 /// One row of a table: the elements of a vector, or of one row of a matrix.
 struct Row {
     name: String,
@@ -72,7 +70,7 @@ fn others(fmu: &Fmu, instance: &mut Instance) -> Result<Option<String>, Error> {
     let mut rows: Vec<Row> = Vec::new();
     for variable in calculated {
         let value = match instance.get_variable(variable)? {
-            Value::Real(value) => output::short(value),
+            Value::Real(value) => terminal::short(value),
             other => other.to_string(),
         };
         let name = row_name(&variable.name);
@@ -82,7 +80,7 @@ fn others(fmu: &Fmu, instance: &mut Instance) -> Result<Option<String>, Error> {
             _ => rows.push(Row { name, unit: unit.to_owned(), values: vec![value] }),
         }
     }
-    let mut table = output::table(&["calculated parameter", "unit", "value"]);
+    let mut table = terminal::table(&["calculated parameter", "unit", "value"]);
     for row in rows {
         let mut cells = vec![row.name, row.unit];
         cells.extend(row.values);

@@ -4,8 +4,6 @@ use loader::{Error, Fmu, Instance, Value};
 use model_description::Causality;
 
 use super::wheels;
-use crate::output;
-
 /// The monomials of paper 000's eq 3, in the order of the FMU's columns.
 const TERMS: [&str; 9] = ["x", "y", "z", "x y", "x z", "y z", "x^2", "y^2", "z^2"];
 
@@ -31,7 +29,7 @@ pub fn tables(fmu: &Fmu, sets: &[(String, Value)], instance: &mut Instance) -> R
 }
 
 fn polynomial(instance: &mut Instance) -> Result<String, Error> {
-    let mut table = output::table(&["term", "k_x [m3]", "k_y [m3]", "k_z [m3]"]);
+    let mut table = terminal::table(&["term", "k_x [m3]", "k_y [m3]", "k_z [m3]"]);
     let mut greatest = 0.0_f64;
     for (column, term) in TERMS.iter().enumerate() {
         let mut row = vec![(*term).to_owned()];
@@ -60,7 +58,7 @@ fn polynomial(instance: &mut Instance) -> Result<String, Error> {
 fn loads(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
     let azimuth_deg = instance.get_real("sun.azimuth")?.to_degrees();
     let elevation_deg = instance.get_real("sun.elevation")?.to_degrees();
-    let mut table = output::table(&["at the start", "unit", "x", "y", "z"]);
+    let mut table = terminal::table(&["at the start", "unit", "x", "y", "z"]);
     for variable in &fmu.description().variables {
         let Some(name) = variable.name.strip_suffix("[1]") else { continue };
         let load = ["torque.", "force."].iter().any(|group| name.starts_with(group));

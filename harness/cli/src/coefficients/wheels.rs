@@ -8,8 +8,6 @@
 use loader::{Error, Fmu, Value};
 
 use super::started;
-use crate::output;
-
 /// Wheel capacities and the dump thresholds paper 000 states for them, in N m s.
 const PAPER_THRESHOLDS_N_M_S: [(f64, f64); 3] = [(4.0, 4.0), (8.0, 5.5), (12.0, 7.0)];
 
@@ -24,13 +22,13 @@ pub fn table(fmu: &Fmu, sets: &[(String, Value)]) -> Result<String, Error> {
         names.iter().map(|name| instance.get_real(name)).collect::<Result<_, _>>()?;
     let mut distinct = capacities_n_m_s.clone();
     distinct.dedup();
-    let distinct: Vec<String> = distinct.into_iter().map(output::short).collect();
+    let distinct: Vec<String> = distinct.into_iter().map(terminal::short).collect();
     let axes = axes_body(fmu, sets, count)?;
     let least_load = |capacities_n_m_s: &[f64]| {
         let axes = axes.as_deref().unwrap_or_default();
         format!("{:.4}", least_load_threshold_n_m_s(axes, capacities_n_m_s))
     };
-    let mut table = output::table(&[
+    let mut table = terminal::table(&[
         "wheel capacity [N.m.s]",
         "smallest norm [N.m.s]",
         "least greatest load [N.m.s]",
@@ -55,7 +53,7 @@ pub fn table(fmu: &Fmu, sets: &[(String, Value)]) -> Result<String, Error> {
     for axis in 1..=3 {
         let threshold_n_m_s = instance.get_real(&format!("dump.threshold[{axis}]"))?;
         greatest_n_m_s = greatest_n_m_s.max(threshold_n_m_s);
-        thresholds.push(output::short(threshold_n_m_s));
+        thresholds.push(terminal::short(threshold_n_m_s));
     }
     // Rounding of the axes does not count.
     let beyond = greatest_n_m_s > guaranteed_n_m_s * (1.0 + 1e-9);

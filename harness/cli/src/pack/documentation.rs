@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use fmi_export::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
+use model_description::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
 use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind, escape};
 
-use crate::{info, output};
+use crate::info;
 
 const STYLE: &str = "
 :root { color-scheme: light dark; }
@@ -97,7 +97,7 @@ fn facts(page: &mut String, description: &Description) {
         ];
         for (name, value, unit) in times {
             if let Some(value) = value {
-                row(name, &format!("{}{unit}", output::short(value)));
+                row(name, &format!("{}{unit}", terminal::short(value)));
             }
         }
     }
@@ -189,7 +189,7 @@ fn kind(variable: &ScalarVariable) -> String {
     let variability = format!("{:?}", variable.variability).to_lowercase();
     let (base, low, high) = match &variable.kind {
         VariableKind::Real { attributes, .. } => {
-            ("Real", attributes.min.map(output::short), attributes.max.map(output::short))
+            ("Real", attributes.min.map(terminal::short), attributes.max.map(terminal::short))
         }
         VariableKind::Integer { min, max, .. } => {
             ("Integer", min.map(|min| min.to_string()), max.map(|max| max.to_string()))

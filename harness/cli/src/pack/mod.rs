@@ -20,7 +20,7 @@ use model_description::Description;
 
 use files::Destination;
 
-use crate::{app::Outcome, args::Pack, output};
+use crate::{app::Outcome, args::Pack};
 use source::Source;
 use writer::Entries;
 
@@ -101,9 +101,9 @@ pub fn run(arguments: &Pack) -> Outcome {
         bytes.len().div_ceil(1000)
     );
     if is_stdout {
-        output::note(&packed)
+        terminal::note(&packed)
     } else {
-        output::print(&packed)?
+        terminal::print(&packed)?
     }
     Ok(ExitCode::SUCCESS)
 }

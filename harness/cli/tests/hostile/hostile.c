@@ -1,5 +1,5 @@
-/* An FMU that misbehaves: what it does is chosen by -DDEED=..., where by -DIN_STEP or -DIN_INSTANTIATE.
-   One Real output x with reference 0, which is the time; steps from 3 s on do the deed. */
+/* An FMU that misbehaves: what it does is chosen by -DBEHAVIOUR=..., where by -DIN_STEP or -DIN_INSTANTIATE.
+   One Real output x with reference 0, which is the time; steps from 3 s on do the behaviour. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <signal.h>
@@ -40,8 +40,8 @@ static Callbacks callbacks;
 static volatile int forever = 1;
 static int *volatile nowhere = NULL;
 
-static int deed(void) {
-    switch (DEED) {
+static int behaviour(void) {
+    switch (BEHAVIOUR) {
     case EXITS: exit(0);
     case CRASHES: *nowhere = 1; break;
     case ABORTS: abort();
@@ -85,7 +85,7 @@ static int deed(void) {
 }
 
 #ifdef AT_LOADING
-__attribute__((constructor)) static void at_loading(void) { deed(); }
+__attribute__((constructor)) static void at_loading(void) { behaviour(); }
 #endif
 
 const char *fmi2GetTypesPlatform(void) { return "default"; }
@@ -95,7 +95,7 @@ Component fmi2Instantiate(const char *name, int type, const char *guid, const ch
     (void)name; (void)type; (void)guid; (void)where; (void)visible; (void)on;
     callbacks = *given;
 #ifdef IN_INSTANTIATE
-    deed();
+    behaviour();
 #endif
     return &now;
 }
@@ -111,14 +111,14 @@ int fmi2Terminate(Component c) { (void)c; return 0; }
 int fmi2Reset(Component c) { (void)c; return 0; }
 int fmi2GetReal(Component c, const unsigned *references, size_t n, double *values) {
     (void)c; (void)references;
-    for (size_t i = 0; i < n; i++) values[i] = DEED == ANSWERS_NAN && now >= 3 ? 0.0 / (now - now) : now;
+    for (size_t i = 0; i < n; i++) values[i] = BEHAVIOUR == ANSWERS_NAN && now >= 3 ? 0.0 / (now - now) : now;
     return 0;
 }
 int fmi2DoStep(Component c, double time, double step, int no) {
     (void)c; (void)no;
 #ifdef IN_STEP
     if (time >= 3) {
-        int status = deed();
+        int status = behaviour();
         if (status) return status;
     }
 #endif

@@ -26,7 +26,7 @@ fn our_own_fmus_pass() {
         for part in [
             "exports all 34 functions",
             "overwritten",
-            "flies from a folder called \"50% off\"",
+            "runs from a folder called \"50% off\"",
             "two threads",
         ] {
             assert!(text.contains(part), "{text} lacks {part}");
@@ -45,7 +45,7 @@ fn a_comma_locale_is_tried_where_there_is_one() {
     }
     let Some((_room, fmu)) = packed("AllTypes") else { return };
     let text = run(&["check", shown(&fmu), "--only", "locale", "--verbose"], 0);
-    assert!(text.contains("flies under de_DE.UTF-8 to the same bits"), "{text}");
+    assert!(text.contains("runs under de_DE.UTF-8 to the same bits"), "{text}");
     assert!(text.contains("0 skipped"), "{text}");
 }
 
@@ -77,7 +77,7 @@ fn what_the_description_gets_wrong_is_named_with_its_line() {
 fn a_capability_that_is_only_claimed_is_found() {
     let Some((_room, fmu)) = packed("AllTypes") else { return };
     let folder = changed(&fmu, "guid=\"{", "guid=\"{0");
-    let text = run(&["check", shown(folder.path()), "--only", "flight"], 1);
+    let text = run(&["check", shown(folder.path()), "--only", "simulation"], 1);
     assert!(text.contains("gave no instance") && text.contains("GUID"), "{text}");
 
     let folder = changed(&fmu, "maxOutputDerivativeOrder=\"1\"", "maxOutputDerivativeOrder=\"7\"");
@@ -128,15 +128,15 @@ fn zipped(folder: &Path, into: &Path, name: impl Fn(String) -> String) {
 
 #[test]
 fn backslashes_in_the_archive_are_wrong() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
     let folder = changed(&fmu, "modelName", "modelName");
-    let again = room.path().join("again.fmu");
+    let again = scratch.path().join("again.fmu");
     zipped(folder.path(), &again, |name| name);
     run(&["check", shown(&again), "--static"], 0);
     zipped(folder.path(), &again, |name| name.replace("resources/", "resources\\"));
     let text = run(&["check", shown(&again), "--static"], 1);
-    let wanted = "WRONG   the path \"resources\\\\all-types.toml\" has a backslash";
-    assert!(text.contains(wanted) && text.contains("1 wrong"), "{text}");
+    let expected = "WRONG   the path \"resources\\\\all-types.toml\" has a backslash";
+    assert!(text.contains(expected) && text.contains("1 wrong"), "{text}");
 }
 
 #[test]
@@ -237,8 +237,8 @@ fn an_fmu_that_dies_is_a_finding() {
 
 /// A shipped model with a shipped spacecraft, unpacked.
 fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
-    let room = tempfile::tempdir().unwrap();
-    let fmu = room.path().join("x.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let fmu = scratch.path().join("x.fmu");
     let toml = format!("{RESOURCES}/{spacecraft}");
     let library = library()?;
     run(
@@ -255,15 +255,15 @@ fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
         ],
         0,
     );
-    loader::unpack(&fmu, &room.path().join("x"), loader::Limits::default()).unwrap();
-    Some(room)
+    loader::unpack(&fmu, &scratch.path().join("x"), loader::Limits::default()).unwrap();
+    Some(scratch)
 }
 
 #[test]
 fn a_spacecraft_is_judged_by_the_model_it_is_for() {
-    let Some(room) = shipped("MomentumPlant", "messenger.toml") else { return };
-    let template = room.path().join("x.fmu");
-    let toml = room.path().join("my.toml");
+    let Some(scratch) = shipped("MomentumPlant", "messenger.toml") else { return };
+    let template = scratch.path().join("x.fmu");
+    let toml = scratch.path().join("my.toml");
     let check = |text: &str| {
         fs::write(&toml, text).unwrap();
         run(&["check", shown(&toml), "--template", shown(&template)], 1)
@@ -308,8 +308,8 @@ fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
         ("MomentumPlant", "messenger-thermal.toml", "mass_kg = 700", "mas_kg = 700", "`mas_kg`"),
         ("SpinPlant", "ace.toml", "dry_mass_kg = 562", "dry_mass_kg = 563", "SpinPlant has GUID {"),
     ] {
-        let Some(room) = shipped(model, spacecraft) else { return };
-        let folder = room.path().join("x");
+        let Some(scratch) = shipped(model, spacecraft) else { return };
+        let folder = scratch.path().join("x");
         let toml = folder.join("resources/spacecraft.toml");
         let text = fs::read_to_string(&toml).unwrap();
         assert!(text.contains(from), "{spacecraft}");
@@ -322,8 +322,8 @@ fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
         assert!(!text.contains(other), "{text}");
         assert!(text.lines().count() < 5, "{text}");
     }
-    let Some(room) = shipped("MomentumPlant", "messenger.toml") else { return };
-    let folder = room.path().join("x");
+    let Some(scratch) = shipped("MomentumPlant", "messenger.toml") else { return };
+    let folder = scratch.path().join("x");
     fs::remove_file(folder.join("resources/spacecraft.toml")).unwrap();
     let text = run(&["run", shown(&folder)], 1);
     assert_eq!(text.matches("resources").count(), 1, "{text}");

@@ -26,9 +26,9 @@ fn fifo(path: &Path) {
 
 #[test]
 fn no_file_is_written_in_place() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
     let library = probe_library().unwrap();
-    let at = |name: &str| room.path().join(name);
+    let at = |name: &str| scratch.path().join(name);
     let (table, picture, archive) = (at("a.csv"), at("a.svg"), at("a.fmu"));
     // Who holds the old content keeps it: the new one is another file.
     for path in [&table, &picture, &archive] {
@@ -41,15 +41,15 @@ fn no_file_is_written_in_place() {
         assert_eq!(fs::read_to_string(at(&format!("held-{extension}"))).unwrap(), "old");
         assert!(fs::metadata(at(&format!("a.{extension}"))).unwrap().len() > 3);
     }
-    assert!(!names(room.path()).iter().any(|name| name.ends_with(".tmp") || name.ends_with(".part")));
+    assert!(!names(scratch.path()).iter().any(|name| name.ends_with(".tmp") || name.ends_with(".part")));
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_killed_program_leaves_the_old_file_or_the_new_one() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
     let library = probe_library().unwrap();
-    let at = |name: &str| room.path().join(name);
+    let at = |name: &str| scratch.path().join(name);
     let (picture, archive) = (at("a.svg"), at("a.fmu"));
     let plot = ["run", shown(&fmu), "--quiet", "--plot", shown(&picture)];
     let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", shown(&archive)];
@@ -75,15 +75,15 @@ fn a_killed_program_leaves_the_old_file_or_the_new_one() {
 
 #[test]
 fn an_input_is_never_written_over() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let at = |name: &str| room.path().join(name);
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let at = |name: &str| scratch.path().join(name);
     let input = at("in.csv");
     fs::write(&input, "time,input.real\n0,1\n").unwrap();
     let before = (fs::read(&fmu).unwrap(), fs::read(&input).unwrap());
     fs::hard_link(&input, at("hard.csv")).unwrap();
     symlink("hard.csv", at("soft.csv")).unwrap();
     fs::hard_link(&fmu, at("hard.svg")).unwrap();
-    let fly = ["run", shown(&fmu), "--input", shown(&input)];
+    let simulate = ["run", shown(&fmu), "--input", shown(&input)];
     for (option, path) in [
         ("--output", &input),
         ("--output", &at("hard.csv")),
@@ -91,18 +91,21 @@ fn an_input_is_never_written_over() {
         ("--output", &fmu),
         ("--plot", &at("hard.svg")),
     ] {
-        let said = run(&[&fly[..], &[option, shown(path)]].concat(), 1);
-        assert!(said.contains("it is an input too") && said.contains(&format!("see {option}")), "{said}");
+        let printed = run(&[&simulate[..], &[option, shown(path)]].concat(), 1);
+        assert!(
+            printed.contains("it is an input too") && printed.contains(&format!("see {option}")),
+            "{printed}"
+        );
     }
     // The recording in progress would be the input.
     fs::rename(&input, at("x.csv.part")).unwrap();
     let part = at("x.csv.part");
-    let said = run(&["run", shown(&fmu), "--input", shown(&part), "--output", shown(&at("x.csv"))], 1);
-    assert!(said.contains("x.csv.part: it is an input too"), "{said}");
+    let printed = run(&["run", shown(&fmu), "--input", shown(&part), "--output", shown(&at("x.csv"))], 1);
+    assert!(printed.contains("x.csv.part: it is an input too"), "{printed}");
     // One file for two outputs, by two names.
-    let same = room.path().join(".").join("y.svg");
-    let said = run(&["run", shown(&fmu), "--output", shown(&at("y.svg")), "--plot", shown(&same)], 1);
-    assert!(said.contains("see --output and --plot"), "{said}");
+    let same = scratch.path().join(".").join("y.svg");
+    let printed = run(&["run", shown(&fmu), "--output", shown(&at("y.svg")), "--plot", shown(&same)], 1);
+    assert!(printed.contains("see --output and --plot"), "{printed}");
 
     let library = probe_library().unwrap();
     let copy = at("library.so");
@@ -112,19 +115,19 @@ fn an_input_is_never_written_over() {
     fs::write(&toml, "").unwrap();
     for path in [&copy, &at("hard.so"), &toml] {
         let pack = ["pack", "--library", shown(&copy), "--model", "AllTypes", "--spacecraft", shown(&toml)];
-        let said = run(&[&pack[..], &["--output", shown(path)]].concat(), 1);
-        assert!(said.contains("it is an input too") || said.contains("my.toml"), "{said}");
+        let printed = run(&[&pack[..], &["--output", shown(path)]].concat(), 1);
+        assert!(printed.contains("it is an input too") || printed.contains("my.toml"), "{printed}");
     }
-    let said = run(&["pack", "--template", shown(&fmu), "--output", shown(&at("hard.svg"))], 1);
-    assert!(said.contains("it is an input too"), "{said}");
+    let printed = run(&["pack", "--template", shown(&fmu), "--output", shown(&at("hard.svg"))], 1);
+    assert!(printed.contains("it is an input too"), "{printed}");
     assert_eq!((fs::read(&fmu).unwrap(), fs::read(&part).unwrap()), before);
     assert_eq!(fs::read(&copy).unwrap(), fs::read(&library).unwrap());
 }
 
 #[test]
 fn what_is_no_file_is_refused_by_name() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let at = |name: &str| room.path().join(name);
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let at = |name: &str| scratch.path().join(name);
     for name in ["pipe.csv", "pipe.svg", "pipe.fmu", "pipe.toml"] {
         fifo(&at(name));
     }
@@ -133,53 +136,53 @@ fn what_is_no_file_is_refused_by_name() {
     let library = probe_library().unwrap();
     let (csv, svg, archive, toml) = (at("pipe.csv"), at("pipe.svg"), at("pipe.fmu"), at("pipe.toml"));
     let (folder, zero) = (at("folder.svg"), at("zero.fmu"));
-    let fly = ["run", shown(&fmu)];
+    let simulate = ["run", shown(&fmu)];
     let from_library = ["pack", "--library", shown(&library), "--model", "AllTypes"];
     let cases: Vec<(Vec<&str>, &str, &str)> = vec![
         (vec!["run", shown(&archive)], "pipe.fmu", "found a FIFO, allowed: a regular file"),
         (vec!["info", shown(&zero)], "zero.fmu", "found a character device, allowed: a regular file"),
         (vec!["check", shown(&archive)], "pipe.fmu", "found a FIFO"),
         (vec!["check", shown(&toml), "--template", shown(&fmu)], "pipe.toml", "found a FIFO"),
-        ([&fly[..], &["--input", shown(&csv)]].concat(), "pipe.csv", "found a FIFO"),
-        ([&fly[..], &["--input", shown(&folder)]].concat(), "folder.svg", "found a directory"),
+        ([&simulate[..], &["--input", shown(&csv)]].concat(), "pipe.csv", "found a FIFO"),
+        ([&simulate[..], &["--input", shown(&folder)]].concat(), "folder.svg", "found a directory"),
         (
-            [&fly[..], &["--output", shown(&csv)]].concat(),
+            [&simulate[..], &["--output", shown(&csv)]].concat(),
             "pipe.csv",
             "found a FIFO, allowed: a regular file or -",
         ),
-        ([&fly[..], &["--output", "/dev/null"]].concat(), "/dev/null", "found a character device"),
-        ([&fly[..], &["--plot", shown(&svg)]].concat(), "pipe.svg", "found a FIFO"),
-        ([&fly[..], &["--plot", shown(&folder)]].concat(), "folder.svg", "found a directory"),
+        ([&simulate[..], &["--output", "/dev/null"]].concat(), "/dev/null", "found a character device"),
+        ([&simulate[..], &["--plot", shown(&svg)]].concat(), "pipe.svg", "found a FIFO"),
+        ([&simulate[..], &["--plot", shown(&folder)]].concat(), "folder.svg", "found a directory"),
         ([&from_library[..], &["--output", shown(&archive)]].concat(), "pipe.fmu", "found a FIFO"),
         ([&from_library[..], &["--spacecraft", shown(&toml)]].concat(), "pipe.toml", "found a FIFO"),
         (vec!["pack", "--library", shown(&archive), "--model", "M"], "pipe.fmu", "found a FIFO"),
         (vec!["pack", "--template", shown(&archive)], "pipe.fmu", "found a FIFO"),
     ];
     for (arguments, name, says) in cases {
-        let said = run(&arguments, 1);
-        assert!(said.contains(name) && said.contains(says), "{arguments:?}: {said}");
+        let printed = run(&arguments, 1);
+        assert!(printed.contains(name) && printed.contains(says), "{arguments:?}: {printed}");
     }
 }
 
 #[test]
 fn a_dash_is_the_standard_output() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let table = room.path().join("a.csv");
-    let fly = ["run", shown(&fmu), "--record", "output.*", "--output"];
-    run(&[&fly[..], &[shown(&table)]].concat(), 0);
-    let output = heliotorque(&[&fly[..], &["-"]].concat()).output().unwrap();
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let table = scratch.path().join("a.csv");
+    let simulate = ["run", shown(&fmu), "--record", "output.*", "--output"];
+    run(&[&simulate[..], &[shown(&table)]].concat(), 0);
+    let output = heliotorque(&[&simulate[..], &["-"]].concat()).output().unwrap();
     assert!(output.status.success() && output.stdout == fs::read(&table).unwrap(), "{}", text(&output));
     let library = probe_library().unwrap();
     let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", "-"];
-    let output = heliotorque(&pack).current_dir(room.path()).output().unwrap();
+    let output = heliotorque(&pack).current_dir(scratch.path()).output().unwrap();
     assert!(output.status.success() && output.stdout == fs::read(&fmu).unwrap());
-    assert!(!room.path().join("-").exists());
+    assert!(!scratch.path().join("-").exists());
 }
 
 #[test]
 fn a_signal_leaves_no_temporary_file() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let temporary = room.path().join("tmp");
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let temporary = scratch.path().join("tmp");
     fs::create_dir(&temporary).unwrap();
     // Hours of stepping, from a folder that the archive was unpacked into.
     let mut command = heliotorque(&["run", shown(&fmu), "--stop", "1e10", "--step", "1", "--every", "1e5"]);
@@ -196,10 +199,10 @@ fn a_signal_leaves_no_temporary_file() {
 
 #[test]
 fn a_new_file_has_the_permissions_of_its_user() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let (plain, table) = (room.path().join("plain"), room.path().join("a.csv"));
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let (plain, table) = (scratch.path().join("plain"), scratch.path().join("a.csv"));
     fs::write(&plain, "").unwrap();
-    let picture = room.path().join("a.svg");
+    let picture = scratch.path().join("a.svg");
     run(&["run", shown(&fmu), "--output", shown(&table), "--plot", shown(&picture)], 0);
     let mode = |path: &Path| fs::metadata(path).unwrap().mode();
     for path in [&table, &picture, &fmu] {

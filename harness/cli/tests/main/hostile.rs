@@ -31,34 +31,34 @@ const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 /// What tells the caller that something hangs: far beyond what any of these takes.
 const LONG: Duration = Duration::from_secs(60);
 
-/// An unpacked FMU that does this deed at this place; `None`, with a line that says why, where there is no compiler.
-fn hostile(deed: &str, place: &str) -> Option<TempDir> {
+/// An unpacked FMU that does this behaviour at this place; `None`, with a line that says why, where there is no compiler.
+fn hostile(behaviour: &str, place: &str) -> Option<TempDir> {
     if Command::new("gcc").arg("--version").output().is_err() {
         assert!(std::env::var_os("CI").is_none(), "gcc is missing");
         eprintln!("skipped: hostile FMUs (no gcc on this machine)");
         return None;
     }
-    let room = tempfile::tempdir().unwrap();
-    let binaries = room.path().join("fmu/binaries").join(loader::platform_folders()[0]);
+    let scratch = tempfile::tempdir().unwrap();
+    let binaries = scratch.path().join("fmu/binaries").join(loader::platform_folders()[0]);
     fs::create_dir_all(&binaries).unwrap();
-    fs::create_dir_all(room.path().join("tmp")).unwrap();
-    fs::write(room.path().join("fmu/modelDescription.xml"), DESCRIPTION).unwrap();
+    fs::create_dir_all(scratch.path().join("tmp")).unwrap();
+    fs::write(scratch.path().join("fmu/modelDescription.xml"), DESCRIPTION).unwrap();
     let output = Command::new("gcc")
         .args(["-std=c11", "-O0", "-shared", "-fPIC", "-w"])
-        .args([format!("-DDEED={deed}"), format!("-D{place}")])
+        .args([format!("-DBEHAVIOUR={behaviour}"), format!("-D{place}")])
         .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/hostile/hostile.c"))
         .arg("-o")
         .arg(binaries.join(format!("Hostile{}", std::env::consts::DLL_SUFFIX)))
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", text(&output));
-    Some(room)
+    Some(scratch)
 }
 
-fn command(room: &TempDir, name: &str, more: &[&str]) -> Command {
-    let fmu = room.path().join("fmu");
+fn command(scratch: &TempDir, name: &str, more: &[&str]) -> Command {
+    let fmu = scratch.path().join("fmu");
     let mut command = heliotorque(&[&[name, shown(&fmu)], more].concat());
-    command.env("TMPDIR", room.path().join("tmp")).stdin(Stdio::null());
+    command.env("TMPDIR", scratch.path().join("tmp")).stdin(Stdio::null());
     command
 }
 
@@ -80,17 +80,17 @@ fn start(mut command: Command) -> Child {
 }
 
 /// What it says, once it ended with this status.
-fn ended(room: &TempDir, name: &str, more: &[&str], status: i32) -> String {
-    let output = start_to_file(room, command(room, name, more));
-    let said = text(&output);
-    assert_eq!(output.status.code(), Some(status), "{said}");
-    nothing_left(room);
-    said
+fn ended(scratch: &TempDir, name: &str, more: &[&str], status: i32) -> String {
+    let output = start_to_file(scratch, command(scratch, name, more));
+    let printed = text(&output);
+    assert_eq!(output.status.code(), Some(status), "{printed}");
+    nothing_left(scratch);
+    printed
 }
 
 /// As `wait`, for programs that say more than a pipe holds.
-fn start_to_file(room: &TempDir, mut command: Command) -> Output {
-    let (out, err) = (room.path().join("stdout"), room.path().join("stderr"));
+fn start_to_file(scratch: &TempDir, mut command: Command) -> Output {
+    let (out, err) = (scratch.path().join("stdout"), scratch.path().join("stderr"));
     command.stdout(fs::File::create(&out).unwrap()).stderr(fs::File::create(&err).unwrap());
     let mut output = wait(command.spawn().unwrap());
     output.stdout = fs::read(out).unwrap();
@@ -98,14 +98,14 @@ fn start_to_file(room: &TempDir, mut command: Command) -> Output {
     output
 }
 
-/// No temporary file, and no process that works in or on this room.
-fn nothing_left(room: &TempDir) {
+/// No temporary file, and no process that works in or on this folder.
+fn nothing_left(scratch: &TempDir) {
     let left: Vec<PathBuf> =
-        fs::read_dir(room.path().join("tmp")).unwrap().map(|entry| entry.unwrap().path()).collect();
+        fs::read_dir(scratch.path().join("tmp")).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert!(left.is_empty(), "{left:?}");
     let began = Instant::now();
-    while !processes(room.path()).is_empty() {
-        assert!(began.elapsed() < LONG, "processes are left: {:?}", processes(room.path()));
+    while !processes(scratch.path()).is_empty() {
+        assert!(began.elapsed() < LONG, "processes are left: {:?}", processes(scratch.path()));
         std::thread::sleep(Duration::from_millis(5));
     }
 }
@@ -136,7 +136,7 @@ fn signal(child: &Child, name: &str) {
 #[test]
 fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
     let in_step = "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): ";
-    for (deed, more, says) in [
+    for (behaviour, more, says) in [
         ("EXITS", &[][..], "the process died: it exited with status 0"),
         ("CRASHES", &[], "signal 11 (segmentation fault)"),
         ("ABORTS", &[], "signal 6 (abort)"),
@@ -146,26 +146,29 @@ fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
         ("SPINS", &["--timeout", "300ms"], "hangs: the call did not return within 0.3 s (see --timeout)"),
         ("PRINTS", &["--timeout", "0.5s"], "hangs: the call did not return within 0.5 s (see --timeout)"),
     ] {
-        let Some(room) = hostile(deed, "IN_STEP") else { return };
-        let (table, part) = (room.path().join("a.csv"), room.path().join("a.csv.part"));
+        let Some(scratch) = hostile(behaviour, "IN_STEP") else { return };
+        let (table, part) = (scratch.path().join("a.csv"), scratch.path().join("a.csv.part"));
         fs::write(&table, "the last good one").unwrap();
-        let said = ended(&room, "run", &[&["--output", shown(&table)], more].concat(), 1);
-        assert!(said.contains(in_step) && said.contains(says), "{deed}: {said}");
-        assert!(said.contains("4 rows so far: ") && said.contains("a.csv.part"), "{deed}: {said}");
-        assert_eq!(rows(&part), ["0,0", "1,1", "2,2", "3,3"], "{deed}");
-        assert_eq!(fs::read_to_string(&table).unwrap(), "the last good one", "{deed}");
+        let printed = ended(&scratch, "run", &[&["--output", shown(&table)], more].concat(), 1);
+        assert!(printed.contains(in_step) && printed.contains(says), "{behaviour}: {printed}");
+        assert!(
+            printed.contains("4 rows so far: ") && printed.contains("a.csv.part"),
+            "{behaviour}: {printed}"
+        );
+        assert_eq!(rows(&part), ["0,0", "1,1", "2,2", "3,3"], "{behaviour}");
+        assert_eq!(fs::read_to_string(&table).unwrap(), "the last good one", "{behaviour}");
         // What it prints is bounded.
-        assert!(said.len() < 3 << 20, "{deed}: {} bytes", said.len());
+        assert!(printed.len() < 3 << 20, "{behaviour}: {} bytes", printed.len());
     }
 }
 
 #[test]
 fn nan_is_an_error_that_names_the_variable_and_keeps_the_rows_before() {
-    let Some(room) = hostile("ANSWERS_NAN", "IN_STEP") else { return };
-    let table = room.path().join("a.csv");
-    let said = ended(&room, "run", &["--output", shown(&table)], 1);
-    assert!(said.contains("fmi2GetReal(x): answered NaN at 3 s"), "{said}");
-    assert_eq!(rows(&room.path().join("a.csv.part")), ["0,0", "1,1", "2,2"]);
+    let Some(scratch) = hostile("ANSWERS_NAN", "IN_STEP") else { return };
+    let table = scratch.path().join("a.csv");
+    let printed = ended(&scratch, "run", &["--output", shown(&table)], 1);
+    assert!(printed.contains("fmi2GetReal(x): answered NaN at 3 s"), "{printed}");
+    assert_eq!(rows(&scratch.path().join("a.csv.part")), ["0,0", "1,1", "2,2"]);
     assert!(!table.exists());
 }
 
@@ -174,27 +177,27 @@ fn a_run_names_the_call_before_the_first_step_too() {
     for (place, says) in
         [("IN_INSTANTIATE", "fmi2Instantiate: "), ("AT_LOADING", "loading the shared library: ")]
     {
-        let Some(room) = hostile("CRASHES", place) else { return };
-        let table = room.path().join("a.csv");
-        let said = ended(&room, "run", &["--output", shown(&table)], 1);
-        assert!(said.contains(says) && said.contains("segmentation fault"), "{said}");
-        assert!(!table.exists() && !room.path().join("a.csv.part").exists());
+        let Some(scratch) = hostile("CRASHES", place) else { return };
+        let table = scratch.path().join("a.csv");
+        let printed = ended(&scratch, "run", &["--output", shown(&table)], 1);
+        assert!(printed.contains(says) && printed.contains("segmentation fault"), "{printed}");
+        assert!(!table.exists() && !scratch.path().join("a.csv.part").exists());
     }
 }
 
 #[test]
 fn what_an_fmu_forks_ends_with_the_run_and_sends_nothing() {
-    for deed in ["FORKS", "RETURNS_TWICE"] {
-        let Some(room) = hostile(deed, "IN_STEP") else { return };
-        let table = room.path().join("a.csv");
-        ended(&room, "run", &["--stop", "6", "--output", shown(&table)], 0);
-        assert_eq!(rows(&table), ["0,0", "1,1", "2,2", "3,3", "4,4", "5,5", "6,6"], "{deed}");
+    for behaviour in ["FORKS", "RETURNS_TWICE"] {
+        let Some(scratch) = hostile(behaviour, "IN_STEP") else { return };
+        let table = scratch.path().join("a.csv");
+        ended(&scratch, "run", &["--stop", "6", "--output", shown(&table)], 0);
+        assert_eq!(rows(&table), ["0,0", "1,1", "2,2", "3,3", "4,4", "5,5", "6,6"], "{behaviour}");
     }
 }
 
 #[test]
 fn a_check_outlives_every_fmu_and_leaves_nothing() {
-    for (deed, place, says) in [
+    for (behaviour, place, says) in [
         (
             "EXITS",
             "IN_STEP",
@@ -210,30 +213,30 @@ fn a_check_outlives_every_fmu_and_leaves_nothing() {
         // Fewer than it may, for the process has files of its own.
         ("OPENS", "IN_INSTANTIATE", "it could open 10"),
     ] {
-        let Some(room) = hostile(deed, place) else { return };
-        let said = ended(&room, "check", &["--only", "flight", "--timeout", "1s"], 1);
-        assert!(said.contains(says), "{deed}: {said}");
+        let Some(scratch) = hostile(behaviour, place) else { return };
+        let printed = ended(&scratch, "check", &["--only", "simulation", "--timeout", "1s"], 1);
+        assert!(printed.contains(says), "{behaviour}: {printed}");
         // What it printed last is quoted, and nothing it printed is a verdict.
         let is_verdict = |line: &str| line.contains("everything is fine") && !line.contains("| ");
-        assert!(!said.lines().any(is_verdict) && said.contains("1 wrong"), "{deed}: {said}");
+        assert!(!printed.lines().any(is_verdict) && printed.contains("1 wrong"), "{behaviour}: {printed}");
     }
 }
 
 #[test]
 fn a_check_takes_no_verdict_from_a_fork_and_waits_for_none() {
-    for deed in ["FORKS", "RETURNS_TWICE"] {
-        let Some(room) = hostile(deed, "IN_INSTANTIATE") else { return };
-        let said = ended(&room, "check", &["--only", "flight", "--timeout", "20s", "--verbose"], 0);
-        assert_eq!(said.matches("comes to its end").count().max(1), 1, "{said}");
-        assert!(!said.contains("hangs") && !said.contains("WRONG  "), "{said}");
+    for behaviour in ["FORKS", "RETURNS_TWICE"] {
+        let Some(scratch) = hostile(behaviour, "IN_INSTANTIATE") else { return };
+        let printed = ended(&scratch, "check", &["--only", "simulation", "--timeout", "20s", "--verbose"], 0);
+        assert_eq!(printed.matches("comes to its end").count().max(1), 1, "{printed}");
+        assert!(!printed.contains("hangs") && !printed.contains("WRONG  "), "{printed}");
     }
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_check_of_an_fmu_that_prints_without_end_stays_small() {
-    let Some(room) = hostile("PRINTS", "IN_INSTANTIATE") else { return };
-    let mut child = start(command(&room, "check", &["--only", "flight"]));
+    let Some(scratch) = hostile("PRINTS", "IN_INSTANTIATE") else { return };
+    let mut child = start(command(&scratch, "check", &["--only", "simulation"]));
     let mut most_kb = 0;
     while child.try_wait().unwrap().is_none() {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
@@ -242,10 +245,10 @@ fn a_check_of_an_fmu_that_prints_without_end_stays_small() {
         most_kb = most_kb.max(peak.unwrap_or(0));
         std::thread::sleep(Duration::from_millis(1));
     }
-    let said = text(&wait(child));
-    assert!(said.contains("fmi2Instantiate: prints without end: more than 16 MiB"), "{said}");
+    let printed = text(&wait(child));
+    assert!(printed.contains("fmi2Instantiate: prints without end: more than 16 MiB"), "{printed}");
     assert!((1..100_000).contains(&most_kb), "{most_kb} kB");
-    nothing_left(&room);
+    nothing_left(&scratch);
 }
 
 #[cfg(target_os = "linux")]
@@ -253,16 +256,16 @@ fn a_check_of_an_fmu_that_prints_without_end_stays_small() {
 fn signals_end_what_hangs_and_leave_nothing() {
     for (name, place) in [("run", "IN_STEP"), ("check", "IN_INSTANTIATE")] {
         for signal_name in ["INT", "TERM", "HUP"] {
-            let Some(room) = hostile("SLEEPS", place) else { return };
-            let table = room.path().join("a.csv");
+            let Some(scratch) = hostile("SLEEPS", place) else { return };
+            let table = scratch.path().join("a.csv");
             let more: &[&str] =
-                if name == "run" { &["--output", shown(&table)] } else { &["--only", "flight"] };
-            let child = start(command(&room, name, more));
+                if name == "run" { &["--output", shown(&table)] } else { &["--only", "simulation"] };
+            let child = start(command(&scratch, name, more));
             // Parent and child; the run has sent its rows.
             let began = Instant::now();
             let is_ready = || {
-                let hangs = name == "check" || rows(&room.path().join("a.csv.part")).len() == 4;
-                hangs && processes(room.path()).len() == 2
+                let hangs = name == "check" || rows(&scratch.path().join("a.csv.part")).len() == 4;
+                hangs && processes(scratch.path()).len() == 2
             };
             while !is_ready() {
                 assert!(began.elapsed() < LONG, "it does not begin");
@@ -270,13 +273,16 @@ fn signals_end_what_hangs_and_leave_nothing() {
             }
             signal(&child, signal_name);
             let output = wait(child);
-            let said = text(&output);
-            assert_eq!(output.status.code(), Some(130), "{name}, {signal_name}: {said}");
-            nothing_left(&room);
+            let printed = text(&output);
+            assert_eq!(output.status.code(), Some(130), "{name}, {signal_name}: {printed}");
+            nothing_left(&scratch);
             if name == "run" {
-                assert!(said.contains("interrupted at 3 s") && said.contains("fmi2DoStep("), "{said}");
+                assert!(
+                    printed.contains("interrupted at 3 s") && printed.contains("fmi2DoStep("),
+                    "{printed}"
+                );
                 assert_eq!(rows(&table).len(), 4);
-                assert!(!room.path().join("a.csv.part").exists());
+                assert!(!scratch.path().join("a.csv.part").exists());
             }
         }
     }
@@ -285,10 +291,10 @@ fn signals_end_what_hangs_and_leave_nothing() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_run_that_is_killed_leaves_whole_rows_and_no_process() {
-    let Some(room) = hostile("SLEEPS", "IN_STEP") else { return };
-    let (table, part) = (room.path().join("a.csv"), room.path().join("a.csv.part"));
+    let Some(scratch) = hostile("SLEEPS", "IN_STEP") else { return };
+    let (table, part) = (scratch.path().join("a.csv"), scratch.path().join("a.csv.part"));
     fs::write(&table, "the last good one").unwrap();
-    let mut child = start(command(&room, "run", &["--output", shown(&table)]));
+    let mut child = start(command(&scratch, "run", &["--output", shown(&table)]));
     let began = Instant::now();
     while rows(&part).len() < 4 {
         assert!(began.elapsed() < LONG, "it does not begin");
@@ -296,28 +302,28 @@ fn a_run_that_is_killed_leaves_whole_rows_and_no_process() {
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    nothing_left(&room);
+    nothing_left(&scratch);
     assert_eq!(rows(&part).len(), 4);
     assert_eq!(fs::read_to_string(&table).unwrap(), "the last good one");
     // The next run takes its place.
-    ended(&room, "run", &["--stop", "3", "--output", shown(&table)], 0);
+    ended(&scratch, "run", &["--stop", "3", "--output", shown(&table)], 0);
     assert_eq!(rows(&table).len(), 4);
     assert!(!part.exists());
 }
 
 #[test]
 fn what_an_fmu_says_moves_no_cursor() {
-    let Some(room) = hostile("STAINS", "IN_STEP") else { return };
-    let said = ended(&room, "run", &["--log"], 1);
+    let Some(scratch) = hostile("STAINS", "IN_STEP") else { return };
+    let printed = ended(&scratch, "run", &["--log"], 1);
     assert!(
-        said.contains("\\u{1b}[2Jcleared\\u{7}") && said.contains("\\u{1b}]0;title\\u{7} a\\rb"),
-        "{said}"
+        printed.contains("\\u{1b}[2Jcleared\\u{7}") && printed.contains("\\u{1b}]0;title\\u{7} a\\rb"),
+        "{printed}"
     );
     let is_control = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
-    assert!(!said.contains(is_control), "{said:?}");
+    assert!(!printed.contains(is_control), "{printed:?}");
     // Names and texts of the description too.
     let xml = DESCRIPTION.replace("guid=", "description=\"&#x9b;2J &#x85;\" guid=");
-    fs::write(room.path().join("fmu/modelDescription.xml"), xml).unwrap();
-    let said = ended(&room, "info", &[], 0);
-    assert!(said.contains("\\u{9b}2J") && !said.contains(is_control), "{said:?}");
+    fs::write(scratch.path().join("fmu/modelDescription.xml"), xml).unwrap();
+    let printed = ended(&scratch, "info", &[], 0);
+    assert!(printed.contains("\\u{9b}2J") && !printed.contains(is_control), "{printed:?}");
 }

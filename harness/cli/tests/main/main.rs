@@ -65,8 +65,8 @@ pub fn built(variable: &str) -> Option<PathBuf> {
 /// A packed probe model in a fresh folder.
 pub fn packed(model: &str) -> Option<(TempDir, PathBuf)> {
     let library = probe_library()?;
-    let room = tempfile::tempdir().unwrap();
-    let fmu = room.path().join(format!("{model}.fmu"));
+    let scratch = tempfile::tempdir().unwrap();
+    let fmu = scratch.path().join(format!("{model}.fmu"));
     run(&["pack", "--library", shown(&library), "--model", model, "--output", shown(&fmu)], 0);
-    Some((room, fmu))
+    Some((scratch, fmu))
 }

@@ -20,19 +20,19 @@ fn entries(path: &Path) -> Vec<(String, Vec<u8>)> {
 
 #[test]
 fn the_same_input_gives_the_same_archive() {
-    let Some((room, first)) = packed("AllTypes") else { return };
-    let second = room.path().join("deeper/second.fmu");
+    let Some((scratch, first)) = packed("AllTypes") else { return };
+    let second = scratch.path().join("deeper/second.fmu");
     let library = probe_library().unwrap();
     let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", shown(&second)];
     let text = run(&pack, 1);
     assert!(text.contains("there is no folder") && text.contains("see --output"), "{text}");
-    fs::create_dir(room.path().join("deeper")).unwrap();
+    fs::create_dir(scratch.path().join("deeper")).unwrap();
     run(&pack, 0);
     assert!(fs::read(&first).unwrap() == fs::read(&second).unwrap());
 
     let names: Vec<String> = entries(&first).into_iter().map(|(name, _)| name).collect();
     assert!(names.is_sorted(), "{names:?}");
-    for wanted in [
+    for expected in [
         "modelDescription.xml",
         "documentation/index.html",
         "documentation/licenses/license.txt",
@@ -40,7 +40,7 @@ fn the_same_input_gives_the_same_archive() {
         "documentation/licenses/LICENSE-MIT.txt",
         "documentation/licenses/THIRD-PARTY.txt",
     ] {
-        assert!(names.iter().any(|name| name == wanted), "{wanted} is missing of {names:?}");
+        assert!(names.iter().any(|name| name == expected), "{expected} is missing of {names:?}");
     }
     // One library, under FMI 2.0's name of the platform.
     let libraries: Vec<_> = names.iter().filter(|name| name.starts_with("binaries/")).collect();
@@ -52,8 +52,8 @@ fn the_same_input_gives_the_same_archive() {
 fn the_page_and_the_licences_lead_to_files_that_are_there() {
     let Some((_room, path)) = packed("AllTypes") else { return };
     let all = entries(&path);
-    let text = |wanted: &str| {
-        let (_, bytes) = all.iter().find(|(name, _)| name == wanted).expect(wanted);
+    let text = |expected: &str| {
+        let (_, bytes) = all.iter().find(|(name, _)| name == expected).expect(expected);
         String::from_utf8(bytes.clone()).unwrap()
     };
     let page = text("documentation/index.html");
@@ -102,8 +102,8 @@ fn the_documentation_names_every_variable() {
 
 #[test]
 fn a_template_gives_a_new_fmu_under_its_own_name() {
-    let Some((room, template)) = packed("AllTypes") else { return };
-    let mine = room.path().join("Mine.fmu");
+    let Some((scratch, template)) = packed("AllTypes") else { return };
+    let mine = scratch.path().join("Mine.fmu");
     run(&["pack", "--template", shown(&template), "--name", "Mine", "--output", shown(&mine)], 0);
     let names: Vec<String> = entries(&mine).into_iter().map(|(name, _)| name).collect();
     assert!(names.iter().any(|name| name.ends_with(&format!("/Mine{}", std::env::consts::DLL_SUFFIX))));
@@ -113,7 +113,7 @@ fn a_template_gives_a_new_fmu_under_its_own_name() {
     run(&["run", shown(&mine), "--quiet"], 0);
 
     // A renamed template still knows its model.
-    let next = room.path().join("Next.fmu");
+    let next = scratch.path().join("Next.fmu");
     run(&["pack", "--template", shown(&mine), "--name", "Next", "--output", shown(&next)], 0);
     run(&["run", shown(&next), "--quiet"], 0);
 }
@@ -121,8 +121,8 @@ fn a_template_gives_a_new_fmu_under_its_own_name() {
 #[test]
 fn what_cannot_be_packed_says_why() {
     let Some(library) = probe_library() else { return };
-    let room = tempfile::tempdir().unwrap();
-    let output = room.path().join("x.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let output = scratch.path().join("x.fmu");
     let pack = |more: &[&str]| {
         let mut arguments = vec!["pack", "--library", shown(&library), "--output", shown(&output)];
         arguments.extend(more);
@@ -132,7 +132,7 @@ fn what_cannot_be_packed_says_why() {
     assert!(text.contains("Warp") && text.contains("AllTypes"), "{text}");
     assert!(pack(&["--model", "AllTypes", "--name", "my craft"]).contains("no C identifier"));
     assert!(pack(&["--model", "AllTypes", "--spacecraft", "no/such.toml"]).contains("no/such.toml"));
-    let toml = room.path().join("odd.toml");
+    let toml = scratch.path().join("odd.toml");
     fs::write(&toml, "unknown_key = 1\n").unwrap();
     let text = pack(&["--model", "AllTypes", "--spacecraft", shown(&toml)]);
     assert!(text.contains("odd.toml"), "{text}");
@@ -148,13 +148,13 @@ fn what_cannot_be_packed_says_why() {
 #[test]
 fn outputs_of_single_plates_are_added_on_request() {
     let Some(library) = library() else { return };
-    let room = tempfile::tempdir().unwrap();
+    let scratch = tempfile::tempdir().unwrap();
     let shipped = "../../fmu-src/resources/messenger-thermal.toml";
-    let toml = room.path().join("mine.toml");
+    let toml = scratch.path().join("mine.toml");
     let body = fs::read_to_string(shipped).unwrap();
     fs::write(&toml, format!("per_plate_outputs = false # for now\n{body}")).unwrap();
     let pack = |spacecraft: &str, per_plate: bool, name: &str| {
-        let fmu = room.path().join(format!("{name}.fmu"));
+        let fmu = scratch.path().join(format!("{name}.fmu"));
         let mut arguments = vec!["pack", "--library", shown(&library), "--model", "DisturbanceTorque"];
         arguments.extend(["--spacecraft", spacecraft, "--output", shown(&fmu)]);
         arguments.extend(per_plate.then_some("--per-plate"));
@@ -175,7 +175,7 @@ fn outputs_of_single_plates_are_added_on_request() {
         assert!(added.contains(&format!("\"{variable}\"")), "{variable} is missing");
     }
     // Bound to the file as packed: the GUID is that of the same file given by hand.
-    let by_hand = room.path().join("by-hand.toml");
+    let by_hand = scratch.path().join("by-hand.toml");
     fs::write(&by_hand, &file).unwrap();
     assert_eq!(pack(shown(&by_hand), false, "ByHand").0, added);
     run(&["run", shown(&fmu), "--stop", "60", "--quiet"], 0);
@@ -188,8 +188,8 @@ fn outputs_of_single_plates_are_added_on_request() {
 #[test]
 fn a_file_of_another_model_names_the_model() {
     let Some(library) = library() else { return };
-    let room = tempfile::tempdir().unwrap();
-    let output = room.path().join("Ace.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let output = scratch.path().join("Ace.fmu");
     let arguments = ["pack", "--library", shown(&library), "--output", shown(&output), "--spacecraft", ACE];
     let text = run(&[&arguments[..], &["--model", "MomentumPlant"]].concat(), 1);
     assert!(text.contains("this is a file of SpinPlant: see --model") && !output.exists(), "{text}");
@@ -199,8 +199,8 @@ fn a_file_of_another_model_names_the_model() {
 #[test]
 fn models_without_outputs_of_single_plates_refuse_them() {
     let Some(library) = library() else { return };
-    let room = tempfile::tempdir().unwrap();
-    let output = room.path().join("x.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let output = scratch.path().join("x.fmu");
     let arguments = ["pack", "--library", shown(&library), "--output", shown(&output), "--per-plate"];
     for more in [["--model", "SpinPlant"].as_slice(), &["--model", "SpinPlant", "--spacecraft", ACE]] {
         let text = run(&[&arguments, more].concat(), 1);
@@ -228,7 +228,7 @@ fn models_without_outputs_of_single_plates_refuse_them() {
         );
     }
     // What is wrong with the file itself is told by the lines of the file itself.
-    let toml = room.path().join("odd.toml");
+    let toml = scratch.path().join("odd.toml");
     fs::write(&toml, "name = \"A\"\nwings = 2\n").unwrap();
     let text =
         run(&[&arguments[..], &["--model", "DisturbanceTorque", "--spacecraft", shown(&toml)]].concat(), 1);
@@ -237,14 +237,15 @@ fn models_without_outputs_of_single_plates_refuse_them() {
 }
 
 #[test]
-fn start_values_are_packed_and_flown() {
+fn start_values_are_packed_and_simulated() {
     let Some(library) = library() else { return };
-    let room = tempfile::tempdir().unwrap();
-    let toml = room.path().join("mine.toml");
+    let scratch = tempfile::tempdir().unwrap();
+    let toml = scratch.path().join("mine.toml");
     let body = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
-    fs::write(&toml, format!("{body}\n[start]\n# as flown\n\"dump.threshold\" = [4, 4, 4] # all\n")).unwrap();
+    fs::write(&toml, format!("{body}\n[start]\n# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n"))
+        .unwrap();
     let pack = |name: &str, more: &[&str]| {
-        let fmu = room.path().join(format!("{name}.fmu"));
+        let fmu = scratch.path().join(format!("{name}.fmu"));
         let mut arguments = vec!["pack", "--library", shown(&library), "--model", "MomentumPlant"];
         arguments.extend(["--spacecraft", shown(&toml), "--output", shown(&fmu)]);
         arguments.extend(more);
@@ -267,7 +268,7 @@ fn start_values_are_packed_and_flown() {
     let packed = file(&fmu, "resources/spacecraft.toml");
     let added =
         "\"dump.threshold[2]\" = 5.0\n\"panel[1].sunOffset\" = \"10deg\"\n\"orbit.frame\" = \"ecliptic\"\n";
-    let table = "[start]\n# as flown\n\"dump.threshold\" = [4, 4, 4] # all\n";
+    let table = "[start]\n# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n";
     assert_eq!(packed, format!("{body}\n{table}{added}"));
     let xml = model_description::parse(file(&fmu, "modelDescription.xml").as_bytes()).unwrap().description;
     let start = |name: &str| {
@@ -284,25 +285,25 @@ fn start_values_are_packed_and_flown() {
         (10.0 / (180.0 / std::f64::consts::PI), 4.0)
     );
 
-    // It flies as the unset one does when it is told the same.
-    let fly = |fmu: &Path, more: &[&str]| {
-        let csv = room.path().join("flight.csv");
+    // It runs as the unset one does when it is told the same.
+    let simulate = |fmu: &Path, more: &[&str]| {
+        let csv = scratch.path().join("simulation.csv");
         let mut arguments = vec!["run", shown(fmu), "--stop", "20d", "--quiet", "--output", shown(&csv)];
         arguments.extend(more);
         run(&arguments, 0);
         fs::read_to_string(&csv).unwrap()
     };
     let plain = pack("Plain", &[]);
-    assert_eq!(fly(&fmu, &[]), fly(&plain, &set));
-    assert_ne!(fly(&fmu, &[]), fly(&plain, &[]));
+    assert_eq!(simulate(&fmu, &[]), simulate(&plain, &set));
+    assert_ne!(simulate(&fmu, &[]), simulate(&plain, &[]));
     run(&["check", shown(&fmu)], 0);
 }
 
 #[test]
 fn start_values_that_nothing_takes_are_refused() {
     let Some(library) = library() else { return };
-    let room = tempfile::tempdir().unwrap();
-    let output = room.path().join("x.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let output = scratch.path().join("x.fmu");
     let pack = |model: &str, more: &[&str]| {
         let arguments = ["pack", "--library", shown(&library), "--model", model, "--output", shown(&output)];
         let text = run(&[&arguments[..], more].concat(), 1);
@@ -317,7 +318,7 @@ fn start_values_that_nothing_takes_are_refused() {
     assert!(text.contains("near it: orbit.center"), "{text}");
     let text = pack("MomentumPlant", &["--set", "torque.total=1,2,3"]);
     assert!(text.contains("found the output torque.total[1], allowed: a parameter or an input"), "{text}");
-    let toml = room.path().join("mine.toml");
+    let toml = scratch.path().join("mine.toml");
     let body = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
     fs::write(&toml, format!("{body}\n[start]\n\"orbit.centre\" = \"sun\"\n")).unwrap();
     let line = body.lines().count() + 3;

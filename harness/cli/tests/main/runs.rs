@@ -15,9 +15,9 @@ fn csv(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 #[test]
-fn a_flight_leaves_csv_and_a_picture() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let (table, picture) = (room.path().join("out.csv"), room.path().join("out.svg"));
+fn a_simulation_leaves_csv_and_a_picture() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let (table, picture) = (scratch.path().join("out.csv"), scratch.path().join("out.svg"));
     let text = run(
         &[
             "run",
@@ -62,10 +62,10 @@ fn a_flight_leaves_csv_and_a_picture() {
 
 #[test]
 fn a_table_drives_inputs() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let (input, output) = (room.path().join("in.csv"), room.path().join("out.csv"));
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let (input, output) = (scratch.path().join("in.csv"), scratch.path().join("out.csv"));
     fs::write(&input, "# a ramp\ntime, input.real\n0, 0\n4, 4\n8, 4\n").unwrap();
-    let fly = |more: &[&str]| {
+    let simulate = |more: &[&str]| {
         let (fmu, input, output) = (shown(&fmu), shown(&input), shown(&output));
         let mut arguments = vec!["run", fmu, "--stop", "8", "--step", "0.5", "--quiet", "--input", input];
         arguments.extend(["--record", "output.integral", "--output", output]);
@@ -73,8 +73,8 @@ fn a_table_drives_inputs() {
         run(&arguments, 0);
         csv(std::path::Path::new(output)).1.last().unwrap()[1]
     };
-    assert!((fly(&["--slopes"]) - 24.0).abs() < 1e-12);
-    assert!((fly(&[]) - 23.0).abs() < 1e-12);
+    assert!((simulate(&["--slopes"]) - 24.0).abs() < 1e-12);
+    assert!((simulate(&[]) - 23.0).abs() < 1e-12);
 
     fs::write(&input, "time,input.rael\n0,0\n").unwrap();
     let text = run(&["run", shown(&fmu), "--input", shown(&input)], 1);
@@ -125,13 +125,13 @@ fn bad_settings_name_the_variable_and_what_is_allowed() {
 }
 
 #[test]
-fn an_error_on_the_way_leaves_what_was_flown() {
-    let Some((room, fmu)) = packed("Panicking") else { return };
-    let (input, output) = (room.path().join("in.csv"), room.path().join("out.csv"));
+fn an_error_on_the_way_leaves_what_was_simulated() {
+    let Some((scratch, fmu)) = packed("Panicking") else { return };
+    let (input, output) = (scratch.path().join("in.csv"), scratch.path().join("out.csv"));
     let info = run(&["info", shown(&fmu), "--variables"], 0);
     let panic = info.lines().find(|line| line.contains("Panic in step, with half")).unwrap();
     let number = panic.split_whitespace().find(|word| word.parse::<i32>().is_ok()).unwrap();
-    fs::write(&input, format!("time,accident\n0,1\n3,{number}\n")).unwrap();
+    fs::write(&input, format!("time,fault\n0,1\n3,{number}\n")).unwrap();
     let text = run(
         &[
             "run",
@@ -152,34 +152,35 @@ fn an_error_on_the_way_leaves_what_was_flown() {
     assert!(text.contains("fmi2Error") && text.contains("panic"), "{text}");
     // Under the name of a recording in progress: what is complete has its own name.
     assert!(text.contains("4 rows so far: ") && text.contains("out.csv.part"), "{text}");
-    assert_eq!(csv(&room.path().join("out.csv.part")).1.len(), 4);
+    assert_eq!(csv(&scratch.path().join("out.csv.part")).1.len(), 4);
     assert!(!output.exists());
 }
 
 #[test]
-fn a_picture_of_another_kind_is_refused_before_the_flight() {
-    let Some((room, fmu)) = packed("Empty") else { return };
-    let picture = room.path().join("out.png");
+fn a_picture_of_another_kind_is_refused_before_the_simulation() {
+    let Some((scratch, fmu)) = packed("Empty") else { return };
+    let picture = scratch.path().join("out.png");
     let text = run(&["run", shown(&fmu), "--plot", shown(&picture)], 1);
     assert!(text.contains("out.png") && text.contains("allowed: one that ends in .svg"), "{text}");
     assert!(!picture.exists());
 }
 
 #[test]
-fn files_that_cannot_be_written_are_told_before_the_flight() {
-    let Some((room, fmu)) = packed("AllTypes") else { return };
-    let (table, picture) = (room.path().join("out.csv"), room.path().join("out.svg"));
-    let missing = room.path().join("none/out.svg");
-    let fly = |more: &[&str]| run(&[&["run", shown(&fmu), "--stop", "1e9", "--step", "1"], more].concat(), 1);
-    // Hours of stepping, had the flight begun.
+fn files_that_cannot_be_written_are_told_before_the_simulation() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let (table, picture) = (scratch.path().join("out.csv"), scratch.path().join("out.svg"));
+    let missing = scratch.path().join("none/out.svg");
+    let simulate =
+        |more: &[&str]| run(&[&["run", shown(&fmu), "--stop", "1e9", "--step", "1"], more].concat(), 1);
+    // Hours of stepping, had the simulation begun.
     for option in ["--output", "--plot"] {
-        let text = fly(&[option, shown(&missing)]);
+        let text = simulate(&[option, shown(&missing)]);
         assert!(text.contains("none") && text.contains(&format!("see {option}")), "{text}");
     }
-    // One that cannot be written leaves the other as it was, and so does a flight that is refused.
+    // One that cannot be written leaves the other as it was, and so does a simulation that is refused.
     fs::write(&table, "precious").unwrap();
-    fly(&["--output", shown(&table), "--plot", shown(&missing)]);
-    fly(&["--output", shown(&table), "--plot", shown(&picture), "--set", "input.real=1e7"]);
+    simulate(&["--output", shown(&table), "--plot", shown(&missing)]);
+    simulate(&["--output", shown(&table), "--plot", shown(&picture), "--set", "input.real=1e7"]);
     assert_eq!(fs::read_to_string(&table).unwrap(), "precious");
     assert!(!picture.exists());
 }
@@ -187,8 +188,8 @@ fn files_that_cannot_be_written_are_told_before_the_flight() {
 #[cfg(target_os = "linux")]
 #[test]
 fn ctrl_c_leaves_a_valid_partial_csv() {
-    let Some((room, fmu)) = packed("Empty") else { return };
-    let output = room.path().join("out.csv");
+    let Some((scratch, fmu)) = packed("Empty") else { return };
+    let output = scratch.path().join("out.csv");
     let mut child = crate::heliotorque(&[
         "run",
         shown(&fmu),

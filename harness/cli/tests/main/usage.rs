@@ -5,7 +5,7 @@ use crate::{run, shown};
 #[test]
 fn wrong_usage_is_two() {
     for arguments in [
-        &["fly"][..],
+        &["simulate"][..],
         &[],
         &["run"],
         &["run", "x.fmu", "--stop", "soon"],
@@ -49,8 +49,8 @@ fn failure_is_one_and_names_the_file() {
     for command in ["run", "info", "check"] {
         assert!(run(&[command, "no/such.fmu"], 1).contains("no/such.fmu"), "{command}");
     }
-    let room = tempfile::tempdir().unwrap();
-    let file = room.path().join("text.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("text.fmu");
     std::fs::write(&file, "not an archive").unwrap();
     for command in ["run", "info", "check"] {
         assert!(run(&[command, shown(&file)], 1).contains("not a usable FMU archive"), "{command}");
@@ -59,7 +59,7 @@ fn failure_is_one_and_names_the_file() {
     for (study, fmu) in
         [("momentum/table2", "Momentum"), ("spin/numbers", "Spin"), ("thermal/table7", "Momentum")]
     {
-        let empty = room.path().join("empty");
+        let empty = scratch.path().join("empty");
         let text = run(&["study", study, "--dist", shown(&empty)], 1);
         let path = empty.join(format!("{fmu}Plant.fmu"));
         assert!(text.matches(shown(&path)).count() == 1 && text.contains("see --dist"), "{text}");
@@ -107,9 +107,10 @@ fn every_command_and_flag_has_help() {
     }
     assert!(!all.contains("-in-child"), "a hidden command shows");
     // By hand they say who starts them.
-    for (arguments, parent) in
-        [(["run-in-child", "--unpacked-in=.", "x.fmu"], "run"), (["probe-in-child", "x", "flight"], "check")]
-    {
+    for (arguments, parent) in [
+        (["run-in-child", "--unpacked-in=.", "x.fmu"], "run"),
+        (["probe-in-child", "x", "simulation"], "check"),
+    ] {
         let output = crate::heliotorque(&arguments).stdin(std::process::Stdio::null()).output().unwrap();
         assert!(crate::text(&output).contains(&format!("`heliotorque {parent}` starts this")));
         assert_eq!(output.status.code(), Some(1));

@@ -9,11 +9,15 @@ use std::{
     },
 };
 
-use fmi_export::call_table::Function;
+use model_description::call_table::Function;
+use model_description::functions::{
+    CO_SIMULATION, LAST_SUCCESSFUL_TIME, TERMINATED,
+    types::{self, CallbackFunctions, CallbackLogger, FmuState},
+};
 
 use super::{
-    Binary, Handle,
-    logger::{CallbackFunctions, FixedLogger, LogBook, Logger, log_message},
+    Binary,
+    logger::{FixedLogger, MessageBuffer, log_message},
     text,
 };
 use crate::{LogMessage, Status, calls, error::Outcome};
@@ -23,7 +27,7 @@ unsafe extern "C" {
     fn free(pointer: *mut c_void);
 }
 
-/// How the callbacks are handed over; the default is the kindest to old FMUs.
+/// How the callbacks are handed over; the default is the least_nutation to old FMUs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Callbacks {
     /// NULL for `allocateMemory` and `freeMemory`.
@@ -47,8 +51,8 @@ pub(crate) type Answer = Result<Status, Outcome>;
 /// One instance. Dropping it frees its states and itself.
 pub(crate) struct Component {
     binary: Arc<Binary>,
-    handle: Handle,
-    book: Arc<LogBook>,
+    handle: types::Component,
+    book: Arc<MessageBuffer>,
     // Old FMUs read the callbacks from the caller's struct for the whole of their life.
     callbacks: *mut CallbackFunctions,
     states: Vec<Slot>,
@@ -57,7 +61,7 @@ pub(crate) struct Component {
 
 /// A place for one FMU state; `generation` tells a freed one from its successor.
 struct Slot {
-    state: *mut c_void,
+    state: FmuState,
     generation: u64,
 }
 
@@ -79,7 +83,7 @@ macro_rules! call {
             Some(function) => {
                 let _under_way = calls::enter(const { calls::number(stringify!($function)) });
                 // SAFETY: the handle is alive until drop and the arguments' lengths were checked by the caller.
-                Ok(Status::from(unsafe { function($self.handle, $($argument),*) }))
+                answered(unsafe { function($self.handle, $($argument),*) })
             }
             None => Err(Outcome::Missing),
         }
@@ -100,12 +104,12 @@ impl Component {
         let Some(function) = binary.functions.fmi2Instantiate else {
             return Err((Outcome::Missing, Vec::new()));
         };
-        let book = Arc::new(LogBook::default());
+        let book = Arc::new(MessageBuffer::default());
         let fixed: FixedLogger = log_message;
         let memory = !start.callbacks.null_memory;
         let callbacks = Box::into_raw(Box::new(CallbackFunctions {
             // SAFETY: both are function pointers of one size; see `log_message` for the arguments.
-            logger: Some(unsafe { std::mem::transmute::<FixedLogger, Logger>(fixed) }),
+            logger: Some(unsafe { std::mem::transmute::<FixedLogger, CallbackLogger>(fixed) }),
             allocate_memory: memory.then_some(calloc as _),
             free_memory: memory.then_some(free as _),
             step_finished: None,
@@ -116,7 +120,7 @@ impl Component {
         let handle = unsafe {
             function(
                 name.as_ptr(),
-                1,
+                CO_SIMULATION,
                 guid.as_ptr(),
                 resources.as_ref().map_or(ptr::null(), |uri| uri.as_ptr()),
                 callbacks,
@@ -187,7 +191,7 @@ impl Component {
         let Some(function) = self.binary.functions.fmi2DoStep else { return Err(Outcome::Missing) };
         let _under_way = calls::enter_with(const { calls::number("fmi2DoStep") }, [time, step]);
         // SAFETY: the handle is alive until drop.
-        Ok(Status::from(unsafe { function(self.handle, time, step, c_int::from(no_set_state_prior)) }))
+        answered(unsafe { function(self.handle, time, step, c_int::from(no_set_state_prior)) })
     }
 
     pub fn cancel_step(&mut self) -> Answer {
@@ -293,17 +297,17 @@ impl Component {
         ))
     }
 
-    /// `fmi2GetRealStatus`; kind 2 is `fmi2LastSuccessfulTime`.
-    pub fn get_real_status(&mut self, kind: i32) -> Result<(Status, f64), Outcome> {
+    /// `fmi2GetRealStatus` of `fmi2LastSuccessfulTime`.
+    pub fn last_successful_time(&mut self) -> Result<(Status, f64), Outcome> {
         let mut value = f64::NAN;
-        let status = call!(self.fmi2GetRealStatus(kind, &raw mut value))?;
+        let status = call!(self.fmi2GetRealStatus(LAST_SUCCESSFUL_TIME, &raw mut value))?;
         Ok((status, value))
     }
 
-    /// `fmi2GetBooleanStatus`; kind 3 is `fmi2Terminated`.
-    pub fn get_boolean_status(&mut self, kind: i32) -> Result<(Status, bool), Outcome> {
+    /// `fmi2GetBooleanStatus` of `fmi2Terminated`.
+    pub fn terminated(&mut self) -> Result<(Status, bool), Outcome> {
         let mut value = 0;
-        let status = call!(self.fmi2GetBooleanStatus(kind, &raw mut value))?;
+        let status = call!(self.fmi2GetBooleanStatus(TERMINATED, &raw mut value))?;
         Ok((status, value != 0))
     }
 
@@ -441,6 +445,10 @@ impl Drop for Component {
         // SAFETY: made by Box::into_raw, and its fields have no destructors.
         drop(unsafe { Box::from_raw(self.callbacks.cast::<std::mem::MaybeUninit<CallbackFunctions>>()) });
     }
+}
+
+fn answered(code: c_int) -> Answer {
+    Status::from_code(code).ok_or(Outcome::UnknownStatus(code))
 }
 
 fn same_length(references: usize, values: usize) -> Result<(), Outcome> {

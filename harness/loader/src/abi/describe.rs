@@ -1,9 +1,11 @@
-//! What a heliotorque library says of its models: the C function `fmi_export_describe`.
+//! What a heliotorque library tells of its models: the C function `fmi_export_describe`.
 
 use std::{
     ffi::{CString, c_char, c_int, c_void},
     ptr,
 };
+
+use model_description::describe::{Describe, SYMBOL, kind};
 
 use super::Binary;
 
@@ -21,10 +23,6 @@ pub struct Described {
     /// The `modelDescription.xml`; empty where the models are only listed.
     pub xml: String,
 }
-
-type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize);
-type Describe =
-    unsafe extern "C" fn(*const c_char, *const c_char, *const c_char, *mut c_void, Option<Receive>) -> c_int;
 
 /// Collects what `fmi_export_describe` sends: a kind and a text at a time.
 unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_char, length: usize) {
@@ -63,7 +61,7 @@ impl Binary {
         setup: Option<&str>,
     ) -> Result<Vec<Described>, String> {
         // SAFETY: the symbol of this name has this type.
-        let function = unsafe { self.library.get::<Describe>(b"fmi_export_describe\0") }.map_err(|_| {
+        let function = unsafe { self.library.get::<Describe>(SYMBOL.as_bytes()) }.map_err(|_| {
             "this is no heliotorque library: it does not export fmi_export_describe".to_owned()
         })?;
         let c_text = |text: Option<&str>| {
@@ -84,14 +82,14 @@ impl Binary {
         };
         let mut models: Vec<Described> = Vec::new();
         let mut problem = None;
-        for (kind, text) in received {
-            match (kind, models.last_mut()) {
-                (0, Some(model)) => model.xml = text,
-                (1, _) => problem = Some(text),
-                (2, Some(model)) => model.default_setup = text,
-                (3, _) => models.push(Described { model: text, ..Described::default() }),
-                (4, Some(model)) => model.setup_file = Some(text),
-                (5, Some(model)) => {
+        for (what, text) in received {
+            match (what, models.last_mut()) {
+                (kind::XML, Some(model)) => model.xml = text,
+                (kind::ERROR, _) => problem = Some(text),
+                (kind::SETUP_TEXT, Some(model)) => model.default_setup = text,
+                (kind::MODEL, _) => models.push(Described { model: text, ..Described::default() }),
+                (kind::SETUP_FILE, Some(model)) => model.setup_file = Some(text),
+                (kind::SOURCE, Some(model)) => {
                     let pair = text.split_once('\t').map(|(what, by)| (what.to_owned(), by.to_owned()));
                     model.sources.extend(pair);
                 }

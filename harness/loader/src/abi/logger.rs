@@ -7,33 +7,23 @@ use std::{
 };
 
 use super::text;
+use model_description::Status;
+
 use crate::LogMessage;
 
-pub(super) type Logger =
-    unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
 pub(super) type FixedLogger =
     unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
-
-/// `fmi2CallbackFunctions`.
-#[repr(C)]
-pub(super) struct CallbackFunctions {
-    pub(super) logger: Option<Logger>,
-    pub(super) allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
-    pub(super) free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
-    pub(super) step_finished: Option<unsafe extern "C" fn(*mut c_void, c_int)>,
-    pub(super) component_environment: *mut c_void,
-}
 
 /// Messages kept per instance; older ones go first.
 const MESSAGES_KEPT: usize = 1000;
 
 /// Where an instance's messages arrive; its address is the `componentEnvironment`.
 #[derive(Default)]
-pub(super) struct LogBook {
+pub(super) struct MessageBuffer {
     messages: Mutex<VecDeque<LogMessage>>,
 }
 
-impl LogBook {
+impl MessageBuffer {
     pub(super) fn messages(&self) -> MutexGuard<'_, VecDeque<LogMessage>> {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -53,9 +43,13 @@ pub(super) unsafe extern "C" fn log_message(
     // SAFETY: the environment is NULL or the book given to fmi2Instantiate, which outlives the instance; the
     // texts are NULL or end with a zero byte.
     unsafe {
-        let Some(book) = environment.cast::<LogBook>().as_ref() else { return };
+        let Some(book) = environment.cast::<MessageBuffer>().as_ref() else { return };
         let text = unescape(&text(message).unwrap_or_default());
-        let message = LogMessage { status: status.into(), category: self::text(category), text };
+        let message = LogMessage {
+            status: Status::from_code(status).unwrap_or(Status::Error),
+            category: self::text(category),
+            text,
+        };
         let mut messages = book.messages();
         if messages.len() >= MESSAGES_KEPT {
             messages.pop_front();

@@ -16,15 +16,14 @@ use std::{
     path::Path,
 };
 
+use model_description::functions::types;
+
 use crate::{Error, calls};
 
 pub use component::Callbacks;
 pub(crate) use component::{Answer, Component, Start, StateKey};
 pub use describe::Described;
-use logger::CallbackFunctions;
 pub use shared::SharedWords;
-
-type Handle = *mut c_void;
 
 unsafe extern "C" {
     fn setlocale(category: c_int, locale: *const c_char) -> *const c_char;
@@ -40,16 +39,16 @@ pub fn set_locale(name: &str) -> bool {
     !unsafe { setlocale(all, name.as_ptr()) }.is_null()
 }
 
-macro_rules! functions {
-    ($($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
+macro_rules! bind {
+    ($($name:ident $symbol:ident $parameters:tt -> $result:ty: $access:expr;)*) => {
         /// Every function of an FMI 2.0 co-simulation FMU, `None` where the library lacks it.
         #[allow(non_snake_case, reason = "the standard's own names")]
         struct Functions {
-            $($name: Option<unsafe extern "C" fn($($argument),*) $(-> $result)?>,)*
+            $($symbol: Option<types::$symbol>,)*
         }
 
         /// The symbols that a co-simulation FMU has to export (2.3).
-        pub const SYMBOLS: &[&str] = &[$(stringify!($name)),*];
+        pub const SYMBOLS: &[&str] = &[$(stringify!($symbol)),*];
 
         impl Functions {
             /// # Safety
@@ -57,8 +56,8 @@ macro_rules! functions {
             unsafe fn bind(library: &Library) -> Self {
                 // SAFETY: the caller's promise, one symbol at a time.
                 unsafe {
-                    Self { $($name: library
-                        .get(concat!(stringify!($name), "\0").as_bytes())
+                    Self { $($symbol: library
+                        .get(concat!(stringify!($symbol), "\0").as_bytes())
                         .map(|symbol| *symbol)
                         .ok(),)* }
                 }
@@ -66,49 +65,14 @@ macro_rules! functions {
 
             fn missing(&self) -> Vec<&'static str> {
                 let mut missing = Vec::new();
-                $(if self.$name.is_none() { missing.push(stringify!($name)); })*
+                $(if self.$symbol.is_none() { missing.push(stringify!($symbol)); })*
                 missing
             }
         }
     };
 }
 
-functions! {
-    fmi2GetTypesPlatform: fn() -> *const c_char;
-    fmi2GetVersion: fn() -> *const c_char;
-    fmi2SetDebugLogging: fn(Handle, c_int, usize, *const *const c_char) -> c_int;
-    fmi2Instantiate: fn(*const c_char, c_int, *const c_char, *const c_char, *const CallbackFunctions, c_int, c_int) -> Handle;
-    fmi2FreeInstance: fn(Handle);
-    fmi2SetupExperiment: fn(Handle, c_int, f64, f64, c_int, f64) -> c_int;
-    fmi2EnterInitializationMode: fn(Handle) -> c_int;
-    fmi2ExitInitializationMode: fn(Handle) -> c_int;
-    fmi2Terminate: fn(Handle) -> c_int;
-    fmi2Reset: fn(Handle) -> c_int;
-    fmi2GetReal: fn(Handle, *const u32, usize, *mut f64) -> c_int;
-    fmi2GetInteger: fn(Handle, *const u32, usize, *mut c_int) -> c_int;
-    fmi2GetBoolean: fn(Handle, *const u32, usize, *mut c_int) -> c_int;
-    fmi2GetString: fn(Handle, *const u32, usize, *mut *const c_char) -> c_int;
-    fmi2SetReal: fn(Handle, *const u32, usize, *const f64) -> c_int;
-    fmi2SetInteger: fn(Handle, *const u32, usize, *const c_int) -> c_int;
-    fmi2SetBoolean: fn(Handle, *const u32, usize, *const c_int) -> c_int;
-    fmi2SetString: fn(Handle, *const u32, usize, *const *const c_char) -> c_int;
-    fmi2GetFMUstate: fn(Handle, *mut *mut c_void) -> c_int;
-    fmi2SetFMUstate: fn(Handle, *mut c_void) -> c_int;
-    fmi2FreeFMUstate: fn(Handle, *mut *mut c_void) -> c_int;
-    fmi2SerializedFMUstateSize: fn(Handle, *mut c_void, *mut usize) -> c_int;
-    fmi2SerializeFMUstate: fn(Handle, *mut c_void, *mut c_char, usize) -> c_int;
-    fmi2DeSerializeFMUstate: fn(Handle, *const c_char, usize, *mut *mut c_void) -> c_int;
-    fmi2GetDirectionalDerivative: fn(Handle, *const u32, usize, *const u32, usize, *const f64, *mut f64) -> c_int;
-    fmi2SetRealInputDerivatives: fn(Handle, *const u32, usize, *const c_int, *const f64) -> c_int;
-    fmi2GetRealOutputDerivatives: fn(Handle, *const u32, usize, *const c_int, *mut f64) -> c_int;
-    fmi2DoStep: fn(Handle, f64, f64, c_int) -> c_int;
-    fmi2CancelStep: fn(Handle) -> c_int;
-    fmi2GetStatus: fn(Handle, c_int, *mut c_int) -> c_int;
-    fmi2GetRealStatus: fn(Handle, c_int, *mut f64) -> c_int;
-    fmi2GetIntegerStatus: fn(Handle, c_int, *mut c_int) -> c_int;
-    fmi2GetBooleanStatus: fn(Handle, c_int, *mut c_int) -> c_int;
-    fmi2GetStringStatus: fn(Handle, c_int, *mut *const c_char) -> c_int;
-}
+model_description::functions!(bind);
 
 #[cfg(unix)]
 use libloading::os::unix::Library;
@@ -179,16 +143,4 @@ impl Binary {
 unsafe fn text(pointer: *const c_char) -> Option<String> {
     // SAFETY: the caller's promise.
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use fmi_export::call_table::Function;
-
-    #[test]
-    fn every_function_of_the_call_table_is_bound() {
-        let table: Vec<&str> = Function::ALL.iter().map(|function| function.symbol()).collect();
-        assert!(table.iter().all(|symbol| super::SYMBOLS.contains(symbol)));
-        assert_eq!(table.len(), super::SYMBOLS.len());
-    }
 }

@@ -5,12 +5,13 @@ mod values;
 
 use std::sync::Arc;
 
-use fmi_export::call_table::Function;
+use model_description::BaseType;
+use model_description::call_table::Function;
 
 use crate::{
     CallError, Callbacks, Checking, Error, Fmu, LogMessage, Status,
     abi::{Answer, Component, Start, StateKey},
-    checker::{Base, Checker},
+    checker::Checker,
     error::{MESSAGES_SHOWN, Outcome},
     uri::file_uri,
 };
@@ -113,11 +114,11 @@ impl Instance {
     /// Asks for the messages that say why a call failed, so that its error can tell.
     fn listen_to_reasons(&mut self) {
         let declared = self.fmu.description().log_categories.iter().map(|category| category.name.clone());
-        let wanted: Vec<String> = declared.filter(|name| REASONS.contains(&name.as_str())).collect();
-        if !wanted.is_empty() {
-            let wanted: Vec<&str> = wanted.iter().map(String::as_str).collect();
+        let expected: Vec<String> = declared.filter(|name| REASONS.contains(&name.as_str())).collect();
+        if !expected.is_empty() {
+            let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
             // An FMU that does not do it only stays silent.
-            let _ = self.component.set_debug_logging(true, &wanted);
+            let _ = self.component.set_debug_logging(true, &expected);
         }
     }
 
@@ -226,7 +227,7 @@ impl Instance {
         let function = Function::SetRealInputDerivatives;
         self.allow(function)?;
         let answer = self.component.set_real_input_derivatives(references, orders, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Real))
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Real))
     }
 
     /// `fmi2GetRealOutputDerivatives` at the current communication point; orders from 1.
@@ -239,7 +240,7 @@ impl Instance {
         let function = Function::GetRealOutputDerivatives;
         self.allow(function)?;
         let answer = self.component.get_real_output_derivatives(references, orders, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Real))
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Real))
     }
 
     /// `fmi2GetDirectionalDerivative`: `result` = d(unknowns)/d(knowns) times `seed`.
@@ -253,14 +254,14 @@ impl Instance {
         let function = Function::GetDirectionalDerivative;
         self.allow(function)?;
         let answer = self.component.get_directional_derivative(unknowns, knowns, seed, result);
-        self.finish(function, answer, |symbol| self.call_text(symbol, unknowns, Base::Real))
+        self.finish(function, answer, |symbol| self.call_text(symbol, unknowns, BaseType::Real))
     }
 
     /// Whether the FMU ended by itself (`fmi2Terminated`), asked after a step was discarded.
     pub fn terminated(&mut self) -> Result<bool, Error> {
         let function = Function::GetBooleanStatus;
         self.allow(function)?;
-        let (answer, value) = split(self.component.get_boolean_status(TERMINATED));
+        let (answer, value) = split(self.component.terminated());
         self.finish(function, answer, |symbol| format!("{symbol}(fmi2Terminated)"))?;
         Ok(value.unwrap_or(false))
     }
@@ -269,7 +270,7 @@ impl Instance {
     pub fn last_successful_time(&mut self) -> Result<f64, Error> {
         let function = Function::GetRealStatus;
         self.allow(function)?;
-        let (answer, value) = split(self.component.get_real_status(LAST_SUCCESSFUL_TIME));
+        let (answer, value) = split(self.component.last_successful_time());
         self.finish(function, answer, |symbol| format!("{symbol}(fmi2LastSuccessfulTime)"))?;
         Ok(value.unwrap_or(f64::NAN))
     }
@@ -303,7 +304,7 @@ impl Instance {
     }
 
     /// Also checks that each variable may be read or set in the state.
-    fn allow_variables(&self, function: Function, references: &[u32], base: Base) -> Result<(), Error> {
+    fn allow_variables(&self, function: Function, references: &[u32], base: BaseType) -> Result<(), Error> {
         self.checker.allow_variables(function, references, base).map_err(|why| {
             self.failure(self.call_text(function.symbol(), references, base), Outcome::NotAllowed(why))
         })
@@ -329,7 +330,7 @@ impl Instance {
     }
 
     /// The call with the names behind its value references, for errors.
-    fn call_text(&self, function: &str, references: &[u32], base: Base) -> String {
+    fn call_text(&self, function: &str, references: &[u32], base: BaseType) -> String {
         format!("{function}({})", self.names(references, base).join(", "))
     }
 
@@ -338,7 +339,7 @@ impl Instance {
         &self,
         function: &str,
         references: &[u32],
-        base: Base,
+        base: BaseType,
         values: &[T],
     ) -> String {
         let pairs: Vec<String> = self
@@ -351,7 +352,7 @@ impl Instance {
         format!("{function}({}{more})", pairs.join(", "))
     }
 
-    fn names(&self, references: &[u32], base: Base) -> Vec<String> {
+    fn names(&self, references: &[u32], base: BaseType) -> Vec<String> {
         const SHOWN: usize = 4;
         let variables = &self.fmu.description().variables;
         references
@@ -361,7 +362,7 @@ impl Instance {
                 variables
                     .iter()
                     .find(|variable| {
-                        variable.value_reference == reference && Base::of(&variable.kind) == base
+                        variable.value_reference == reference && variable.kind.base_type() == base
                     })
                     .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
             })
@@ -381,11 +382,6 @@ impl Instance {
 
 /// The standard's log categories (2.2.4) that say why a call failed.
 const REASONS: [&str; 3] = ["logStatusDiscard", "logStatusError", "logStatusFatal"];
-
-/// `fmi2LastSuccessfulTime`.
-const LAST_SUCCESSFUL_TIME: i32 = 2;
-/// `fmi2Terminated`.
-const TERMINATED: i32 = 3;
 
 /// The messages that an error shows.
 pub(crate) fn last(mut messages: Vec<LogMessage>) -> Vec<LogMessage> {

@@ -1,6 +1,6 @@
 //! Saving, restoring and serialising the whole instance.
 
-use fmi_export::call_table::Function;
+use model_description::call_table::Function;
 
 use super::{Instance, State, split};
 use crate::{

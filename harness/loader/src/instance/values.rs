@@ -1,76 +1,76 @@
 //! Reading and writing variables, by reference, by name, by description.
 
-use fmi_export::call_table::Function;
-use model_description::{ScalarVariable, VariableKind};
+use model_description::call_table::Function;
+use model_description::{BaseType, ScalarVariable, VariableKind};
 
 use super::Instance;
-use crate::{Error, Value, checker::Base};
+use crate::{Error, Value};
 
 impl Instance {
     /// `fmi2GetReal`.
     pub fn get_reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
         let function = Function::GetReal;
-        self.allow_variables(function, references, Base::Real)?;
+        self.allow_variables(function, references, BaseType::Real)?;
         let answer = self.component.get_real(references, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Real))
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Real))
     }
 
     /// `fmi2GetInteger`, Enumerations too.
     pub fn get_integers(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), Error> {
         let function = Function::GetInteger;
-        self.allow_variables(function, references, Base::Integer)?;
+        self.allow_variables(function, references, BaseType::Integer)?;
         let answer = self.component.get_integer(references, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Integer))
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Integer))
     }
 
     /// `fmi2GetBoolean`; 0 is false, anything else true.
     pub fn get_booleans(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), Error> {
         let function = Function::GetBoolean;
-        self.allow_variables(function, references, Base::Boolean)?;
+        self.allow_variables(function, references, BaseType::Boolean)?;
         let answer = self.component.get_boolean(references, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Boolean))
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Boolean))
     }
 
     /// `fmi2GetString`; the texts are copies.
     pub fn get_strings(&mut self, references: &[u32]) -> Result<Vec<String>, Error> {
         let function = Function::GetString;
-        self.allow_variables(function, references, Base::Text)?;
+        self.allow_variables(function, references, BaseType::String)?;
         let mut values = Vec::with_capacity(references.len());
         let answer = self.component.get_string(references, &mut values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, Base::Text))?;
+        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::String))?;
         Ok(values)
     }
 
     /// `fmi2SetReal`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
         let function = Function::SetReal;
-        self.allow_variables(function, references, Base::Real)?;
+        self.allow_variables(function, references, BaseType::Real)?;
         let answer = self.component.set_real(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, Base::Real, values))
+        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::Real, values))
     }
 
     /// `fmi2SetInteger`, Enumerations too.
     pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
         let function = Function::SetInteger;
-        self.allow_variables(function, references, Base::Integer)?;
+        self.allow_variables(function, references, BaseType::Integer)?;
         let answer = self.component.set_integer(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, Base::Integer, values))
+        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::Integer, values))
     }
 
     /// `fmi2SetBoolean`; 0 is false, 1 true.
     pub fn set_booleans(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
         let function = Function::SetBoolean;
-        self.allow_variables(function, references, Base::Boolean)?;
+        self.allow_variables(function, references, BaseType::Boolean)?;
         let answer = self.component.set_boolean(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, Base::Boolean, values))
+        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::Boolean, values))
     }
 
     /// `fmi2SetString`.
     pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), Error> {
         let function = Function::SetString;
-        self.allow_variables(function, references, Base::Text)?;
+        self.allow_variables(function, references, BaseType::String)?;
         let answer = self.component.set_string(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, Base::Text, values))
+        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::String, values))
     }
 
     /// Reads one variable by name.

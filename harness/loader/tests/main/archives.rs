@@ -14,19 +14,19 @@ fn archive(path: &Path, entries: &[(&str, &[u8])]) {
     zip.finish().unwrap();
 }
 
-/// Unpacks into `room/inner`, and checks that nothing else in `room` changed.
+/// Unpacks into `scratch/inner`, and checks that nothing else in `scratch` changed.
 fn try_unpack(entries: &[(&str, &[u8])], limits: Limits) -> Result<Vec<String>, String> {
-    let room = tempfile::tempdir().unwrap();
-    let path = room.path().join("a.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("a.fmu");
     archive(&path, entries);
-    unpack_in(room.path(), &path, limits)
+    unpack_in(scratch.path(), &path, limits)
 }
 
-fn unpack_in(room: &Path, path: &Path, limits: Limits) -> Result<Vec<String>, String> {
-    let inner = room.join("inner");
+fn unpack_in(scratch: &Path, path: &Path, limits: Limits) -> Result<Vec<String>, String> {
+    let inner = scratch.join("inner");
     fs::create_dir_all(&inner).unwrap();
     let outcome = unpack(path, &inner, limits).map_err(|error| error.to_string());
-    let mut beside: Vec<_> = fs::read_dir(room).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    let mut beside: Vec<_> = fs::read_dir(scratch).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     beside.sort();
     assert_eq!(beside, ["a.fmu", "inner"], "something was written beside the folder");
     outcome.map(|_| {
@@ -85,13 +85,13 @@ fn paths_that_leave_the_folder_are_refused() {
 
 #[test]
 fn links_are_refused() {
-    let room = tempfile::tempdir().unwrap();
-    let path = room.path().join("a.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("a.fmu");
     let mut zip = ZipWriter::new(fs::File::create(&path).unwrap());
     zip.add_symlink("resources", "/etc", SimpleFileOptions::default()).unwrap();
     zip.start_file("resources/passwd", SimpleFileOptions::default()).unwrap();
     zip.finish().unwrap();
-    let error = unpack_in(room.path(), &path, Limits::default()).unwrap_err();
+    let error = unpack_in(scratch.path(), &path, Limits::default()).unwrap_err();
     assert!(error.contains("symbolic link"), "{error}");
 }
 
@@ -111,8 +111,8 @@ fn bombs_stop_at_the_limit() {
 
 #[test]
 fn a_size_that_lies_gains_nothing() {
-    let room = tempfile::tempdir().unwrap();
-    let path = room.path().join("a.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("a.fmu");
     archive(&path, &[("bomb", &vec![7; 1 << 20])]);
     let mut bytes = fs::read(&path).unwrap();
     // The uncompressed size: at 22 in the local header (PK 3 4), at 24 in the central one (PK 1 2).
@@ -122,8 +122,8 @@ fn a_size_that_lies_gains_nothing() {
     }
     fs::write(&path, bytes).unwrap();
     let limits = Limits { total_bytes: 100_000, ..Limits::default() };
-    assert!(unpack_in(room.path(), &path, limits).is_err());
-    let written = fs::metadata(room.path().join("inner/bomb")).map_or(0, |metadata| metadata.len());
+    assert!(unpack_in(scratch.path(), &path, limits).is_err());
+    let written = fs::metadata(scratch.path().join("inner/bomb")).map_or(0, |metadata| metadata.len());
     assert!(written <= 100_001, "{written} bytes were written");
 }
 
@@ -137,8 +137,8 @@ fn too_many_entries_are_refused() {
 
 #[test]
 fn torn_and_changed_archives_are_errors() {
-    let room = tempfile::tempdir().unwrap();
-    let path = room.path().join("a.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("a.fmu");
     let text: Vec<u8> = (0..5000u32).flat_map(|k| (k * k).to_le_bytes()).collect();
     archive(&path, &[("modelDescription.xml", &text)]);
     let whole = fs::read(&path).unwrap();
@@ -155,8 +155,8 @@ fn torn_and_changed_archives_are_errors() {
 
 #[test]
 fn what_is_no_fmu_says_so() {
-    let room = tempfile::tempdir().unwrap();
-    let path = room.path().join("a.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("a.fmu");
     assert!(matches!(Fmu::open(&path), Err(Error::File { .. })), "missing");
     archive(&path, &[("readme.txt", b"hello")]);
     assert!(Fmu::open(&path).unwrap_err().to_string().contains("no modelDescription.xml"));

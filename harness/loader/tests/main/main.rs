@@ -1,10 +1,10 @@
-//! Tests of the loader: what it refuses, how it reads names, values and tables, and how it flies the probe FMUs.
+//! Tests of the loader: what it refuses, how it reads names, values and tables, and how it runs the probe FMUs.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod archives;
-mod flights;
 mod instances;
 mod names;
+mod simulations;
 mod tables;
 mod times;
 

@@ -56,8 +56,8 @@ fn a_vector_is_set_whole() {
     let all = assigned("ship.arm=1,2cm,-3").unwrap();
     let expected = [("ship.arm[1]", 1.0), ("ship.arm[2]", 0.02), ("ship.arm[3]", -3.0)];
     assert_eq!(all.len(), 3);
-    for ((name, value), (wanted, number)) in all.iter().zip(expected) {
-        assert_eq!((name.as_str(), value), (wanted, &Value::Real(number)));
+    for ((name, value), (expected, number)) in all.iter().zip(expected) {
+        assert_eq!((name.as_str(), value), (expected, &Value::Real(number)));
     }
     assert!(assigned("ship.arm=1,2").unwrap_err().contains("2 values given for its 3 elements"));
 }

@@ -80,30 +80,30 @@ fn an_fmu_of_one_step_size_gets_no_shortened_step() {
 }
 
 #[test]
-fn more_points_than_memory_is_given_for_are_refused_before_the_flight() {
-    // The folder has no library: what would be flown fails for that reason.
+fn more_points_than_memory_is_given_for_are_refused_before_the_simulation() {
+    // The folder has no library: what would be simulated fails for that reason.
     let (_folder, fmu) = folder(&description());
-    let fly = |stop_s: f64, step_s: f64, record_every_s: Option<f64>, record: Option<Vec<usize>>| {
+    let simulate = |stop_s: f64, step_s: f64, record_every_s: Option<f64>, record: Option<Vec<usize>>| {
         let times = Options { stop_s: Some(stop_s), step_s: Some(step_s), ..Options::default() };
         simulate(&fmu, Options { record_every_s, record, ..times }).unwrap_err().to_string()
     };
     // Two outputs and the time are 24 bytes a point, so that 41,666,666 points stay within 1e9 bytes.
-    let error = fly(5.0, 1e-9, None, None);
+    let error = simulate(5.0, 1e-9, None, None);
     for part in
         ["5000000001 points of 2 variables", "allowed are 41666666 points", "--every", "--record", "--step"]
     {
         assert!(error.contains(part), "{error} lacks {part}");
     }
-    assert!(fly(41_666_666.0, 1.0, None, None).contains("41666667 points"));
+    assert!(simulate(41_666_666.0, 1.0, None, None).contains("41666667 points"));
     for error in [
-        fly(41_666_665.0, 1.0, None, None),
-        fly(5.0, 1e-9, Some(1e-6), None),
-        fly(1e12, 1.0, Some(1e5), None),
-        fly(100_000_000.0, 1.0, None, Some(vec![])),
+        simulate(41_666_665.0, 1.0, None, None),
+        simulate(5.0, 1e-9, Some(1e-6), None),
+        simulate(1e12, 1.0, Some(1e5), None),
+        simulate(100_000_000.0, 1.0, None, Some(vec![])),
     ] {
         assert!(error.contains("no shared library"), "{error}");
     }
     for every_s in [-1.0, f64::NAN] {
-        assert!(fly(5.0, 1.0, Some(every_s), None).contains("--every"), "{every_s}");
+        assert!(simulate(5.0, 1.0, Some(every_s), None).contains("--every"), "{every_s}");
     }
 }

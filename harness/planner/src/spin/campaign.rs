@@ -85,7 +85,7 @@ fn pointings<'a>(
     })
 }
 
-/// Flies the geometry for `duration_s` and turns every `interval_s`, each time with the kindest train that keeps the task's
+/// Runs the geometry for `duration_s` and turns every `interval_s`, each time with the train of least nutation that keeps the task's
 /// limits; `passed` is told of every stretch.
 ///
 /// # Errors
@@ -127,7 +127,7 @@ pub fn campaign(
                 sun_angle_rad,
             );
             let uniform = paper_plan(&sized)?;
-            let plan = kindest(&sized, &uniform)?;
+            let plan = least_nutation(&sized, &uniform)?;
             seen.count += 1;
             seen.mean_rad += size_rad;
             seen.largest_rad = seen.largest_rad.max(size_rad);
@@ -147,7 +147,7 @@ pub fn campaign(
 
 /// The train of 32 ms units, once a turn, that keeps the limits and costs science the least; of equals the one that ends
 /// the quietest.
-fn kindest(task: &Task, uniform: &Row) -> Result<Row, PlanError> {
+fn least_nutation(task: &Task, uniform: &Row) -> Result<Row, PlanError> {
     let tapered = (1..=3).filter_map(|order| evaluate(task, Shape::Tapered { order }, 1, 1.0));
     let mut rows: Vec<Row> = core::iter::once(uniform.clone()).chain(tapered).collect();
     rows.sort_by(|a, b| {

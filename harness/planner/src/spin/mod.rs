@@ -2,25 +2,25 @@
 //! to turn during months of antenna pointing (paper 002 and beyond).
 
 mod campaign;
-mod reflight;
 mod task;
 mod text;
 mod trade;
+mod verification;
 
 #[cfg(test)]
-mod flown_tests;
-#[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod verification_tests;
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
 pub use campaign::{Cadence, campaign, longest_interval_s, windows};
-pub use reflight::{Reflight, refly};
 pub use task::{Firing, MOST_ANGLE_DEG, Task, TaskLimits};
 pub use text::plan;
 pub use trade::{Row, best, evaluate, frontier, paper_plan, timing_label, trade};
+pub use verification::{Verification, verify};
 
 /// The spacecraft that is planned for unless another is named: the shipped ACE.
 const ACE: &str = include_str!("../../../../fmu-src/resources/ace.toml");
@@ -81,7 +81,7 @@ pub struct Options {
     /// The spacecraft, a TOML file; otherwise ACE
     #[arg(long, value_name = "TOML")]
     pub spacecraft: Option<PathBuf>,
-    /// Fly the best plan through this SpinPlant, over the range of ratios; otherwise dist/SpinPlant.fmu where there is
+    /// Run the best plan through this SpinPlant, over the range of ratios; otherwise dist/SpinPlant.fmu where there is
     /// one
     #[arg(long, value_name = "FMU")]
     pub fmu: Option<PathBuf>,
@@ -180,10 +180,10 @@ pub enum PlanError {
         /// Why.
         why: String,
     },
-    /// Flown through the FMU, no plan kept what it promised.
-    #[error("no plan keeps its limits when it is flown through the FMU: {0}")]
+    /// Simulated through the FMU, no plan kept what it promised.
+    #[error("no plan keeps its limits when it is simulated through the FMU: {0}")]
     Broken(String),
-    /// The FMU did not fly it.
-    #[error("the plan could not be flown through the FMU: {0}")]
-    Refly(String),
+    /// The FMU did not simulate it.
+    #[error("the plan could not be simulated through the FMU: {0}")]
+    Verify(String),
 }

@@ -179,13 +179,13 @@ fn below_a_ratio_of_1_the_damper_does_the_opposite() {
 }
 
 #[test]
-fn a_plan_says_whether_it_was_flown_again() {
+fn a_plan_says_whether_it_was_simulated_again() {
     // Tests run in the crate's folder, where nothing is packed.
     let text = plan(&options("--angle 2")).unwrap();
-    assert!(text.contains("Not re-flown: no dist/SpinPlant.fmu"), "{text}");
+    assert!(text.contains("Not re-simulated: no dist/SpinPlant.fmu"), "{text}");
     let own = "../../fmu-src/resources/ace.toml";
     let text = plan(&Options { spacecraft: Some(own.into()), ..options("--angle 2") }).unwrap();
-    assert!(text.contains("Not re-flown") && text.contains("another spacecraft"), "{text}");
+    assert!(text.contains("Not re-simulated") && text.contains("another spacecraft"), "{text}");
     let text = plan(&options("--fmu nowhere.fmu")).unwrap_err().to_string();
     assert!(text.contains("nowhere.fmu"), "{text}");
 }

@@ -1,31 +1,29 @@
 //! The planner's answer as text.
 
-use std::{fmt::Write, io::IsTerminal, path::Path};
+use std::{fmt::Write, path::Path};
 
-use comfy_table::{ContentArrangement, Table, presets};
-use indicatif::{ProgressBar, ProgressStyle};
 use loader::Fmu;
 use physics::spin::{geometry::L1Phases, spinner::Spinner};
 
 use super::{
-    ACE, Options, PlanError, Reflight, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan,
-    refly, timing_label, trade, windows,
+    ACE, Options, PlanError, Row, Task, Verification, best, campaign, frontier, longest_interval_s,
+    paper_plan, timing_label, trade, verify, windows,
 };
 
 const DAY_S: f64 = 86_400.0;
-/// Ratios flown through the FMU.
+/// Ratios simulated through the FMU.
 const RATIOS: u32 = 24;
-/// Plans that are flown before the search is given up.
-const MOST_FLOWN: usize = 5;
+/// Plans that are simulated before the search is given up.
+const MOST_SIMULATED: usize = 5;
 /// Longest campaign: ten years.
 const MOST_DAYS: f64 = 3653.0;
-/// What the best plan is flown through unless another is named.
+/// What the best plan is simulated through unless another is named.
 const SHIPPED_FMU: &str = "dist/SpinPlant.fmu";
 
 /// Plans what the options ask for; the answer, ready to print.
 ///
 /// # Errors
-/// Options out of range, a spacecraft that cannot be read, limits that no plan keeps, an FMU that does not fly.
+/// Options out of range, a spacecraft that cannot be read, limits that no plan keeps, an FMU that does not simulate.
 pub fn plan(options: &Options) -> Result<String, PlanError> {
     let spinner = spacecraft(options)?;
     let task = Task::new(options, &spinner)?;
@@ -49,7 +47,7 @@ fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
 fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
     let rows = trade(task)?;
     best(&rows)?;
-    let (chosen, flights) = flown_again(options, task, &rows)?;
+    let (chosen, simulations) = simulated_again(options, task, &rows)?;
     let mut text = String::new();
     let spin = &task.flight.spin;
     let mut line = |line: String| {
@@ -71,7 +69,7 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
         task.allowed_nutation_rad.to_degrees(),
         options.sun_angle_deg
     ));
-    let mut table = table(&[
+    let mut table = terminal::table(&[
         "train",
         "pulses",
         "unit",
@@ -109,68 +107,69 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
         chosen.peak_rad.to_degrees(),
         chosen.peak_rad / paper.peak_rad,
     ));
-    flights.into_iter().for_each(line);
+    simulations.into_iter().for_each(line);
     Ok(text)
 }
 
-/// The plan to take and what the FMU says of it: the best that keeps in flight what it promised, or the best if none is
-/// flown, with the reason.
-fn flown_again<'a>(
+/// The plan to take and what the FMU says of it: the best that keeps in simulation what it promised, or the best if none is
+/// simulated, with the reason.
+fn simulated_again<'a>(
     options: &Options,
     task: &Task,
     rows: &'a [Row],
 ) -> Result<(&'a Row, Vec<String>), PlanError> {
-    let unflown = |why: String| Ok((best(rows)?, vec![format!("Not re-flown: {why}")]));
+    let not_simulated = |why: String| Ok((best(rows)?, vec![format!("Not re-simulated: {why}")]));
     let named = options.fmu.as_deref();
     let path = match named {
         Some(path) => path,
         None if options.spacecraft.is_some() => {
-            return unflown(format!(
+            return not_simulated(format!(
                 "{SHIPPED_FMU} may be of another spacecraft; give this one's FMU by --fmu"
             ));
         }
         None => Path::new(SHIPPED_FMU),
     };
     if named.is_none() && !path.exists() {
-        return unflown(format!("no {SHIPPED_FMU} (cargo xtask dist packs it, --fmu names another)"));
+        return not_simulated(format!("no {SHIPPED_FMU} (cargo xtask dist packs it, --fmu names another)"));
     }
     let fmu = match Fmu::open(path) {
         Ok(fmu) => fmu,
-        Err(error) if named.is_some() => return Err(PlanError::Refly(error.to_string())),
-        Err(error) => return unflown(error.to_string()),
+        Err(error) if named.is_some() => return Err(PlanError::Verify(error.to_string())),
+        Err(error) => return not_simulated(error.to_string()),
     };
-    let mut said = Vec::new();
-    for row in rows.iter().filter(|row| row.fits).take(MOST_FLOWN) {
-        let flown = refly(&fmu, task, row, RATIOS)?;
-        let broken = flown.broken(task);
+    let mut lines = Vec::new();
+    for row in rows.iter().filter(|row| row.fits).take(MOST_SIMULATED) {
+        let simulated = verify(&fmu, task, row, RATIOS)?;
+        let broken = simulated.broken(task);
         if broken.is_empty() {
-            said.push(format!("Re-flown through {}: {}", path.display(), kept(task, row, &flown)));
-            return Ok((row, said));
+            lines.push(format!("Re-simulated through {}: {}", path.display(), kept(task, row, &simulated)));
+            return Ok((row, lines));
         }
-        said.push(format!("Passed over, as flown: {}: {}", row.label(), broken.join(", ")));
+        lines.push(format!("Passed over, as simulated: {}: {}", row.label(), broken.join(", ")));
     }
-    Err(PlanError::Broken(said.join("\n  ")))
+    Err(PlanError::Broken(lines.join("\n  ")))
 }
 
-/// What came out of a flight that kept everything, beside what was foreseen.
-fn kept(task: &Task, row: &Row, flown: &Reflight) -> String {
-    let rates = if flown.rates > 1 { format!(" at {} spin rates", flown.rates) } else { String::new() };
+/// What came out of a simulation that kept everything, beside what was foreseen.
+fn kept(task: &Task, row: &Row, simulated: &Verification) -> String {
+    let rates =
+        if simulated.rates > 1 { format!(" at {} spin rates", simulated.rates) } else { String::new() };
     let limits = &task.limits;
     let limited =
         [limits.peak_rad, limits.final_rad, limits.duration_s].iter().any(|limit| limit.is_finite());
     format!(
         "{} ratios{rates}, worst final {:.6} deg (foreseen {:.6}), worst peak {:.5} deg (foreseen {:.5}), moved {:.4} to \
          {:.4} deg (foreseen {:.4} to {:.4}), at most {:.2} min: {}",
-        flown.ratios,
-        flown.final_rad.to_degrees(),
+        simulated.ratios,
+        simulated.final_rad.to_degrees(),
         row.final_rad.to_degrees(),
-        flown.peak_rad.to_degrees(),
+        simulated.peak_rad.to_degrees(),
         row.peak_rad.to_degrees(),
-        flown.moved_rad.0.to_degrees(),
-        flown.moved_rad.1.to_degrees(),
+        simulated.moved_rad.0.to_degrees(),
+        simulated.moved_rad.1.to_degrees(),
         row.moved_range_rad.0.to_degrees(),
         row.moved_range_rad.1.to_degrees(),
-        flown.longest_s / 60.0,
+        simulated.longest_s / 60.0,
         if limited { "limits kept" } else { "turned as asked, no limits given" },
     )
 }
@@ -211,8 +210,8 @@ fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError
     intervals.extend(longest);
     intervals.sort_by(f64::total_cmp);
     let turns = intervals.iter().map(|interval_s| u64::from(windows(duration_s, *interval_s)));
-    let bar = progress_bar(turns.sum());
-    let mut table = table(&[
+    let bar = terminal::progress(turns.sum(), "turns", false);
+    let mut table = terminal::table(&[
         "every",
         "turns",
         "mean",
@@ -261,23 +260,4 @@ fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError
         None => writeln!(text, "No interval keeps the deadband: the Earth leaves it within a tenth of a day"),
     };
     Ok(text)
-}
-
-fn progress_bar(length: u64) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} turns  {elapsed} gone, {eta} to go")
-    {
-        bar.set_style(style);
-    }
-    bar
-}
-
-fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header);
-    table
 }

@@ -1,9 +1,8 @@
-//! The flights of paper 000's study and how one is flown.
+//! The simulations of paper 000's study and how one is simulated.
 
-use indicatif::{ProgressBar, ProgressStyle};
-use loader::{Fmu, Value};
-use rayon::prelude::*;
+use loader::Fmu;
 
+use crate::case::{self, chosen, run_all};
 use crate::{Options, StudyError};
 
 const DAY_S: f64 = 86_400.0;
@@ -59,7 +58,7 @@ impl Convention {
     }
 }
 
-/// What a flight chooses otherwise than the study does, where the paper prints nothing.
+/// What a simulation chooses otherwise than the study does, where the paper prints nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// Nothing: the FMU's own start date, orbit frame and panel tilts.
@@ -89,22 +88,21 @@ impl Choice {
         }
     }
 
-    fn sets(self) -> Vec<(String, Value)> {
-        let option = |name: &str, item| (name.to_owned(), Value::Integer(item));
+    fn set(self, case: case::Case) -> case::Case {
         let tilt = |positive| if positive { 1 } else { 2 };
         match self {
-            Self::Study => Vec::new(),
-            Self::Later => vec![("start.epoch".to_owned(), Value::Real(START_S + 40.0 * DAY_S))],
-            Self::OrbitPlane => vec![option("orbit.frame", 1)],
-            Self::Ecliptic => vec![option("orbit.frame", 4)],
+            Self::Study => case,
+            Self::Later => case.real("start.epoch", START_S + 40.0 * DAY_S),
+            Self::OrbitPlane => case.integer("orbit.frame", 1),
+            Self::Ecliptic => case.integer("orbit.frame", 4),
             Self::Tilts(plus_x, minus_x) => {
-                vec![option("panel[1].tilt", tilt(plus_x)), option("panel[2].tilt", tilt(minus_x))]
+                case.integer("panel[1].tilt", tilt(plus_x)).integer("panel[2].tilt", tilt(minus_x))
             }
         }
     }
 }
 
-/// One flight.
+/// One simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
     /// Dump threshold of all axes, in N m s.
@@ -145,33 +143,43 @@ impl Case {
         if self.offset_m == 0.0 { "0 cm".to_owned() } else { format!("{:.2} cm", self.offset_m * 100.0) }
     }
 
-    fn sets(&self) -> Vec<(String, Value)> {
-        let mut sets = vec![
-            ("solar.fixedPressure".to_owned(), Value::Boolean(true)),
-            ("gravityGradient.enabled".to_owned(), Value::Boolean(false)),
-            ("eclipse.method".to_owned(), Value::Integer(4)),
-            ("panel[1].enabled".to_owned(), Value::Boolean(self.shade == Shade::PlatesAndPanels)),
-            ("panel[2].enabled".to_owned(), Value::Boolean(self.shade == Shade::PlatesAndPanels)),
-            ("sunshade.shape".to_owned(), Value::Integer(if self.shade == Shade::Cylinder { 2 } else { 1 })),
-            (
-                "momentum.convention".to_owned(),
-                Value::Integer(if self.convention == Convention::BodyIntegral { 2 } else { 1 }),
-            ),
-            ("spacecraft.centerOfMass[3]".to_owned(), Value::Real(self.offset_m)),
-            ("dump.reinitFraction".to_owned(), Value::Real(self.reinit)),
-        ];
-        sets.extend(self.choice.sets());
-        sets.extend(
-            (1..=3).map(|axis| (format!("dump.threshold[{axis}]"), Value::Real(self.threshold_n_m_s))),
-        );
-        sets
+    fn simulate(&self, fmu: &Fmu) -> Result<Simulated, StudyError> {
+        let has_panels = self.shade == Shade::PlatesAndPanels;
+        let mut case = case::Case::new(self.label(), 90.0 * DAY_S, STEP_S)
+            .boolean("solar.fixedPressure", true)
+            .boolean("gravityGradient.enabled", false)
+            .integer("eclipse.method", 4)
+            .boolean("panel[1].enabled", has_panels)
+            .boolean("panel[2].enabled", has_panels)
+            .integer("sunshade.shape", if self.shade == Shade::Cylinder { 2 } else { 1 })
+            .integer("momentum.convention", if self.convention == Convention::BodyIntegral { 2 } else { 1 })
+            .real("spacecraft.centerOfMass[3]", self.offset_m)
+            .real("dump.reinitFraction", self.reinit);
+        for axis in 1..=3 {
+            case = case.real(&format!("dump.threshold[{axis}]"), self.threshold_n_m_s);
+        }
+        let names = ["momentum.body[1]", "dump.count", "dump.lastTime"];
+        let recorded = self.choice.set(case).simulate(fmu, &names)?;
+        let mut dumps_d: Vec<f64> = recorded.columns[2]
+            .iter()
+            .filter(|&&time_s| time_s >= 0.0)
+            .map(|time_s| time_s / DAY_S)
+            .collect();
+        dumps_d.dedup();
+        Ok(Simulated {
+            case: *self,
+            times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
+            count: recorded.last(1) as i64,
+            momentum_x_n_m_s: recorded.columns[0].clone(),
+            dumps_d,
+        })
     }
 }
 
-/// A finished flight.
+/// A finished simulation.
 #[derive(Clone, Debug)]
-pub struct Flown {
-    /// What was flown.
+pub struct Simulated {
+    /// What was simulated.
     pub case: Case,
     /// Communication points, in days.
     pub times_d: Vec<f64>,
@@ -210,7 +218,7 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-/// Flights over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
+/// Simulations over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
 pub fn open() -> Vec<Case> {
     let mut cases = Vec::new();
     let mut extend = |reinit, threshold_n_m_s, shade, choices: &[Choice]| {
@@ -241,60 +249,13 @@ pub fn open() -> Vec<Case> {
     cases
 }
 
-/// Flies every one of `cases` that `options` leaves, on all cores; the order of results does not depend on theirs.
-pub fn fly_all(study: &'static str, options: &Options, cases: Vec<Case>) -> Result<Vec<Flown>, StudyError> {
-    let only = options.only.as_deref().unwrap_or_default();
-    let known = cases.iter().map(Case::label).collect::<Vec<_>>().join("\n  ");
-    let cases: Vec<Case> = cases.into_iter().filter(|case| case.label().contains(only)).collect();
-    if cases.is_empty() {
-        return Err(StudyError::NothingLeft { study, only: only.to_owned(), known });
-    }
+/// Simulates those of `cases` that `options` leaves.
+pub fn simulate_all(
+    study: &'static str,
+    options: &Options,
+    cases: Vec<Case>,
+) -> Result<Vec<Simulated>, StudyError> {
+    let cases = chosen(study, options, cases, Case::label)?;
     let fmu = options.fmu("MomentumPlant.fmu")?;
-    let bar = if options.progress { ProgressBar::new(cases.len() as u64) } else { ProgressBar::hidden() };
-    if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} flights {elapsed}") {
-        bar.set_style(style);
-    }
-    bar.set_message("flying 90 days");
-    let flown = cases
-        .par_iter()
-        .map(|case| {
-            let flown = fly(&fmu, case);
-            bar.inc(1);
-            flown
-        })
-        .collect();
-    bar.finish_and_clear();
-    flown
-}
-
-fn fly(fmu: &Fmu, case: &Case) -> Result<Flown, StudyError> {
-    let failed =
-        |source: Box<dyn std::error::Error + Send + Sync>| StudyError::Flight { case: case.label(), source };
-    let names = ["momentum.body[1]", "dump.count", "dump.lastTime"];
-    let record = names.iter().filter_map(|name| fmu.position(name)).collect();
-    let options = loader::Options {
-        stop_s: Some(90.0 * DAY_S),
-        step_s: Some(STEP_S),
-        sets: case.sets(),
-        record: Some(record),
-        ..loader::Options::default()
-    };
-    let recording = loader::simulate(fmu, options).map_err(|stopped| failed(Box::new(*stopped)))?.recording;
-    let numbers = |name: &str| {
-        recording
-            .column(name)
-            .map(loader::Column::numbers)
-            .ok_or_else(|| failed(format!("no variable {name}").into()))
-    };
-    let (momentum_x_n_m_s, counts, last_s) = (numbers(names[0])?, numbers(names[1])?, numbers(names[2])?);
-    let mut dumps_d: Vec<f64> =
-        last_s.iter().filter(|&&time_s| time_s >= 0.0).map(|time_s| time_s / DAY_S).collect();
-    dumps_d.dedup();
-    Ok(Flown {
-        case: *case,
-        times_d: recording.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
-        momentum_x_n_m_s,
-        count: counts.last().map_or(0, |count| *count as i64),
-        dumps_d,
-    })
+    run_all(options, &cases, |case| case.simulate(&fmu))
 }

@@ -7,16 +7,16 @@ mod spacing;
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
-use cases::{Case, Convention, Flown, Shade, fly_all};
+use cases::{Case, Convention, Shade, Simulated, simulate_all};
 use paper::Published;
 use spacing::Spacing;
 
 /// Table 2: number of dumps.
 pub fn table2(options: &Options) -> Result<Report, StudyError> {
-    let flown = fly_all("momentum/table2", options, cases::all())?;
+    let simulated = simulate_all("momentum/table2", options, cases::all())?;
     let mut report = Report::default();
     report.line("Thruster dumps in 90 days (paper 000, Table 2, rows \"thruster dumps only\")\n");
-    let rows: Vec<Vec<String>> = flown.iter().map(count_row).collect();
+    let rows: Vec<Vec<String>> = simulated.iter().map(count_row).collect();
     let header = [
         "threshold",
         "dumps to",
@@ -32,27 +32,27 @@ pub fn table2(options: &Options) -> Result<Report, StudyError> {
     report.table(&header, &rows);
     report.line(REMARK);
     report.csv(options, "table2.csv", &header, rows)?;
-    report.csv(options, "dumps.csv", &DUMP_HEADER, flown.iter().flat_map(dump_rows))?;
-    draw(&mut report, options, &flown)?;
+    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
+    draw(&mut report, options, &simulated)?;
     Ok(report)
 }
 
 /// Table 3: time between dumps.
 pub fn table3(options: &Options) -> Result<Report, StudyError> {
-    let flown = fly_all("momentum/table3", options, cases::all())?;
+    let simulated = simulate_all("momentum/table3", options, cases::all())?;
     let mut report = Report::default();
     report.line("Time between thruster dumps (paper 000, Table 3, rows \"thruster dumps only\")\n");
-    let rows: Vec<Vec<String>> = flown
+    let rows: Vec<Vec<String>> = simulated
         .iter()
-        .map(|flight| {
-            let spacing = Spacing::of(&flight.dumps_d);
-            let paper = Published::of(&flight.case).and_then(|published| published.spacing());
+        .map(|simulation| {
+            let spacing = Spacing::of(&simulation.dumps_d);
+            let paper = Published::of(&simulation.case).and_then(|published| published.spacing());
             vec![
-                format!("{} N.m.s", flight.case.threshold_n_m_s),
-                flight.case.reinit_label(),
-                flight.case.shade.label().to_owned(),
-                flight.case.convention.label().to_owned(),
-                flight.case.offset_label(),
+                format!("{} N.m.s", simulation.case.threshold_n_m_s),
+                simulation.case.reinit_label(),
+                simulation.case.shade.label().to_owned(),
+                simulation.case.convention.label().to_owned(),
+                simulation.case.offset_label(),
                 paper.map_or("-".to_owned(), Spacing::to_string),
                 spacing.to_string(),
                 paper.map_or("", |paper| spacing.against(paper)).to_owned(),
@@ -74,33 +74,33 @@ pub fn table3(options: &Options) -> Result<Report, StudyError> {
     report.table(&header, &rows);
     report.line(REMARK);
     report.csv(options, "table3.csv", &header, rows)?;
-    report.csv(options, "dumps.csv", &DUMP_HEADER, flown.iter().flat_map(dump_rows))?;
+    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
     Ok(report)
 }
 
 /// Figure 4: X momentum over time.
 pub fn figure4(options: &Options) -> Result<Report, StudyError> {
-    let flown = fly_all("momentum/figure4", options, cases::all())?;
+    let simulated = simulate_all("momentum/figure4", options, cases::all())?;
     let mut report = Report::default();
-    draw(&mut report, options, &flown)?;
+    draw(&mut report, options, &simulated)?;
     report.line("X momentum over 90 days (paper 000, Figure 4)");
     Ok(report)
 }
 
 /// How the counts of Table 2 move with what the paper leaves open.
 pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
-    let flown = fly_all("momentum/assumptions", options, cases::open())?;
+    let simulated = simulate_all("momentum/assumptions", options, cases::open())?;
     let mut report = Report::default();
     report.line(
         "Thruster dumps in 90 days over what paper 000 leaves open: start date, orbit frame, panel tilts\n",
     );
     let setting = |case: &Case| (case.reinit, case.threshold_n_m_s, case.shade, case.choice);
-    let rows: Vec<Vec<String>> = flown
+    let rows: Vec<Vec<String>> = simulated
         .chunk_by(|a, b| setting(&a.case) == setting(&b.case))
-        .map(|flights| {
-            let case = &flights[0].case;
+        .map(|simulations| {
+            let case = &simulations[0].case;
             let published: Option<Vec<Published>> =
-                flights.iter().map(|flight| Published::of(&flight.case)).collect();
+                simulations.iter().map(|simulation| Published::of(&simulation.case)).collect();
             let published = published.unwrap_or_default();
             let join = |parts: Vec<String>| parts.join(" / ");
             vec![
@@ -108,10 +108,10 @@ pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
                 case.reinit_label(),
                 case.shade.label().to_owned(),
                 case.choice.label().to_owned(),
-                join(flights.iter().map(|flight| flight.case.offset_label()).collect()),
+                join(simulations.iter().map(|simulation| simulation.case.offset_label()).collect()),
                 join(published.iter().map(Published::dumps).collect()),
-                join(flights.iter().map(|flight| flight.count.to_string()).collect()),
-                verdict_of_all(case.shade, &published, flights).to_owned(),
+                join(simulations.iter().map(|simulation| simulation.count.to_string()).collect()),
+                verdict_of_all(case.shade, &published, simulations).to_owned(),
             ]
         })
         .collect();
@@ -119,12 +119,13 @@ pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
     report.table(&header, &rows);
     report.line(ASSUMPTIONS_REMARK);
     report.csv(options, "assumptions.csv", &header, rows)?;
-    report.csv(options, "dumps.csv", &DUMP_HEADER, flown.iter().flat_map(dump_rows))?;
+    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
     Ok(report)
 }
 
-fn verdict_of_all(shade: Shade, published: &[Published], flights: &[Flown]) -> &'static str {
-    let off = published.iter().zip(flights).any(|(paper, flight)| paper.against(flight.count) == "off");
+fn verdict_of_all(shade: Shade, published: &[Published], simulations: &[Simulated]) -> &'static str {
+    let off =
+        published.iter().zip(simulations).any(|(paper, simulation)| paper.against(simulation.count) == "off");
     match (off, shade) {
         (true, _) => "off",
         (false, Shade::PlatesAndPanels) => "comparable",
@@ -149,39 +150,39 @@ shows what follows from other choices.";
 
 const DUMP_HEADER: [&str; 2] = ["case", "dump_time_d"];
 
-fn dump_rows(flight: &Flown) -> Vec<Vec<String>> {
-    flight.dumps_d.iter().map(|time_d| vec![flight.case.label(), format!("{time_d:.6}")]).collect()
+fn dump_rows(simulation: &Simulated) -> Vec<Vec<String>> {
+    simulation.dumps_d.iter().map(|time_d| vec![simulation.case.label(), format!("{time_d:.6}")]).collect()
 }
 
-fn count_row(flight: &Flown) -> Vec<String> {
-    let spacing = Spacing::of(&flight.dumps_d);
-    let paper = Published::of(&flight.case);
+fn count_row(simulation: &Simulated) -> Vec<String> {
+    let spacing = Spacing::of(&simulation.dumps_d);
+    let paper = Published::of(&simulation.case);
     let gaps = paper.as_ref().and_then(Published::spacing);
     vec![
-        format!("{} N.m.s", flight.case.threshold_n_m_s),
-        flight.case.reinit_label(),
-        flight.case.shade.label().to_owned(),
-        flight.case.convention.label().to_owned(),
-        flight.case.offset_label(),
+        format!("{} N.m.s", simulation.case.threshold_n_m_s),
+        simulation.case.reinit_label(),
+        simulation.case.shade.label().to_owned(),
+        simulation.case.convention.label().to_owned(),
+        simulation.case.offset_label(),
         paper.as_ref().map_or("-".to_owned(), Published::dumps),
-        flight.count.to_string(),
-        paper.as_ref().map_or("", |paper| paper.against(flight.count)).to_owned(),
+        simulation.count.to_string(),
+        paper.as_ref().map_or("", |paper| paper.against(simulation.count)).to_owned(),
         gaps.map_or("-".to_owned(), Spacing::to_string),
         spacing.to_string(),
     ]
 }
 
-/// One panel an offset, as in the paper: the cylinder with the paper's dumps at the lowest threshold flown.
-fn draw(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<(), StudyError> {
-    let in_paper = |flight: &&Flown| flight.case.convention == Convention::BodyIntegral;
-    let Some(first) = flown.iter().find(in_paper) else { return Ok(()) };
-    let wanted = |case: &Case| {
+/// One panel an offset, as in the paper: the cylinder with the paper's dumps at the lowest threshold simulated.
+fn draw(report: &mut Report, options: &Options, simulated: &[Simulated]) -> Result<(), StudyError> {
+    let in_paper = |simulation: &&Simulated| simulation.case.convention == Convention::BodyIntegral;
+    let Some(first) = simulated.iter().find(in_paper) else { return Ok(()) };
+    let selected = |case: &Case| {
         case.convention == Convention::BodyIntegral
             && case.shade == first.case.shade
             && case.threshold_n_m_s == first.case.threshold_n_m_s
             && case.reinit == first.case.reinit
     };
-    let chosen: Vec<&Flown> = flown.iter().filter(|flight| wanted(&flight.case)).collect();
+    let chosen: Vec<&Simulated> = simulated.iter().filter(|simulation| selected(&simulation.case)).collect();
     let limit = first.case.threshold_n_m_s * 1.25;
     let chart = Chart {
         title: format!(
@@ -193,23 +194,32 @@ fn draw(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<(), S
         x_label: "time [d]".to_owned(),
         panels: chosen
             .iter()
-            .map(|flight| Panel {
+            .map(|simulation| Panel {
                 y_label: "H_x [N.m.s]".to_owned(),
                 series: vec![Series::line(
-                    format!("centre of mass at Z = {}, {} dumps", flight.case.offset_label(), flight.count),
-                    flight.times_d.iter().copied().zip(flight.momentum_x_n_m_s.iter().copied()).collect(),
+                    format!(
+                        "centre of mass at Z = {}, {} dumps",
+                        simulation.case.offset_label(),
+                        simulation.count
+                    ),
+                    simulation
+                        .times_d
+                        .iter()
+                        .copied()
+                        .zip(simulation.momentum_x_n_m_s.iter().copied())
+                        .collect(),
                 )],
                 y_range: Some((-limit, limit)),
-                marks: vec![-flight.case.threshold_n_m_s, flight.case.threshold_n_m_s],
+                marks: vec![-simulation.case.threshold_n_m_s, simulation.case.threshold_n_m_s],
             })
             .collect(),
     };
     report.picture(options, "figure4.svg", &chart)?;
-    let rows = chosen.iter().flat_map(|flight| {
-        let label = flight.case.label();
-        flight.times_d.iter().zip(&flight.momentum_x_n_m_s).step_by(6).map(move |(time_d, momentum)| {
-            vec![label.clone(), format!("{time_d:.6}"), format!("{momentum:.9}")]
-        })
+    let rows = chosen.iter().flat_map(|simulation| {
+        let label = simulation.case.label();
+        simulation.times_d.iter().zip(&simulation.momentum_x_n_m_s).step_by(6).map(
+            move |(time_d, momentum)| vec![label.clone(), format!("{time_d:.6}"), format!("{momentum:.9}")],
+        )
     });
     report.csv(options, "figure4.csv", &["case", "time_d", "momentum_x_n_m_s"], rows)
 }

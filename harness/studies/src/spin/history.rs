@@ -1,7 +1,8 @@
 //! Figure 4: nutation during the 2 deg manoeuvre, and what shape of body gives the paper's range.
 
-use super::flight::{Case, RATIO, left};
+use super::spinner::{RATIO, paper_case};
 use super::verdict::says;
+use crate::case::{Case, chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
@@ -14,7 +15,7 @@ const PAPER_DEG: (f64, f64, f64) = (0.001, 0.032, 0.024);
 const READ_DEG: f64 = 0.001;
 
 fn cases() -> Vec<Case> {
-    let case = |label: &str| Case::new(label, STOP_S, 0.5);
+    let case = |label: &str| paper_case(label, STOP_S, 0.5);
     vec![
         case("axisymmetric, ratio 1.483"),
         case("axisymmetric, ratio 1.484").ratio(1.484),
@@ -25,8 +26,8 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// What was flown, in deg.
-struct Seen {
+/// What was simulated, in deg.
+struct NutationRange {
     least_deg: f64,
     most_deg: f64,
     /// After the paper's end: the nutation of a triaxial body swings.
@@ -34,7 +35,7 @@ struct Seen {
     envelope_deg: f64,
 }
 
-impl Seen {
+impl NutationRange {
     /// What the comparison comes to.
     fn verdict(&self) -> String {
         let (least, most, end) = PAPER_DEG;
@@ -55,36 +56,39 @@ impl Seen {
 
 /// Figure 4.
 pub fn figure4(options: &Options) -> Result<Report, StudyError> {
-    let cases = cases();
-    let wanted = left("spin/figure4", options, cases.iter().map(|case| case.label.as_str()))?;
+    let cases = chosen("spin/figure4", options, cases(), |case| case.label.clone())?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let mut report = Report::default();
     report
         .line("Nutation during a 2 deg manoeuvre of 114 pulses of 32 ms, once a turn (paper 002, Figure 4)");
+    let names = ["nutation.angle", "nutation.predicted", "burn.done", "nutation.envelope"];
+    let results = run_all(options, &cases, |case| case.simulate(&fmu, &names))?;
     let (mut rows, mut panels, mut csv) = (Vec::new(), Vec::new(), Vec::new());
-    for case in cases.iter().filter(|case| wanted.contains(&case.label.as_str())) {
-        let names = ["nutation.angle", "nutation.predicted", "burn.done", "nutation.envelope"];
-        let flown = case.fly(&fmu, &names)?;
-        let degrees = |column: usize| flown.columns[column].iter().map(|angle| angle.to_degrees());
+    for (case, simulated) in cases.iter().zip(&results) {
+        let degrees = |column: usize| simulated.columns[column].iter().map(|angle| angle.to_degrees());
         let between = |from_s: f64, to_s: f64| {
-            let chosen = flown.times_s.iter().zip(degrees(0)).filter(|(t, _)| (from_s..=to_s).contains(*t));
+            let chosen =
+                simulated.times_s.iter().zip(degrees(0)).filter(|(t, _)| (from_s..=to_s).contains(*t));
             chosen.fold((f64::INFINITY, 0.0_f64), |range, (_, deg)| (range.0.min(deg), range.1.max(deg)))
         };
         // After the first turns, as one reads a range off a picture.
         let (least_deg, most_deg) = between(60.0, PAPER_END_S);
-        let seen = Seen {
+        let found = NutationRange {
             least_deg,
             most_deg,
             end_deg: between(PAPER_END_S, STOP_S),
-            envelope_deg: flown.last(3).to_degrees(),
+            envelope_deg: simulated.last(3).to_degrees(),
         };
         rows.push(vec![
             case.label.clone(),
             "0.001 to 0.032, final 0.024".to_owned(),
-            format!("{least_deg:.4} to {most_deg:.4}, final {:.4} to {:.4}", seen.end_deg.0, seen.end_deg.1),
-            says(flown.last(2) == 1.0, &seen.verdict()).to_owned(),
+            format!(
+                "{least_deg:.4} to {most_deg:.4}, final {:.4} to {:.4}",
+                found.end_deg.0, found.end_deg.1
+            ),
+            says(simulated.last(2) == 1.0, &found.verdict()).to_owned(),
         ]);
-        csv.extend(flown.times_s.iter().zip(degrees(0)).zip(degrees(1)).map(
+        csv.extend(simulated.times_s.iter().zip(degrees(0)).zip(degrees(1)).map(
             |((time_s, angle), foreseen)| {
                 vec![case.label.clone(), format!("{time_s}"), format!("{angle:.9}"), format!("{foreseen:.9}")]
             },
@@ -92,11 +96,11 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
         panels.push(Panel {
             y_label: "nutation [deg]".to_owned(),
             series: vec![
-                Series::line(case.label.clone(), flown.times_s.iter().copied().zip(degrees(0)).collect()),
-                Series::dashed("linear theory", flown.times_s.iter().copied().zip(degrees(1)).collect()),
+                Series::line(case.label.clone(), simulated.times_s.iter().copied().zip(degrees(0)).collect()),
+                Series::dashed("linear theory", simulated.times_s.iter().copied().zip(degrees(1)).collect()),
                 Series::dashed(
-                    format!("envelope {:.4} deg", seen.envelope_deg),
-                    vec![(0.0, seen.envelope_deg), (STOP_S, seen.envelope_deg)],
+                    format!("envelope {:.4} deg", found.envelope_deg),
+                    vec![(0.0, found.envelope_deg), (STOP_S, found.envelope_deg)],
                 ),
             ],
             y_range: Some((0.0, 0.05)),
@@ -122,24 +126,29 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
 
 #[cfg(test)]
 mod tests {
-    //! The verdict follows what was flown.
+    //! The verdict follows what was simulated.
     use super::*;
 
     #[test]
     fn the_verdict_turns_with_the_numbers() {
-        let seen = |least_deg, most_deg, end_deg| Seen { least_deg, most_deg, end_deg, envelope_deg: 0.0177 };
-        for (seen, expected) in [
-            (seen(0.0005, 0.0324, (0.02, 0.03)), "the paper's range and end"),
-            (seen(0.0005, 0.0324, (0.002, 0.008)), "the paper's range, not its end"),
-            (seen(0.0005, 0.0359, (0.02, 0.03)), "not the paper's range, though its end"),
-            (seen(0.0005, 0.0359, (0.01, 0.02)), "not the paper's range, nor its end"),
+        let found = |least_deg, most_deg, end_deg| NutationRange {
+            least_deg,
+            most_deg,
+            end_deg,
+            envelope_deg: 0.0177,
+        };
+        for (found, expected) in [
+            (found(0.0005, 0.0324, (0.02, 0.03)), "the paper's range and end"),
+            (found(0.0005, 0.0324, (0.002, 0.008)), "the paper's range, not its end"),
+            (found(0.0005, 0.0359, (0.02, 0.03)), "not the paper's range, though its end"),
+            (found(0.0005, 0.0359, (0.01, 0.02)), "not the paper's range, nor its end"),
             (
-                seen(0.0005, 0.0176, (0.003, 0.003)),
+                found(0.0005, 0.0176, (0.003, 0.003)),
                 "not the paper's range: never beyond the envelope of 0.0177",
             ),
-            (seen(0.0005, 0.0190, (0.003, 0.003)), "not the paper's range, nor its end"),
+            (found(0.0005, 0.0190, (0.003, 0.003)), "not the paper's range, nor its end"),
         ] {
-            assert_eq!(seen.verdict(), expected);
+            assert_eq!(found.verdict(), expected);
         }
     }
 }

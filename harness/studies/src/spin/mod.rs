@@ -1,8 +1,8 @@
 //! Paper 002: ACE's nutation from pulse trains, and its observation by the star tracker.
 
-mod flight;
 mod history;
 mod numbers;
+mod spinner;
 mod tracker;
 mod trains;
 mod verdict;

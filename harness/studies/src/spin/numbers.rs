@@ -1,17 +1,18 @@
-//! Every number of paper 002 beside ours, from flights of SpinPlant.
+//! Every number of paper 002 beside ours, from simulations of SpinPlant.
 
 use core::f64::consts::PI;
 
 use loader::Fmu;
 use rayon::prelude::*;
 
-use super::flight::{
-    AXIAL_ARM_M, Case, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, left,
+use super::spinner::{
+    AXIAL_ARM_M, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, paper_case,
 };
 use super::verdict::{rounds, says, verdict};
+use crate::case::chosen;
 use crate::{Options, Report, StudyError};
 
-/// Number of ratios over 1.471 to 1.494 at which trains are flown.
+/// Number of ratios over 1.471 to 1.494 at which trains are simulated.
 const RATIOS: u32 = 24;
 const DAY_S: f64 = 86_400.0;
 /// IIIR and IA by their numbers in the shipped spacecraft.
@@ -19,8 +20,8 @@ const RADIAL: i32 = 8;
 const AXIAL: i32 = 1;
 const AXIAL_OPPOSITE: i32 = 4;
 
-/// Marks rows in which nothing was flown.
-const ARITHMETIC: &str = "agrees (arithmetic, not flown)";
+/// Marks rows in which nothing was simulated.
+const ARITHMETIC: &str = "agrees (arithmetic, not simulated)";
 
 struct Row {
     quantity: &'static str,
@@ -42,14 +43,12 @@ pub fn numbers(options: &Options) -> Result<Report, StudyError> {
     rows.extend(envelopes(&fmu)?);
     rows.extend(observation(&fmu)?);
     rows.extend(beyond(&fmu)?);
-    let wanted = left("spin/numbers", options, rows.iter().map(|row| row.quantity))?;
-    let table: Vec<Vec<String>> = rows
-        .iter()
-        .filter(|row| wanted.contains(&row.quantity))
-        .map(|row| vec![row.quantity.into(), row.paper.into(), row.ours.clone(), row.verdict.clone()])
+    let table: Vec<Vec<String>> = chosen("spin/numbers", options, rows, |row| row.quantity.to_owned())?
+        .into_iter()
+        .map(|row| vec![row.quantity.into(), row.paper.into(), row.ours, row.verdict])
         .collect();
     let mut report = Report::default();
-    report.line("Numbers of paper 002 beside flights of SpinPlant");
+    report.line("Numbers of paper 002 beside simulations of SpinPlant");
     let header = ["quantity", "paper", "ours", "verdict"];
     report.table(&header, &table);
     report.csv(options, "numbers.csv", &header, table)?;
@@ -65,17 +64,17 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         "momentum.displacement",
         "burn.plannedCount",
     ];
-    let one = Case::new("one pulse of 1 s", 40.0, 40.0)
+    let one = paper_case("one pulse of 1 s", 40.0, 40.0)
         .real("burn.pulseWidth", 1.0)
         .integer("burn.count", 1)
-        .fly(fmu, &names)?;
+        .simulate(fmu, &names)?;
     let train = |thruster: i32, turns: f64| {
-        Case::new("2 deg", 1800.0, 1800.0)
+        paper_case("2 deg", 1800.0, 1800.0)
             .integer("burn.thruster", thruster)
             .integer("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
             .real("burn.turnsPerPulse", turns)
             .real("burn.angle", 2.0 * PI / 180.0)
-            .fly(fmu, &names)
+            .simulate(fmu, &names)
     };
     let (radial, half, axial) = (train(RADIAL, 1.0)?, train(RADIAL, 0.5)?, train(AXIAL, 1.0)?);
     let total_s = 6.0_f64.to_radians() / one.last(3);
@@ -84,7 +83,7 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         Row::new(
             "axis moved by one 1 s pulse (eq 3)",
             "0.0095 rad",
-            format!("{:.6} rad planned, {:.6} rad flown", one.last(0), one.last(3)),
+            format!("{:.6} rad planned, {:.6} rad simulated", one.last(0), one.last(3)),
             verdict(rounds(one.last(3), 0.0095, 1e-4)),
         ),
         Row::new(
@@ -111,13 +110,13 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         Row::new(
             "32 ms pulses for 2 deg, lower radial",
             "114",
-            format!("{} (flown {:.4} deg)", radial.last(4), radial.last(3).to_degrees()),
+            format!("{} (simulated {:.4} deg)", radial.last(4), radial.last(3).to_degrees()),
             verdict(rounds(radial.last(4), 114.0, 1.0) && rounds(radial.last(3).to_degrees(), 2.0, 0.02)),
         ),
         Row::new(
             "32 ms pulses for 2 deg, upper axial",
             "about 58",
-            format!("{} (flown {:.4} deg)", axial.last(4), axial.last(3).to_degrees()),
+            format!("{} (simulated {:.4} deg)", axial.last(4), axial.last(3).to_degrees()),
             verdict(rounds(axial.last(4), 58.0, 1.0) && rounds(axial.last(3).to_degrees(), 2.0, 0.04)),
         ),
         Row::new(
@@ -147,14 +146,14 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     ])
 }
 
-/// Half the angle by which the body turns while a pulse of 32 ms is on, from the edges of a flight, in deg.
+/// Half the angle by which the body turns while a pulse of 32 ms is on, from the edges of a simulation, in deg.
 fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
-    let flown = Case::new("half arc", 2.0 * PERIOD_S, 0.016)
+    let simulated = paper_case("half arc", 2.0 * PERIOD_S, 0.016)
         .integer("burn.count", 1)
-        .fly(fmu, &["burn.nextEdge", "thruster[8].active", "spin.rate"])?;
+        .simulate(fmu, &["burn.nextEdge", "thruster[8].active", "spin.rate"])?;
     let (mut on_s, mut off_s) = (f64::NAN, f64::NAN);
     for (&edge_s, &active) in
-        flown.columns[0].iter().zip(&flown.columns[1]).filter(|(edge_s, _)| **edge_s >= 0.0)
+        simulated.columns[0].iter().zip(&simulated.columns[1]).filter(|(edge_s, _)| **edge_s >= 0.0)
     {
         if active == 1.0 {
             off_s = edge_s;
@@ -162,18 +161,18 @@ fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
             on_s = edge_s;
         }
     }
-    Ok((0.5 * (off_s - on_s) * flown.columns[2][0]).to_degrees())
+    Ok((0.5 * (off_s - on_s) * simulated.columns[2][0]).to_degrees())
 }
 
 /// How long the Earth stays within 3 deg of an antenna that stands still, on a circular orbit: from 3 deg on one side, past
-/// the antenna, to 3 deg on the other; the second half is flown.
+/// the antenna, to 3 deg on the other; the second half is simulated.
 fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
     let still = |label: &str, stop_s: f64| {
-        let case = Case::new(label, stop_s, 600.0).integer("burn.plan", 4).integer("geometry.source", 2);
+        let case = paper_case(label, stop_s, 600.0).integer("burn.plan", 4).integer("geometry.source", 2);
         (1..=3).fold(case, |case, axis| case.real(&format!("geometry.amplitude[{axis}]"), 0.0))
     };
     let names = ["earth.inertial[1]", "earth.inertial[2]", "earth.inertial[3]"];
-    let earth = still("where the Earth stands", 600.0).fly(fmu, &names)?;
+    let earth = still("where the Earth stands", 600.0).simulate(fmu, &names)?;
     // The shortest turn that takes +Z opposite the Earth: the antenna looks along -Z.
     let [x, y, z] = [0, 1, 2].map(|axis| -earth.columns[axis][0]);
     let scale = (2.0 * (1.0 + z)).sqrt();
@@ -181,13 +180,13 @@ fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
     let aimed = (1..)
         .zip(q)
         .fold(still("deadband", 4.0 * DAY_S), |case, (i, value)| case.real(&format!("start.q[{i}]"), value));
-    let flown = aimed.fly(fmu, &["earth.angle"])?;
+    let simulated = aimed.simulate(fmu, &["earth.angle"])?;
     let limit_rad = 3.0_f64.to_radians();
-    let beyond = flown.columns[0].iter().position(|angle| *angle > limit_rad).filter(|i| *i > 0);
+    let beyond = simulated.columns[0].iter().position(|angle| *angle > limit_rad).filter(|i| *i > 0);
     Ok(beyond.map_or(f64::NAN, |i| {
-        let (before, after) = (flown.columns[0][i - 1], flown.columns[0][i]);
+        let (before, after) = (simulated.columns[0][i - 1], simulated.columns[0][i]);
         let share = (limit_rad - before) / (after - before);
-        let crossing_s = flown.times_s[i - 1] + share * (flown.times_s[i] - flown.times_s[i - 1]);
+        let crossing_s = simulated.times_s[i - 1] + share * (simulated.times_s[i] - simulated.times_s[i - 1]);
         2.0 * crossing_s / DAY_S
     }))
 }
@@ -208,13 +207,13 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         // Pulses of exactly 2 deg / n.
         let sine =
             2.0_f64.to_radians() / count * SPIN_INERTIA_KG_M2 * RATE_RAD_S.powi(2) / (2.0 * FORCE_N * arm_m);
-        let seen = Case::new("envelope", 1.0, 1.0)
+        let found = paper_case("envelope", 1.0, 1.0)
             .integer("burn.thruster", thruster)
             .integer("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
             .real("burn.turnsPerPulse", turns)
             .real("burn.pulseWidth", 2.0 * sine.asin() / RATE_RAD_S)
-            .fly(fmu, &["inertiaRatio", "nutation.envelope"])?;
-        let (ratio, exact_rad) = (seen.last(0), seen.last(1));
+            .simulate(fmu, &["inertiaRatio", "nutation.envelope"])?;
+        let (ratio, exact_rad) = (found.last(0), found.last(1));
         // The FMU's envelope is that of its own pulse: (Gamma / n) / |sin(phi / 2)|.
         let per_pulse_rad = exact_rad * (PI * ratio * turns).sin().abs();
         let printed_rad = printed_envelope_rad(per_pulse_rad, ratio, turns);
@@ -242,11 +241,11 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         format!("{hours:.2} h"),
         verdict((hours - 2.75).abs() < 0.1),
     ));
-    let damped = Case::new("damping", 9.5 * 3600.0, 9.5 * 3600.0)
+    let damped = paper_case("damping", 9.5 * 3600.0, 9.5 * 3600.0)
         .real("damper.timeConstant", 9.5 * 3600.0)
         .integer("burn.plan", 4)
         .real("start.nutation", 0.02_f64.to_radians())
-        .fly(fmu, &["nutation.angle"])?;
+        .simulate(fmu, &["nutation.angle"])?;
     let left = damped.last(0) / 0.02_f64.to_radians();
     rows.push(Row::new(
         "nutation left after 9.5 h",
@@ -259,23 +258,23 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 
 /// Section IV and eq 1.
 fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
-    let tracker = Case::new("observation", 1.0, 1.0)
+    let tracker = paper_case("observation", 1.0, 1.0)
         .integer("starTracker.sampling", 2)
-        .fly(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
+        .simulate(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
     let minutes = tracker.last(0) / 60.0;
     // Nutation that 7 ms allow, from eq 1's slope in the FMU at two Sun angles.
     let allowed = |beta_deg: f64| -> Result<f64, StudyError> {
         let beta = beta_deg.to_radians();
-        // The axis stands `nutation` off the momentum; the Sun is turned about the line both lie across.
+        // The axis stands `nutation` off the momentum; the Sun is revolution about the line both lie across.
         let nutation = 1e-6;
-        let seen = Case::new("eq 1", 1e-3, 1e-3)
+        let found = paper_case("eq 1", 1e-3, 1e-3)
             .integer("burn.plan", 4)
             .real("start.nutation", nutation)
             .real("sun.direction[1]", 0.0)
             .real("sun.direction[2]", beta.sin())
             .real("sun.direction[3]", beta.cos())
-            .fly(fmu, &["spin.periodVariation"])?;
-        Ok((0.007 * nutation / seen.columns[0][0]).to_degrees())
+            .simulate(fmu, &["spin.periodVariation"])?;
+        Ok((0.007 * nutation / found.columns[0][0]).to_degrees())
     };
     let (wide, narrow) = (allowed(20.0)?, allowed(1.0)?);
     let exact = tracker.last(1) / 60.0;
@@ -284,7 +283,7 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             "observation time at 5 rpm, ratio 1.483",
             "11.2 min",
             format!("{minutes:.2} min by eq 20, {exact:.2} min exactly"),
-            // 8 samples 96 s apart span 7 of these; figure6 flies them.
+            // 8 samples 96 s apart span 7 of these; figure6 runs them.
             says(
                 rounds(minutes, 11.76, 0.01) && rounds(7.0 * 96.0 / 60.0, 11.2, 0.1),
                 "11.2 min is the span of 8 samples, not eq 20",
@@ -306,13 +305,13 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     ])
 }
 
-/// The worst of flights over the range of ratios.
+/// The worst of simulations over the range of ratios.
 #[derive(Clone, Copy, Default)]
 struct Worst {
     final_deg: f64,
     peak_deg: f64,
     duration_min: f64,
-    /// Greatest peak as a share of the same flight's exact envelope of a uniform train.
+    /// Greatest peak as a share of the same simulation's exact envelope of a uniform train.
     envelope_share: f64,
     /// Least and greatest move.
     moved_deg: (f64, f64),
@@ -320,36 +319,39 @@ struct Worst {
 
 impl Worst {
     fn of(fmu: &Fmu, plan: i32, order: i32, count: i32) -> Result<Self, StudyError> {
-        let flights: Vec<Self> = (0..RATIOS)
+        let simulations: Vec<Self> = (0..RATIOS)
             .into_par_iter()
             .map(|i| {
                 let ratio = 1.471 + 0.023 * f64::from(i) / f64::from(RATIOS - 1);
                 let names =
                     ["nutation.angle", "burn.plannedDuration", "nutation.envelope", "momentum.displacement"];
-                let flown = Case::new(format!("plan {plan} at {ratio:.4}"), 1500.0, 6.0)
+                let simulated = paper_case(format!("plan {plan} at {ratio:.4}"), 1500.0, 6.0)
                     .ratio(ratio)
                     .integer("burn.plan", plan)
                     .integer("burn.taperOrder", order)
                     .integer("burn.count", count)
                     .real("burn.pulseWidth", 0.032)
-                    .fly(fmu, &names)?;
-                let moved_deg = flown.last(3).to_degrees();
+                    .simulate(fmu, &names)?;
+                let moved_deg = simulated.last(3).to_degrees();
                 Ok(Self {
-                    final_deg: flown.last(0).to_degrees(),
-                    peak_deg: flown.most(0).to_degrees(),
-                    duration_min: flown.last(1) / 60.0,
-                    envelope_share: flown.most(0) / flown.last(2),
+                    final_deg: simulated.last(0).to_degrees(),
+                    peak_deg: simulated.most(0).to_degrees(),
+                    duration_min: simulated.last(1) / 60.0,
+                    envelope_share: simulated.most(0) / simulated.last(2),
                     moved_deg: (moved_deg, moved_deg),
                 })
             })
             .collect::<Result<_, StudyError>>()?;
         let start = Self { moved_deg: (f64::INFINITY, 0.0), ..Self::default() };
-        Ok(flights.iter().fold(start, |worst, flight| Self {
-            final_deg: worst.final_deg.max(flight.final_deg),
-            peak_deg: worst.peak_deg.max(flight.peak_deg),
-            duration_min: worst.duration_min.max(flight.duration_min),
-            envelope_share: worst.envelope_share.max(flight.envelope_share),
-            moved_deg: (worst.moved_deg.0.min(flight.moved_deg.0), worst.moved_deg.1.max(flight.moved_deg.1)),
+        Ok(simulations.iter().fold(start, |worst, simulation| Self {
+            final_deg: worst.final_deg.max(simulation.final_deg),
+            peak_deg: worst.peak_deg.max(simulation.peak_deg),
+            duration_min: worst.duration_min.max(simulation.duration_min),
+            envelope_share: worst.envelope_share.max(simulation.envelope_share),
+            moved_deg: (
+                worst.moved_deg.0.min(simulation.moved_deg.0),
+                worst.moved_deg.1.max(simulation.moved_deg.1),
+            ),
         }))
     }
 
@@ -381,9 +383,9 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let (uniform, tapered) = (Worst::of(fmu, 1, 1, 114)?, Worst::of(fmu, 2, 1, 58)?);
     let (second, fourth) = (Worst::of(fmu, 2, 2, 30)?, Worst::of(fmu, 2, 4, 11)?);
     let quiet = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;
-    let split = Case::new("split train", 1600.0, 1600.0)
+    let split = paper_case("split train", 1600.0, 1600.0)
         .integer("burn.plan", 3)
-        .fly(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
+        .simulate(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
     let (split_deg, split_moved_deg) = (split.last(0).to_degrees(), split.last(3).to_degrees());
     Ok(vec![
         Row::new(

@@ -2,10 +2,9 @@
 
 use core::f64::consts::PI;
 
-use rayon::prelude::*;
-
-use super::flight::{Case, RATIO, left};
+use super::spinner::{RATIO, paper_case};
 use super::verdict::{rounds, says, verdict};
+use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
@@ -21,13 +20,13 @@ const SAMPLINGS: [(&str, i32); 2] = [("clock, every 96 s", 2), ("every 8 spins",
 
 /// Figure 6.
 pub fn figure6(options: &Options) -> Result<Report, StudyError> {
-    let wanted = left("spin/figure6", options, SAMPLINGS.iter().map(|(label, _)| *label))?;
+    let samplings = chosen("spin/figure6", options, SAMPLINGS, |(label, _)| (*label).to_owned())?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let mut report = Report::default();
     report.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
     let (mut rows, mut csv, mut panels) = (Vec::new(), Vec::new(), Vec::new());
-    for (label, number) in SAMPLINGS.iter().filter(|(label, _)| wanted.contains(label)) {
-        let case = Case::new(*label, 14_400.0, 0.5)
+    for (label, number) in &samplings {
+        let case = paper_case(*label, 14_400.0, 0.5)
             .integer("burn.plan", 4)
             .real("start.nutation", NUTATION_RAD)
             .integer("starTracker.sampling", *number);
@@ -38,13 +37,15 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             "starTracker.nutation",
             "starTracker.nutationSigma",
         ];
-        let flown = case.fly(&fmu, &names)?;
-        let (times, exact) = (&flown.times_s, &flown.columns[0]);
+        let simulated = case.simulate(&fmu, &names)?;
+        let (times, exact) = (&simulated.times_s, &simulated.columns[0]);
         let mean = exact.iter().sum::<f64>() / exact.len() as f64;
         // Where a sample has just come: the true declination there, and what the tracker said.
         let samples: Vec<(f64, f64, f64)> = (1..times.len())
-            .filter(|&i| flown.columns[1][i] != flown.columns[1][i - 1] && flown.columns[1][i] >= 0.0)
-            .map(|i| (flown.columns[1][i], exact[i], flown.columns[2][i]))
+            .filter(|&i| {
+                simulated.columns[1][i] != simulated.columns[1][i - 1] && simulated.columns[1][i] >= 0.0
+            })
+            .map(|i| (simulated.columns[1][i], exact[i], simulated.columns[2][i]))
             .collect();
         let first: Vec<_> = samples.iter().take(8).collect();
         let span = match (first.first(), first.last()) {
@@ -60,8 +61,8 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
         rows.push(vec![
             format!("{label}: nutation from the samples of 4 h"),
             "0.02 deg (set)".to_owned(),
-            format!("{:.4} +- {:.4} deg", flown.last(3).to_degrees(), flown.last(4).to_degrees()),
-            verdict((flown.last(3) - NUTATION_RAD).abs() < 3.0 * flown.last(4)).to_owned(),
+            format!("{:.4} +- {:.4} deg", simulated.last(3).to_degrees(), simulated.last(4).to_degrees()),
+            verdict((simulated.last(3) - NUTATION_RAD).abs() < 3.0 * simulated.last(4)).to_owned(),
         ]);
         csv.extend(samples.iter().map(|(time_s, exact, measured)| {
             vec![
@@ -71,8 +72,8 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
                 format!("{:.9}", measured.to_degrees()),
             ]
         }));
-        // The wave of 8 s is drawn from a flight of its own, finer than the picture.
-        let wave = case.clone().grid(SHOWN_S, 0.05).fly(&fmu, &names[..1])?;
+        // The wave of 8 s is drawn from a simulation of its own, finer than the picture.
+        let wave = case.clone().grid(SHOWN_S, 0.05).simulate(&fmu, &names[..1])?;
         panels.push(Panel {
             y_label: "declination - mean [deg]".to_owned(),
             series: vec![
@@ -123,35 +124,30 @@ struct Point {
 
 /// Figure 7.
 pub fn figure7(options: &Options) -> Result<Report, StudyError> {
-    let ratios: Vec<f64> = (0..24).map(|i| 1.4715 + 0.001 * f64::from(i) * 22.5 / 23.0).collect();
-    let labels: Vec<String> = ratios.iter().map(|ratio| format!("ratio {ratio:.4}")).collect();
-    let wanted = left("spin/figure7", options, labels.iter().map(String::as_str))?;
+    let ratios = (0..24).map(|i| 1.4715 + 0.001 * f64::from(i) * 22.5 / 23.0);
+    let label = |ratio: &f64| format!("ratio {ratio:.4}");
+    let ratios = chosen("spin/figure7", options, ratios, label)?;
     let fmu = options.fmu("SpinPlant.fmu")?;
-    let grid: Vec<(usize, f64)> = (0..ratios.len())
-        .filter(|&i| wanted.contains(&labels[i].as_str()))
-        .flat_map(|i| (0..40).map(move |j| (i, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0)))
-        .collect();
-    let points: Vec<Point> = grid
-        .par_iter()
-        .map(|&(i, rate_rpm)| {
-            let time = |number: i32| {
-                Case::new(&labels[i], 1.0, 1.0)
-                    .ratio(ratios[i])
-                    .integer("burn.plan", 4)
-                    .real("spin.initialRate", rate_rpm * PI / 30.0)
-                    .integer("starTracker.sampling", number)
-                    .fly(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
-            };
-            let (clock, spins) = (time(2)?, time(1)?);
-            Ok(Point {
-                rate_rpm,
-                ratio: ratios[i],
-                eq20_min: clock.last(1) / 60.0,
-                clock_min: clock.last(0) / 60.0,
-                spins_min: spins.last(0) / 60.0,
-            })
+    let rates_rpm = |ratio| (0..40).map(move |j| (ratio, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0));
+    let grid: Vec<(f64, f64)> = ratios.iter().copied().flat_map(rates_rpm).collect();
+    let points = run_all(options, &grid, |&(ratio, rate_rpm)| {
+        let time = |number: i32| {
+            paper_case(label(&ratio), 1.0, 1.0)
+                .ratio(ratio)
+                .integer("burn.plan", 4)
+                .real("spin.initialRate", rate_rpm * PI / 30.0)
+                .integer("starTracker.sampling", number)
+                .simulate(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
+        };
+        let (clock, spins) = (time(2)?, time(1)?);
+        Ok(Point {
+            rate_rpm,
+            ratio,
+            eq20_min: clock.last(1) / 60.0,
+            clock_min: clock.last(0) / 60.0,
+            spins_min: spins.last(0) / 60.0,
         })
-        .collect::<Result<_, StudyError>>()?;
+    })?;
     let mut report = Report::default();
     report.line("Time to see the full range of declinations over spin rate and ratio (paper 002, Figure 7)");
     let percent = |time: fn(&Point) -> f64| {
@@ -209,18 +205,15 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
             ]
         }),
     )?;
-    let mut shown: Vec<usize> = grid.iter().map(|(i, _)| *i).collect();
-    shown.dedup();
     let panel = |y_label: &str, time: fn(&Point) -> f64| {
         // A line ends where it leaves the picture.
         let inside = |time_min: f64| if time_min <= TALLEST_MIN { time_min } else { f64::NAN };
-        let mut series: Vec<Series> = shown
+        let mut series: Vec<Series> = ratios
             .iter()
-            .step_by((shown.len() / 4).max(1))
-            .map(|&i| {
-                let line =
-                    points.iter().filter(|p| p.ratio == ratios[i]).map(|p| (p.rate_rpm, inside(time(p))));
-                Series::line(labels[i].clone(), line.collect())
+            .step_by((ratios.len() / 4).max(1))
+            .map(|ratio| {
+                let line = points.iter().filter(|p| p.ratio == *ratio).map(|p| (p.rate_rpm, inside(time(p))));
+                Series::line(label(ratio), line.collect())
             })
             .collect();
         series.push(Series::dashed("30 min", vec![(4.9, LONG_MIN), (5.1, LONG_MIN)]));

@@ -1,17 +1,16 @@
 //! Figures 2 and 3: nutation left by a 2 deg manoeuvre in n pulses, once per half turn and once per turn.
 
-use rayon::prelude::*;
-
-use super::flight::{Case, PERIOD_S, RADIAL_ARM_M, RATIO, eq8, left, width_s};
+use super::spinner::{PERIOD_S, RADIAL_ARM_M, RATIO, eq8, paper_case, width_s};
 use super::verdict::{AGREES, rounds, says, verdict};
+use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
 /// The manoeuvre, in rad.
 const MANOEUVRE_RAD: f64 = 2.0 * core::f64::consts::PI / 180.0;
-/// Most pulses flown.
+/// Most pulses simulated.
 const MOST: u32 = 120;
-/// Fewest in the picture: fewer leave so much nutation that nothing is seen of the rest.
+/// Fewest in the picture: fewer leave so much nutation that nothing is found of the rest.
 const FEWEST_SHOWN: u32 = 10;
 /// Eq 8 takes pulses for impulses. Pulses as short as 20 of them make, 0.18 s, are impulses but for (Omega l)^2/24.
 const IMPULSES: u32 = 20;
@@ -22,7 +21,7 @@ struct Row {
     count: u32,
     width_s: f64,
     printed_rad: f64,
-    flown_rad: f64,
+    simulated_rad: f64,
 }
 
 /// Figure 2: one pulse per half revolution.
@@ -42,28 +41,26 @@ fn figure(
     paper_envelope_deg: f64,
     options: &Options,
 ) -> Result<Report, StudyError> {
-    let labels: Vec<String> = (1..=MOST).map(|count| format!("n = {count}")).collect();
-    let wanted = left(study, options, labels.iter().map(String::as_str))?;
+    let label = |count: &u32| format!("n = {count}");
+    let counts = chosen(study, options, 1..=MOST, label)?;
     let fmu = options.fmu("SpinPlant.fmu")?;
     let phase = core::f64::consts::TAU * turns * RATIO;
-    let rows: Vec<Row> = (1..=MOST)
-        .into_par_iter()
-        .filter(|count| wanted.contains(&labels[*count as usize - 1].as_str()))
-        .filter_map(|count| {
-            let per_pulse = MANOEUVRE_RAD / f64::from(count);
-            Some((count, per_pulse, width_s(per_pulse, RADIAL_ARM_M)?))
-        })
-        .map(|(count, per_pulse, width_s)| {
-            let stop_s = (f64::from(count) * turns + 2.0) * PERIOD_S;
-            let case = Case::new(&labels[count as usize - 1], stop_s, stop_s)
-                .integer("burn.count", count as i32)
-                .real("burn.turnsPerPulse", turns)
-                .real("burn.pulseWidth", width_s);
-            let flown = case.fly(&fmu, &["nutation.angle"])?;
-            let printed_rad = eq8(per_pulse, phase, f64::from(count));
-            Ok(Row { count, width_s, printed_rad, flown_rad: flown.last(0) })
-        })
-        .collect::<Result<_, StudyError>>()?;
+    // Too few pulses would have to last beyond half a turn.
+    let pulse = |count: &u32| {
+        let per_pulse = MANOEUVRE_RAD / f64::from(*count);
+        Some((*count, per_pulse, width_s(per_pulse, RADIAL_ARM_M)?))
+    };
+    let pulses: Vec<(u32, f64, f64)> = counts.iter().filter_map(pulse).collect();
+    let rows = run_all(options, &pulses, |&(count, per_pulse, width_s)| {
+        let stop_s = (f64::from(count) * turns + 2.0) * PERIOD_S;
+        let simulated = paper_case(label(&count), stop_s, stop_s)
+            .integer("burn.count", count as i32)
+            .real("burn.turnsPerPulse", turns)
+            .real("burn.pulseWidth", width_s)
+            .simulate(&fmu, &["nutation.angle"])?;
+        let printed_rad = eq8(per_pulse, phase, f64::from(count));
+        Ok(Row { count, width_s, printed_rad, simulated_rad: simulated.last(0) })
+    })?;
     let mut report = Report::default();
     report.line(&format!(
         "Nutation after a 2 deg manoeuvre in n pulses, one every {turns} turns, ratio {RATIO} (paper 002, {file})"
@@ -71,13 +68,13 @@ fn figure(
     report.csv(
         options,
         &format!("{file}.csv"),
-        &["n", "pulse_width_s", "eq8_deg", "flown_deg", "envelope_deg"],
+        &["n", "pulse_width_s", "eq8_deg", "simulated_deg", "envelope_deg"],
         rows.iter().map(|row| {
             vec![
                 row.count.to_string(),
                 format!("{:.9}", row.width_s),
                 format!("{:.9}", row.printed_rad.to_degrees()),
-                format!("{:.9}", row.flown_rad.to_degrees()),
+                format!("{:.9}", row.simulated_rad.to_degrees()),
                 format!("{:.9}", envelope_deg(f64::from(row.count), phase)),
             ]
         }),
@@ -86,7 +83,7 @@ fn figure(
     let difference = |least: u32| {
         rows.iter()
             .filter(|row| row.count >= least)
-            .map(|row| (row.flown_rad - row.printed_rad).abs().to_degrees())
+            .map(|row| (row.simulated_rad - row.printed_rad).abs().to_degrees())
             .fold(0.0, f64::max)
     };
     let exact_deg = envelope_deg(113.0, phase);
@@ -96,7 +93,7 @@ fn figure(
         .iter()
         .filter(|row| {
             row.count >= IMPULSES
-                && row.flown_rad.to_degrees() > 1.001 * envelope_deg(f64::from(row.count), phase)
+                && row.simulated_rad.to_degrees() > 1.001 * envelope_deg(f64::from(row.count), phase)
         })
         .count();
     let impulses = rows.iter().filter(|row| row.count >= IMPULSES).count();
@@ -115,19 +112,19 @@ fn figure(
             .to_owned(),
         ],
         vec![
-            "flown beyond the exact envelope, n >= 20".to_owned(),
+            "simulated beyond the exact envelope, n >= 20".to_owned(),
             "-".to_owned(),
             format!("{beyond} of {impulses}"),
             judged(beyond == 0).to_owned(),
         ],
         vec![
-            "eq 8 against flight, n >= 20".to_owned(),
+            "eq 8 against simulation, n >= 20".to_owned(),
             "-".to_owned(),
             format!("{:.6} deg", difference(IMPULSES)),
             judged(difference(IMPULSES) < EQ8_DEG).to_owned(),
         ],
         vec![
-            "eq 8 against flight, all n".to_owned(),
+            "eq 8 against simulation, all n".to_owned(),
             "-".to_owned(),
             format!("{:.6} deg", difference(1)),
             if difference(1) > EQ8_DEG { "pulses of seconds are no impulses" } else { AGREES }.to_owned(),
@@ -158,7 +155,7 @@ fn chart(rows: &[Row], turns: f64, phase: f64) -> Chart {
                 // Eq 8 says nothing between whole numbers of pulses.
                 Series::rings("eq 8", at_counts(|row| row.printed_rad)),
                 Series::line("exact envelope", envelope),
-                Series::dots("SpinPlant", at_counts(|row| row.flown_rad)),
+                Series::dots("SpinPlant", at_counts(|row| row.simulated_rad)),
             ],
             y_range: Some((0.0, 1.05 * envelope_deg(f64::from(FEWEST_SHOWN), phase))),
             marks: Vec::new(),

@@ -2,17 +2,16 @@
 //!
 //! Tables 7 and 8, Figures 12 and 13.
 
-mod flight;
+mod orbit;
 mod paper;
 mod table;
 mod year;
 
-use rayon::prelude::*;
-
+use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
-use flight::{Case, EFFECTS, Fleet, Planet, Sample};
+use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
 use paper::{Row, TABLE_7, TABLE_8};
 pub use year::figure13;
 
@@ -27,11 +26,11 @@ const STEP_S: f64 = 15.0;
 
 /// Table 7: one orbit with the planet standing still.
 pub fn table7(options: &Options) -> Result<Report, StudyError> {
-    let flown = fly_rows("thermal/table7", options, &TABLE_7, Planet::Still, Some(BELTS))?;
+    let simulated = simulate_rows("thermal/table7", options, &TABLE_7, Planet::Still, Some(BELTS))?;
     let mut report = Report::default();
     report
         .line("One orbit, planet standing still, cylindrical shadow (paper 004, Table 7, \"analytical\")\n");
-    table::print(&mut report, options, "table7", &flown, &[0.0015, 0.02, 0.05, 0.03])?;
+    table::print(&mut report, options, "table7", &simulated, &[0.0015, 0.02, 0.05, 0.03])?;
     report.line(REMARK);
     report.line(
         "Recoil of cases 2 to 4: the plates' emissivities are not printed, and with emissivity equal to absorptivity no\n\
@@ -42,10 +41,10 @@ pub fn table7(options: &Options) -> Result<Report, StudyError> {
 
 /// Table 8: one orbit with the planet moving.
 pub fn table8(options: &Options) -> Result<Report, StudyError> {
-    let flown = fly_rows("thermal/table8", options, &TABLE_8, Planet::Moving, Some(BELTS))?;
+    let simulated = simulate_rows("thermal/table8", options, &TABLE_8, Planet::Moving, Some(BELTS))?;
     let mut report = Report::default();
     report.line("One orbit, planet moving, no light in the penumbra (paper 004, Table 8, \"numerical\")\n");
-    table::print(&mut report, options, "table8", &flown, &[0.0015, 0.02, 0.08, 0.03])?;
+    table::print(&mut report, options, "table8", &simulated, &[0.0015, 0.02, 0.08, 0.03])?;
     report.line(REMARK);
     report.line(
         "Infrared and albedo of cases 1 and 2 cannot be had from the printed geometry by any scan tried: from Table 7 to\n\
@@ -57,13 +56,13 @@ pub fn table8(options: &Options) -> Result<Report, StudyError> {
 
 /// Figure 12: the accelerations around one orbit.
 pub fn figure12(options: &Options) -> Result<Report, StudyError> {
-    let flown = fly_rows("thermal/figure12", options, &TABLE_8, Planet::Moving, None)?;
+    let simulated = simulate_rows("thermal/figure12", options, &TABLE_8, Planet::Moving, None)?;
     let chart = Chart {
         title: "Accelerations around one orbit".to_owned(),
         x_label: "time [h]".to_owned(),
-        panels: flown
+        panels: simulated
             .iter()
-            .map(|Flown { row, samples, .. }| Panel {
+            .map(|Simulated { row, samples, .. }| Panel {
                 y_label: "a [1e-7 m/s2]".to_owned(),
                 series: (0..4).map(|k| series(k, &format!(", case {}", row.case), samples)).collect(),
                 ..Panel::default()
@@ -72,9 +71,9 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
     };
     let mut report = Report::default();
     report.line("Solar, albedo, infrared and recoil around one orbit (paper 004, Figure 12)\n");
-    let rows: Vec<Vec<String>> = flown
+    let rows: Vec<Vec<String>> = simulated
         .iter()
-        .map(|Flown { row, samples, .. }| {
+        .map(|Simulated { row, samples, .. }| {
             let lit: Vec<&Sample> = samples.iter().filter(|sample| sample.lit).collect();
             let share = |sample: &&Sample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
             let mean = lit.iter().map(share).sum::<f64>() / lit.len().max(1) as f64;
@@ -90,7 +89,7 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
     report.table(&["case", "paper: mean sum of thermal effects", "ours", "verdict"], &rows);
     report.picture(options, "figure12.svg", &chart)?;
     let header = ["case", "time_s", "solar_m_s2", "albedo_m_s2", "infrared_m_s2", "thermal_m_s2"];
-    let rows = flown.iter().flat_map(|Flown { row, samples, .. }| {
+    let rows = simulated.iter().flat_map(|Simulated { row, samples, .. }| {
         samples.iter().step_by(4).map(|sample| {
             let mut cells = vec![row.case.to_string(), format!("{}", sample.time_s)];
             cells.extend(sample.effects.iter().map(|a| format!("{a:.6e}")));
@@ -114,39 +113,30 @@ fn series(effect: usize, suffix: &str, samples: &[Sample]) -> Series {
     Series::line(format!("{}{suffix}", EFFECTS[effect]), samples.iter().map(point).collect())
 }
 
-/// One row, flown.
-struct Flown {
+/// One row, simulated.
+struct Simulated {
     row: Row,
     samples: Vec<Sample>,
     /// Where asked for.
     by_cells: Option<Vec<Sample>>,
 }
 
-/// Flies the rows that `options` leaves, on all cores.
-fn fly_rows(
+/// Runs the rows that `options` leaves, on all cores.
+fn simulate_rows(
     study: &'static str,
     options: &Options,
     rows: &[Row],
     planet: Planet,
     belts: Option<i32>,
-) -> Result<Vec<Flown>, StudyError> {
-    let label = |row: &Row| format!("case {}", row.case);
-    let only = options.only.as_deref().unwrap_or_default();
-    let chosen: Vec<&Row> = rows.iter().filter(|row| label(row).contains(only)).collect();
-    if chosen.is_empty() {
-        let known = rows.iter().map(label).collect::<Vec<_>>().join("\n  ");
-        return Err(StudyError::NothingLeft { study, only: only.to_owned(), known });
-    }
-    let fleet = Fleet::open(options)?;
-    chosen
-        .par_iter()
-        .map(|row| {
-            let true_anomaly_deg = row.true_anomaly_deg;
-            let fly = |belts| {
-                fleet.fly(&Case { true_anomaly_deg, planet, duration_s: DURATION_S, step_s: STEP_S, belts })
-            };
-            let by_cells = belts.map(|belts| fly(Some(belts))).transpose()?;
-            Ok(Flown { row: **row, samples: fly(None)?, by_cells })
-        })
-        .collect()
+) -> Result<Vec<Simulated>, StudyError> {
+    let rows = chosen(study, options, rows.iter().copied(), |row| format!("case {}", row.case))?;
+    let fmus = Fmus::open(options)?;
+    run_all(options, &rows, |row| {
+        let true_anomaly_deg = row.true_anomaly_deg;
+        let simulate = |belts| {
+            fmus.simulate(&Case { true_anomaly_deg, planet, duration_s: DURATION_S, step_s: STEP_S, belts })
+        };
+        let by_cells = belts.map(|belts| simulate(Some(belts))).transpose()?;
+        Ok(Simulated { row: *row, samples: simulate(None)?, by_cells })
+    })
 }

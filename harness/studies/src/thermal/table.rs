@@ -1,7 +1,7 @@
 //! Tables 7 and 8: extremes around the orbit beside the paper's.
 
-use super::Flown;
-use super::flight::{EFFECTS, Sample};
+use super::Simulated;
+use super::orbit::{EFFECTS, Sample};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
@@ -33,7 +33,7 @@ pub(super) fn print(
     report: &mut Report,
     options: &Options,
     name: &str,
-    flown: &[Flown],
+    simulated: &[Simulated],
     tolerances: &Tolerances,
 ) -> Result<(), StudyError> {
     let header = [
@@ -48,7 +48,7 @@ pub(super) fn print(
         "difference",
     ];
     let mut rows = Vec::new();
-    for Flown { row, samples, by_cells } in flown {
+    for Simulated { row, samples, by_cells } in simulated {
         let ours = as_printed(samples);
         let cells = by_cells.as_deref().map(as_printed);
         for effect in 0..EFFECTS.len() {
@@ -72,14 +72,14 @@ pub(super) fn print(
     }
     report.table(&header, &rows);
     report.csv(options, &format!("{name}.csv"), &header, rows)?;
-    report.picture(options, &format!("{name}.svg"), &chart(flown))
+    report.picture(options, &format!("{name}.svg"), &chart(simulated))
 }
 
 /// The greatest of each effect by case: the paper's between ours.
-fn chart(flown: &[Flown]) -> Chart {
-    let dots = |label: &str, aside: f64, greatest: &dyn Fn(&Flown) -> f64| {
-        let point = |it: &Flown| (f64::from(it.row.case) + aside, greatest(it));
-        Series::dots(label, flown.iter().map(point).collect())
+fn chart(simulated: &[Simulated]) -> Chart {
+    let dots = |label: &str, aside: f64, greatest: &dyn Fn(&Simulated) -> f64| {
+        let point = |it: &Simulated| (f64::from(it.row.case) + aside, greatest(it));
+        Series::dots(label, simulated.iter().map(point).collect())
     };
     let panel = |effect: usize| Panel {
         y_label: format!("{} [{}]", EFFECTS[effect], if effect == 0 { "1e-7 m/s2" } else { "% of solar" }),

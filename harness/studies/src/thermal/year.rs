@@ -3,20 +3,20 @@
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
-use super::flight::{Case, EFFECTS, Fleet, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
+use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
 
 /// Time between samples, in s.
 const STEP_S: f64 = 60.0;
 
 /// Least, mean and greatest of one quantity over one orbit.
 #[derive(Clone, Copy, Debug)]
-struct Spread {
+struct Range {
     least: f64,
     mean: f64,
     greatest: f64,
 }
 
-impl Spread {
+impl Range {
     fn of(values: impl Iterator<Item = f64>) -> Self {
         let (mut least, mut greatest, mut sum, mut count) = (f64::INFINITY, 0.0_f64, 0.0, 0_u32);
         for value in values {
@@ -32,7 +32,7 @@ impl Spread {
 /// What one orbit comes to.
 struct Orbit {
     true_anomaly_deg: f64,
-    effects: [Spread; 4],
+    effects: [Range; 4],
     /// Mean share of albedo, infrared and recoil in solar, in the light.
     mean_thermal_share: f64,
 }
@@ -43,8 +43,8 @@ impl Orbit {
         let share = |sample: &Sample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
         Self {
             true_anomaly_deg: samples.first().map_or(0.0, |sample| sample.true_anomaly_deg),
-            effects: [0, 1, 2, 3].map(|k| Spread::of(samples.iter().map(|sample| sample.effects[k]))),
-            mean_thermal_share: Spread::of(lit().map(share)).mean,
+            effects: [0, 1, 2, 3].map(|k| Range::of(samples.iter().map(|sample| sample.effects[k]))),
+            mean_thermal_share: Range::of(lit().map(share)).mean,
         }
     }
 }
@@ -56,7 +56,7 @@ fn row(quantity: &str, paper: &str, ours: String, agrees: bool) -> Vec<String> {
 
 /// Figure 13: accelerations over a Mercury year; least, mean and greatest of every orbit.
 pub fn figure13(options: &Options) -> Result<Report, StudyError> {
-    let fleet = Fleet::open(options)?;
+    let fmus = Fmus::open(options)?;
     let case = Case {
         true_anomaly_deg: 0.0,
         planet: Planet::Moving,
@@ -64,7 +64,7 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
         step_s: STEP_S,
         belts: None,
     };
-    let samples = fleet.fly(&case)?;
+    let samples = fmus.simulate(&case)?;
     let orbit_of = |sample: &Sample| (sample.time_s / ORBIT_S) as u64;
     let orbits: Vec<Orbit> = samples.chunk_by(|a, b| orbit_of(a) == orbit_of(b)).map(Orbit::of).collect();
     let mut report = Report::default();
@@ -72,7 +72,7 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
     let lit = || samples.iter().filter(|sample| sample.lit);
     let greatest = |value: &dyn Fn(&Sample) -> f64| lit().map(value).fold(0.0, f64::max);
     let shares = orbits.iter().map(|orbit| orbit.mean_thermal_share);
-    let mean_share = Spread::of(shares);
+    let mean_share = Range::of(shares);
     let infrared = greatest(&|sample| sample.effects[2] / sample.effects[0]);
     let thermal = greatest(&|sample| sample.effects[3] / sample.effects[0]);
     let scalar = greatest(&|sample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0]);
@@ -128,7 +128,7 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
 }
 
 fn chart(orbits: &[Orbit]) -> Chart {
-    let panel = |name: &str, pick: fn(&Spread) -> f64| Panel {
+    let panel = |name: &str, pick: fn(&Range) -> f64| Panel {
         y_label: format!("{name} a [1e-7 m/s2]"),
         series: (0..4)
             .map(|k| {
@@ -142,9 +142,9 @@ fn chart(orbits: &[Orbit]) -> Chart {
         title: "Accelerations over a Mercury year, by orbit".to_owned(),
         x_label: "true anomaly of Mercury [deg]".to_owned(),
         panels: vec![
-            panel("greatest", |spread| spread.greatest),
-            panel("mean", |spread| spread.mean),
-            panel("least", |spread| spread.least),
+            panel("greatest", |range| range.greatest),
+            panel("mean", |range| range.mean),
+            panel("least", |range| range.least),
         ],
     }
 }

@@ -5,7 +5,10 @@ mod dependencies;
 mod setup;
 mod variables;
 
-use fmi_export::{About, Context, Dependencies, Failure, Model, Real, Step, Values};
+use fmi_export::{
+    About, Context, Dependencies, Differentiable, Extensions, Failure, InputsOverTime, Model, OutputRates,
+    Real, Step, StepEnd, Values,
+};
 use serde::{Deserialize, Serialize};
 
 pub use setup::{Channel, Setup};
@@ -59,8 +62,7 @@ impl Model for AllTypes {
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("all-types.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../resources/all-types.toml");
-    const MAX_OUTPUT_DERIVATIVE_ORDER: u32 = 1;
-    const PROVIDES_DIRECTIONAL_DERIVATIVE: bool = true;
+    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates().differentiable();
 
     type Setup = Setup;
     type Variables = AllTypesVariables;
@@ -97,8 +99,12 @@ impl Model for AllTypes {
         let integer = values.integer(variables.parameter.integer);
         values.set_integer(role.local_fixed, integer.saturating_add(1));
 
-        let still =
-            Step { start_s: start_time_s, end_s: start_time_s, changed: true, input_derivatives: &[] };
+        let still = Step {
+            start_s: start_time_s,
+            end_s: start_time_s,
+            changed: true,
+            inputs: InputsOverTime::held(),
+        };
         let mut state = State {
             start_time_s,
             steps: 0,
@@ -120,12 +126,12 @@ impl Model for AllTypes {
         values: &mut Values,
         state: &mut State,
         step: &Step<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<StepEnd, Failure> {
         let variables = context.variables;
         report(context, values, state, step);
         let ends_at_s = values.real(variables.end.time);
         if ends_at_s < step.start_s {
-            return Err(Failure::terminated("`end.time` is over"));
+            return Ok(StepEnd::at(step.start_s).terminate("`end.time` is over"));
         }
         let whole_end_s = step.end_s;
         let step = &Step { end_s: whole_end_s.min(ends_at_s), ..*step };
@@ -136,51 +142,49 @@ impl Model for AllTypes {
         let exact = values.integer(variables.role.output_exact);
         values.set_integer(variables.role.output_exact, exact.saturating_add(1));
         if step.end_s < whole_end_s {
-            return Err(Failure::terminated_at("`end.time` is reached", step.end_s));
+            return Ok(StepEnd::at(step.end_s).terminate("`end.time` is reached"));
         }
-        Ok(())
+        Ok(StepEnd::at(step.end_s))
     }
 
     fn check_state(setup: &Setup, state: &State) -> Result<(), Failure> {
-        let (wanted, found) = (10 + setup.channel.len(), state.feedthroughs.len());
-        if wanted == found {
+        let (expected, found) = (10 + setup.channel.len(), state.feedthroughs.len());
+        if expected == found {
             return Ok(());
         }
-        Err(Failure::new(format!("the state has {found} feedthroughs, the setup {wanted}")))
+        Err(Failure::new(format!("the state has {found} feedthroughs, the setup {expected}")))
     }
 
-    fn output_derivative(
-        context: &Context<'_, Self>,
-        values: &Values,
-        state: &State,
-        output: Real,
-    ) -> Option<f64> {
+    fn dependencies(_setup: &Setup, variables: &AllTypesVariables) -> Dependencies {
+        dependencies::table(variables)
+    }
+}
+
+impl OutputRates for AllTypes {
+    fn output_rate(context: &Context<'_, Self>, values: &Values, state: &State, output: Real) -> Option<f64> {
         if output == context.variables.output.integral {
             return Some(values.real(context.variables.output.real));
         }
         let at = context.variables.pairs().position(|(_, to, _)| to == output)?;
         state.feedthroughs.get(at).map(|it| it.gain * it.slope)
     }
+}
 
-    fn dependencies(_setup: &Setup, variables: &AllTypesVariables) -> Dependencies {
-        dependencies::table(variables)
-    }
-
-    fn directional_derivative(
+impl Differentiable for AllTypes {
+    fn jacobian_vector_product(
         context: &Context<'_, Self>,
         _values: &Values,
         state: &State,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        result: &mut [f64],
+        unknowns: &[Real],
+        seeds: &[(Real, f64)],
+        products: &mut [f64],
     ) -> Result<(), Failure> {
-        for (unknown, result) in unknowns.iter().zip(result) {
-            *result = 0.0;
+        for (unknown, product) in unknowns.iter().zip(products) {
+            *product = 0.0;
             for ((from, to, _), feedthrough) in context.variables.pairs().zip(&state.feedthroughs) {
-                if to.reference() == *unknown {
-                    let seeds = knowns.iter().zip(seed).filter(|(known, _)| **known == from.reference());
-                    *result += feedthrough.gain * seeds.map(|(_, seed)| seed).sum::<f64>();
+                if to == *unknown {
+                    let along = seeds.iter().filter(|(known, _)| *known == from);
+                    *product += feedthrough.gain * along.map(|(_, seed)| seed).sum::<f64>();
                 }
             }
         }
@@ -208,7 +212,7 @@ fn write_outputs(variables: &AllTypesVariables, values: &mut Values, state: &mut
     for ((from, to, gain), feedthrough) in variables.pairs().zip(&mut state.feedthroughs) {
         feedthrough.gain = gain.map_or(1.0, |gain| values.real(gain));
         feedthrough.slope = slope(step, from);
-        values.set_real(to, feedthrough.gain * step.input(values, from, step.end_s));
+        values.set_real(to, feedthrough.gain * step.inputs.real(values, from, step.end_s));
     }
     let AllTypesVariables { tunable, input, output, echo, role, .. } = variables;
     values.set_real(output.discrete_real, values.real(input.discrete_real));
@@ -248,7 +252,7 @@ fn integrate(integral: &mut Integral, values: &Values, input: Real, step: &Step<
     }
     let mut value = integral.value_there + integral.signal * (step.end_s - integral.since_s);
     let mut curved = false;
-    for &(_, order, derivative) in derivatives(step, input) {
+    for (order, derivative) in step.inputs.derivatives(input) {
         value += taylor(derivative, order.saturating_add(1), step.end_s - step.start_s);
         curved = true;
     }
@@ -260,13 +264,10 @@ fn integrate(integral: &mut Integral, values: &Values, input: Real, step: &Step<
 
 /// The slope of an input at the end of the step.
 fn slope(step: &Step<'_>, input: Real) -> f64 {
-    derivatives(step, input)
-        .map(|&(_, order, derivative)| taylor(derivative, order - 1, step.end_s - step.start_s))
+    step.inputs
+        .derivatives(input)
+        .map(|(order, derivative)| taylor(derivative, order - 1, step.end_s - step.start_s))
         .sum()
-}
-
-fn derivatives<'a>(step: &Step<'a>, input: Real) -> impl Iterator<Item = &'a (u32, u32, f64)> {
-    step.input_derivatives.iter().filter(move |(of, order, _)| *of == input.reference() && *order > 0)
 }
 
 /// derivative * dt^order / order!

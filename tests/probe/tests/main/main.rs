@@ -1,5 +1,5 @@
-//! The probes by themselves, and their accidents behind the C functions.
+//! The probes by themselves, and their faults behind the C functions.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
-mod accidents;
+mod faults;
 mod models;

@@ -3,11 +3,15 @@
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use fmi_export::fmi2::scalar_variables;
 use fmi_export::model::Log;
-use fmi_export::variables::{Causality, Table, Variability};
-use fmi_export::{Context, Declare, Enumeration, Model, Step, Values, Variables};
+use fmi_export::variables::{Causality, Variability};
+use fmi_export::{
+    Context, Declare, Differentiable, Enumeration, InputDerivative, InputsOverTime, Interface, Model,
+    OutputRates, Step, StepEnd, Values, Variables,
+};
 use model_description::{rules::INITIAL_TABLE, validate};
-use probe::panicking::Accident;
+use probe::panicking::Fault;
 use probe::{AllTypes, Empty, Panicking};
 
 struct Silent;
@@ -23,7 +27,7 @@ impl Log for Silent {
 struct Run<M: Model> {
     setup: M::Setup,
     variables: M::Variables,
-    table: Table,
+    interface: Interface,
     values: Values,
 }
 
@@ -32,9 +36,9 @@ impl<M: Model> Run<M> {
         let setup = M::parse_setup("default", M::DEFAULT_SETUP).unwrap();
         let mut scope = Declare::new();
         let variables = M::Variables::declare(&mut scope, &setup, 0).unwrap();
-        let table = scope.finish();
-        let values = table.start.clone();
-        Self { setup, variables, table, values }
+        let interface = scope.finish();
+        let values = interface.start.clone();
+        Self { setup, variables, interface, values }
     }
 
     fn call<T>(&mut self, call: impl FnOnce(&Context<'_, M>, &mut Values) -> T) -> T {
@@ -46,21 +50,22 @@ impl<M: Model> Run<M> {
         self.call(|context, values| M::initialize(context, values, start_time_s)).unwrap()
     }
 
-    fn step(&mut self, state: &mut M::State, times_s: (f64, f64), changed: bool, slopes: &[(u32, u32, f64)]) {
+    fn step(&mut self, state: &mut M::State, times_s: (f64, f64), changed: bool, slopes: &[InputDerivative]) {
         let (start_s, end_s) = times_s;
-        let step = Step { start_s, end_s, changed, input_derivatives: slopes };
-        self.call(|context, values| M::step(context, values, state, &step)).unwrap();
+        let step = Step { start_s, end_s, changed, inputs: InputsOverTime::new(start_s, slopes) };
+        let end = self.call(|context, values| M::step(context, values, state, &step)).unwrap();
+        assert_eq!(end, StepEnd::at(end_s));
     }
 }
 
 #[test]
 fn every_legal_role_but_the_independent_one_is_there() {
-    let table = Run::<AllTypes>::new().table;
-    let roles: BTreeSet<_> = table.variables.iter().map(|it| (it.causality, it.variability)).collect();
+    let variables = scalar_variables(&Run::<AllTypes>::new().interface);
+    let roles: BTreeSet<_> = variables.iter().map(|it| (it.causality, it.variability)).collect();
     let legal = INITIAL_TABLE.iter().map(|row| (row.causality, row.variability));
     assert_eq!(roles, legal.filter(|(causality, _)| *causality != Causality::Independent).collect());
     assert!(roles.contains(&(Causality::Output, Variability::Constant)));
-    let names: Vec<_> = table.variables.iter().map(|it| it.name.as_str()).collect();
+    let names: Vec<_> = variables.iter().map(|it| it.name.as_str()).collect();
     for name in ["parameter.matrix[2,3]", "tunable.text", "output.vector[3]", "channel[2].gain"] {
         assert!(names.contains(&name), "{name}");
     }
@@ -84,14 +89,14 @@ fn outputs_are_inputs_at_the_end_of_the_step() {
     run.values.set_real(channel, 0.5);
     run.values.set_text(run.variables.input.text, "Ωμέγα");
     // u = 2 + 3 dt + 4 dt^2 / 2 over dt = 0.5
-    let slopes = [(input.reference(), 1, 3.0), (input.reference(), 2, 4.0)];
+    let slopes = [(1, 3.0), (2, 4.0)].map(|(order, value)| InputDerivative { input, order, value });
     run.step(&mut state, (5.0, 5.5), true, &slopes);
     assert_eq!(run.values.real(output), 4.0);
     assert_eq!(run.values.real(run.variables.channel[1].output), -1.5);
     assert_eq!(run.values.text(run.variables.output.text), "Ωμέγα");
     let integral = run.values.real(run.variables.output.integral);
     assert!((integral - (1.0 + 0.375 + 4.0 * 0.125 / 6.0)).abs() < 1e-15);
-    let slope = run.call(|context, values| AllTypes::output_derivative(context, values, &state, output));
+    let slope = run.call(|context, values| AllTypes::output_rate(context, values, &state, output));
     assert_eq!(slope, Some(5.0));
     run.step(&mut state, (5.5, 6.5), true, &[]);
     assert_eq!(run.values.real(run.variables.output.integral), integral + 2.0);
@@ -123,18 +128,10 @@ fn directional_derivatives_are_the_gains() {
     let unknowns =
         [variables.channel[0].output, variables.channel[1].output, variables.output.vector.element(1)];
     let knowns = [variables.input.vector.element(1), variables.channel[1].input];
-    let (unknowns, knowns) = (unknowns.map(|it| it.reference()), knowns.map(|it| it.reference()));
     let mut result = [f64::NAN; 3];
     run.call(|context, values| {
-        AllTypes::directional_derivative(
-            context,
-            values,
-            &state,
-            &unknowns,
-            &knowns,
-            &[2.0, 5.0],
-            &mut result,
-        )
+        let seeds = [(knowns[0], 2.0), (knowns[1], 5.0)];
+        AllTypes::jacobian_vector_product(context, values, &state, &unknowns, &seeds, &mut result)
     })
     .unwrap();
     assert_eq!(result, [0.0, -15.0, 2.0]);
@@ -154,26 +151,35 @@ fn a_state_of_other_channels_is_refused() {
 fn the_empty_model_tells_the_time() {
     let mut run = Run::<Empty>::new();
     run.initialize(1.0);
-    assert_eq!(run.table.variables.len(), 1);
+    assert_eq!(run.interface.variables.len(), 1);
     run.step(&mut (), (1.0, 2.5), false, &[]);
-    assert_eq!(run.table.variables[0].name, "clock");
-    assert_eq!(run.values.real(fmi_export::Real::from_reference(0)), 2.5);
+    assert_eq!(run.interface.variables[0].name, "clock");
+    assert_eq!(run.values.real(run.variables.clock), 2.5);
 }
 
-/// What became of a run with an accident: "panic", the failure's text, or "ok".
-fn outcome(accident: Accident) -> String {
+/// What became of a run with an fault: "panic", the failure's text, or "ok".
+fn outcome(fault: Fault) -> String {
     let run = || -> Result<(), String> {
         let mut run = Run::<Panicking>::new();
-        run.values.set_choice(run.variables.accident, accident);
+        run.values.set_choice(run.variables.fault, fault);
         let start = run.call(|context, values| Panicking::initialize(context, values, 0.0));
         let mut state = start.map_err(|it| it.to_string())?;
-        let step = Step { start_s: 0.0, end_s: 1.0, changed: false, input_derivatives: &[] };
+        let step = Step { start_s: 0.0, end_s: 1.0, changed: false, inputs: InputsOverTime::held() };
         let end = run.call(|context, values| Panicking::step(context, values, &mut state, &step));
-        end.map_err(|it| it.to_string())?;
-        let output = run.variables.output;
+        if let Some(reason) = end.map_err(|it| it.to_string())?.terminate {
+            return Err(reason);
+        }
+        let (input, output) = (run.variables.input, run.variables.output);
         run.call(|context, values| {
-            let _ = Panicking::output_derivative(context, values, &state, output);
-            Panicking::directional_derivative(context, values, &state, &[0], &[0], &[1.0], &mut [0.0])
+            let _ = Panicking::output_rate(context, values, &state, output);
+            Panicking::jacobian_vector_product(
+                context,
+                values,
+                &state,
+                &[output],
+                &[(input, 1.0)],
+                &mut [0.0],
+            )
         })
         .map_err(|it| it.to_string())?;
         let bytes = postcard::to_stdvec(&state).map_err(|it| it.to_string())?;
@@ -193,18 +199,18 @@ fn outcome(accident: Accident) -> String {
 }
 
 #[test]
-fn every_accident_happens_where_it_should() {
-    for item in Accident::items() {
-        let accident = Accident::from_value(item.value).unwrap();
-        let found = outcome(accident);
-        match accident {
-            Accident::Nowhere => assert_eq!(found, "ok"),
-            Accident::FailInitialize => assert!(found.starts_with("initialize fails")),
-            Accident::FailStep => assert!(found.starts_with("step fails")),
-            Accident::TerminateStep => assert_eq!(found, "the model ends here"),
-            Accident::FailCheckState => assert!(found.starts_with("this state is refused")),
-            Accident::FailSerializeState => assert_ne!(found, "panic"),
-            _ => assert_eq!(found, "panic", "{accident:?}"),
+fn every_fault_happens_where_it_should() {
+    for item in Fault::TYPE.items {
+        let fault = Fault::from_value(item.value).unwrap();
+        let found = outcome(fault);
+        match fault {
+            Fault::Nowhere | Fault::StepShort | Fault::StepStill => assert_eq!(found, "ok"),
+            Fault::FailInitialize => assert!(found.starts_with("initialize fails")),
+            Fault::FailStep => assert!(found.starts_with("step fails")),
+            Fault::TerminateStep => assert_eq!(found, "the model ends here"),
+            Fault::FailCheckState => assert!(found.starts_with("this state is refused")),
+            Fault::FailSerializeState => assert_ne!(found, "panic"),
+            _ => assert_eq!(found, "panic", "{fault:?}"),
         }
     }
     for (place, panics) in [("nowhere", false), ("parseSetup", true), ("about", true), ("declare", true)] {

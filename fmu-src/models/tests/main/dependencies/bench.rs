@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use fmi_export::fmi2::description_of;
 use fmi_export::model::Log;
 use fmi_export::model_description::{
     Causality, Description, Initial, SimpleTypeKind, Unknown, Variability, VariableKind, rules,
 };
-use fmi_export::{Context, Declare, Model, Step, Values, Variables, describe};
+use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
 
 use super::super::named_model::Tables;
 
@@ -153,7 +154,7 @@ impl<M: Model> Bench<M> {
         let mut scope = Declare::new();
         let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
         let start = scope.finish().start;
-        let description = describe::<M>("spacecraft.toml", text).unwrap();
+        let description = description_of::<M>("spacecraft.toml", text).unwrap();
         let variables = variables(&description);
         let by_name = variables.iter().enumerate().map(|(at, v)| (v.name.clone(), at)).collect();
         let structure = &description.structure;
@@ -270,7 +271,8 @@ impl<M: Model> Bench<M> {
 
     pub fn step(&self, flight: &mut TorqueModel<M>, length_s: f64) -> Option<()> {
         let end_s = flight.time_s + length_s;
-        let step = Step { start_s: flight.time_s, end_s, changed: flight.changed, input_derivatives: &[] };
+        let step =
+            Step { start_s: flight.time_s, end_s, changed: flight.changed, inputs: InputsOverTime::held() };
         let mut values = flight.values.back();
         M::step(&self.context(), &mut values, &mut flight.state, &step).ok()?;
         flight.values = Tables::of(&values);

@@ -1,11 +1,12 @@
 //! DisturbanceTorque through FMI's functions, its variables by name, and geometries to put it in.
 
+use core::ops::{Deref, DerefMut};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fmi_export::abi::InProcess;
+use client::{InProcess, NamedInstance};
 use fmi_export::{Entry, Library, Status};
-use model_description::{Causality, Description};
+use model_description::Causality;
 use models::DisturbanceTorque;
 
 pub static LIBRARY: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
@@ -52,24 +53,27 @@ fn resources(name: &str, text: &str) -> std::path::PathBuf {
     folder
 }
 
-/// The model through FMI's functions, its variables by name.
-pub struct Disturbance {
-    pub fmu: InProcess,
-    pub description: Description,
-    pub names: BTreeMap<String, u32>,
-    pub time_s: f64,
+/// The model through FMI's functions.
+pub struct Disturbance(NamedInstance);
+
+impl Deref for Disturbance {
+    type Target = NamedInstance;
+
+    fn deref(&self) -> &NamedInstance {
+        &self.0
+    }
+}
+
+impl DerefMut for Disturbance {
+    fn deref_mut(&mut self) -> &mut NamedInstance {
+        &mut self.0
+    }
 }
 
 impl Disturbance {
-    fn new(fmu: InProcess, description: Description) -> Self {
-        let names = description.variables.iter().map(|v| (v.name.clone(), v.value_reference)).collect();
-        Self { fmu, description, names, time_s: 0.0 }
-    }
-
     /// MESSENGER as shipped.
     pub fn messenger() -> Self {
-        let description = LIBRARY.find("DisturbanceTorque").unwrap().describe(None, None).unwrap();
-        Self::new(InProcess::of(&LIBRARY, "DisturbanceTorque").unwrap(), description)
+        Self(NamedInstance::of(&LIBRARY, "DisturbanceTorque"))
     }
 
     /// The spacecraft with shadows.
@@ -84,54 +88,22 @@ impl Disturbance {
         let description = entry.describe(Some("spacecraft.toml"), Some(text)).unwrap();
         let location = format!("file://{}", folder.display());
         let fmu = InProcess::instantiate(&LIBRARY, &description.guid, Some(&location)).unwrap();
-        Self::new(fmu, description)
-    }
-
-    pub fn at(&self, name: &str) -> u32 {
-        *self.names.get(name).unwrap_or_else(|| panic!("no variable {name}"))
-    }
-
-    pub fn put(&mut self, name: &str, value: f64) {
-        let at = self.at(name);
-        assert_eq!(self.fmu.set_real(&[at], &[value]), Status::Ok, "{name} = {value}");
+        Self(NamedInstance::new(fmu, description))
     }
 
     /// With light of the planet by cells in so many belts.
     pub fn by_cells(mut self, belts: i32) -> Self {
-        let at = [self.at("planetLight.method"), self.at("planetLight.belts")];
-        assert_eq!(self.fmu.set_integer(&at, &[2, belts]), Status::Ok);
+        self.put_integer("planetLight.method", 2);
+        self.put_integer("planetLight.belts", belts);
         self
     }
 
-    pub fn put_vector(&mut self, name: &str, value: [f64; 3]) {
-        for (i, value) in value.into_iter().enumerate() {
-            self.put(&format!("{name}[{}]", i + 1), value);
-        }
-    }
-
     pub fn start(&mut self) {
-        assert_eq!(self.fmu.start(0.0, None), Status::Ok, "{:?}", self.fmu.take_messages());
+        self.begin(0.0);
     }
 
     pub fn step(&mut self) -> Status {
-        let status = self.fmu.do_step(self.time_s, 1.0);
-        self.time_s += 1.0;
-        status
-    }
-
-    pub fn real(&mut self, name: &str) -> f64 {
-        let at = self.at(name);
-        self.read(&[at])[0]
-    }
-
-    pub fn read(&mut self, references: &[u32]) -> Vec<f64> {
-        let mut values = vec![0.0; references.len()];
-        assert_eq!(self.fmu.get_real(references, &mut values), Status::Ok);
-        values
-    }
-
-    pub fn vector(&mut self, name: &str) -> [f64; 3] {
-        [1, 2, 3].map(|i| self.real(&format!("{name}[{i}]")))
+        self.try_step(1.0)
     }
 
     /// Name of a Real.
@@ -213,8 +185,8 @@ impl RandomNumbers {
             values.insert(fmu.at(&format!("spacecraft.centerOfMass[{}]", i + 1)), self.next() - 0.5);
         }
         for k in 1.. {
-            match fmu.names.get(&format!("panel[{k}].angle")) {
-                Some(angle) => values.insert(*angle, 6.0 * self.next() - 3.0),
+            match fmu.find(&format!("panel[{k}].angle")) {
+                Some(angle) => values.insert(angle, 6.0 * self.next() - 3.0),
                 None => break,
             };
         }

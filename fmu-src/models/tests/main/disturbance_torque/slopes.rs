@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use fmi_export::Status;
 use model_description::Causality;
+use model_description::Status;
 
 use super::driver::{Disturbance, RandomNumbers};
 

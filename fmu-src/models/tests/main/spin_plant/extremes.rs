@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use fmi_export::Status;
+use model_description::Status;
 use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind};
 
 use super::driver::{Spinner, assert_names, description};
@@ -111,7 +111,7 @@ fn every_step_of_a_legal_flight_is_answered() {
         }
         for length_s in [1.0, 1e3, 1e6, 1e9, 1e12] {
             let begun = Instant::now();
-            let status = spinner.fmu.do_step(spinner.time_s, length_s);
+            let status = spinner.try_step(length_s);
             keep(begun, &format!("a step of {length_s} s"));
             if status != Status::Ok {
                 assert_eq!(status, Status::Error);
@@ -120,7 +120,6 @@ fn every_step_of_a_legal_flight_is_answered() {
                 failed += 1;
                 break;
             }
-            spinner.time_s += length_s;
             well += 1;
             let outputs = spinner.outputs();
             assert!(outputs.iter().all(|x| x.is_finite()), "flight {flight}: {outputs:?} {inputs_set:?}");

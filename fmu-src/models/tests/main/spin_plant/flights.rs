@@ -1,7 +1,7 @@
 //! SpinPlant through FMI's functions does what its physics does, on any grid.
 
-use fmi_export::Status;
-use fmi_export::abi::StatePointer;
+use client::StatePointer;
+use model_description::Status;
 use model_description::validate;
 
 use super::driver::{Spinner, description};

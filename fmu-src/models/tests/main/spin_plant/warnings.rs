@@ -1,6 +1,6 @@
 //! What can be flown but will disappoint is logged once, in the instance's log.
 
-use fmi_export::Status;
+use model_description::Status;
 
 use super::driver::Spinner;
 

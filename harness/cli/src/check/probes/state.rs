@@ -1,7 +1,7 @@
 //! States: saved, restored, serialised, reset, all to the bit.
 
-use fmi_export::call_table::State;
 use loader::Fmu;
+use model_description::call_table::State;
 
 use super::{
     Finding, Findings,

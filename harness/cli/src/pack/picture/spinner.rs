@@ -1,6 +1,6 @@
 //! The picture of a spinner: left from aside with the spin axis upwards, right along the spin axis from +Z.
 //!
-//! Its file describes no body, so a drum through the outermost thrusters stands for it; each thruster stands where it
+//! Its file describes no body, so a cylinder through the outermost thrusters stands for it; each thruster stands where it
 //! is and blows against its force.
 
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use toml::Table;
 
 use super::{HEIGHT, MARGIN, Vector, WIDTH, dot, rows, unit, vector_of};
 
-/// Lengths as parts of the drum's radius.
+/// Lengths as parts of the cylinder's radius.
 const NOZZLE: f64 = 0.16;
 const PLUME: f64 = 0.30;
 const THROAT_HALF_WIDTH: f64 = 0.03;
@@ -23,8 +23,8 @@ struct Thruster {
     jet: Vector,
 }
 
-/// The drum in the body frame, about +Z.
-struct Drum {
+/// The cylinder in the body frame, about +Z.
+struct Cylinder {
     radius_m: f64,
     low_m: f64,
     high_m: f64,
@@ -56,10 +56,10 @@ pub fn svg(spacecraft: &Table) -> Option<String> {
             Some(Thruster { position_m: vector_of(row, "position_m")?, jet: force.map(|x| -x) })
         })
         .collect::<Option<_>>()?;
-    let drum = Drum::through(&thrusters)?;
-    let middle_body_m = [0.0, 0.0, (drum.low_m + drum.high_m) / 2.0];
-    let reach_m = drum.radius_m * (1.0 + NOZZLE + PLUME);
-    let tall_m = (drum.high_m - drum.low_m) / 2.0 + drum.radius_m * AXIS_OVERHANG;
+    let cylinder = Cylinder::through(&thrusters)?;
+    let middle_body_m = [0.0, 0.0, (cylinder.low_m + cylinder.high_m) / 2.0];
+    let reach_m = cylinder.radius_m * (1.0 + NOZZLE + PLUME);
+    let tall_m = (cylinder.high_m - cylinder.low_m) / 2.0 + cylinder.radius_m * AXIS_OVERHANG;
     let pixels_per_m =
         ((WIDTH / 2.0 - MARGIN) / (2.0 * reach_m)).min((HEIGHT - MARGIN) / (2.0 * tall_m.max(reach_m)));
     let view = |right, up, viewer, part: f64| View {
@@ -82,21 +82,21 @@ pub fn svg(spacecraft: &Table) -> Option<String> {
          <stop offset=\"1\" stop-color=\"#d9ceb4\"/></linearGradient></defs>\
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#ffffff\"/>"
     );
-    for (view, drawn_drum) in [(&aside, drum.side(&aside)), (&along, drum.deck(&along))] {
+    for (view, drawn_cylinder) in [(&aside, cylinder.side(&aside)), (&along, cylinder.deck(&along))] {
         let depth = |thruster: &Thruster| {
             let from_middle: Vector = std::array::from_fn(|i| thruster.position_m[i] - middle_body_m[i]);
             dot(from_middle, view.viewer)
         };
         let (behind, before): (Vec<_>, Vec<_>) = thrusters.iter().partition(|thruster| depth(thruster) < 0.0);
-        svg.extend(behind.into_iter().map(|thruster| thruster.draw(view, &drum)));
-        svg.push_str(&drawn_drum);
-        svg.extend(before.into_iter().map(|thruster| thruster.draw(view, &drum)));
+        svg.extend(behind.into_iter().map(|thruster| thruster.draw(view, &cylinder)));
+        svg.push_str(&drawn_cylinder);
+        svg.extend(before.into_iter().map(|thruster| thruster.draw(view, &cylinder)));
     }
     svg.push_str("</svg>");
     Some(svg)
 }
 
-impl Drum {
+impl Cylinder {
     fn through(thrusters: &[Thruster]) -> Option<Self> {
         let radii = thrusters.iter().map(|thruster| thruster.position_m[0].hypot(thruster.position_m[1]));
         let radius_m = radii.reduce(f64::max)?;
@@ -104,8 +104,8 @@ impl Drum {
         let (low, high) = (heights().reduce(f64::min)?, heights().reduce(f64::max)?);
         // Thrusters in one plane still need a body.
         let missing = (0.3 * radius_m - (high - low)).max(0.0) / 2.0;
-        let drum = Self { radius_m, low_m: low - missing, high_m: high + missing };
-        (drum.radius_m > 1e-9 && (drum.high_m - drum.low_m).is_finite()).then_some(drum)
+        let cylinder = Self { radius_m, low_m: low - missing, high_m: high + missing };
+        (cylinder.radius_m > 1e-9 && (cylinder.high_m - cylinder.low_m).is_finite()).then_some(cylinder)
     }
 
     /// From aside: the outline, and the spin axis with its sense.
@@ -148,8 +148,8 @@ impl Drum {
 }
 
 impl Thruster {
-    fn draw(&self, view: &View, drum: &Drum) -> String {
-        let unit_px = view.pixels_per_m * drum.radius_m;
+    fn draw(&self, view: &View, cylinder: &Cylinder) -> String {
+        let unit_px = view.pixels_per_m * cylinder.radius_m;
         let (x, y) = view.screen(self.position_m);
         let (right, up) = (dot(self.jet, view.right), dot(self.jet, view.up));
         let seen = right.hypot(up);
@@ -234,7 +234,7 @@ mod tests {
                 exit(nozzle).0 > throat(nozzle).0 + 5.0 && (exit(nozzle).1 - throat(nozzle).1).abs() < 0.02
             );
         }
-        // The drum's side is 0.4 m high, and 0.5 m lie between its axis and the throats.
+        // The cylinder's side is 0.4 m high, and 0.5 m lie between its axis and the throats.
         let pixels_per_m = (throat(upper).0 - WIDTH / 4.0) / 0.5;
         assert!((throat(lower).1 - throat(upper).1 - 0.4 * pixels_per_m).abs() < 0.05);
         assert!((throat(shown).0 - WIDTH * 0.75 - 0.5 * pixels_per_m).abs() < 0.05);

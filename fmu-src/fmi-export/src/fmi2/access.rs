@@ -1,0 +1,195 @@
+//! Per variable, computed once: when it may be set and read, its limits, its name.
+//!
+//! The arrays run parallel to the flat value tables, so a get or set costs a subtraction, one byte and one pair of
+//! limits.
+
+use model_description::call_table::Condition;
+use model_description::{
+    BaseType, Causality, Description, ScalarVariable, SimpleTypeKind, Unknown, Variability, VariableKind,
+};
+
+use super::references;
+use crate::variables::Values;
+
+/// Settable in `instantiated`.
+pub(crate) const SET_INSTANTIATED: u8 = 1;
+/// Settable in Initialization Mode.
+pub(crate) const SET_INITIALIZATION: u8 = 1 << 1;
+/// Settable between steps.
+pub(crate) const SET_STEP: u8 = 1 << 2;
+/// Readable in Initialization Mode by the letter of the standard.
+pub(crate) const GET_INITIALIZATION: u8 = 1 << 3;
+/// An input.
+pub(crate) const INPUT: u8 = 1 << 4;
+/// Written by the importer only: what is read is what was set.
+pub(crate) const SET_BY_IMPORTER: u8 = 1 << 5;
+/// Continuous.
+pub(crate) const CONTINUOUS: u8 = 1 << 6;
+/// An output.
+pub(crate) const OUTPUT: u8 = 1 << 7;
+
+/// The access rules of every variable of one model.
+#[derive(Debug, Default)]
+pub(crate) struct AccessTable {
+    flags: [Vec<u8>; 4],
+    names: [Vec<String>; 4],
+    /// References in the order of the XML, for what the structure says.
+    references: Vec<u32>,
+    outputs: Vec<Unknown>,
+    initial_unknowns: Vec<Unknown>,
+    /// Smallest and largest admitted Real; infinities and NaN are never admitted.
+    pub(crate) real_limits: Vec<(f64, f64)>,
+    /// Smallest and largest admitted Integer.
+    pub(crate) integer_limits: Vec<(i32, i32)>,
+    /// Of an enumeration, the item values in ascending order where they have gaps.
+    pub(crate) integer_items: Vec<Option<Box<[i32]>>>,
+}
+
+impl AccessTable {
+    /// The table of a description whose value references are dense from [`references::first`] on.
+    ///
+    /// The error names a variable out of order or an enumeration without its type.
+    pub(crate) fn of(description: &Description) -> Result<Self, String> {
+        let mut table = Self {
+            references: description.variables.iter().map(|variable| variable.value_reference).collect(),
+            outputs: description.structure.outputs.clone(),
+            initial_unknowns: description.structure.initial_unknowns.clone(),
+            ..Self::default()
+        };
+        let unknowns = &description.structure.initial_unknowns;
+        for (index, variable) in (1..).zip(&description.variables) {
+            let base_type = variable.kind.base_type();
+            let base = base_type as usize;
+            let count = table.flags[base].len();
+            if references::index(base_type, variable.value_reference) != count
+                || count >= references::MOST as usize
+            {
+                return Err(format!(
+                    "variable `{}` has value reference {}, expected {} of at most {} from {}",
+                    variable.name,
+                    variable.value_reference,
+                    references::first(base_type) as usize + count,
+                    references::MOST,
+                    references::first(base_type),
+                ));
+            }
+            // Listed in ascending order.
+            let initial_unknown = unknowns.binary_search_by_key(&index, |unknown| unknown.index).is_ok();
+            table.flags[base].push(flags_of(variable, initial_unknown));
+            table.names[base].push(variable.name.clone());
+            table.push_limits(description, variable)?;
+        }
+        Ok(table)
+    }
+
+    fn push_limits(&mut self, description: &Description, variable: &ScalarVariable) -> Result<(), String> {
+        match &variable.kind {
+            VariableKind::Real { attributes, .. } => self
+                .real_limits
+                .push((attributes.min.unwrap_or(f64::MIN), attributes.max.unwrap_or(f64::MAX))),
+            VariableKind::Integer { min, max, .. } => {
+                self.integer_limits.push((min.unwrap_or(i32::MIN), max.unwrap_or(i32::MAX)));
+                self.integer_items.push(None);
+            }
+            VariableKind::Enumeration { declared_type, .. } => {
+                let mut items = items_of(description, declared_type)
+                    .ok_or_else(|| format!("variable `{}`: no type `{declared_type}`", variable.name))?;
+                items.sort_unstable();
+                items.dedup();
+                let limits = match (items.first(), items.last()) {
+                    (Some(&first), Some(&last)) => (first, last),
+                    _ => return Err(format!("type `{declared_type}` has no items")),
+                };
+                let gapless = i64::from(limits.1) - i64::from(limits.0) + 1 == items.len() as i64;
+                self.integer_limits.push(limits);
+                self.integer_items.push((!gapless).then(|| items.into_boxed_slice()));
+            }
+            VariableKind::Boolean { .. } | VariableKind::String { .. } => {}
+        }
+        Ok(())
+    }
+
+    /// The flags of every variable of a base type, by value reference.
+    #[inline]
+    pub(crate) fn flags(&self, base: BaseType) -> &[u8] {
+        &self.flags[base as usize]
+    }
+
+    /// Whether the Integer or Enumeration at `index` may take `value`.
+    #[inline]
+    pub(crate) fn admits_integer(&self, index: usize, value: i32) -> bool {
+        let Some(&(min, max)) = self.integer_limits.get(index) else { return false };
+        min <= value
+            && value <= max
+            && match self.integer_items.get(index) {
+                Some(Some(items)) => items.binary_search(&value).is_ok(),
+                _ => true,
+            }
+    }
+
+    /// The first Real that is no finite number, with its reference; `None` costs one pass without branches.
+    #[inline]
+    pub(crate) fn first_not_finite(&self, values: &Values) -> Option<(u32, f64)> {
+        // A finite number times 0 is 0, all else is NaN; in lanes, so that it becomes vector code.
+        let (chunks, rest) = values.reals.as_chunks::<8>();
+        let mut lanes = [0.0; 8];
+        for chunk in chunks {
+            for (lane, value) in lanes.iter_mut().zip(chunk) {
+                *lane += value * 0.0;
+            }
+        }
+        let sum = lanes.iter().sum::<f64>() + rest.iter().map(|value| value * 0.0).sum::<f64>();
+        if sum == 0.0 { None } else { Self::find_not_finite(values) }
+    }
+
+    #[cold]
+    fn find_not_finite(values: &Values) -> Option<(u32, f64)> {
+        let numbered = (references::first(BaseType::Real)..).zip(&values.reals);
+        numbered.map(|(reference, &value)| (reference, value)).find(|(_, value)| !value.is_finite())
+    }
+
+    /// What the Real `reference` depends on, by reference: after initialization if `initially`, else at a step's end.
+    /// `None` where that is not declared.
+    pub(crate) fn dependencies(&self, reference: u32, initially: bool) -> Option<Vec<u32>> {
+        let index = self.references.iter().position(|it| *it == reference)? as u32 + 1;
+        let unknowns = if initially { &self.initial_unknowns } else { &self.outputs };
+        let indices = unknowns.iter().find(|unknown| unknown.index == index)?.dependencies.as_ref()?;
+        let reference = |index: &u32| self.references.get(*index as usize - 1).copied();
+        Some(indices.iter().filter_map(reference).collect())
+    }
+
+    /// The name behind a value reference of whatever type.
+    pub(crate) fn any_name(&self, reference: u32) -> Option<&str> {
+        self.name(references::base_type(reference)?, reference)
+    }
+
+    /// The name behind a value reference.
+    pub(crate) fn name(&self, base: BaseType, reference: u32) -> Option<&str> {
+        self.names[base as usize].get(references::index(base, reference)).map(String::as_str)
+    }
+}
+
+fn items_of(description: &Description, type_name: &str) -> Option<Vec<i32>> {
+    description.types.iter().find(|known| known.name == type_name).and_then(|known| match &known.kind {
+        SimpleTypeKind::Enumeration { items, .. } => Some(items.iter().map(|item| item.value).collect()),
+        _ => None,
+    })
+}
+
+fn flags_of(variable: &ScalarVariable, initial_unknown: bool) -> u8 {
+    let meets = |condition: Condition| condition.admits(variable, initial_unknown);
+    let set_by_importer = matches!(variable.causality, Causality::Input | Causality::Parameter);
+    [
+        (SET_INSTANTIATED, meets(Condition::SettableBeforeInitialization)),
+        (SET_INITIALIZATION, meets(Condition::SettableInInitialization)),
+        (SET_STEP, meets(Condition::InputOrTunable)),
+        (GET_INITIALIZATION, meets(Condition::OutputOrInitialUnknown)),
+        (INPUT, variable.causality == Causality::Input),
+        (SET_BY_IMPORTER, set_by_importer),
+        (CONTINUOUS, variable.variability == Variability::Continuous),
+        (OUTPUT, variable.causality == Causality::Output),
+    ]
+    .into_iter()
+    .filter(|&(_, holds)| holds)
+    .fold(0, |flags, (flag, _)| flags | flag)
+}

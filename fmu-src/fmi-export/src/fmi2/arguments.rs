@@ -1,0 +1,87 @@
+//! From C arguments to Rust values. `n == 0` never touches a pointer; NULL is an error that names the argument.
+
+use core::ffi::{CStr, c_char, c_int};
+
+use super::problem::{ArgumentError, Problem};
+
+fn wrong(name: &'static str, what: ArgumentError) -> Problem {
+    Problem::Argument { name, what }
+}
+
+fn check<T>(pointer: *const T, length: usize, name: &'static str) -> Result<(), Problem> {
+    if pointer.is_null() {
+        return Err(wrong(name, ArgumentError::Null));
+    }
+    // No array is larger than half the address space; a length that says so is a negative number.
+    if length > isize::MAX as usize / size_of::<T>() {
+        return Err(wrong(name, ArgumentError::TooLong { given: length }));
+    }
+    Ok(())
+}
+
+/// The `length` elements at `pointer`.
+///
+/// # Safety
+/// A `pointer` that is not NULL points to `length` readable elements for the time of the call.
+#[inline]
+pub(super) unsafe fn slice<'a, T>(
+    pointer: *const T,
+    length: usize,
+    name: &'static str,
+) -> Result<&'a [T], Problem> {
+    if length == 0 {
+        return Ok(&[]);
+    }
+    check(pointer, length, name)?;
+    // SAFETY: not NULL, of a possible length; the rest is the caller's promise.
+    Ok(unsafe { core::slice::from_raw_parts(pointer, length) })
+}
+
+/// The `length` elements at `pointer`, to be written.
+///
+/// # Safety
+/// A `pointer` that is not NULL points to `length` writable elements for the time of the call.
+#[inline]
+pub(super) unsafe fn slice_mut<'a, T>(
+    pointer: *mut T,
+    length: usize,
+    name: &'static str,
+) -> Result<&'a mut [T], Problem> {
+    if length == 0 {
+        return Ok(&mut []);
+    }
+    check(pointer, length, name)?;
+    // SAFETY: not NULL, of a possible length; the rest is the caller's promise.
+    Ok(unsafe { core::slice::from_raw_parts_mut(pointer, length) })
+}
+
+/// The one value at `pointer`, to be written.
+///
+/// # Safety
+/// As [`slice_mut`], for one element.
+pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &'static str) -> Result<&'a mut T, Problem> {
+    // SAFETY: the caller's promise.
+    unsafe { pointer.as_mut() }.ok_or_else(|| wrong(name, ArgumentError::Null))
+}
+
+/// The C string at `pointer`.
+///
+/// # Safety
+/// A `pointer` that is not NULL points to a NUL-terminated string that lives for the time of the call.
+pub(super) unsafe fn text<'a>(pointer: *const c_char, name: &'static str) -> Result<&'a CStr, Problem> {
+    if pointer.is_null() {
+        return Err(wrong(name, ArgumentError::Null));
+    }
+    // SAFETY: not NULL; the rest is the caller's promise.
+    Ok(unsafe { CStr::from_ptr(pointer) })
+}
+
+/// A `fmi2Boolean`.
+#[inline]
+pub(super) fn flag(value: c_int, name: &'static str) -> Result<bool, Problem> {
+    match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        other => Err(wrong(name, ArgumentError::NotZeroOrOne(other))),
+    }
+}

@@ -1,0 +1,253 @@
+//! From a model and its setup to the `modelDescription.xml`, the GUID and the parts of an instance.
+
+use std::collections::BTreeSet;
+
+use model_description::{
+    CoSimulation, DefaultExperiment, Description, EnumerationItem, NamingConvention, RealAttributes,
+    ScalarVariable, SimpleType, SimpleTypeKind, Variability, VariableKind, rules, units,
+};
+use uuid::Uuid;
+
+use super::access::AccessTable;
+use super::library::Entry;
+use super::logger::Category;
+use super::references;
+use super::start::{self, Readers};
+use super::structure::structure;
+use crate::model::{About, Model, SetupError};
+use crate::runtime::{Runtime, Typed};
+use crate::variables::{
+    Declare, DeclareError, Element, EnumerationType, Interface, Kind, Values, Variable, Variables,
+};
+
+/// Name space of the GUIDs of this exporter.
+const NAME_SPACE: Uuid = Uuid::from_u128(0xcc931cc2_33f1_4b24_a08d_a93a9fb26fe9);
+
+/// Why a model cannot be described.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DescribeError {
+    /// The setup text is refused.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// A declaration is refused.
+    #[error(transparent)]
+    Declare(#[from] DeclareError),
+    /// The declarations do not fit together.
+    #[error("{0}")]
+    Table(String),
+    /// Start values of the setup that no variable takes, one a line.
+    #[error("{0}")]
+    Start(String),
+    /// The setup cannot enter the GUID.
+    #[error("the setup cannot be digested: {0}")]
+    Digest(String),
+    /// The model panicked.
+    #[error("the model panicked: {0}")]
+    Panic(String),
+}
+
+/// The description of a model with this setup, GUID included.
+pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
+    prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
+}
+
+/// A description, and all that an instance is made from.
+pub(crate) struct Prepared {
+    pub(crate) description: Description,
+    pub(crate) access: AccessTable,
+    pub(crate) start: Values,
+    pub(crate) runtime: Box<dyn Runtime>,
+    pub(crate) digest: Uuid,
+}
+
+/// The names that start values may have, if the model takes the setup text.
+pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
+    let setup = M::parse_setup(file, setup_text).ok()?;
+    let mut declare = Declare::new();
+    M::Variables::declare(&mut declare, &setup, 0).ok()?;
+    Some(start::settable_names(&scalar_variables(&declare.finish())))
+}
+
+/// Describes a model; `library` holds the models that the setup may serve beside it.
+pub(crate) fn prepare<M: Model>(
+    file: &str,
+    setup_text: &str,
+    library: &[Entry],
+) -> Result<Prepared, DescribeError> {
+    let setup = M::parse_setup(file, setup_text)?;
+    let mut declare = Declare::new();
+    let variables = M::Variables::declare(&mut declare, &setup, 0)?;
+    let mut interface = declare.finish();
+    let scalars = scalar_variables(&interface);
+    let dependencies = M::dependencies(&setup, &variables);
+    let structure = structure(&dependencies, &scalars).map_err(DescribeError::Table)?;
+    let about = M::about(&setup);
+    let text = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+    let mut description = Description {
+        model_name: M::NAME.to_owned(),
+        description: text(&about.description),
+        author: text(&about.author),
+        version: text(&about.version),
+        license: text(&about.license),
+        generation_tool: Some(concat!("fmi-export ", env!("CARGO_PKG_VERSION")).to_owned()),
+        variable_naming: NamingConvention::Structured,
+        co_simulation: Some(co_simulation::<M>(&scalars)),
+        types: interface.enumerations.iter().map(simple_type).collect(),
+        log_categories: Category::declared(),
+        default_experiment: Some(DefaultExperiment {
+            start_time: Some(about.start_time_s),
+            stop_time: Some(about.stop_time_s),
+            tolerance: (about.tolerance > 0.0).then_some(about.tolerance),
+            step_size: (about.step_size_s > 0.0).then_some(about.step_size_s),
+        }),
+        structure,
+        variables: scalars,
+        ..Description::default()
+    };
+    description.units = units_of(&description);
+    let readers = Readers::new(M::NAME, library, file, setup_text);
+    start::apply(&M::start_values(&setup), &readers, &mut description, &mut interface.start)
+        .map_err(DescribeError::Start)?;
+    let digest = digest_of::<M>(&interface.canonical(&dependencies), &about, &setup)?;
+    description.guid = format!("{{{digest}}}");
+    let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
+    let runtime = Box::new(Typed::<M> { setup, variables, state: None });
+    Ok(Prepared { description, access, start: interface.start, runtime, digest })
+}
+
+/// The elements of every variable, in order, with their start values.
+pub fn scalar_variables(interface: &Interface) -> Vec<ScalarVariable> {
+    let elements = |variable| Variable::elements(variable).map(move |(name, at)| (variable, name, at));
+    let scalar = |(variable, name, element): (&Variable, String, Element)| {
+        let role = variable.role;
+        ScalarVariable {
+            name,
+            value_reference: references::of(element),
+            description: Some(variable.description.clone()),
+            causality: role.causality,
+            variability: role.variability,
+            initial: role.initial,
+            can_handle_multiple_set_per_time_instant: None,
+            kind: kind(variable, element, &interface.start),
+        }
+    };
+    interface.variables.iter().flat_map(elements).map(scalar).collect()
+}
+
+fn kind(variable: &Variable, element: Element, start: &Values) -> VariableKind {
+    let role = variable.role;
+    let effective = rules::effective(role.causality, role.variability, role.initial);
+    let has_start = rules::start(role.causality, effective) == rules::StartRule::Required;
+    let at = Some(element.place() as usize).filter(|_| has_start);
+    let integer = at.and_then(|at| start.integers.get(at).copied());
+    match &variable.kind {
+        Kind::Real { unit, display_unit, min, max, nominal } => VariableKind::Real {
+            start: at.and_then(|at| start.reals.get(at).copied()),
+            declared_type: None,
+            attributes: RealAttributes {
+                unit: Some(unit.clone()),
+                display_unit: display_unit.clone(),
+                min: *min,
+                max: *max,
+                nominal: *nominal,
+                ..RealAttributes::default()
+            },
+            derivative: None,
+            reinit: None,
+        },
+        Kind::Integer { min, max } => VariableKind::Integer {
+            start: integer,
+            declared_type: None,
+            quantity: None,
+            min: *min,
+            max: *max,
+        },
+        Kind::Boolean => VariableKind::Boolean {
+            start: at.and_then(|at| start.booleans.get(at).copied()),
+            declared_type: None,
+        },
+        Kind::Text => VariableKind::String {
+            start: at.and_then(|at| start.strings.get(at).cloned()),
+            declared_type: None,
+        },
+        Kind::Enumeration(name) => VariableKind::Enumeration {
+            start: integer,
+            declared_type: (*name).to_owned(),
+            quantity: None,
+            min: None,
+            max: None,
+        },
+    }
+}
+
+fn simple_type(declared: &EnumerationType) -> SimpleType {
+    let item = |item: &crate::variables::Item| EnumerationItem {
+        name: item.name.to_owned(),
+        value: item.value,
+        description: Some(item.description.to_owned()),
+    };
+    SimpleType {
+        name: declared.name.to_owned(),
+        description: Some(declared.description.to_owned()),
+        kind: SimpleTypeKind::Enumeration {
+            quantity: None,
+            items: declared.items.iter().map(item).collect(),
+        },
+    }
+}
+
+fn co_simulation<M: Model>(variables: &[ScalarVariable]) -> CoSimulation {
+    let can_move = |variable: &ScalarVariable| {
+        variable.causality == model_description::Causality::Input
+            && variable.variability == Variability::Continuous
+    };
+    CoSimulation {
+        model_identifier: M::NAME.to_owned(),
+        can_handle_variable_communication_step_size: true,
+        can_interpolate_inputs: variables.iter().any(can_move),
+        max_output_derivative_order: u32::from(M::EXTENSIONS.output_rate.is_some()),
+        can_not_use_memory_management_functions: true,
+        can_get_and_set_fmu_state: true,
+        can_serialize_fmu_state: true,
+        provides_directional_derivative: M::EXTENSIONS.jacobian_vector_product.is_some(),
+        ..CoSimulation::default()
+    }
+}
+
+/// The units that variables carry, in the order of the unit table.
+fn units_of(description: &Description) -> Vec<model_description::Unit> {
+    let used = |name: &str| {
+        description.variables.iter().any(|variable| match &variable.kind {
+            VariableKind::Real { attributes, .. } => attributes.unit.as_deref() == Some(name),
+            _ => false,
+        })
+    };
+    units::UNITS.iter().filter(|row| used(row.name)).map(units::KnownUnit::to_unit).collect()
+}
+
+/// UUIDv5 of what is declared, what is told of the model, the setup's content, the model's name and optional traits, and the
+/// version of its state. Default times do not enter.
+fn digest_of<M: Model>(interface: &str, about: &About, setup: &M::Setup) -> Result<Uuid, DescribeError> {
+    let setup = postcard::to_allocvec(setup).map_err(|error| DescribeError::Digest(error.to_string()))?;
+    let extensions =
+        [M::EXTENSIONS.output_rate.is_some(), M::EXTENSIONS.jacobian_vector_product.is_some()].map(u8::from);
+    let parts: [&[u8]; 10] = [
+        interface.as_bytes(),
+        about.description.as_bytes(),
+        about.author.as_bytes(),
+        about.version.as_bytes(),
+        about.license.as_bytes(),
+        &about.tolerance.to_le_bytes(),
+        &setup,
+        M::NAME.as_bytes(),
+        &M::STATE_VERSION.to_le_bytes(),
+        &extensions,
+    ];
+    let mut bytes = Vec::with_capacity(interface.len() + setup.len() + 256);
+    // Each part with its length, so that no two sets of parts share their bytes.
+    for part in parts {
+        bytes.extend_from_slice(&(part.len() as u64).to_le_bytes());
+        bytes.extend_from_slice(part);
+    }
+    Ok(Uuid::new_v5(&NAME_SPACE, &bytes))
+}

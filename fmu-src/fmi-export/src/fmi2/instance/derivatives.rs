@@ -1,0 +1,125 @@
+//! Input derivatives, output derivatives, directional derivatives.
+
+use super::Instance;
+use crate::fmi2::access::{CONTINUOUS, GET_INITIALIZATION, INPUT, OUTPUT, SET_INITIALIZATION};
+use crate::fmi2::instance::state::MAX_INPUT_DERIVATIVE_ORDER;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
+use crate::model::InputDerivative;
+use crate::variables::Real;
+use model_description::BaseType;
+use model_description::call_table::{Function, State};
+
+impl Instance {
+    /// `fmi2SetRealInputDerivatives`; they hold until the end of the next step.
+    pub(crate) fn set_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Result<(), Problem> {
+        self.guard(Function::SetRealInputDerivatives)?;
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            self.require(reference, INPUT | CONTINUOUS, INPUT | CONTINUOUS, "continuous Real input")?;
+            check_order(order, MAX_INPUT_DERIVATIVE_ORDER)?;
+            if !value.is_finite() {
+                return Err(Problem::DerivativeNotFinite { reference, value });
+            }
+        }
+        let kept = &mut self.state.input_derivatives;
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            let (input, order) = (real(reference), order.unsigned_abs());
+            match kept.iter_mut().find(|old| old.input == input && old.order == order) {
+                Some(old) => old.value = value,
+                None => kept.push(InputDerivative { input, order, value }),
+            }
+        }
+        Ok(())
+    }
+
+    /// `fmi2GetRealOutputDerivatives` at the last communication point.
+    pub(crate) fn get_output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Result<(), Problem> {
+        self.guard(Function::GetRealOutputDerivatives)?;
+        let largest = u32::from(self.runtime.has_output_rates());
+        for (&reference, &order) in references.iter().zip(orders) {
+            self.require(reference, OUTPUT, OUTPUT, "Real output")?;
+            check_order(order, largest)?;
+        }
+        for (&reference, value) in references.iter().zip(values) {
+            *value = self.runtime.output_rate(self.values_at_last_step(), real(reference), &self.logger)?;
+            if !value.is_finite() {
+                return Err(Problem::SlopeNotFinite { of: reference, along: None, value: *value });
+            }
+        }
+        Ok(())
+    }
+
+    /// `fmi2GetDirectionalDerivative` at the last communication point.
+    pub(crate) fn get_directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        result: &mut [f64],
+    ) -> Result<(), Problem> {
+        self.guard(Function::GetDirectionalDerivative)?;
+        let initializing = self.state.mode == State::InitializationMode;
+        let (unknown, known) = match initializing {
+            true => (GET_INITIALIZATION, INPUT | SET_INITIALIZATION),
+            false => (OUTPUT, INPUT),
+        };
+        for &reference in unknowns {
+            self.require(reference, unknown, unknown, "Real unknown of the model structure")?;
+        }
+        for &reference in knowns {
+            self.require(reference, known, 0, "Real input")?;
+        }
+        if let Some((&reference, &value)) = knowns.iter().zip(seed).find(|(_, seed)| !seed.is_finite()) {
+            return Err(Problem::SeedNotFinite { reference, value });
+        }
+        if initializing {
+            self.initialize_if_needed()?;
+        }
+        let values = self.values_at_last_step();
+        let of: Vec<Real> = unknowns.iter().map(|&reference| real(reference)).collect();
+        let seeds: Vec<(Real, f64)> =
+            knowns.iter().map(|&known| real(known)).zip(seed.iter().copied()).collect();
+        self.runtime.jacobian_vector_product(values, &of, &seeds, result, &self.logger)?;
+        match unknowns.iter().zip(result).find(|(_, slope)| !slope.is_finite()) {
+            None => Ok(()),
+            Some((&of, &mut value)) => {
+                let moved = knowns.iter().zip(seed).filter(|(_, seed)| **seed != 0.0);
+                let names = moved.filter_map(|(known, _)| self.access.any_name(*known));
+                let along = Some(names.collect::<Vec<_>>().join(", ")).filter(|names| !names.is_empty());
+                Err(Problem::SlopeNotFinite { of, along, value })
+            }
+        }
+    }
+
+    /// Refuses a Real reference without any of the flags `any`, or without all of the flags `all`.
+    fn require(&self, reference: u32, any: u8, all: u8, role: &'static str) -> Result<(), Problem> {
+        let table = self.access.flags(BaseType::Real);
+        match table.get(references::index(BaseType::Real, reference)) {
+            Some(flags) if flags & any != 0 && flags & all == all => Ok(()),
+            Some(_) => Err(Problem::NotA { role, reference }),
+            None => Err(Problem::UnknownReference { base: BaseType::Real, reference, count: table.len() }),
+        }
+    }
+}
+
+/// The Real of a value reference that was checked.
+fn real(reference: u32) -> Real {
+    Real(references::index(BaseType::Real, reference) as u32)
+}
+
+fn check_order(order: i32, largest: u32) -> Result<(), Problem> {
+    match u32::try_from(order) {
+        Ok(positive) if (1..=largest).contains(&positive) => Ok(()),
+        _ => Err(Problem::Order { order, largest }),
+    }
+}

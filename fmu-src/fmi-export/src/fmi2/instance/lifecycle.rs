@@ -1,0 +1,137 @@
+//! Experiment, initialization, termination, reset, log settings.
+
+use super::{Instance, once};
+use crate::fmi2::instance::state::{Experiment, InstanceState};
+use crate::fmi2::logger::Category;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
+use model_description::BaseType;
+use model_description::Status;
+use model_description::call_table::Function;
+
+impl Instance {
+    /// `fmi2SetDebugLogging`: `categories` gives each named category, or `None` where the name is unknown.
+    pub(crate) fn set_debug_logging(
+        &mut self,
+        on: bool,
+        count: usize,
+        mut categories: impl FnMut(usize) -> Option<Category>,
+    ) -> Result<(), Problem> {
+        self.guard(Function::SetDebugLogging)?;
+        let known: Vec<Category> = (0..count).filter_map(&mut categories).collect();
+        let unknown = (0..count).find(|&index| categories(index).is_none());
+        if count > 0 && known.is_empty() {
+            self.logger.enable_nothing();
+        } else {
+            self.logger.enable(on, known);
+        }
+        unknown.map_or(Ok(()), |index| Err(Problem::UnknownCategory { index }))
+    }
+
+    /// `fmi2SetupExperiment`.
+    pub(crate) fn setup_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start_s: f64,
+        stop_s: Option<f64>,
+    ) -> Result<(), Problem> {
+        self.guard(Function::SetupExperiment)?;
+        if !start_s.is_finite() || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) {
+            return Err(Problem::Experiment { start_s, stop_s });
+        }
+        let usable = |tolerance: &f64| *tolerance > 0.0 && tolerance.is_finite();
+        if let Some(tolerance) = tolerance
+            && !usable(&tolerance)
+        {
+            self.logger.log(
+                Status::Warning,
+                format_args!(
+                    "fmi2SetupExperiment: the tolerance {tolerance:?} is no positive number; ignored"
+                ),
+            );
+        }
+        self.state.experiment = Some(Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) });
+        Ok(())
+    }
+
+    /// `fmi2EnterInitializationMode`.
+    pub(crate) fn enter_initialization_mode(&mut self) -> Result<(), Problem> {
+        self.guard(Function::EnterInitializationMode)?;
+        let experiment = self.state.experiment.ok_or(Problem::NoExperiment)?;
+        self.state.time_s = experiment.start_s;
+        self.take_tolerance(experiment.tolerance);
+        self.state.needs_initialization = true;
+        Ok(())
+    }
+
+    /// The tolerance of the experiment becomes the value of the model's parameter, unless the master set that: so it is
+    /// read, saved and restored like any value.
+    fn take_tolerance(&mut self, tolerance: Option<f64>) {
+        let Some(at) = self.tolerance.filter(|_| !self.state.tolerance_set) else { return };
+        let default = self.start.real(at);
+        let limits =
+            self.access.real_limits.get(references::index(BaseType::Real, references::of(at))).copied();
+        let (min, max) = limits.unwrap_or((f64::MIN, f64::MAX));
+        // Not `clamp`, which panics where the limits are no range.
+        let taken = tolerance.map_or(default, |tolerance| tolerance.max(min).min(max));
+        if let Some(tolerance) = tolerance.filter(|tolerance| *tolerance != taken) {
+            let name = self.access.any_name(references::of(at)).unwrap_or_default();
+            self.logger.log(
+                Status::Warning,
+                format_args!(
+                    "fmi2SetupExperiment: the tolerance {tolerance:?} is taken as {taken:?}, for `{name}` may be \
+                     {min:?} to {max:?}"
+                ),
+            );
+        }
+        self.state.values.set_real(at, taken);
+    }
+
+    /// `fmi2ExitInitializationMode`.
+    pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
+        self.guard(Function::ExitInitializationMode)?;
+        self.initialize_if_needed()?;
+        self.allocate_spare();
+        Ok(())
+    }
+
+    /// Computes the outputs of Initialization Mode from what was set so far.
+    pub(super) fn initialize_if_needed(&mut self) -> Result<(), Problem> {
+        if self.state.needs_initialization {
+            self.runtime.initialize(&mut self.state.values, self.state.time_s, &self.logger)?;
+            self.check_finite(true)?;
+            self.state.needs_initialization = false;
+        }
+        Ok(())
+    }
+
+    /// `fmi2Terminate`.
+    pub(crate) fn terminate(&mut self) -> Result<(), Problem> {
+        self.guard(Function::Terminate)
+    }
+
+    /// `fmi2Reset`: as if freshly instantiated.
+    pub(crate) fn reset(&mut self) -> Result<(), Problem> {
+        self.guard(Function::Reset)?;
+        self.runtime.clear();
+        self.forget_last_step();
+        self.state.copy_from(&InstanceState::new(&self.start));
+        self.logger.reset();
+        self.warned = 0;
+        self.earliest_s = f64::NEG_INFINITY;
+        Ok(())
+    }
+
+    /// Warns where a state from before `noSetFMUStatePriorToCurrentPoint` is set.
+    pub(crate) fn warn_of_early_state(&mut self, time_s: f64) {
+        let earliest_s = self.earliest_s;
+        if time_s < earliest_s {
+            self.warn_once(
+                once::EARLY_STATE,
+                format_args!(
+                    "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {earliest_s:?} s"
+                ),
+            );
+        }
+    }
+}

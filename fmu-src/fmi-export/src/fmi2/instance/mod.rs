@@ -1,0 +1,189 @@
+//! One instance: the state machine around a model, its values, its log. No C types here.
+//!
+//! Every function of the standard is one method that asks the call table, does its work and hands a
+//! [`Problem`] or nothing to [`Instance::conclude`], which logs, moves the state and gives the status.
+
+mod derivatives;
+mod lifecycle;
+pub(crate) mod state;
+mod stepping;
+mod values;
+
+use crate::fmi2::access::AccessTable;
+use crate::fmi2::description::Prepared;
+use crate::fmi2::logger::Logger;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
+use crate::runtime::Runtime;
+use crate::variables::{Real, Values};
+use model_description::BaseType;
+use model_description::Status;
+use model_description::call_table::{self, Access, Function, Next, State};
+use state::copy_values;
+
+pub use state::MAX_INPUT_DERIVATIVE_ORDER;
+pub(crate) use state::{InstanceState, content};
+pub(crate) use stepping::StatusKind;
+
+/// Messages that are logged once per instance, as bits.
+mod once {
+    pub(super) const INPUT_BEFORE_INITIALIZATION: u8 = 1;
+    pub(super) const READ_IN_INITIALIZATION: u8 = 1 << 1;
+    pub(super) const OUTPUT_AFTER_SET: u8 = 1 << 2;
+    pub(super) const EARLY_STATE: u8 = 1 << 3;
+}
+
+/// One instance of one model.
+pub(crate) struct Instance {
+    pub(super) state: InstanceState,
+    pub(super) runtime: Box<dyn Runtime>,
+    pub(super) access: AccessTable,
+    pub(super) start: Values,
+    pub(super) digest: uuid::Uuid,
+    pub(super) logger: Logger,
+    /// Which of the messages in [`once`] were logged.
+    warned: u8,
+    /// No FMU state before this time will be set, by `noSetFMUStatePriorToCurrentPoint`.
+    earliest_s: f64,
+    /// Spare memory for [`InstanceState::at_last_step`].
+    spare: Values,
+    /// The parameter that the experiment's tolerance stands in for.
+    tolerance: Option<Real>,
+    poisoned: bool,
+}
+
+impl Instance {
+    /// A fresh instance.
+    pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
+        let Prepared { access, start, runtime, digest, description: _ } = prepared;
+        let mut state = InstanceState::new(&start);
+        state.input_derivatives.reserve(access.real_limits.len());
+        Self {
+            spare: start.clone(),
+            tolerance: runtime.tolerance(),
+            state,
+            runtime,
+            access,
+            start,
+            digest,
+            logger,
+            warned: 0,
+            earliest_s: f64::NEG_INFINITY,
+            poisoned: false,
+        }
+    }
+
+    /// Whether a panic ended this instance.
+    #[inline]
+    pub(crate) fn is_poisoned(&self) -> bool {
+        self.poisoned
+    }
+
+    /// No call but free works from here on.
+    pub(crate) fn poison(&mut self) {
+        self.poisoned = true;
+        self.state.mode = State::Error;
+    }
+
+    /// The log.
+    pub(crate) fn logger(&self) -> &Logger {
+        &self.logger
+    }
+
+    /// The log, and what else must be dropped.
+    pub(crate) fn dismantle(self) -> (Logger, Box<dyn Runtime>) {
+        (self.logger, self.runtime)
+    }
+
+    /// Refuses a call that the table forbids in this state. What is conditional is checked per variable.
+    #[inline]
+    pub(super) fn guard(&self, function: Function) -> Result<(), Problem> {
+        match call_table::allowed(function, self.state.mode) {
+            Access::Forbidden => Err(Problem::Illegal { function, state: self.state.mode }),
+            Access::Allowed | Access::Conditional(_) => Ok(()),
+        }
+    }
+
+    /// The status of a call: logs a problem and moves the state machine.
+    #[inline]
+    pub(crate) fn conclude(&mut self, function: Function, result: Result<(), Problem>) -> Status {
+        match result {
+            Ok(()) => {
+                self.follow(function, Status::Ok);
+                Status::Ok
+            }
+            Err(problem) => self.refuse(function, &problem),
+        }
+    }
+
+    #[cold]
+    fn refuse(&mut self, function: Function, problem: &Problem) -> Status {
+        let status = problem.status();
+        self.logger.log(status, format_args!("{}: {}", function.symbol(), problem.explain(&self.access)));
+        self.follow(function, status);
+        status
+    }
+
+    #[inline]
+    fn follow(&mut self, function: Function, status: Status) {
+        if let Next::State(state) = call_table::after(function, self.state.mode, status) {
+            self.state.mode = state;
+        }
+    }
+
+    /// Logs a warning the first time only.
+    #[cold]
+    pub(super) fn warn_once(&mut self, what: u8, message: core::fmt::Arguments<'_>) {
+        if self.warned & what == 0 {
+            self.warned |= what;
+            self.logger.log(Status::Warning, message);
+        }
+    }
+
+    /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot go on with.
+    pub(super) fn check_finite(&self, initially: bool) -> Result<(), Problem> {
+        match self.access.first_not_finite(&self.state.values) {
+            None => Ok(()),
+            Some((reference, value)) => Err(self.not_finite(reference, value, initially)),
+        }
+    }
+
+    #[cold]
+    fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
+        let listed = self.access.dependencies(reference, initially).map(|dependencies| {
+            let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));
+            dependencies.iter().filter_map(shown).collect::<Vec<_>>().join(", ")
+        });
+        Problem::NotFinite { reference, value, depends_on: listed.filter(|it| !it.is_empty()) }
+    }
+
+    /// A variable's value for a message.
+    fn shown(&self, reference: u32) -> Option<String> {
+        let values = &self.state.values;
+        let base = references::base_type(reference)?;
+        let index = references::index(base, reference);
+        Some(match base {
+            BaseType::Real => format!("{:?}", values.reals.get(index)?),
+            BaseType::Integer => values.integers.get(index)?.to_string(),
+            BaseType::Boolean => values.booleans.get(index)?.to_string(),
+            BaseType::String => format!("{:?}", values.strings.get(index)?),
+        })
+    }
+
+    /// The values that derivatives are asked of: those of the last step, whatever was set since.
+    pub(super) fn values_at_last_step(&self) -> &Values {
+        self.state.at_last_step.as_ref().unwrap_or(&self.state.values)
+    }
+
+    /// Brings the spare values to their size, so that no step has to.
+    pub(super) fn allocate_spare(&mut self) {
+        copy_values(&mut self.spare, &self.state.values);
+    }
+
+    /// Forgets the values kept for derivatives, but not their memory.
+    pub(super) fn forget_last_step(&mut self) {
+        if let Some(values) = self.state.at_last_step.take() {
+            self.spare = values;
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! All that changes in an instance beside the model's own state: one value, saved and restored as a whole.
+
+use crate::fmi2::references;
+use model_description::BaseType;
+use serde::{Deserialize, Serialize};
+
+use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
+use crate::fmi2::problem::StateMismatch;
+use crate::model::InputDerivative;
+use crate::variables::Values;
+use model_description::call_table::State;
+
+/// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
+pub const MAX_INPUT_DERIVATIVE_ORDER: u32 = 170;
+
+/// What `fmi2SetupExperiment` told.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Experiment {
+    pub(crate) start_s: f64,
+    pub(crate) stop_s: Option<f64>,
+    /// A positive number.
+    pub(crate) tolerance: Option<f64>,
+}
+
+/// The mutable part of an instance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct InstanceState {
+    #[serde(with = "mode_as_number")]
+    pub(crate) mode: State,
+    pub(crate) experiment: Option<Experiment>,
+    /// Where the last step ended.
+    pub(crate) time_s: f64,
+    /// The model ended by itself.
+    pub(crate) terminated: bool,
+    /// In Initialization Mode: the outputs do not belong to what was set.
+    pub(crate) needs_initialization: bool,
+    /// The master set the parameter that the experiment's tolerance would stand in for.
+    pub(crate) tolerance_set: bool,
+    /// The last step had input derivatives, which ended with it.
+    pub(crate) derivatives_ended: bool,
+    /// Until the end of the next step.
+    pub(crate) input_derivatives: Vec<InputDerivative>,
+    pub(crate) values: Values,
+    /// Once a different value was set between steps: the values as the last step left them. What is set next may be
+    /// set back, and derivatives belong to them.
+    pub(crate) at_last_step: Option<Values>,
+}
+
+impl InstanceState {
+    /// A fresh instance.
+    pub(crate) fn new(start: &Values) -> Self {
+        Self {
+            mode: State::Instantiated,
+            experiment: None,
+            time_s: 0.0,
+            terminated: false,
+            needs_initialization: false,
+            tolerance_set: false,
+            derivatives_ended: false,
+            input_derivatives: Vec::new(),
+            values: start.clone(),
+            at_last_step: None,
+        }
+    }
+
+    /// Becomes a copy of `other`, reusing memory.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        // Without `..` a new field cannot be forgotten.
+        let Self {
+            mode,
+            experiment,
+            time_s,
+            terminated,
+            needs_initialization,
+            tolerance_set,
+            derivatives_ended,
+            input_derivatives,
+            values,
+            at_last_step,
+        } = other;
+        self.mode = *mode;
+        self.experiment = *experiment;
+        self.time_s = *time_s;
+        self.terminated = *terminated;
+        self.needs_initialization = *needs_initialization;
+        self.tolerance_set = *tolerance_set;
+        self.derivatives_ended = *derivatives_ended;
+        self.input_derivatives.clone_from(input_derivatives);
+        copy_values(&mut self.values, values);
+        match (&mut self.at_last_step, at_last_step) {
+            (Some(mine), Some(theirs)) => copy_values(mine, theirs),
+            (mine, theirs) => mine.clone_from(theirs),
+        }
+    }
+
+    /// Whether an input or tunable parameter differs from what the last step used. One that was set and set back does
+    /// not: values agree to the bit, so the model goes on as if nothing had been set.
+    pub(crate) fn differs(&self) -> bool {
+        self.at_last_step.as_ref().is_some_and(|before| !same_values(before, &self.values))
+    }
+
+    /// Whether decoded bytes make sense for a model with these variables. The error says what does not.
+    pub(crate) fn check(&self, access: &AccessTable) -> Result<(), StateMismatch> {
+        self.check_clock()?;
+        for values in core::iter::once(&self.values).chain(&self.at_last_step) {
+            check_values(values, access)?;
+            self.check_finite(values, access)?;
+        }
+        for &InputDerivative { input, order, value } in &self.input_derivatives {
+            let reference = references::of(input);
+            let flags = access
+                .flags(BaseType::Real)
+                .get(references::index(BaseType::Real, reference))
+                .copied()
+                .unwrap_or(0);
+            let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
+            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !value.is_finite() {
+                return Err(content(format!(
+                    "input derivative {value:?} of order {order} for Real value reference {reference}"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// What an instance in the error state holds is for debugging; all else may be read under OK.
+    fn check_finite(&self, values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
+        match access.first_not_finite(values) {
+            Some((reference, value)) if self.mode != State::Error => {
+                let name = access.name(BaseType::Real, reference).unwrap_or_default();
+                Err(content(format!("`{name}` is {value:?}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_clock(&self) -> Result<(), StateMismatch> {
+        if matches!(self.mode, State::StepInProgress | State::StepCanceled | State::Fatal) {
+            return Err(content(format!("no instance is saved in the state {}", self.mode.name())));
+        }
+        let started = matches!(
+            self.mode,
+            State::InitializationMode | State::StepComplete | State::StepFailed | State::Terminated
+        );
+        match self.experiment {
+            None if started => return Err(content("started without an experiment".to_owned())),
+            Some(Experiment { tolerance: Some(tolerance), .. })
+                if !(tolerance > 0.0 && tolerance.is_finite()) =>
+            {
+                return Err(content(format!("tolerance {tolerance:?}")));
+            }
+            Some(Experiment { start_s, stop_s, .. })
+                if !start_s.is_finite()
+                    || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) =>
+            {
+                return Err(content(format!("start {start_s:?} s and stop {stop_s:?} s")));
+            }
+            _ => {}
+        }
+        if self.time_s.is_finite() { Ok(()) } else { Err(content(format!("time {:?} s", self.time_s))) }
+    }
+}
+
+pub(crate) fn content(what: String) -> StateMismatch {
+    StateMismatch::Content(what)
+}
+
+/// `to` becomes `from` without new memory where the lengths agree.
+pub(crate) fn copy_values(to: &mut Values, from: &Values) {
+    to.reals.clone_from(&from.reals);
+    to.integers.clone_from(&from.integers);
+    to.booleans.clone_from(&from.booleans);
+    to.strings.clone_from(&from.strings);
+}
+
+/// Whether two sets of values agree to the bit.
+fn same_values(a: &Values, b: &Values) -> bool {
+    a.integers == b.integers
+        && a.booleans == b.booleans
+        && a.strings == b.strings
+        && a.reals.len() == b.reals.len()
+        && a.reals.iter().zip(&b.reals).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
+    let lengths = [values.reals.len(), values.integers.len(), values.booleans.len(), values.strings.len()];
+    for (base, length) in BaseType::ALL.into_iter().zip(lengths) {
+        let expected = access.flags(base).len();
+        if length != expected {
+            return Err(content(format!("{length} {} values, the model has {expected}", base.name())));
+        }
+    }
+    // Limits are for what a master sets, here as at the C functions.
+    let reals = access.flags(BaseType::Real).iter().zip(&values.reals).zip(&access.real_limits);
+    for (reference, ((&flags, &value), &(min, max))) in (references::first(BaseType::Real)..).zip(reals) {
+        if flags & SET_BY_IMPORTER != 0 && !(value >= min && value <= max) {
+            let name = access.name(BaseType::Real, reference).unwrap_or_default();
+            return Err(content(format!("`{name}` is {value:?}")));
+        }
+    }
+    for (index, &value) in values.integers.iter().enumerate() {
+        let flags = access.flags(BaseType::Integer).get(index).copied().unwrap_or(0);
+        if flags & SET_BY_IMPORTER != 0 && !access.admits_integer(index, value) {
+            let reference = references::first(BaseType::Integer) + index as u32;
+            let name = access.name(BaseType::Integer, reference).unwrap_or_default();
+            return Err(content(format!("`{name}` is {value}")));
+        }
+    }
+    Ok(())
+}
+
+/// The state of the state machine as its column in the call table.
+mod mode_as_number {
+    use model_description::call_table::State;
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub(super) fn serialize<S: Serializer>(state: &State, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(*state as u8)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<State, D::Error> {
+        let column = u8::deserialize(deserializer)?;
+        let state = State::ALL.get(usize::from(column)).copied();
+        state.ok_or_else(|| D::Error::custom(format_args!("no state has the number {column}")))
+    }
+}

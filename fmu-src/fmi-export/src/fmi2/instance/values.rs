@@ -1,0 +1,239 @@
+//! Getting and setting variables: everything is checked before anything is written.
+
+use super::{Instance, once};
+use crate::fmi2::access::{
+    AccessTable, GET_INITIALIZATION, INPUT, SET_BY_IMPORTER, SET_INITIALIZATION, SET_INSTANTIATED, SET_STEP,
+};
+use crate::fmi2::instance::state::copy_values;
+use crate::fmi2::problem::Problem;
+use crate::fmi2::references;
+use model_description::BaseType;
+use model_description::call_table::{Function, State};
+
+/// `fmi2GetXXX` of a base type whose values are plain.
+macro_rules! getter {
+    ($name:ident, $function:ident, $base:ident, $table:ident, $value:ty, $read:expr) => {
+        impl Instance {
+            #[doc = concat!("`fmi2", stringify!($function), "`.")]
+            pub(crate) fn $name(&mut self, references: &[u32], values: &mut [$value]) -> Result<(), Problem> {
+                self.guard(Function::$function)?;
+                if self.reading_needs_preparation() {
+                    self.prepare_reading(BaseType::$base, references)?;
+                }
+                let table = &self.state.values.$table;
+                for (&reference, value) in references.iter().zip(values) {
+                    match table.get(references::index(BaseType::$base, reference)) {
+                        Some(stored) => *value = $read(stored),
+                        None => return Err(unknown(BaseType::$base, reference, table.len())),
+                    }
+                }
+                Ok(())
+            }
+        }
+    };
+}
+
+/// `fmi2SetXXX` of a base type: how a value is checked, compared with the stored one, and written.
+macro_rules! setter {
+    ($name:ident, $function:ident, $base:ident, $table:ident, $value:ty,
+     check: $check:expr, differs: $differs:expr, write: $write:expr) => {
+        impl Instance {
+            #[doc = concat!("`fmi2", stringify!($function), "`.")]
+            pub(crate) fn $name(&mut self, references: &[u32], values: &[$value]) -> Result<(), Problem> {
+                self.guard(Function::$function)?;
+                let needed = self.settable_flag();
+                let (mut lenient, mut differs) = (false, false);
+                let table = &self.state.values.$table;
+                let flags = self.access.flags(BaseType::$base);
+                for (&reference, value) in references.iter().zip(values) {
+                    let index = references::index(BaseType::$base, reference);
+                    let (Some(&flags), Some(stored)) = (flags.get(index), table.get(index)) else {
+                        return Err(unknown(BaseType::$base, reference, table.len()));
+                    };
+                    if flags & needed == 0 {
+                        let state = self.state.mode;
+                        if state != State::Instantiated || flags & INPUT == 0 {
+                            return Err(Problem::NotSettable { base: BaseType::$base, reference, state });
+                        }
+                        lenient = true;
+                    }
+                    $check(&self.access, reference, value)?;
+                    differs |= $differs(stored, value);
+                }
+                if lenient {
+                    self.warn_of_input_before_initialization();
+                }
+                if BaseType::$base as u8 == BaseType::Real as u8 && self.state.mode != State::StepComplete {
+                    self.note_tolerance(references);
+                }
+                if differs {
+                    self.before_change();
+                    let table = &mut self.state.values.$table;
+                    for (&reference, value) in references.iter().zip(values) {
+                        if let Some(stored) = table.get_mut(references::index(BaseType::$base, reference)) {
+                            $write(stored, value);
+                        }
+                    }
+                }
+                Ok(())
+            }
+        }
+    };
+}
+
+getter!(get_real, GetReal, Real, reals, f64, |stored: &f64| *stored);
+getter!(get_integer, GetInteger, Integer, integers, i32, |stored: &i32| *stored);
+getter!(get_boolean, GetBoolean, Boolean, booleans, i32, |stored: &bool| i32::from(*stored));
+
+setter!(set_real, SetReal, Real, reals, f64,
+    check: |access: &AccessTable, reference: u32, value: &f64| {
+        match access.real_limits.get(references::index(BaseType::Real, reference)) {
+            // Written so that NaN fails.
+            Some(&(min, max)) if min <= *value && *value <= max => Ok(()),
+            _ => Err(Problem::RealOutOfRange { reference, value: *value }),
+        }
+    },
+    differs: |stored: &f64, value: &f64| stored.to_bits() != value.to_bits(),
+    write: |stored: &mut f64, value: &f64| *stored = *value);
+
+setter!(set_integer, SetInteger, Integer, integers, i32,
+    check: |access: &AccessTable, reference: u32, value: &i32| {
+        match access.admits_integer(references::index(BaseType::Integer, reference), *value) {
+            true => Ok(()),
+            false => Err(Problem::IntegerOutOfRange { reference, value: *value }),
+        }
+    },
+    differs: |stored: &i32, value: &i32| stored != value,
+    write: |stored: &mut i32, value: &i32| *stored = *value);
+
+setter!(set_boolean, SetBoolean, Boolean, booleans, i32,
+    check: |_: &AccessTable, reference: u32, value: &i32| match value {
+        0 | 1 => Ok(()),
+        _ => Err(Problem::NoBoolean { reference, value: *value }),
+    },
+    differs: |stored: &bool, value: &i32| i32::from(*stored) != *value,
+    write: |stored: &mut bool, value: &i32| *stored = *value == 1);
+
+/// A String at the interface: `None` where the caller's text is not UTF-8.
+pub(crate) type MaybeText<'a> = Option<&'a str>;
+
+setter!(set_string, SetString, String, strings, MaybeText<'_>,
+    check: |_: &AccessTable, reference: u32, value: &MaybeText<'_>| match value {
+        Some(_) => Ok(()),
+        None => Err(Problem::NoText { reference }),
+    },
+    differs: |stored: &String, value: &MaybeText<'_>| *value != Some(stored.as_str()),
+    write: |stored: &mut String, value: &MaybeText<'_>| value.unwrap_or_default().clone_into(stored));
+
+impl Instance {
+    /// `fmi2GetString`: hands each value to `take`, by position and place in the table.
+    pub(crate) fn get_string(
+        &mut self,
+        references: &[u32],
+        mut take: impl FnMut(usize, usize, &str),
+    ) -> Result<(), Problem> {
+        self.guard(Function::GetString)?;
+        if self.reading_needs_preparation() {
+            self.prepare_reading(BaseType::String, references)?;
+        }
+        let table = &self.state.values.strings;
+        for (position, &reference) in references.iter().enumerate() {
+            let index = references::index(BaseType::String, reference);
+            match table.get(index) {
+                Some(stored) => take(position, index, stored),
+                None => return Err(unknown(BaseType::String, reference, table.len())),
+            }
+        }
+        Ok(())
+    }
+
+    /// Which flag a variable needs to be set now. The guard has admitted the state.
+    #[inline]
+    fn settable_flag(&self) -> u8 {
+        match self.state.mode {
+            State::Instantiated => SET_INSTANTIATED,
+            State::InitializationMode => SET_INITIALIZATION,
+            _ => SET_STEP,
+        }
+    }
+
+    /// Whether a read must compute or log something first.
+    #[inline]
+    fn reading_needs_preparation(&self) -> bool {
+        match self.state.mode {
+            State::StepComplete => {
+                self.state.at_last_step.is_some() && self.warned & once::OUTPUT_AFTER_SET == 0
+            }
+            State::InitializationMode => true,
+            _ => false,
+        }
+    }
+
+    #[cold]
+    fn prepare_reading(&mut self, base: BaseType, references: &[u32]) -> Result<(), Problem> {
+        let flags = self.access.flags(base);
+        let mut all = u8::MAX;
+        for &reference in references {
+            match flags.get(references::index(base, reference)) {
+                Some(flags) => all &= flags,
+                None => return Err(unknown(base, reference, flags.len())),
+            }
+        }
+        let only_given = all & SET_BY_IMPORTER != 0;
+        if self.state.mode == State::StepComplete {
+            if !only_given {
+                self.warn_once(
+                    once::OUTPUT_AFTER_SET,
+                    format_args!(
+                        "outputs are read after a set and before the next step: they belong to the last communication point"
+                    ),
+                );
+            }
+            return Ok(());
+        }
+        if all & GET_INITIALIZATION == 0 {
+            self.warn_once(
+                once::READ_IN_INITIALIZATION,
+                format_args!(
+                    "variables that are neither outputs nor InitialUnknowns are read in Initialization Mode: the standard does not allow it, answered all the same"
+                ),
+            );
+        }
+        if only_given { Ok(()) } else { self.initialize_if_needed() }
+    }
+
+    /// Called when a set is about to write a different value.
+    #[inline]
+    fn before_change(&mut self) {
+        match self.state.mode {
+            State::InitializationMode => self.state.needs_initialization = true,
+            State::StepComplete if self.state.at_last_step.is_none() => {
+                let mut values = core::mem::take(&mut self.spare);
+                copy_values(&mut values, &self.state.values);
+                self.state.at_last_step = Some(values);
+            }
+            _ => {}
+        }
+    }
+
+    /// A tolerance parameter that the master sets takes precedence over the experiment's tolerance.
+    #[cold]
+    fn note_tolerance(&mut self, references: &[u32]) {
+        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&references::of(at)));
+    }
+
+    #[cold]
+    fn warn_of_input_before_initialization(&mut self) {
+        self.warn_once(
+            once::INPUT_BEFORE_INITIALIZATION,
+            format_args!(
+                "inputs are set before Initialization Mode: the standard does not allow it, accepted all the same"
+            ),
+        );
+    }
+}
+
+#[cold]
+fn unknown(base: BaseType, reference: u32, count: usize) -> Problem {
+    Problem::UnknownReference { base, reference, count }
+}

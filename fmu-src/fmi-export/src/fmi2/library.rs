@@ -1,0 +1,223 @@
+//! The models of one shared library, and how an importer's GUID finds its model.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
+use crate::fmi2::location::{self, Resources};
+use crate::model::{Model, Source};
+use crate::panics::contain;
+
+/// One model of a library, its type erased.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    name: &'static str,
+    setup_file: Option<&'static str>,
+    default_setup: &'static str,
+    sources: &'static [Source],
+    prepare: fn(&str, &str, &[Self]) -> Result<Prepared, DescribeError>,
+    start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
+}
+
+impl Entry {
+    /// The entry of a model.
+    pub const fn of<M: Model>() -> Self {
+        Self {
+            name: M::NAME,
+            setup_file: M::SETUP_FILE,
+            default_setup: M::DEFAULT_SETUP,
+            sources: M::SOURCES,
+            prepare: prepare::<M>,
+            start_names: start_names::<M>,
+        }
+    }
+
+    /// The model's name.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The file under `resources/` that holds the setup.
+    pub const fn setup_file(&self) -> Option<&'static str> {
+        self.setup_file
+    }
+
+    /// The compiled-in setup text.
+    pub const fn default_setup(&self) -> &'static str {
+        self.default_setup
+    }
+
+    /// By what the model computes.
+    pub const fn sources(&self) -> &'static [Source] {
+        self.sources
+    }
+
+    /// Describes the model for a setup text, the compiled-in one if `None`; `file` names it in errors. Start values for
+    /// other models are errors: see [`Library::describe`].
+    pub fn describe(
+        &self,
+        file: Option<&str>,
+        setup_text: Option<&str>,
+    ) -> Result<model_description::Description, DescribeError> {
+        self.prepare(file, setup_text, &[]).map(|prepared| prepared.description)
+    }
+
+    /// The names that start values in this setup text may have for this model; `None` if it cannot take the text.
+    pub(crate) fn start_names(&self, file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
+        self.setup_file?;
+        (self.start_names)(file, setup_text)
+    }
+
+    pub(crate) fn prepare(
+        &self,
+        file: Option<&str>,
+        setup_text: Option<&str>,
+        library: &[Self],
+    ) -> Result<Prepared, DescribeError> {
+        let file = file.or(self.setup_file).unwrap_or("the built-in setup");
+        // One model that panics here must not hide the others of the library.
+        contain(|| (self.prepare)(file, setup_text.unwrap_or(self.default_setup), library))
+            .unwrap_or_else(|text| Err(DescribeError::Panic(text)))
+    }
+}
+
+/// Every model of one shared library.
+#[derive(Clone, Copy, Debug)]
+pub struct Library {
+    /// The models, in the order in which they are tried.
+    pub entries: &'static [Entry],
+}
+
+impl Library {
+    /// The entry of this name.
+    pub fn find(&self, name: &str) -> Option<&'static Entry> {
+        self.entries.iter().find(|entry| entry.name == name)
+    }
+
+    /// Describes a model of this library, see [`Entry::describe`]; start values may be for any of its models that takes
+    /// the same setup.
+    pub fn describe(
+        &self,
+        entry: &Entry,
+        file: Option<&str>,
+        setup_text: Option<&str>,
+    ) -> Result<model_description::Description, DescribeError> {
+        entry.prepare(file, setup_text, self.entries).map(|prepared| prepared.description)
+    }
+
+    /// The names, for messages.
+    pub fn names(&self) -> String {
+        self.entries.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The model whose GUID is `guid` for the setup at `resource_location`; the error tells what was
+    /// looked at.
+    pub(crate) fn select(&self, guid: &str, resource_location: &[u8]) -> Result<Prepared, String> {
+        let resources = location::resolve(resource_location);
+        let mut texts: BTreeMap<&str, Result<String, String>> = BTreeMap::new();
+        let mut tried = Vec::new();
+        for entry in self.entries {
+            let text = match (entry.setup_file, &resources) {
+                (None, _) | (_, Ok(Resources::None)) => Ok(None),
+                (Some(_), Err(problem)) => Err(problem.clone()),
+                (Some(file), Ok(Resources::Folder(folder))) => texts
+                    .entry(file)
+                    .or_insert_with(|| location::read_setup(folder, file))
+                    .as_ref()
+                    .map(|text| Some(text.as_str()))
+                    .map_err(Clone::clone),
+            };
+            let file = entry.setup_file.filter(|_| !matches!(resources, Ok(Resources::None)));
+            let was_read = text.is_ok();
+            let outcome = match text.map(|text| entry.prepare(None, text, self.entries)) {
+                Ok(Ok(prepared)) if prepared.description.guid == guid => return Ok(prepared),
+                Ok(Ok(prepared)) => Ok(prepared.description.guid),
+                Ok(Err(error)) => Err(error.to_string()),
+                Err(problem) => Err(problem),
+            };
+            tried.push(Tried { entry, file, was_read, outcome });
+        }
+        Err(refusal(guid, tried))
+    }
+}
+
+/// A model that does not have the GUID asked for.
+struct Tried {
+    entry: &'static Entry,
+    /// Its setup file, unless the compiled-in setup was taken.
+    file: Option<&'static str>,
+    /// Whether there was such a file.
+    was_read: bool,
+    /// The GUID it has, or why it has none.
+    outcome: Result<String, String>,
+}
+
+impl Tried {
+    /// Whether the GUID asked for is the one it has with the setup that it was compiled with.
+    fn is_changed(&self, guid: &str) -> bool {
+        let original = || self.entry.prepare(None, None, &[]).is_ok_and(|it| it.description.guid == guid);
+        self.file.is_some() && self.was_read && original()
+    }
+
+    /// Its outcome in words, the same for models that fail for the same reason.
+    fn verdict(&self) -> String {
+        match (&self.outcome, self.file) {
+            (Ok(guid), Some(file)) => format!("has GUID {guid} with {file} as it is now"),
+            (Ok(guid), None) => format!("has GUID {guid}"),
+            (Err(reason), _) => format!("cannot be set up: {reason}"),
+        }
+    }
+}
+
+/// Why there is no instance: what most likely happened first, then what was looked at.
+fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
+    let with_file = || tried.iter().filter(|it| it.file.is_some());
+    let lead = if let Some(index) = tried.iter().position(|it| it.is_changed(guid)) {
+        tried = vec![tried.swap_remove(index)];
+        tried.iter().map(|it| changed(guid, it)).collect()
+    } else if with_file().next().is_some() && with_file().all(|it| !it.was_read) {
+        let reasons: BTreeSet<String> = with_file().filter_map(|it| it.outcome.clone().err()).collect();
+        tried.retain(|it| it.file.is_none());
+        format!("{}; without its setup no model of this library has the GUID {guid}", joined(reasons, "; "))
+    } else {
+        let files: BTreeSet<String> =
+            with_file().filter(|it| it.was_read).filter_map(|it| it.file).map(str::to_owned).collect();
+        let changed = match joined(files, " or ") {
+            files if files.is_empty() => files,
+            files => format!("{files} was changed after packing (then pack the FMU again), or "),
+        };
+        format!(
+            "no model of this library has the GUID {guid}: {changed}the modelDescription.xml and this binary do not \
+             belong together"
+        )
+    };
+    // Models share a file's name, not its kind: the one that finds least wrong in a file is the one it is for.
+    let wrongs = |it: &Tried| it.outcome.as_ref().err().map_or(0, |reason| 1 + reason.lines().count());
+    let least = |file| tried.iter().filter(|it| it.file == file).map(wrongs).min();
+    let mut verdicts: Vec<(String, String)> = Vec::new();
+    for it in tried.iter().filter(|it| it.file.is_none() || Some(wrongs(it)) == least(it.file)) {
+        let verdict = it.verdict();
+        match verdicts.iter_mut().find(|(_, other)| *other == verdict) {
+            Some((names, _)) => *names = format!("{names}, {}", it.entry.name),
+            None => verdicts.push((it.entry.name.to_owned(), verdict)),
+        }
+    }
+    verdicts.iter().fold(lead, |text, (names, verdict)| format!("{text}; {names} {verdict}"))
+}
+
+fn changed(guid: &str, it: &Tried) -> String {
+    let (file, name) = (it.file.unwrap_or_default(), it.entry.name);
+    format!(
+        "{file}: the file was changed after packing: pack the FMU again (the GUID asked for, {guid}, is that of {name} \
+         with its original {file})"
+    )
+}
+
+fn joined(texts: BTreeSet<String>, separator: &str) -> String {
+    texts.into_iter().collect::<Vec<_>>().join(separator)
+}
+
+/// Joins for messages.
+pub(crate) fn shown(path: &Path) -> String {
+    path.display().to_string()
+}

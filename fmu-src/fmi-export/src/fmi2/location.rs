@@ -1,0 +1,229 @@
+//! From the importer's `fmuResourceLocation` to a folder, and from there to a setup text.
+//!
+//! Importers disagree on how to write a file URI (RFC 8089): `file:///a`, `file:/a`, `file://localhost/a`,
+//! percent-encoded once, twice or not at all, or a plain path. Each reading is tried; the first that is a
+//! folder is taken.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use percent_encoding::percent_decode;
+
+use crate::fmi2::library::shown;
+
+/// No setup file is larger than this.
+const MAX_SETUP_BYTES: u64 = 64 << 20;
+
+/// What the location gave.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Resources {
+    /// NULL or empty: the compiled-in setup is used.
+    None,
+    /// A folder that exists.
+    Folder(PathBuf),
+}
+
+/// The folder a resource location means; the error shows the location and what is wrong with it.
+pub(crate) fn resolve(location: &[u8]) -> Result<Resources, String> {
+    if location.is_empty() {
+        return Ok(Resources::None);
+    }
+    let candidates = paths(location, cfg!(windows))?;
+    match candidates.iter().find(|path| path.is_dir()) {
+        Some(folder) => Ok(Resources::Folder(folder.clone())),
+        None => Err(format!(
+            "the resource location `{}` means the folder `{}`, which does not exist",
+            String::from_utf8_lossy(location),
+            candidates.first().map(|path| shown(path)).unwrap_or_default()
+        )),
+    }
+}
+
+/// The text of `file` in `folder`.
+pub(crate) fn read_setup(folder: &Path, file: &str) -> Result<String, String> {
+    let path = folder.join(file);
+    // Opening a pipe waits until a process writes to it.
+    if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+        return Err(format!("`{}` is no regular file", shown(&path)));
+    }
+    let mut text = String::new();
+    let read =
+        File::open(&path).and_then(|opened| opened.take(MAX_SETUP_BYTES + 1).read_to_string(&mut text));
+    match read {
+        Ok(bytes) if bytes as u64 > MAX_SETUP_BYTES => {
+            Err(format!("`{}` is larger than {MAX_SETUP_BYTES} bytes", shown(&path)))
+        }
+        Ok(_) => Ok(text),
+        Err(error) => Err(format!("cannot read `{}`: {error}", shown(&path))),
+    }
+}
+
+/// Every reading of a location, the standard's first.
+fn paths(location: &[u8], windows: bool) -> Result<Vec<PathBuf>, String> {
+    let encoded = local_part(location, windows)?;
+    // `%41` becomes `A`; `+` stays, and so does a `%` that two hexadecimal digits do not follow.
+    let once: Vec<u8> = percent_decode(&encoded).collect();
+    let twice = percent_decode(&once).collect();
+    let mut found: Vec<PathBuf> = Vec::new();
+    for reading in [once, encoded, twice] {
+        if reading.contains(&0) {
+            return Err(format!("the resource location `{}` holds a NUL", String::from_utf8_lossy(location)));
+        }
+        let path = to_path(without_drive_slash(reading, windows))?;
+        if !found.contains(&path) {
+            found.push(path);
+        }
+    }
+    Ok(found)
+}
+
+/// The path part of a file URI, still encoded; a plain absolute path is its own.
+fn local_part(location: &[u8], windows: bool) -> Result<Vec<u8>, String> {
+    let shown = || String::from_utf8_lossy(location).into_owned();
+    if is_plain_path(location, windows) {
+        return Ok(location.to_vec());
+    }
+    let Some(rest) = strip_scheme(location) else {
+        return Err(format!(
+            "the resource location `{}` is no file URI (expected file:///path/to/resources)",
+            shown()
+        ));
+    };
+    let Some(after_slashes) = rest.strip_prefix(b"//") else {
+        return Ok(rest.to_vec());
+    };
+    let end = after_slashes.iter().position(|&byte| byte == b'/').unwrap_or(after_slashes.len());
+    let (host, path) = after_slashes.split_at(end);
+    if host.is_empty() || host.eq_ignore_ascii_case(b"localhost") {
+        Ok(path.to_vec())
+    } else if windows && is_drive(host) {
+        // file://C:/x, one slash short.
+        Ok(after_slashes.to_vec())
+    } else if windows {
+        Ok([b"//", host, path].concat())
+    } else {
+        Err(format!(
+            "the resource location `{}` names the host `{}`; only local folders can be read",
+            shown(),
+            String::from_utf8_lossy(host)
+        ))
+    }
+}
+
+fn is_plain_path(location: &[u8], windows: bool) -> bool {
+    location.starts_with(b"/") || (windows && (location.starts_with(b"\\") || is_drive(location)))
+}
+
+fn is_drive(path: &[u8]) -> bool {
+    matches!(path, [letter, b':', ..] if letter.is_ascii_alphabetic())
+}
+
+fn strip_scheme(location: &[u8]) -> Option<&[u8]> {
+    let (scheme, rest) = location.split_at_checked(5)?;
+    scheme.eq_ignore_ascii_case(b"file:").then_some(rest)
+}
+
+/// `/C:/x` becomes `C:/x` on Windows.
+fn without_drive_slash(path: Vec<u8>, windows: bool) -> Vec<u8> {
+    match path.as_slice() {
+        [b'/', rest @ ..] if windows && is_drive(rest) => rest.to_vec(),
+        _ => path,
+    }
+}
+
+#[cfg(unix)]
+fn to_path(bytes: Vec<u8>) -> Result<PathBuf, String> {
+    use std::os::unix::ffi::OsStringExt;
+    Ok(PathBuf::from(std::ffi::OsString::from_vec(bytes)))
+}
+
+#[cfg(not(unix))]
+fn to_path(bytes: Vec<u8>) -> Result<PathBuf, String> {
+    String::from_utf8(bytes)
+        .map(PathBuf::from)
+        .map_err(|error| format!("the resource location is not UTF-8: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    //! Every way importers write a location leads to the folder they mean.
+    use super::*;
+
+    fn first(location: &str, windows: bool) -> String {
+        paths(location.as_bytes(), windows).unwrap()[0].to_str().unwrap().to_owned()
+    }
+
+    #[test]
+    fn the_forms_of_a_file_uri() {
+        for location in ["file:///a/b", "file:/a/b", "file://localhost/a/b", "FILE:///a/b", "/a/b"] {
+            assert_eq!(first(location, false), "/a/b", "{location}");
+        }
+        assert_eq!(first("file:///a%20b/%C3%BC%2B+%7Bx%7D/100%/%zz", false), "/a b/ü++{x}/100%/%zz");
+    }
+
+    #[test]
+    fn windows_drives_and_shares() {
+        for location in ["file:///C:/a%20b", "file:/C:/a%20b", "file://C:/a%20b", "C:/a b"] {
+            assert_eq!(first(location, true), "C:/a b", "{location}");
+        }
+        assert_eq!(first("file://server/share/x", true), "//server/share/x");
+        assert_eq!(first("\\\\server\\share", true), "\\\\server\\share");
+    }
+
+    #[test]
+    fn other_schemes_hosts_and_nul_are_refused() {
+        for (location, word) in [
+            ("http://a/b", "no file URI"),
+            ("file://server/share", "`server`"),
+            ("fil", "no file URI"),
+            ("file:///a%00b", "NUL"),
+        ] {
+            let error = paths(location.as_bytes(), false).unwrap_err();
+            assert!(error.contains(word) && error.contains(location), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_folder_is_found_under_any_encoding_of_its_name() {
+        let base = std::env::temp_dir().join(format!("fmi-export-location-{}", std::process::id()));
+        for (name, forms) in [
+            ("a b+c{d}", ["a%20b+c%7Bd%7D", "a b+c{d}", "a%2520b+c%257Bd%257D"]),
+            ("50%25ü", ["50%2525%C3%BC", "50%25ü", "50%252525%25C3%25BC"]),
+        ] {
+            let folder = base.join(name);
+            std::fs::create_dir_all(&folder).unwrap();
+            std::fs::write(folder.join("setup.toml"), name).unwrap();
+            for form in forms {
+                let location = format!("file://{}/{form}", base.to_str().unwrap());
+                let found = resolve(location.as_bytes()).unwrap();
+                assert_eq!(found, Resources::Folder(folder.clone()), "{location}");
+                assert_eq!(read_setup(&folder, "setup.toml").unwrap(), name);
+            }
+        }
+        assert_eq!(resolve(b"").unwrap(), Resources::None);
+        let missing = resolve(b"file:///no/such/folder").unwrap_err();
+        assert!(missing.contains("`/no/such/folder`") && missing.contains("does not exist"), "{missing}");
+        let unread = read_setup(&base, "other.toml").unwrap_err();
+        assert!(unread.contains("other.toml"), "{unread}");
+        std::fs::remove_dir_all(&base).unwrap();
+    }
+
+    /// Opening a pipe would wait for ever.
+    #[test]
+    #[cfg(unix)]
+    fn what_is_no_regular_file_is_refused_by_name() {
+        let folder = std::env::temp_dir().join(format!("fmi-export-pipe-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("a-folder")).unwrap();
+        let pipe = folder.join("a-pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        for name in ["a-folder", "a-pipe"] {
+            if name == "a-pipe" && !made.as_ref().is_ok_and(std::process::ExitStatus::success) {
+                continue;
+            }
+            let refused = read_setup(&folder, name).unwrap_err();
+            assert!(refused.contains(name) && refused.contains("no regular file"), "{refused}");
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,274 @@
+//! Messages to the master: categories, text that survives `printf`, formatted only where its category is on.
+
+use core::cell::{Cell, RefCell};
+use core::fmt::{self, Write};
+use std::ffi::{CStr, CString};
+
+use model_description::LogCategory;
+
+use crate::model::Log;
+use model_description::Status;
+
+/// A log category (2.2.4). Messages carry one of the first four; `logAll` stands for all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Category {
+    /// What happens in the model: dumps, eclipse edges, pulses.
+    Events,
+    /// Something odd that the instance lives with.
+    Warning,
+    /// A value or a step was not accepted.
+    Discard,
+    /// A call failed; always logged.
+    Error,
+    /// All of these.
+    All,
+}
+
+impl Category {
+    /// Every category, in the order of the XML.
+    pub const ALL: [Self; 5] = [Self::Events, Self::Warning, Self::Discard, Self::Error, Self::All];
+
+    /// Name in the XML and at the C interface.
+    pub const fn name(self) -> &'static CStr {
+        match self {
+            Self::Events => c"logEvents",
+            Self::Warning => c"logStatusWarning",
+            Self::Discard => c"logStatusDiscard",
+            Self::Error => c"logStatusError",
+            Self::All => c"logAll",
+        }
+    }
+
+    /// What the category tells.
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Events => "events inside the model, with their times",
+            Self::Warning => "something odd that the simulation goes on with",
+            Self::Discard => "values or steps that were not accepted",
+            Self::Error => "calls that failed; logged always",
+            Self::All => "all messages",
+        }
+    }
+
+    /// The category of a name.
+    pub fn from_name(name: &CStr) -> Option<Self> {
+        Self::ALL.into_iter().find(|category| category.name() == name)
+    }
+
+    /// The `LogCategories` of the XML.
+    pub fn declared() -> Vec<LogCategory> {
+        Self::ALL
+            .into_iter()
+            .map(|category| LogCategory {
+                name: category.name().to_string_lossy().into_owned(),
+                description: Some(category.description().to_owned()),
+            })
+            .collect()
+    }
+
+    /// The names, for messages.
+    pub(crate) fn names() -> String {
+        Self::ALL.map(|category| category.name().to_string_lossy().into_owned()).join(", ")
+    }
+
+    const fn bit(self) -> u8 {
+        match self {
+            Self::All => u8::MAX,
+            single => 1 << single as u8,
+        }
+    }
+
+    const fn of_status(status: Status) -> Self {
+        match status {
+            Status::Ok | Status::Pending => Self::Events,
+            Status::Warning => Self::Warning,
+            Status::Discard => Self::Discard,
+            Status::Error | Status::Fatal => Self::Error,
+        }
+    }
+}
+
+/// Where messages go: the master's logger, or a test's list.
+pub trait LogSink: Send {
+    /// Takes one message; every text is ready for a `printf`-like receiver without arguments.
+    fn write(&self, instance_name: &CStr, status: Status, category: &CStr, message: &CStr);
+}
+
+/// The log of one instance.
+pub struct Logger {
+    sink: Box<dyn LogSink>,
+    instance_name: CString,
+    enabled: Cell<u8>,
+    initially: u8,
+    buffer: RefCell<String>,
+}
+
+impl Logger {
+    /// A logger for `instance_name`; with `logging_on` false only errors are reported.
+    pub fn new(sink: Box<dyn LogSink>, instance_name: &CStr, logging_on: bool) -> Self {
+        let initially = if logging_on { Category::All.bit() } else { 0 };
+        Self {
+            sink,
+            instance_name: instance_name.to_owned(),
+            enabled: Cell::new(initially),
+            initially,
+            buffer: RefCell::default(),
+        }
+    }
+
+    /// Enables exactly these categories; none named means all of them, `on` false switches all off.
+    pub fn enable(&self, on: bool, categories: impl IntoIterator<Item = Category>) {
+        let mut named = categories.into_iter().peekable();
+        self.enabled.set(match (on, named.peek()) {
+            (false, _) => 0,
+            (true, None) => Category::All.bit(),
+            (true, Some(_)) => named.fold(0, |bits, category| bits | category.bit()),
+        });
+    }
+
+    /// Enables no category (errors still pass).
+    pub(crate) fn enable_nothing(&self) {
+        self.enabled.set(0);
+    }
+
+    /// Back to what was asked for when the instance was made.
+    pub(crate) fn reset(&self) {
+        self.enabled.set(self.initially);
+    }
+
+    /// Whether a message with this status is sent.
+    #[inline]
+    pub fn is_enabled(&self, status: Status) -> bool {
+        let category = Category::of_status(status);
+        matches!(category, Category::Error) || self.enabled.get() & category.bit() != 0
+    }
+
+    /// Sends a message in the category of `status`; formats nothing if that is off.
+    pub fn log(&self, status: Status, message: fmt::Arguments<'_>) {
+        if !self.is_enabled(status) {
+            return;
+        }
+        // A sink that logs again finds the buffer taken and gets its own.
+        match self.buffer.try_borrow_mut() {
+            Ok(mut buffer) => self.send(status, message, &mut buffer),
+            Err(_) => self.send(status, message, &mut String::new()),
+        }
+    }
+
+    fn send(&self, status: Status, message: fmt::Arguments<'_>, buffer: &mut String) {
+        buffer.clear();
+        // Only a `Display` that fails by itself could fail here; what came before it is worth sending.
+        let _ = Escaped(buffer).write_fmt(message);
+        buffer.push('\0');
+        if let Ok(text) = CStr::from_bytes_with_nul(buffer.as_bytes()) {
+            self.sink.write(&self.instance_name, status, Category::of_status(status).name(), text);
+        }
+    }
+}
+
+/// Makes text safe for a receiver that expands `printf` formats and FMI's `#r123#` references.
+struct Escaped<'a>(&'a mut String);
+
+impl Write for Escaped<'_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        for c in text.chars() {
+            match c {
+                '%' => self.0.push_str("%%"),
+                '#' => self.0.push_str("##"),
+                '\0' => self.0.push('\u{FFFD}'),
+                other => self.0.push(other),
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Log for Logger {
+    fn events_enabled(&self) -> bool {
+        self.is_enabled(Status::Ok)
+    }
+
+    fn event(&self, time_s: f64, message: &str) {
+        self.log(Status::Ok, format_args!("t = {time_s} s: {message}"));
+    }
+
+    fn warning(&self, message: &str) {
+        self.log(Status::Warning, format_args!("{message}"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! What reaches the master is what was logged, only in the categories it asked for.
+    use std::sync::{Arc, Mutex};
+
+    use super::*;
+
+    type Lines = Arc<Mutex<Vec<(Status, String, String)>>>;
+
+    struct Recorder(Lines);
+
+    impl LogSink for Recorder {
+        fn write(&self, instance_name: &CStr, status: Status, category: &CStr, message: &CStr) {
+            assert_eq!(instance_name, c"probe");
+            let text = |c: &CStr| c.to_str().unwrap().to_owned();
+            self.0.lock().unwrap().push((status, text(category), text(message)));
+        }
+    }
+
+    fn logger(on: bool) -> (Logger, Lines) {
+        let lines = Lines::default();
+        (Logger::new(Box::new(Recorder(lines.clone())), c"probe", on), lines)
+    }
+
+    fn log_all(logger: &Logger) {
+        for status in [Status::Ok, Status::Warning, Status::Discard, Status::Error] {
+            logger.log(status, format_args!("{status:?}"));
+        }
+    }
+
+    fn categories(lines: &Lines) -> Vec<String> {
+        lines.lock().unwrap().drain(..).map(|(_, category, _)| category).collect()
+    }
+
+    #[test]
+    fn format_characters_and_nul_are_defused() {
+        let (logger, lines) = logger(true);
+        logger.log(Status::Error, format_args!("100 %s of #r1# and {}", "a\0b"));
+        assert_eq!(lines.lock().unwrap()[0].2, "100 %%s of ##r1## and a\u{FFFD}b");
+    }
+
+    #[test]
+    fn categories_are_honoured_and_errors_always_pass() {
+        let (logger, lines) = logger(false);
+        log_all(&logger);
+        assert_eq!(categories(&lines), ["logStatusError"]);
+        logger.enable(true, []);
+        log_all(&logger);
+        assert_eq!(
+            categories(&lines),
+            ["logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError"]
+        );
+        logger.enable(true, [Category::Events]);
+        log_all(&logger);
+        assert_eq!(categories(&lines), ["logEvents", "logStatusError"]);
+        logger.enable(true, [Category::All]);
+        log_all(&logger);
+        assert_eq!(categories(&lines).len(), 4);
+        logger.enable(false, [Category::Events]);
+        log_all(&logger);
+        assert_eq!(categories(&lines), ["logStatusError"]);
+    }
+
+    #[test]
+    fn nothing_is_formatted_while_its_category_is_off() {
+        struct PanicsWhenFormatted;
+        impl fmt::Display for PanicsWhenFormatted {
+            fn fmt(&self, _: &mut fmt::Formatter<'_>) -> fmt::Result {
+                panic!("formatted")
+            }
+        }
+        let (logger, _) = logger(false);
+        logger.log(Status::Discard, format_args!("{PanicsWhenFormatted}"));
+    }
+}

@@ -1,0 +1,43 @@
+//! FMI 2.0 co-simulation: everything of the standard that a model does not see.
+//!
+//! [`references`] gives each element of a variable its value reference, [`description`] writes the `modelDescription.xml`,
+//! [`instance`] is the state machine around a model, [`functions`] are the C functions over it, and
+//! [`crate::export!`] makes a library of them. Pointers are followed in [`arguments`], [`boundary`], [`describe`] and
+//! [`functions`] only.
+
+pub(crate) mod access;
+#[allow(unsafe_code, reason = "takes the raw pointers of the C interface")]
+mod arguments;
+#[allow(unsafe_code, reason = "takes the raw pointers of the C interface")]
+mod boundary;
+#[allow(unsafe_code, reason = "takes the raw pointers of the C interface")]
+mod describe;
+mod description;
+mod export;
+#[allow(unsafe_code, reason = "calls the C library to find unwind tables")]
+#[cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod find_object;
+#[allow(unsafe_code, reason = "takes the raw pointers of the C interface")]
+mod functions;
+pub(crate) mod instance;
+mod library;
+mod location;
+pub mod logger;
+pub(crate) mod problem;
+pub mod references;
+mod start;
+mod state_bytes;
+mod structure;
+
+pub use describe::describe;
+pub use description::{DescribeError, description_of, scalar_variables};
+pub use functions::*;
+pub use instance::MAX_INPUT_DERIVATIVE_ORDER;
+pub use library::{Entry, Library};
+pub use problem::StateMismatch;
+pub use start::{SetupValue, StartValue};
+
+/// For a shared library: its panics, which are all contained, write nothing to standard error.
+pub fn silence_panics() {
+    crate::panics::silence();
+}

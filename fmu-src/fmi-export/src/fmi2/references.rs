@@ -1,0 +1,57 @@
+//! Value references: an element's place in the table of its base type, counted on from the type's first reference.
+//!
+//! No reference means two variables, for tools store results by reference alone; a get or set is a subtraction and one
+//! bounds-checked array access.
+
+use model_description::BaseType;
+
+use crate::variables::Element;
+
+/// Most elements of one base type.
+pub const MOST: u32 = 1_000_000;
+
+/// The value reference of the first element of a base type.
+pub const fn first(base: BaseType) -> u32 {
+    base as u32 * MOST
+}
+
+/// The base type whose elements have references like this one.
+pub const fn base_type(reference: u32) -> Option<BaseType> {
+    match reference / MOST {
+        0 => Some(BaseType::Real),
+        1 => Some(BaseType::Integer),
+        2 => Some(BaseType::Boolean),
+        3 => Some(BaseType::String),
+        _ => None,
+    }
+}
+
+/// Where a reference stands in the table of a base type; beyond the table's end for another type's reference.
+#[inline]
+pub const fn index(base: BaseType, reference: u32) -> usize {
+    reference.wrapping_sub(first(base)) as usize
+}
+
+/// The value reference of an element.
+pub fn of(element: impl Into<Element>) -> u32 {
+    let element = element.into();
+    let base = match element {
+        Element::Real(_) => BaseType::Real,
+        Element::Integer(_) => BaseType::Integer,
+        Element::Boolean(_) => BaseType::Boolean,
+        Element::Text(_) => BaseType::String,
+    };
+    first(base) + element.place()
+}
+
+/// The element of a value reference, whether a model has it or not.
+pub fn element(reference: u32) -> Option<Element> {
+    let base = base_type(reference)?;
+    let place = reference - first(base);
+    Some(match base {
+        BaseType::Real => Element::Real(place),
+        BaseType::Integer => Element::Integer(place),
+        BaseType::Boolean => Element::Boolean(place),
+        BaseType::String => Element::Text(place),
+    })
+}

@@ -1,0 +1,299 @@
+//! Start values that a setup gives to parameters and inputs: looked up, converted, checked, put in.
+//!
+//! A setup may serve several models of a library. A start value without a model is for each of them that has the
+//! variable; it is an error if none has it. Later wins: the declared start value, a vector under its bare name, one of
+//! its elements, the same two for this model alone.
+
+use std::cell::OnceCell;
+use std::collections::BTreeSet;
+
+use model_description::{
+    Causality, Description, ScalarVariable, VariableKind, names,
+    value::{self, Misfit, Value},
+};
+
+use crate::fmi2::library::Entry;
+use crate::panics::contain;
+use crate::variables::Values;
+
+/// A start value that a setup gives to a variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartValue {
+    /// The key as it stands in the setup, for messages.
+    pub key: String,
+    /// Line from 1, where it could be told.
+    pub line: Option<usize>,
+    /// The only model that it is for.
+    pub model: Option<String>,
+    /// The variable, or the bare name of a vector or matrix.
+    pub name: String,
+    /// The value.
+    pub value: SetupValue,
+}
+
+/// A value as a setup gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SetupValue {
+    /// A number, in the variable's unit.
+    Number(f64),
+    /// A whole number.
+    Integer(i64),
+    /// True or false.
+    Boolean(bool),
+    /// A text: a number with its unit, the name of an item, or a String.
+    Text(String),
+    /// Of a vector the elements, of a matrix the rows.
+    List(Vec<Self>),
+}
+
+impl SetupValue {
+    fn shown(&self) -> String {
+        match self {
+            Self::Number(number) => format!("{number:?}"),
+            Self::Integer(number) => number.to_string(),
+            Self::Boolean(truth) => truth.to_string(),
+            Self::Text(text) => format!("{text:?}"),
+            Self::List(items) => match items.iter().map(Self::length).collect::<Option<BTreeSet<_>>>() {
+                Some(lengths) if lengths.len() == 1 => {
+                    let columns = lengths.first().copied().unwrap_or_default();
+                    format!("{} lists of length {columns}", items.len())
+                }
+                _ => format!("a list of length {}", items.len()),
+            },
+        }
+    }
+
+    fn length(&self) -> Option<usize> {
+        if let Self::List(items) = self { Some(items.len()) } else { None }
+    }
+}
+
+/// The models that a setup text serves.
+pub(crate) struct Readers<'a> {
+    /// The model whose description is made.
+    pub own: &'static str,
+    /// Every model of the library.
+    pub entries: &'a [Entry],
+    pub file: &'a str,
+    pub text: &'a str,
+    others: OnceCell<Vec<Reader>>,
+}
+
+/// Another model that takes the text.
+struct Reader {
+    model: &'static str,
+    names: BTreeSet<String>,
+}
+
+impl<'a> Readers<'a> {
+    pub(crate) fn new(own: &'static str, entries: &'a [Entry], file: &'a str, text: &'a str) -> Self {
+        Self { own, entries, file, text, others: OnceCell::new() }
+    }
+
+    /// Asked only when a name is not the model's own: each of them reads the text anew.
+    fn others(&self) -> &[Reader] {
+        self.others.get_or_init(|| {
+            let others = self.entries.iter().filter(|entry| entry.name() != self.own);
+            let read = |entry: &Entry| {
+                let names = contain(|| entry.start_names(self.file, self.text)).ok().flatten()?;
+                Some(Reader { model: entry.name(), names })
+            };
+            others.filter_map(read).collect()
+        })
+    }
+
+    fn models(&self) -> Vec<&'static str> {
+        core::iter::once(self.own).chain(self.others().iter().map(|other| other.model)).collect()
+    }
+}
+
+/// The names that a start value may have: parameters and inputs, and their vectors' bare names.
+pub(crate) fn settable_names(variables: &[ScalarVariable]) -> BTreeSet<String> {
+    let settable = variables.iter().filter(|variable| is_settable(variable));
+    settable.flat_map(|variable| [variable.name.clone(), bare(&variable.name).to_owned()]).collect()
+}
+
+fn is_settable(variable: &ScalarVariable) -> bool {
+    matches!(variable.causality, Causality::Parameter | Causality::Input)
+}
+
+fn bare(name: &str) -> &str {
+    match name.strip_suffix(']').and_then(|name| name.rfind('[')) {
+        Some(at) => &name[..at],
+        None => name,
+    }
+}
+
+/// Puts the start values into the description and the table of values; the error is one line a problem.
+pub(crate) fn apply(
+    given: &[StartValue],
+    readers: &Readers<'_>,
+    description: &mut Description,
+    start: &mut Values,
+) -> Result<(), String> {
+    let mut problems: Vec<(Option<usize>, String)> = Vec::new();
+    let mut assigned: Vec<((bool, bool), usize, Value)> = Vec::new();
+    for entry in given {
+        match targets(entry, readers, description) {
+            Ok(targets) => {
+                let is_element = description.variables.iter().any(|variable| variable.name == entry.name);
+                let rank = (entry.model.is_some(), is_element);
+                assigned.extend(targets.into_iter().map(|(index, value)| (rank, index, value)));
+            }
+            Err(misfit) => {
+                let line = entry.line.map(|line| format!(":{line}")).unwrap_or_default();
+                problems.push((entry.line, format!("{}{line}: {}: {misfit}", readers.file, entry.key)));
+            }
+        }
+    }
+    if !problems.is_empty() {
+        problems.sort_by_key(|(line, _)| *line);
+        return Err(problems.into_iter().map(|(_, problem)| problem).collect::<Vec<_>>().join("\n"));
+    }
+    assigned.sort_by_key(|(rank, ..)| *rank);
+    for (_, index, value) in assigned {
+        let position = position_in_table(&description.variables, index);
+        if let Some(variable) = description.variables.get_mut(index) {
+            value::set_start(variable, &value);
+            start.set(position, value);
+        }
+    }
+    Ok(())
+}
+
+/// How many variables of the same base type are declared before this one.
+fn position_in_table(variables: &[ScalarVariable], index: usize) -> usize {
+    let base = |variable: &ScalarVariable| match variable.kind {
+        VariableKind::Real { .. } => 0,
+        VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
+        VariableKind::Boolean { .. } => 2,
+        VariableKind::String { .. } => 3,
+    };
+    let own = variables.get(index).map(base);
+    variables.iter().take(index).filter(|variable| Some(base(variable)) == own).count()
+}
+
+/// The variables, by position, that an entry sets, with their values; none if it is for other models.
+fn targets(
+    entry: &StartValue,
+    readers: &Readers<'_>,
+    description: &Description,
+) -> Result<Vec<(usize, Value)>, Misfit> {
+    if let Some(model) = &entry.model
+        && model != readers.own
+    {
+        let models = readers.models();
+        if !models.contains(&model.as_str()) {
+            let found = format!("the unknown model {model:?}{}", hint(model, models.iter().copied()));
+            let allowed = format!(
+                "{}, which read this file; the name of a variable stands in quotes as a whole",
+                models.join(", ")
+            );
+            return Err(Misfit::new(found, allowed));
+        }
+        let other = readers.others().iter().find(|other| other.model == *model);
+        return match other {
+            Some(other) if !other.names.contains(&entry.name) => {
+                Err(unknown(&entry.name, &[model.as_str()], other.names.iter().map(String::as_str)))
+            }
+            _ => Ok(Vec::new()),
+        };
+    }
+    let own = |index: &usize| description.variables.get(*index);
+    let scalar = description.variables.iter().position(|variable| variable.name == entry.name);
+    let elements = match scalar {
+        Some(index) => vec![index],
+        None => names::elements(&description.variables, &entry.name),
+    };
+    let Some(first) = elements.first().and_then(own) else {
+        let is_others = |other: &Reader| other.names.contains(&entry.name);
+        if entry.model.is_none() && readers.others().iter().any(is_others) {
+            return Ok(Vec::new());
+        }
+        let mut known = settable_names(&description.variables);
+        let mut models = vec![readers.own];
+        if entry.model.is_none() {
+            models = readers.models();
+            known.extend(readers.others().iter().flat_map(|other| other.names.iter().cloned()));
+        }
+        return Err(unknown(&entry.name, &models, known.iter().map(String::as_str)));
+    };
+    if !is_settable(first) {
+        let found = format!("the {} {}", first.causality, entry.name);
+        return Err(Misfit::new(found, "a parameter or an input"));
+    }
+    if scalar.is_some() {
+        return Ok(vec![(elements[0], converted(description, first, &entry.value)?)]);
+    }
+    let given = shaped(&entry.name, &entry.value);
+    let by_name = |name: &str| given.iter().find(|(element, _)| element == name).map(|(_, given)| *given);
+    let variables: Vec<_> = elements.iter().filter_map(|index| Some((*index, own(index)?))).collect();
+    let shape = || Misfit::new(entry.value.shown(), shape_of(&entry.name, &variables));
+    if given.len() != variables.len() {
+        return Err(shape());
+    }
+    let value_of = |(index, variable): &(usize, &ScalarVariable)| {
+        let given = by_name(&variable.name).ok_or_else(shape)?;
+        Ok((*index, converted(description, variable, given)?))
+    };
+    variables.iter().map(value_of).collect()
+}
+
+/// The elements that a list gives, by name.
+fn shaped<'g>(name: &str, given: &'g SetupValue) -> Vec<(String, &'g SetupValue)> {
+    let SetupValue::List(items) = given else { return Vec::new() };
+    let row = |(r, row): (usize, &'g SetupValue)| -> Vec<(String, &'g SetupValue)> {
+        match row {
+            SetupValue::List(cells) => {
+                let cells = (1..).zip(cells);
+                cells.map(|(c, cell): (usize, _)| (format!("{name}[{r},{c}]"), cell)).collect()
+            }
+            scalar => vec![(format!("{name}[{r}]"), scalar)],
+        }
+    };
+    (1..).zip(items).flat_map(row).collect()
+}
+
+fn shape_of(name: &str, variables: &[(usize, &ScalarVariable)]) -> String {
+    let last = variables.last().map(|(_, variable)| variable.name.as_str()).unwrap_or_default();
+    let indices = last.strip_prefix(name).unwrap_or_default().trim_matches(['[', ']']);
+    match indices.split_once(',') {
+        Some((rows, columns)) => format!("{rows} lists of length {columns}"),
+        None => format!("a list of length {indices}"),
+    }
+}
+
+/// The value in the variable's own unit and base type, if the variable admits it.
+fn converted(
+    description: &Description,
+    variable: &ScalarVariable,
+    given: &SetupValue,
+) -> Result<Value, Misfit> {
+    let misfit = || Misfit::new(given.shown(), value::allowed(description, variable));
+    let value = match (&variable.kind, given) {
+        (VariableKind::Real { .. }, SetupValue::Number(number)) => Value::Real(*number),
+        (VariableKind::Real { .. }, SetupValue::Integer(number)) => Value::Real(*number as f64),
+        (VariableKind::Integer { .. } | VariableKind::Enumeration { .. }, SetupValue::Integer(number)) => {
+            Value::Integer(i32::try_from(*number).map_err(|_| misfit())?)
+        }
+        (VariableKind::Boolean { .. }, SetupValue::Boolean(truth)) => Value::Boolean(*truth),
+        (VariableKind::String { .. }, SetupValue::Text(text)) => Value::Text(text.clone()),
+        (VariableKind::Real { .. } | VariableKind::Enumeration { .. }, SetupValue::Text(text)) => {
+            value::read(description, variable, text)?
+        }
+        _ => return Err(misfit()),
+    };
+    value::check(description, variable, &value)
+        .map_err(|refused| Misfit { found: given.shown(), ..refused })?;
+    Ok(value)
+}
+
+fn unknown<'n>(name: &str, models: &[&str], known: impl Iterator<Item = &'n str>) -> Misfit {
+    let found = format!("the unknown name {name:?}{}", hint(name, known));
+    Misfit::new(found, format!("a parameter or an input of {}", models.join(" or ")))
+}
+
+fn hint<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> String {
+    let near = names::similar(name, known);
+    near.first().map(|near| format!(" (did you mean {near:?}?)")).unwrap_or_default()
+}

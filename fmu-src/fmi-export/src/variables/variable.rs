@@ -1,0 +1,140 @@
+//! What is declared of a variable. An array is one variable; its elements are counted row by row.
+
+use model_description::{Causality, Initial, Variability};
+
+/// Causality, variability and initial of a declaration (FMI 2.0.5, 2.2.7; FMI 3.0, 2.4.7.4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Role {
+    /// Causality.
+    pub causality: Causality,
+    /// Variability.
+    pub variability: Variability,
+    /// `initial` where it differs from the standard's default.
+    pub initial: Option<Initial>,
+}
+
+/// A declared variable; its start values stand in [`Interface::start`](super::Interface::start).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Full structured name, of an array without indices.
+    pub name: String,
+    /// What it means.
+    pub description: String,
+    /// Role.
+    pub role: Role,
+    /// Number of elements along each axis; none of a scalar.
+    pub dimensions: Vec<usize>,
+    /// The first element; the others follow it.
+    pub first: Element,
+    /// Type with its attributes.
+    pub kind: Kind,
+}
+
+/// Type of a variable.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// A floating-point number.
+    Real {
+        /// Unit from the unit table.
+        unit: String,
+        /// Display unit of that unit.
+        display_unit: Option<String>,
+        /// Smallest value.
+        min: Option<f64>,
+        /// Largest value.
+        max: Option<f64>,
+        /// Typical magnitude.
+        nominal: Option<f64>,
+    },
+    /// A whole number.
+    Integer {
+        /// Smallest value.
+        min: Option<i32>,
+        /// Largest value.
+        max: Option<i32>,
+    },
+    /// A truth value.
+    Boolean,
+    /// A text.
+    Text,
+    /// An item of the enumeration of this name.
+    Enumeration(&'static str),
+}
+
+/// One scalar, by its place in the table of values of its type; Enumerations share the Integers' table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Element {
+    /// Of the Reals.
+    Real(u32),
+    /// Of the Integers and Enumerations.
+    Integer(u32),
+    /// Of the Booleans.
+    Boolean(u32),
+    /// Of the texts.
+    Text(u32),
+}
+
+impl Element {
+    /// The element `count` places on.
+    #[must_use]
+    pub const fn after(self, count: u32) -> Self {
+        match self {
+            Self::Real(at) => Self::Real(at + count),
+            Self::Integer(at) => Self::Integer(at + count),
+            Self::Boolean(at) => Self::Boolean(at + count),
+            Self::Text(at) => Self::Text(at + count),
+        }
+    }
+
+    /// The place in the table.
+    pub const fn place(self) -> u32 {
+        match self {
+            Self::Real(at) | Self::Integer(at) | Self::Boolean(at) | Self::Text(at) => at,
+        }
+    }
+}
+
+impl Variable {
+    /// Number of elements.
+    pub fn count(&self) -> usize {
+        self.dimensions.iter().product()
+    }
+
+    /// The elements with their names: `x`, `x[2]`, `x[1,3]`.
+    pub fn elements(&self) -> impl Iterator<Item = (String, Element)> + '_ {
+        (0..self.count()).map(|at| (self.element_name(at), self.first.after(at as u32)))
+    }
+
+    fn element_name(&self, at: usize) -> String {
+        let mut indices = Vec::with_capacity(self.dimensions.len());
+        let mut rest = at;
+        for length in self.dimensions.iter().rev() {
+            indices.push((rest % length + 1).to_string());
+            rest /= length;
+        }
+        indices.reverse();
+        if indices.is_empty() { self.name.clone() } else { format!("{}[{}]", self.name, indices.join(",")) }
+    }
+}
+
+/// An enumeration type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EnumerationType {
+    /// Name of the type.
+    pub name: &'static str,
+    /// What the choice is about.
+    pub description: &'static str,
+    /// The items in the order of declaration.
+    pub items: &'static [Item],
+}
+
+/// An item of an enumeration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// Name.
+    pub name: &'static str,
+    /// Value.
+    pub value: i32,
+    /// What it means.
+    pub description: &'static str,
+}

@@ -1,0 +1,230 @@
+//! Starts a child and supervises it until it ends, or ends it.
+
+use std::{
+    ffi::OsString,
+    io,
+    process::{Child, Command, ExitStatus},
+    time::{Duration, Instant},
+};
+
+use loader::{CallMark, Marked};
+
+use super::{
+    channel::{Inbox, Payload, RING_WORDS},
+    printed::Printed,
+    system,
+};
+use crate::interrupt;
+
+/// EndReason often the parent looks: from often, while much comes, to seldom.
+const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(5)];
+/// Words at a time that are much.
+const MUCH: usize = RING_WORDS / 8;
+/// EndReason long a child that is asked to end, or has told its end, may take.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// What the child's process may take of the computer.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Limits {
+    /// Bytes that it may allocate.
+    pub memory: Option<u64>,
+    /// Files that it may keep open.
+    pub files: Option<u64>,
+}
+
+/// What the parent ends the child for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bounds {
+    /// Time that the child may take, in s.
+    pub time_s: Option<f64>,
+    /// Time that one FMI call may take, in s.
+    pub call_s: Option<f64>,
+    /// Bytes that it may print.
+    pub printed: Option<u64>,
+}
+
+/// EndReason a child came to its end.
+#[derive(Debug)]
+pub enum EndReason {
+    /// By itself.
+    Ended(ExitStatus),
+    /// It took longer than it may, in s.
+    Hangs(f64),
+    /// A call took longer than it may, in s.
+    CallHangs(f64),
+    /// It told its end and went on.
+    DoesNotExit,
+    /// It printed more bytes than it may.
+    Prints(u64),
+    /// It was asked to end.
+    Interrupted,
+    /// What it sent could not be taken.
+    Refused(String),
+}
+
+/// A child that was supervised to its end.
+#[derive(Debug)]
+pub struct Supervised {
+    /// EndReason it ended.
+    pub how: EndReason,
+    /// The call it was in.
+    pub mark: Marked,
+    /// The last lines it printed, each after a line break.
+    pub printed: String,
+}
+
+impl Supervised {
+    /// Why it is no good end, with the call it came in; `None` for a good one.
+    pub fn fault(&self) -> Option<String> {
+        let what = match &self.how {
+            EndReason::Ended(status) if status.success() => return None,
+            how => describe(how),
+        };
+        Some(self.placed(&what))
+    }
+
+    /// That it ended without telling its result.
+    pub fn without_result(&self) -> String {
+        self.placed(&describe(&self.how))
+    }
+
+    fn placed(&self, what: &str) -> String {
+        let printed = &self.printed;
+        match (&self.mark.under_way, &self.mark.last) {
+            (Some(call), _) => format!("{call}: {what}{printed}"),
+            (None, Some(call)) => format!("{what}, after {call} had returned{printed}"),
+            (None, None) => format!("{what}, before any call{printed}"),
+        }
+    }
+}
+
+fn describe(how: &EndReason) -> String {
+    match how {
+        EndReason::Ended(status) => format!("the process died: {}", system::how(*status)),
+        EndReason::Hangs(time_s) => format!("hangs: still busy after {time_s} s (see --timeout)"),
+        EndReason::CallHangs(time_s) => {
+            format!("hangs: the call did not return within {time_s} s (see --timeout)")
+        }
+        EndReason::DoesNotExit => "its process does not exit".to_owned(),
+        EndReason::Prints(bytes) => format!("prints without end: more than {} MiB", bytes >> 20),
+        EndReason::Interrupted => "interrupted".to_owned(),
+        EndReason::Refused(why) => why.clone(),
+    }
+}
+
+/// A child that runs.
+pub struct ChildProcess {
+    child: Child,
+    inbox: Inbox,
+    printed: Printed,
+}
+
+impl ChildProcess {
+    /// Starts this program with these arguments.
+    pub fn new(
+        arguments: impl IntoIterator<Item = OsString>,
+        limits: Limits,
+        environment: &[(&str, OsString)],
+    ) -> io::Result<Self> {
+        let (file, inbox) = Inbox::create(limits.memory, limits.files)?;
+        let mut command = Command::new(std::env::current_exe()?);
+        command.args(arguments).stdin(file).stdout(Printed::stdio()).stderr(Printed::stdio());
+        command.envs(environment.iter().map(|(name, value)| (name, value)));
+        let mut child = system::spawn(&mut command)?;
+        match Printed::of(&mut child) {
+            Ok(printed) => Ok(Self { child, inbox, printed }),
+            Err(error) => {
+                system::end(&mut child)?;
+                Err(error)
+            }
+        }
+    }
+
+    /// Supervises it to its end. `take` gets every frame and tells whether it was the last one, `line` every line that
+    /// is printed; `tick` is called between.
+    pub fn supervise(
+        mut self,
+        bounds: Bounds,
+        take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
+        line: &mut dyn FnMut(&str),
+        tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
+    ) -> Supervised {
+        let how = self.follow(bounds, take, line, tick);
+        let mark = self.inbox.mark().map(loader::read_mark).unwrap_or_default();
+        let status = system::end(&mut self.child);
+        self.printed.finish(line);
+        let how = match (how, status) {
+            (Some(how), _) => how,
+            (None, Ok(status)) => EndReason::Ended(status),
+            (None, Err(error)) => EndReason::Refused(format!("the process cannot be waited for: {error}")),
+        };
+        Supervised { how, mark, printed: self.printed.last() }
+    }
+
+    /// Until it ended by itself (`None`) or has to be ended.
+    fn follow(
+        &mut self,
+        bounds: Bounds,
+        take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
+        line: &mut dyn FnMut(&str),
+        tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
+    ) -> Option<EndReason> {
+        let began = Instant::now();
+        let (mut call, mut call_began) = (None, began);
+        let (mut finished, mut cancelled) = (None::<Instant>, None::<Instant>);
+        let [often, seldom] = PAUSES;
+        let mut pause = often;
+        loop {
+            // Before its frames are taken: what it sent until its end is then complete.
+            let ended = system::has_ended(&mut self.child).unwrap_or(true);
+            let mut is_last = false;
+            let came = self.inbox.drain(&mut |kind, payload| {
+                is_last |= take(kind, payload)?;
+                Ok(())
+            });
+            let came = match came {
+                Ok(came) => came,
+                Err(why) => return Some(EndReason::Refused(why)),
+            };
+            if let Err(why) = tick(self.inbox.mark()) {
+                return Some(EndReason::Refused(why));
+            }
+            let printed = self.printed.read(line);
+            if ended {
+                return None;
+            }
+            if let Some(allowed) = bounds.printed.filter(|allowed| self.printed.bytes() > *allowed) {
+                return Some(EndReason::Prints(allowed));
+            }
+            let now = Instant::now();
+            // The call under way and its number.
+            let under_way = self.inbox.mark().and_then(loader::call_under_way);
+            if under_way != call {
+                (call, call_began) = (under_way, now);
+            }
+            let is_over = |from: Instant, time_s: &f64| (now - from).as_secs_f64() > *time_s;
+            if let Some(time_s) = bounds.time_s.filter(|time_s| is_over(began, time_s)) {
+                return Some(EndReason::Hangs(time_s));
+            }
+            let in_call = call.is_some();
+            if let Some(time_s) = bounds.call_s.filter(|time_s| in_call && is_over(call_began, time_s)) {
+                return Some(EndReason::CallHangs(time_s));
+            }
+            if is_last {
+                finished = Some(now);
+            }
+            if finished.is_some_and(|from| now - from > GRACE) {
+                return Some(EndReason::DoesNotExit);
+            }
+            if interrupt::raised() && cancelled.is_none() {
+                self.inbox.cancel();
+                cancelled = Some(now);
+            }
+            if cancelled.is_some_and(|from| now - from > GRACE) {
+                return Some(EndReason::Interrupted);
+            }
+            std::thread::sleep(pause);
+            pause = if came > MUCH || printed { (pause / 2).max(often) } else { (pause * 2).min(seldom) };
+        }
+    }
+}

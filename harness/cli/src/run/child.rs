@@ -1,0 +1,243 @@
+//! A simulation in a process of its own: the child sends rows, the parent takes them as far as they are expected.
+
+use std::{
+    ffi::OsString,
+    process::ExitCode,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use loader::{
+    Collector, Ended, Error, Fmu, InstanceOptions, LogMessage, Options, Recording, Row, Rows, Status,
+};
+
+use super::Settings;
+use crate::{
+    app::Outcome,
+    args::RunInChild,
+    child::{BYTES_FORWARDED, Bounds, ChildProcess, EndReason, Limits, Link, Payload, push_text},
+};
+
+/// Kinds of frames: a row, a message of the log, the end of the simulation, its failure.
+const ROW: u8 = 1;
+const MESSAGE: u8 = 2;
+const ENDED: u8 = 3;
+const FAILED: u8 = 4;
+
+const ENDS: [Ended; 3] = [Ended::AtStop, Ended::Cancelled, Ended::ByItself];
+/// Messages taken at most: as many as an instance keeps.
+const MESSAGES: usize = 1000;
+
+/// What came of a simulation.
+pub struct Simulated {
+    /// Why it ended.
+    pub outcome: Result<Ended, String>,
+    /// What the instance logged.
+    pub messages: Vec<LogMessage>,
+    /// What went wrong after a good end.
+    pub fault: Option<String>,
+}
+
+/// Runs in a child process. `tick` is shown the recording so far and the beginning of the step under way.
+pub fn simulate(
+    fmu: &Fmu,
+    timeout_s: Option<f64>,
+    points: u64,
+    collector: &mut Collector,
+    mut tick: impl FnMut(&Recording, Option<f64>) -> Result<(), String>,
+) -> Simulated {
+    let mut unpacked = OsString::from("--unpacked-in=");
+    unpacked.push(fmu.folder());
+    // After the program and `run`: the child reads the same arguments.
+    let arguments = [OsString::from("run-in-child"), unpacked].into_iter().chain(std::env::args_os().skip(2));
+    let child = match ChildProcess::new(arguments, Limits::default(), &[]) {
+        Ok(child) => child,
+        Err(error) => {
+            let outcome = Err(format!("the process of the FMU cannot be started: {error}"));
+            return Simulated { outcome, messages: Vec::new(), fault: None };
+        }
+    };
+    let mut inbox = Inbox::new(collector, points);
+    let inbox_cell = std::cell::RefCell::new(&mut inbox);
+    let mut forwarded = 0;
+    let supervised = child.supervise(
+        Bounds { time_s: None, call_s: timeout_s, printed: None },
+        &mut |kind, payload| inbox_cell.borrow_mut().take(kind, payload),
+        &mut |line| {
+            let before = forwarded;
+            forwarded += line.len() as u64 + 1;
+            if forwarded <= BYTES_FORWARDED {
+                terminal::note(line);
+            } else if before <= BYTES_FORWARDED {
+                terminal::note(&format!("{}: what else it prints is left out", fmu.name()));
+            }
+        },
+        &mut |mark| tick(inbox_cell.borrow().collector.recording(), mark.and_then(loader::step_begin_s)),
+    );
+    let Inbox { outcome, messages, .. } = inbox;
+    let name = fmu.name();
+    let fault = supervised.fault().map(|fault| format!("{name}: {fault}"));
+    let outcome = match (outcome, &supervised.how) {
+        (Some(outcome), EndReason::Refused(why)) => outcome.and(Err(why.clone())),
+        (Some(outcome), _) => outcome,
+        (None, EndReason::Interrupted) => {
+            terminal::note(&format!("{name}: {}", supervised.without_result()));
+            Ok(Ended::Cancelled)
+        }
+        (None, EndReason::Refused(why)) => Err(why.clone()),
+        (None, _) => Err(format!("{name}: {}", supervised.without_result())),
+    };
+    Simulated { outcome, messages, fault }
+}
+
+/// Takes the frames of a simulation.
+struct Inbox<'a> {
+    collector: &'a mut Collector,
+    widths: [usize; 4],
+    rows_left: u64,
+    reals: Vec<f64>,
+    integers: Vec<i32>,
+    booleans: Vec<i32>,
+    texts: Vec<String>,
+    outcome: Option<Result<Ended, String>>,
+    messages: Vec<LogMessage>,
+}
+
+impl<'a> Inbox<'a> {
+    fn new(collector: &'a mut Collector, points: u64) -> Self {
+        Self {
+            widths: collector.widths(),
+            collector,
+            // One more where the FMU ends by itself between two points.
+            rows_left: points.saturating_add(1),
+            reals: Vec::new(),
+            integers: Vec::new(),
+            booleans: Vec::new(),
+            texts: Vec::new(),
+            outcome: None,
+            messages: Vec::new(),
+        }
+    }
+
+    /// Whether it was the last frame.
+    fn take(&mut self, kind: u8, mut payload: Payload<'_>) -> Result<bool, String> {
+        const UNASKED: &str = "it sent what it was not asked for";
+        if self.outcome.is_some() {
+            return Err(UNASKED.to_owned());
+        }
+        match kind {
+            ROW => {
+                self.rows_left = self.rows_left.checked_sub(1).ok_or(UNASKED)?;
+                let time_s = self.row(&mut payload).filter(|_| payload.is_empty()).ok_or(UNASKED)?;
+                let Self { collector, reals, integers, booleans, texts, .. } = self;
+                let row = Row { time_s, reals, integers, booleans, texts };
+                collector.take(&row).map_err(|error| error.to_string())?;
+            }
+            MESSAGE if self.messages.len() < MESSAGES => {
+                self.messages.push(message(&mut payload).ok_or(UNASKED)?);
+            }
+            ENDED => {
+                let ended =
+                    payload.word().and_then(|number| ENDS.get(usize::try_from(number).ok()?).copied());
+                self.outcome = Some(Ok(ended.ok_or(UNASKED)?));
+            }
+            FAILED => self.outcome = Some(Err(payload.text().ok_or(UNASKED)?)),
+            _ => return Err(UNASKED.to_owned()),
+        }
+        Ok(self.outcome.is_some())
+    }
+
+    fn row(&mut self, payload: &mut Payload<'_>) -> Option<f64> {
+        let time_s = f64::from_bits(payload.word()?);
+        let [reals, integers, booleans, texts] = self.widths;
+        self.reals.clear();
+        self.reals.extend(payload.words(reals)?.iter().map(|word| f64::from_bits(*word)));
+        let whole = |word: &u64| *word as u32 as i32;
+        self.integers.clear();
+        self.integers.extend(payload.words(integers)?.iter().map(whole));
+        self.booleans.clear();
+        self.booleans.extend(payload.words(booleans)?.iter().map(whole));
+        self.texts.clear();
+        for _ in 0..texts {
+            self.texts.push(payload.text()?);
+        }
+        Some(time_s)
+    }
+}
+
+fn message(payload: &mut Payload<'_>) -> Option<LogMessage> {
+    let status = Status::from_code(payload.word()? as u32 as i32).unwrap_or(Status::Error);
+    let category = if payload.word()? == 0 { None } else { Some(payload.text()?) };
+    Some(LogMessage { status, category, text: payload.text()? })
+}
+
+/// Sends rows to the parent.
+struct RowSender<'a>(&'a mut Link);
+
+impl Rows for RowSender<'_> {
+    fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
+        let whole = |value: &i32| u64::from(*value as u32);
+        self.0
+            .send(ROW, |payload| {
+                payload.push(row.time_s.to_bits());
+                payload.extend(row.reals.iter().map(|value| value.to_bits()));
+                payload.extend(row.integers.iter().map(whole));
+                payload.extend(row.booleans.iter().map(whole));
+                row.texts.iter().for_each(|text| push_text(payload, text));
+            })
+            .map_err(Error::Rows)
+    }
+}
+
+/// Runs in this process and sends the parent what comes of it.
+pub fn run(arguments: &RunInChild) -> Outcome {
+    let mut link = Link::attach().map_err(|error| format!("`heliotorque run` starts this: {error}"))?;
+    match simulation(arguments, &mut link) {
+        Ok((ended, messages)) => {
+            for message in &messages {
+                link.send(MESSAGE, |payload| {
+                    payload.push(u64::from(message.status.code() as u32));
+                    payload.push(u64::from(message.category.is_some()));
+                    message.category.iter().for_each(|category| push_text(payload, category));
+                    push_text(payload, &message.text);
+                })?;
+            }
+            let number = ENDS.iter().position(|end| *end == ended).unwrap_or(0);
+            link.send(ENDED, |payload| payload.push(number as u64))?;
+        }
+        Err(error) => {
+            let text = loader::Error::chain(error.as_ref());
+            link.send(FAILED, |payload| push_text(payload, &text))?;
+        }
+    }
+    // The failure is told; the parent looks at how the process ends.
+    Ok(ExitCode::SUCCESS)
+}
+
+fn simulation(
+    arguments: &RunInChild,
+    link: &mut Link,
+) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
+    let fmu = Fmu::open(&arguments.unpacked_in)?;
+    let settings = Settings::of(&fmu, &arguments.run)?;
+    let (cancel, asked) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
+    let mut look = |_: f64| {
+        if asked.load(Ordering::Relaxed) != 0 {
+            cancel.store(true, Ordering::Relaxed);
+        }
+    };
+    let run = &arguments.run;
+    let options = Options {
+        start_s: run.start,
+        stop_s: run.stop,
+        step_s: run.step,
+        record_every_s: run.every,
+        sets: settings.sets,
+        inputs: settings.inputs.as_ref(),
+        input_derivatives: run.slopes,
+        record: Some(settings.positions),
+        instance: InstanceOptions { logging: run.log, ..InstanceOptions::default() },
+        progress: Some(&mut look),
+        cancel: Some(&cancel),
+    };
+    Ok(loader::simulate_into(&fmu, options, &mut RowSender(link))?)
+}

@@ -1,0 +1,130 @@
+//! What the probes share: an instance brought to a state, and everything it says as bits.
+
+use loader::{Checking, Error, Fmu, Instance, InstanceOptions, Times};
+use model_description::call_table::State;
+use model_description::{Causality, VariableKind};
+
+/// Steps of a short simulation.
+pub const STEPS: u64 = 12;
+
+/// Options of a probe that stays within the standard.
+pub fn strict() -> InstanceOptions {
+    InstanceOptions { logging: true, ..InstanceOptions::default() }
+}
+
+/// Options of a probe that breaks the rules on purpose.
+pub fn unchecked() -> InstanceOptions {
+    InstanceOptions { logging: true, checking: Checking::Off, ..InstanceOptions::default() }
+}
+
+/// The FMU's own times.
+pub fn times(fmu: &Fmu) -> Result<Times, Error> {
+    Times::of(fmu, None, None, None)
+}
+
+/// The value references of one causality by base type.
+#[derive(Default)]
+pub struct References {
+    /// Reals.
+    pub reals: Vec<u32>,
+    /// Integers and Enumerations.
+    pub integers: Vec<u32>,
+    /// Booleans.
+    pub booleans: Vec<u32>,
+    /// Strings.
+    pub strings: Vec<u32>,
+}
+
+impl References {
+    /// Of all variables of this causality.
+    pub fn of(fmu: &Fmu, causality: Causality) -> Self {
+        let mut references = Self::default();
+        for variable in fmu.description().variables.iter().filter(|it| it.causality == causality) {
+            match variable.kind {
+                VariableKind::Real { .. } => references.reals.push(variable.value_reference),
+                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
+                    references.integers.push(variable.value_reference);
+                }
+                VariableKind::Boolean { .. } => references.booleans.push(variable.value_reference),
+                VariableKind::String { .. } => references.strings.push(variable.value_reference),
+            }
+        }
+        references
+    }
+}
+
+/// Every output as bits, so that equal means equal to the bit.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Bits(Vec<u64>, Vec<i32>, Vec<String>);
+
+/// Reads every output.
+pub fn outputs(instance: &mut Instance) -> Result<Bits, Error> {
+    let references = References::of(instance.fmu(), Causality::Output);
+    let mut bits = Bits::default();
+    let mut reals = vec![0.0; references.reals.len()];
+    instance.get_reals(&references.reals, &mut reals)?;
+    bits.0.extend(reals.iter().map(|real| real.to_bits()));
+    let mut integers = vec![0; references.integers.len()];
+    instance.get_integers(&references.integers, &mut integers)?;
+    let mut booleans = vec![0; references.booleans.len()];
+    instance.get_booleans(&references.booleans, &mut booleans)?;
+    bits.1.extend(integers.into_iter().chain(booleans.into_iter().map(|flag| i32::from(flag != 0))));
+    if !references.strings.is_empty() {
+        bits.2 = instance.get_strings(&references.strings)?;
+    }
+    Ok(bits)
+}
+
+/// Brings a fresh instance to `state`; `None` where the FMU cannot be brought there.
+pub fn at(fmu: &Fmu, options: &InstanceOptions, state: State) -> Result<Option<Instance>, Error> {
+    let mut instance = fmu.instantiate("probe", options)?;
+    Ok(advance(&mut instance, state)?.then_some(instance))
+}
+
+/// Brings a freshly instantiated or reset instance to `state`; false where the FMU cannot be brought there.
+pub fn advance(instance: &mut Instance, state: State) -> Result<bool, Error> {
+    let times = times(instance.fmu())?;
+    let tolerance = instance.fmu().description().default_experiment.and_then(|it| it.tolerance);
+    if state == State::Instantiated {
+        return Ok(true);
+    }
+    instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
+    instance.enter_initialization_mode()?;
+    if state == State::InitializationMode {
+        return Ok(true);
+    }
+    instance.exit_initialization_mode()?;
+    match state {
+        State::StepComplete => Ok(true),
+        State::Terminated => instance.terminate().map(|()| true),
+        // Initialization comes before the first step and never again.
+        State::Error => Ok(instance.enter_initialization_mode().is_err()),
+        _ => Ok(false),
+    }
+}
+
+/// A ready instance between steps.
+pub fn ready(fmu: &Fmu, options: &InstanceOptions) -> Result<Instance, Error> {
+    let mut instance = fmu.instantiate("probe", options)?;
+    advance(&mut instance, State::StepComplete)?;
+    Ok(instance)
+}
+
+/// Runs steps `from..to` of the default experiment.
+pub fn simulate(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error> {
+    let times = times(instance.fmu())?;
+    for k in from..to.min(times.steps()) {
+        let time_s = times.point_s(k);
+        let last = k + 1 == times.steps();
+        let step_s = if last { times.stop_s - time_s } else { times.step_s };
+        instance.do_step(time_s, step_s, false)?;
+    }
+    Ok(())
+}
+
+/// What a short simulation says at its end.
+pub fn short_simulation(fmu: &Fmu, options: &InstanceOptions) -> Result<Bits, Error> {
+    let mut instance = ready(fmu, options)?;
+    simulate(&mut instance, 0, STEPS)?;
+    outputs(&mut instance)
+}

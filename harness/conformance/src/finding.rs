@@ -1,0 +1,70 @@
+//! What a check found.
+
+/// What a check found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// As it should be.
+    Good,
+    /// Not applicable, or not possible on this computer.
+    Skipped,
+    /// Odd, but the standard or its users live with it.
+    Note,
+    /// Wrong.
+    Bad,
+}
+
+impl Verdict {
+    /// All of them, from good to bad.
+    pub const ALL: [Self; 4] = [Self::Good, Self::Skipped, Self::Note, Self::Bad];
+
+    /// What it is called in a report.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Good => "ok",
+            Self::Skipped => "skipped",
+            Self::Note => "note",
+            Self::Bad => "WRONG",
+        }
+    }
+}
+
+/// One line of the report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// Good or bad.
+    pub verdict: Verdict,
+    /// What was checked or found.
+    pub text: String,
+}
+
+impl Finding {
+    /// A finding.
+    pub fn new(verdict: Verdict, text: impl Into<String>) -> Self {
+        Self { verdict, text: text.into() }
+    }
+
+    /// As it should be.
+    pub fn good(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Good, text)
+    }
+
+    /// Not applicable.
+    pub fn skipped(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Skipped, text)
+    }
+
+    /// Odd.
+    pub fn note(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Note, text)
+    }
+
+    /// Wrong.
+    pub fn bad(text: impl Into<String>) -> Self {
+        Self::new(Verdict::Bad, text)
+    }
+
+    /// Good if `right`, else bad.
+    pub fn expect(right: bool, text: impl Into<String>) -> Self {
+        Self::new(if right { Verdict::Good } else { Verdict::Bad }, text)
+    }
+}

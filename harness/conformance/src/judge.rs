@@ -1,0 +1,35 @@
+//! How the outcome of a call is judged.
+
+use loader::{Status, Value};
+
+use crate::Finding;
+
+/// Good if it was done.
+pub fn verdict(what: &str, outcome: Result<(), loader::Error>) -> Finding {
+    match outcome {
+        Ok(()) => Finding::good(what),
+        Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
+    }
+}
+
+/// Good if it was refused with a status; a note if it was let through.
+pub fn refused(what: &str, outcome: Result<(), loader::Error>) -> Finding {
+    match outcome {
+        Err(error) if matches!(error.status(), Some(Status::Error | Status::Discard)) => {
+            Finding::good(format!("refuses {what}"))
+        }
+        Err(error) if error.status() == Some(Status::Fatal) => {
+            Finding::bad(format!("condemns all its instances by fmi2Fatal for {what}"))
+        }
+        Err(error) => Finding::note(format!("{what}: {error}")),
+        Ok(()) => Finding::note(format!("lets through {what}")),
+    }
+}
+
+/// A value as bits, for comparing.
+pub fn same(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => a.to_bits() == b.to_bits() || a == b,
+        (a, b) => a == b,
+    }
+}

@@ -1,0 +1,266 @@
+//! Every function in every state, held against the call table.
+
+use loader::{Error, Fmu, Instance, State as Saved, Status};
+use model_description::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
+use model_description::{Causality, ScalarVariable, Variability, VariableKind};
+
+use super::values;
+use crate::{Finding, experiment, probe::Findings};
+
+/// The states an FMU can be brought to by lawful calls, and the error state.
+const STATES: [State; 5] =
+    [State::Instantiated, State::InitializationMode, State::StepComplete, State::Terminated, State::Error];
+
+/// Calls each function in each state, every time in a fresh instance.
+pub fn probe(fmu: &Fmu) -> Findings {
+    let mut findings = Vec::new();
+    let (mut as_told, mut left_out) = (0, 0);
+    for state in STATES {
+        for &function in Function::ALL {
+            for case in cases(fmu, function, state) {
+                match call(fmu, &case)? {
+                    Answer::None => left_out += 1,
+                    Answer::Status(status) => match judge(&case, status) {
+                        None => as_told += 1,
+                        Some(finding) => findings.push(finding),
+                    },
+                }
+            }
+        }
+    }
+    findings.push(Finding::good(format!(
+        "{as_told} calls answered as the table says, {left_out} not possible with this FMU"
+    )));
+    Ok(findings)
+}
+
+/// One call to make.
+struct Case<'a> {
+    function: Function,
+    state: State,
+    variable: Option<&'a ScalarVariable>,
+    expected: Expected,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Expected {
+    /// The call is legal.
+    Done,
+    /// The call is illegal.
+    Refused,
+    /// The call is illegal, but our own FMUs and others live with it.
+    Either,
+}
+
+enum Answer {
+    /// The call cannot be made with this FMU.
+    None,
+    Status(Status),
+}
+
+/// The calls of one function in one state: for conditional access one with a variable that meets the condition
+/// and one with a variable that does not.
+fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
+    let case = |variable, expected| Case { function, state, variable, expected };
+    let Some((kind, sets)) = variable_function(function) else {
+        return match allowed(function, state) {
+            Access::Forbidden => vec![case(None, Expected::Refused)],
+            Access::Allowed | Access::Conditional(_) => vec![case(None, Expected::Done)],
+        };
+    };
+    let of_kind = || {
+        fmu.description()
+            .variables
+            .iter()
+            .filter(move |it| kind(&it.kind) && (!sets || values::start(it).is_some()))
+    };
+    match allowed(function, state) {
+        Access::Forbidden => of_kind()
+            .next()
+            .map(|variable| case(Some(variable), lenient(function, state, variable)))
+            .into_iter()
+            .collect(),
+        Access::Allowed => {
+            of_kind().next().map(|variable| case(Some(variable), Expected::Done)).into_iter().collect()
+        }
+        Access::Conditional(condition) => {
+            let meets = |it: &&ScalarVariable| meets(fmu, condition, it);
+            let mut cases = Vec::new();
+            cases.extend(of_kind().find(meets).map(|variable| case(Some(variable), Expected::Done)));
+            let other = of_kind().find(|it| !meets(it));
+            cases.extend(other.map(|variable| case(Some(variable), lenient(function, state, variable))));
+            cases
+        }
+    }
+}
+
+/// Tells one base type from the others.
+type IsKind = fn(&VariableKind) -> bool;
+
+/// For the functions that take variables: of which base type, and whether they set them.
+fn variable_function(function: Function) -> Option<(IsKind, bool)> {
+    let real: IsKind = |kind| matches!(kind, VariableKind::Real { .. });
+    let integer: IsKind =
+        |kind| matches!(kind, VariableKind::Integer { .. } | VariableKind::Enumeration { .. });
+    let boolean: IsKind = |kind| matches!(kind, VariableKind::Boolean { .. });
+    let string: IsKind = |kind| matches!(kind, VariableKind::String { .. });
+    match function {
+        Function::GetReal => Some((real, false)),
+        Function::GetInteger => Some((integer, false)),
+        Function::GetBoolean => Some((boolean, false)),
+        Function::GetString => Some((string, false)),
+        Function::SetReal => Some((real, true)),
+        Function::SetInteger => Some((integer, true)),
+        Function::SetBoolean => Some((boolean, true)),
+        Function::SetString => Some((string, true)),
+        _ => None,
+    }
+}
+
+fn meets(fmu: &Fmu, condition: Condition, variable: &ScalarVariable) -> bool {
+    let position = fmu.position(&variable.name).and_then(|it| u32::try_from(it + 1).ok());
+    let unknowns = &fmu.description().structure.initial_unknowns;
+    condition.admits(variable, unknowns.iter().any(|unknown| Some(unknown.index) == position))
+}
+
+/// What is beyond the table and yet common.
+fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Expected {
+    let known = LENIENCIES.iter().any(|it| it.state == state && it.functions.contains(&function));
+    let sets = matches!(variable_function(function), Some((_, true)));
+    if known && (!sets || variable.causality == Causality::Input) {
+        Expected::Either
+    } else {
+        Expected::Refused
+    }
+}
+
+fn judge(case: &Case<'_>, status: Status) -> Option<Finding> {
+    let subject = case.variable.map_or_else(String::new, |variable| format!(" of {}", variable.name));
+    let call = format!("{}{subject} in state {}", case.function.symbol(), case.state.name());
+    let wants_status = matches!(
+        case.function,
+        Function::GetStatus
+            | Function::GetRealStatus
+            | Function::GetIntegerStatus
+            | Function::GetBooleanStatus
+            | Function::GetStringStatus
+    );
+    match (case.expected, status) {
+        (_, Status::Fatal) => Some(Finding::bad(format!("{call} condemns all instances by fmi2Fatal"))),
+        (_, Status::Pending) => Some(Finding::bad(format!("{call} answers {status}"))),
+        (Expected::Either, _) => None,
+        (Expected::Done, Status::Ok | Status::Warning) | (Expected::Refused, Status::Error) => None,
+        // "A status that cannot be given" is fmi2Discard.
+        (Expected::Done, Status::Discard) if wants_status => None,
+        (Expected::Done, _) => Some(Finding::bad(format!("{call} is allowed and answers {status}"))),
+        (Expected::Refused, _) => Some(Finding::note(format!("{call} is forbidden and answers {status}"))),
+    }
+}
+
+/// Makes the call in a fresh instance.
+fn call(fmu: &Fmu, case: &Case<'_>) -> Result<Answer, Error> {
+    let flags = fmu.co_simulation()?;
+    let mut instance = fmu.instantiate("probe", &experiment::unchecked())?;
+    let needs_saved = matches!(
+        case.function,
+        Function::SetFmuState
+            | Function::FreeFmuState
+            | Function::SerializedFmuStateSize
+            | Function::SerializeFmuState
+            | Function::DeSerializeFmuState
+    );
+    let mut saved = None;
+    if needs_saved {
+        if !flags.can_get_and_set_fmu_state {
+            return Ok(Answer::None);
+        }
+        saved = Some(instance.save_state()?);
+    }
+    let mut bytes = Vec::new();
+    if case.function == Function::DeSerializeFmuState
+        && let Some(saved) = saved
+    {
+        if !flags.can_serialize_fmu_state {
+            return Ok(Answer::None);
+        }
+        bytes = instance.serialize_state(saved)?;
+    }
+    if !experiment::advance(&mut instance, case.state)? {
+        return Ok(Answer::None);
+    }
+    let Some(outcome) = make(&mut instance, case, saved, &bytes)? else { return Ok(Answer::None) };
+    match outcome {
+        Ok(()) => Ok(Answer::Status(Status::Ok)),
+        Err(error) => match error.status() {
+            Some(status) => Ok(Answer::Status(status)),
+            None if error.has_unknown_status() => Err(error),
+            None => Ok(Answer::None),
+        },
+    }
+}
+
+type Made = Result<Option<Result<(), Error>>, Error>;
+
+fn make(instance: &mut Instance, case: &Case<'_>, saved: Option<Saved>, bytes: &[u8]) -> Made {
+    let fmu = instance.fmu().clone();
+    let flags = fmu.co_simulation()?;
+    let times = experiment::times(&fmu)?;
+    let continuous = |causality: Causality| {
+        let mut variables = fmu.description().variables.iter();
+        variables
+            .find(|it| it.causality == causality && it.variability == Variability::Continuous)
+            .map(|it| it.value_reference)
+    };
+    if let Some(variable) = case.variable {
+        return Ok(match variable_function(case.function) {
+            Some((_, true)) => values::start(variable).map(|value| instance.set_variable(variable, &value)),
+            _ => Some(instance.get_variable(variable).map(|_| ())),
+        });
+    }
+    Ok(match (case.function, saved) {
+        (Function::SetDebugLogging, _) => Some(instance.set_debug_logging(true, &[])),
+        (Function::SetupExperiment, _) => {
+            Some(instance.setup_experiment(None, times.start_s, Some(times.stop_s)))
+        }
+        (Function::EnterInitializationMode, _) => {
+            if case.state == State::Instantiated {
+                instance.setup_experiment(None, times.start_s, Some(times.stop_s))?;
+            }
+            Some(instance.enter_initialization_mode())
+        }
+        (Function::ExitInitializationMode, _) => Some(instance.exit_initialization_mode()),
+        (Function::Terminate, _) => Some(instance.terminate()),
+        (Function::Reset, _) => Some(instance.reset()),
+        (Function::GetFmuState, _) if flags.can_get_and_set_fmu_state => {
+            Some(instance.save_state().map(|_| ()))
+        }
+        (Function::SetFmuState, Some(saved)) => Some(instance.restore_state(saved)),
+        (Function::FreeFmuState, Some(saved)) => Some(instance.free_state(saved)),
+        (Function::SerializeFmuState, Some(saved)) if flags.can_serialize_fmu_state => {
+            Some(instance.serialize_state(saved).map(|_| ()))
+        }
+        (Function::DeSerializeFmuState, _) => Some(instance.deserialize_state(bytes).map(|_| ())),
+        (Function::GetDirectionalDerivative, _) if flags.provides_directional_derivative => {
+            let pair = continuous(Causality::Output).zip(continuous(Causality::Input));
+            pair.map(|(output, input)| {
+                instance.directional_derivative(&[output], &[input], &[1.0], &mut [0.0])
+            })
+        }
+        (Function::SetRealInputDerivatives, _) if flags.can_interpolate_inputs => {
+            continuous(Causality::Input).map(|input| instance.set_input_derivatives(&[input], &[1], &[0.0]))
+        }
+        (Function::GetRealOutputDerivatives, _) if flags.max_output_derivative_order > 0 => {
+            continuous(Causality::Output)
+                .map(|output| instance.get_output_derivatives(&[output], &[1], &mut [0.0]))
+        }
+        (Function::DoStep, _) => Some(instance.do_step(times.start_s, times.step_s, false)),
+        (Function::CancelStep, _) => Some(instance.cancel_step()),
+        (Function::GetRealStatus, _) => Some(instance.last_successful_time().map(|_| ())),
+        (Function::GetBooleanStatus, _) => Some(instance.terminated().map(|_| ())),
+        (function @ (Function::GetStatus | Function::GetIntegerStatus | Function::GetStringStatus), _) => {
+            Some(instance.probe_status(function, 0))
+        }
+        // Freed when dropped; the rest needs no instance, or is part of another call.
+        _ => None,
+    })
+}

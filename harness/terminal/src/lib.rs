@@ -1,0 +1,119 @@
+//! What the harness shows on a terminal: text without control characters, tables, numbers, progress.
+
+// They panic when the reader went away; `print` and `note` do not.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+use std::{
+    borrow::Cow,
+    io::{self, IsTerminal, Write},
+};
+
+use comfy_table::{ContentArrangement, Table, TableComponent, presets};
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Prints a text; a reader that went away (as `head` does) is no error.
+pub fn print(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{}", plain(text)).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
+/// Says something beside the output, on stderr; nobody there to read it is no error.
+pub fn note(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{}", plain(text));
+}
+
+/// The text with every control character but line break and tab written out, and those that turn the direction of
+/// writing: what an FMU or a file says moves no cursor and hides nothing.
+pub fn plain(text: &str) -> Cow<'_, str> {
+    let is_plain = |letter: char| match letter {
+        '\n' | '\t' => true,
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => false,
+        _ => !letter.is_control(),
+    };
+    if text.chars().all(is_plain) {
+        return text.into();
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for letter in text.chars() {
+        if is_plain(letter) {
+            shown.push(letter);
+        } else {
+            shown.extend(letter.escape_default());
+        }
+    }
+    shown.into()
+}
+
+/// A plain table with a header; as wide as the terminal at most, unbounded elsewhere.
+pub fn table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table
+        .load_preset(presets::UTF8_HORIZONTAL_ONLY)
+        .remove_style(TableComponent::HorizontalLines)
+        .remove_style(TableComponent::MiddleIntersections)
+        .set_header(header);
+    if io::stdout().is_terminal() {
+        table.set_content_arrangement(ContentArrangement::Dynamic);
+    }
+    table
+}
+
+/// A bar on stderr over `count` of what `unit` names; hidden when quiet or where nobody sees it.
+pub fn progress(count: u64, unit: &str, is_quiet: bool) -> ProgressBar {
+    if is_quiet || !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(count);
+    let template =
+        format!("{{bar:40.cyan/blue}} {{percent:>3}}% of {{len}} {unit}, {{elapsed}} gone, {{eta}} to go");
+    if let Ok(style) = ProgressStyle::with_template(&template) {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// A number for people: six significant digits.
+pub fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let magnitude = value.abs();
+    if !(1e-4..1e7).contains(&magnitude) {
+        let text = format!("{value:.5e}");
+        let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{exponent}", trim(digits));
+    }
+    let before = (magnitude.log10().floor() as i32).max(0);
+    let digits = usize::try_from(5 - before).unwrap_or(0).max(if magnitude < 1.0 { 6 } else { 0 });
+    trim(&format!("{value:.digits$}")).to_owned()
+}
+
+/// Without the zeros behind the point.
+fn trim(digits: &str) -> &str {
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_shown_without_control_characters() {
+        assert!(matches!(plain("two\nlines\tλ 火星"), Cow::Borrowed(_)));
+        assert_eq!(plain("\u{1b}[2Jok\r\u{7}"), "\\u{1b}[2Jok\\r\\u{7}");
+        assert_eq!(plain("\u{9b}1m\u{202e}"), "\\u{9b}1m\\u{202e}");
+        assert_eq!(plain("\0\u{7f}"), "\\u{0}\\u{7f}");
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(short(0.1 + 0.2), "0.3");
+        assert_eq!(short(7_776_000.0), "7776000");
+        assert_eq!(short(-1.234_567_89e-7), "-1.23457e-7");
+        assert_eq!(short(3.25e-4), "0.000325");
+        assert_eq!(short(149_597_870_700.0), "1.49598e11");
+    }
+}

@@ -1,0 +1,38 @@
+//! `fmi_export_describe`: the one function beside FMI's that a library of this project exports.
+//!
+//! Packers obtain a model's description from it.
+
+use core::ffi::{c_char, c_int, c_void};
+
+/// Name of the symbol.
+pub const SYMBOL: &str = "fmi_export_describe";
+
+/// Takes one text: the caller's context, the [`kind`], the UTF-8 text and its length in bytes. The text is the library's
+/// and lives until the function returns.
+pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize);
+
+/// `fmi_export_describe(model, setup_file, setup_text, context, receive)`.
+///
+/// With `model` NULL the models are listed: for each one its name, the name of its setup file under `resources/` (left
+/// out if it has none), its compiled-in setup text, and by what it computes, one `quantity TAB source` at a time. With a
+/// model's name: the same, then the `modelDescription.xml` for `setup_text`, or for the compiled-in text if that is NULL.
+/// `setup_file` names the text in errors; NULL means the model's own file name. Returns 0, or 1 after an error was sent.
+/// The texts given stay the caller's and are not kept; `context` goes to `receive` unread.
+pub type Describe =
+    unsafe extern "C" fn(*const c_char, *const c_char, *const c_char, *mut c_void, Option<Receive>) -> c_int;
+
+/// What a received text is.
+pub mod kind {
+    /// The `modelDescription.xml`.
+    pub const XML: i32 = 0;
+    /// Why there is none.
+    pub const ERROR: i32 = 1;
+    /// The compiled-in setup text.
+    pub const SETUP_TEXT: i32 = 2;
+    /// A model's name.
+    pub const MODEL: i32 = 3;
+    /// Name of the setup file under `resources/`.
+    pub const SETUP_FILE: i32 = 4;
+    /// A quantity, a tab and by what it is computed.
+    pub const SOURCE: i32 = 5;
+}

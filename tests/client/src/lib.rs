@@ -1,0 +1,8 @@
+//! Clients of the exported C functions within one process, for the tests of every crate that has a model at hand.
+#![allow(clippy::panic, reason = "tests fail by panics")]
+
+mod in_process;
+mod named;
+
+pub use in_process::{InProcess, Message, StatePointer};
+pub use named::NamedInstance;

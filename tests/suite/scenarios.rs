@@ -1,0 +1,181 @@
+//! Ways to simulate a model that exercise all of it: inputs that change, derivatives, requests, tunables, odd steps.
+
+use client::InProcess;
+
+use crate::support::Base::{Boolean, Integer};
+use crate::support::{Names, RandomNumbers, names, ok, silent};
+
+/// How a model is simulated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scenario {
+    /// MomentumPlant by its own guidance; nothing is set during the simulation.
+    Guided,
+    /// MomentumPlant by commanded attitudes and rates, external torques with slopes, dump requests, shifting mass.
+    Commanded,
+    /// MomentumPlant by its own guidance with planet light and recoil on an orbit they move, through eclipses.
+    Lit,
+    /// SpinPlant nutating, with its damper, through its own burn; nothing is set during the simulation.
+    Burning,
+    /// SpinPlant with pulses, held thrusters and torques from outside.
+    Fired,
+    /// DisturbanceTorque with Sun, planet, panels and mass placed anew, with slopes, in and out of eclipses.
+    Placed,
+}
+
+impl Scenario {
+    pub const ALL: [Self; 6] =
+        [Self::Guided, Self::Commanded, Self::Lit, Self::Burning, Self::Fired, Self::Placed];
+
+    /// The model that runs so.
+    pub fn model(self) -> &'static str {
+        match self {
+            Self::Guided | Self::Commanded | Self::Lit => "MomentumPlant",
+            Self::Burning | Self::Fired => "SpinPlant",
+            Self::Placed => "DisturbanceTorque",
+        }
+    }
+
+    /// Lengths of steps, in s: no multiples of one another.
+    fn steps_s(self) -> [f64; 4] {
+        match self {
+            Self::Guided | Self::Commanded | Self::Lit => [60.0, 600.0, 97.3, 1_200.0],
+            Self::Burning | Self::Fired => [0.5, 0.1, 1.3, 7.0],
+            Self::Placed => [60.0, 1.0, 7.3, 0.02],
+        }
+    }
+
+    /// Sets what is set before initialization.
+    pub fn prepare(self, instance: &mut InProcess, names: &Names) {
+        match self {
+            Self::Guided | Self::Commanded => {
+                ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[1.0; 3]));
+                let source = names.of(Integer, "attitude.source");
+                ok(instance.set_integer(&[source], &[if self == Self::Guided { 1 } else { 2 }]));
+            }
+            Self::Lit => {
+                let on = |name: &str| names.of(Boolean, name);
+                ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
+                let choices = ["orbit.dynamics", "ephemeris.source", "orbit.frame"];
+                ok(instance.set_integer(&choices.map(|name| names.of(Integer, name)), &[2, 2, 1]));
+                ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[0.5; 3]));
+                ok(instance.set_real(&[names.real("ephemeris.trueAnomaly")], &[1.7]));
+            }
+            Self::Burning | Self::Fired => {
+                let reals = [names.real("start.nutation"), names.real("damper.timeConstant")];
+                ok(instance.set_real(&reals, &[0.01, 2_000.0]));
+                // 4 leaves the thrusters to the master.
+                let plan = if self == Self::Burning { 1 } else { 4 };
+                ok(instance.set_integer(&[names.of(Integer, "burn.plan")], &[plan]));
+            }
+            Self::Placed => {}
+        }
+    }
+
+    fn set_inputs(
+        self,
+        instance: &mut InProcess,
+        names: &Names,
+        step_number: u64,
+        random: &mut RandomNumbers,
+    ) {
+        // Held for six steps, so that a state saved in between must know of it.
+        let held = i32::from(RandomNumbers(1_000_000 + step_number / 6).below(2) == 0);
+        if matches!(self, Self::Commanded | Self::Fired) {
+            let torque = names.vector::<3>("torque.applied");
+            match random.below(4) {
+                0 => ok(instance.set_real(&torque, &[1e-5 * (random.unit() - 0.5), 1e-6, -2e-6])),
+                1 => ok(instance.set_input_derivatives(&torque, &[1; 3], &[1e-9, -2e-9, 3e-10])),
+                _ => {}
+            }
+        }
+        match self {
+            Self::Guided | Self::Lit | Self::Burning => {}
+            Self::Commanded => {
+                if random.below(3) == 0 {
+                    let sine = random.unit().sin();
+                    let q = [0.1 * sine, 0.2 * sine, 0.3, (0.91 - 0.05 * sine * sine).sqrt()];
+                    ok(instance.set_real(&names.vector::<4>("command.q"), &q));
+                    ok(instance
+                        .set_real(&names.vector::<3>("command.rate"), &[1e-4 * random.unit(), -1e-5, 2e-5]));
+                }
+                let request = names.of(Boolean, "dump.request");
+                ok(instance.set_boolean(&[request], &[held]));
+                if random.below(40) == 0 {
+                    let center = names.vector::<3>("spacecraft.centerOfMass");
+                    ok(instance.set_real(&center, &[0.0, 0.01 * random.unit(), -0.02]));
+                }
+            }
+            Self::Fired => {
+                let pulse = [names.real("thruster[8].onDelay"), names.real("thruster[8].onTime")];
+                let on_s = if random.below(3) == 0 { 0.032 } else { 0.0 };
+                ok(instance.set_real(&pulse, &[0.02 * random.unit(), on_s]));
+                let fire = names.of(Boolean, "thruster[1].fire");
+                ok(instance.set_boolean(&[fire], &[held]));
+            }
+            Self::Placed => {
+                let planet = names.vector::<3>("planet.positionBody");
+                match random.below(4) {
+                    0 => ok(instance.set_real(&planet, &behind_or_aside(random))),
+                    1 => ok(instance.set_input_derivatives(&planet, &[1; 3], &[500.0, -30.0, 800.0])),
+                    2 => {
+                        let sun =
+                            [0, 1, 2].map(|i| 1e10 * (random.unit() - 0.5) - if i == 1 { 6e10 } else { 0.0 });
+                        ok(instance.set_real(&names.vector::<3>("sun.positionBody"), &sun));
+                    }
+                    _ => {}
+                }
+                if random.below(3) == 0 {
+                    let angles = [names.real("panel[1].angle"), names.real("panel[2].angle")];
+                    ok(instance.set_real(&angles, &[random.unit() - 0.5, 3.0 * random.unit()]));
+                    ok(instance.set_real(
+                        &names.vector::<3>("spacecraft.centerOfMass"),
+                        &[0.01, 0.02 * random.unit(), 0.0],
+                    ));
+                }
+            }
+        }
+    }
+}
+
+/// Where the planet is, in m: before the Sun half of the time.
+fn behind_or_aside(random: &mut RandomNumbers) -> [f64; 3] {
+    let aside_m = if random.below(2) == 0 { 2e6 } else { 5e6 };
+    [aside_m * random.unit(), -3e6 - 1e6 * random.unit(), aside_m * random.unit()]
+}
+
+/// An instance in simulation with the input sequence of its scenario, which depends on the step number alone.
+pub struct Simulation {
+    pub instance: InProcess,
+    pub names: Names,
+    pub scenario: Scenario,
+    pub step_number: u64,
+    pub time_s: f64,
+}
+
+impl Simulation {
+    /// At the start.
+    pub fn new(scenario: Scenario) -> Self {
+        let (names, mut instance) = (names(scenario.model()), silent(scenario.model()));
+        scenario.prepare(&mut instance, &names);
+        ok(instance.start(0.0, None));
+        Self { instance, names, scenario, step_number: 0, time_s: 0.0 }
+    }
+
+    /// Sets what the scenario sets before this step, then makes it.
+    pub fn step(&mut self) {
+        let mut random = RandomNumbers(self.step_number);
+        let steps_s = self.scenario.steps_s();
+        let step_s = steps_s[random.below(steps_s.len())];
+        self.scenario.set_inputs(&mut self.instance, &self.names, self.step_number, &mut random);
+        ok(self.instance.do_step(self.time_s, step_s));
+        self.time_s += step_s;
+        self.step_number += 1;
+    }
+
+    /// The state's bytes.
+    pub fn bytes(&mut self) -> Vec<u8> {
+        let (status, bytes) = self.instance.state_bytes();
+        ok(status);
+        bytes
+    }
+}
