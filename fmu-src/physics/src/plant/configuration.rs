@@ -16,7 +16,7 @@ use crate::momentum::Settings;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::spacecraft::{Panel, SunshadeModel};
 
-use super::radiation::RadiationSettings;
+use super::settings::RadiationSettings;
 
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,9 +10,10 @@ use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
 use crate::spacecraft::Panel;
 
 use super::configuration::Configuration;
-use super::kinematics::Instant;
-use super::propagator::{PlantError, PropagatorState};
-use super::radiation::RadiationSolver;
+use super::error::PlantError;
+use super::instant::Instant;
+use super::propagator_state::PropagatorState;
+use super::radiation_solver::RadiationSolver;
 use super::work::{Cost, Work};
 
 /// Force and torque from outside, body frame.

@@ -1,16 +1,32 @@
 //! The three-axis spacecraft put together: orbit, attitude, light and gravity gradient in one flight.
 //!
-//! [`Configuration`] says what flies where; [`Plant`] evaluates it and is the [`crate::momentum::TorqueModel`] that momentum
-//! accumulates over. What it has to remember between two evaluations is a [`PropagatorState`]: an integrated orbit, and a
-//! [`RadiationSegment`] of slowly changing light and heat.
+//! [`Configuration`] says what flies where; [`Plant`] evaluates it and is the [`crate::momentum::TorqueModel`] that the
+//! momentum integrator asks. What it has to remember between two evaluations is a [`PropagatorState`]: an integrated orbit,
+//! and a [`RadiationSegment`] of slowly changing light and heat.
+//!
+//! **Torque over a span ahead, without side effects.** Nothing but the [`PropagatorState`] is state: ephemeris and
+//! [`RadiationSolver`] are caches. Who plans clones the state, makes a [`Plant`] on the clone and advances that
+//! ([`crate::momentum::TorqueModel::prepare`], then [`Plant::evaluate`]), under the same or another [`Configuration`]; the
+//! flight itself does not change by a bit.
+//!
+//! **Attitude that is known only up to now.** A controlled attitude is a [`Command`] that holds the attitude and rate of the
+//! latest sample and goes on at that rate. Light, heat and orbit are computed ahead on that assumption; the next sample
+//! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
+//! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
 mod configuration;
+mod error;
 mod evaluation;
 mod geometry;
+mod instant;
 mod kinematics;
+mod light_and_heat;
 mod propagator;
-mod radiation;
+mod propagator_state;
+mod radiation_node;
 mod radiation_segment;
+mod radiation_solver;
+mod settings;
 mod stored_heat;
 mod trajectory;
 mod work;
@@ -19,11 +35,13 @@ pub use configuration::{
     AttitudeSource, Command, Configuration, EphemerisSource, Motion, PanelSetting, SunLight,
     orbit_from_elements,
 };
+pub use error::PlantError;
 pub use evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
 pub use geometry::Geometry;
-pub use kinematics::{Instant, Regime};
-pub use propagator::{PlantError, PropagatorState};
-pub use radiation::{RadiationSettings, RadiationSolver};
+pub use instant::{Instant, Regime};
+pub use propagator_state::PropagatorState;
 pub use radiation_segment::RadiationSegment;
+pub use radiation_solver::RadiationSolver;
+pub use settings::RadiationSettings;
 pub use trajectory::Trajectory;
 pub use work::{Cost, Work, WorkExceeded};

@@ -5,120 +5,17 @@
 //! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end.
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use crate::environment::orbit::OrbitIntegrationError;
-use crate::momentum::{TooManyDumps, TorqueModel};
+use crate::momentum::TorqueModel;
 use crate::numerics::chebyshev::Segment;
-use crate::radiation::disturbance::GeometryError;
 
-use super::configuration::{Configuration, Motion};
+use super::configuration::Motion;
+use super::error::PlantError;
 use super::evaluation::{ExternalLoad, Plant};
-use super::radiation_segment::RadiationSegment;
-use super::trajectory::Trajectory;
-use super::work::{Cost, WorkExceeded};
+use super::work::Cost;
 
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
-
-/// Why a flight ends.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum PlantError {
-    /// The orbit.
-    #[error(transparent)]
-    Orbit(#[from] OrbitIntegrationError),
-    /// Light and heat have no meaning where the spacecraft is.
-    #[error(
-        "at {time_s} s, the spacecraft being at {position_m:?} m about the orbit's centre, light has no meaning: {source}"
-    )]
-    Light {
-        /// When, in s.
-        time_s: f64,
-        /// Position about the orbit's centre, EME2000, in m.
-        position_m: [f64; 3],
-        /// Why.
-        source: GeometryError,
-    },
-    /// Restored bytes of another spacecraft.
-    #[error("the state holds {found} temperatures, allowed: {allowed}, one for each face")]
-    Temperatures {
-        /// How many there are.
-        found: usize,
-        /// How many there should be.
-        allowed: usize,
-    },
-    /// Restored bytes that are no flight's.
-    #[error("the state holds a temperature of {found_k} K, allowed: 0 to 1e5 K")]
-    Temperature {
-        /// What was found.
-        found_k: f64,
-    },
-    /// Dumps without end.
-    #[error(transparent)]
-    Dumps(#[from] TooManyDumps),
-    /// More work than a step may take.
-    #[error(transparent)]
-    Work(#[from] WorkExceeded),
-    /// An orbit that goes no further: restored bytes that belong to another kind of motion.
-    #[error(
-        "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.dynamics"
-    )]
-    Stuck {
-        /// Where it should go on, in s.
-        start_s: f64,
-        /// Where it ends, in s.
-        end_s: f64,
-    },
-}
-
-/// State of the propagator, beside the totals of the momentum integrator. Serialisable and complete: together with the
-/// configuration it fixes everything that follows.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PropagatorState {
-    /// Where the spacecraft is.
-    pub trajectory: Trajectory,
-    /// Light and heat of the present segment; absent before the first one.
-    pub light: Option<RadiationSegment>,
-}
-
-impl PropagatorState {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.trajectory.is_sound() && self.light.as_ref().is_none_or(RadiationSegment::is_sound)
-    }
-
-    /// At the start of a flight.
-    ///
-    /// # Errors
-    /// A start below the surface.
-    pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, PlantError> {
-        Ok(Self { trajectory: Trajectory::new(configuration, time_s)?, light: None })
-    }
-
-    /// Goes on from another place; the heat stored in the surfaces comes along.
-    ///
-    /// # Errors
-    /// A place below the surface.
-    pub fn move_to(&mut self, configuration: &Configuration, time_s: f64) -> Result<(), PlantError> {
-        self.trajectory = Trajectory::new(configuration, time_s)?;
-        if let Some(light) = &mut self.light {
-            light.cut(time_s);
-        }
-        Ok(())
-    }
-
-    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far;
-    /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
-    pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
-        self.trajectory.cut(configuration, time_s);
-        // An orbit that light and forces act on goes elsewhere from here.
-        let orbit_changes = matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
-        if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
-            light.cut(time_s);
-        }
-    }
-}
 
 impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// Makes sure that `start_s` lies in the present segment, and tells where that ends.

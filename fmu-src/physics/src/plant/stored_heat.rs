@@ -3,7 +3,7 @@
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::disturbance::DisturbanceModel;
 
-use super::radiation::RadiationNode;
+use super::radiation_node::RadiationNode;
 use super::radiation_segment::NODES;
 
 /// Pieces between two neighbouring nodes, and between the outer nodes and the segment's ends.

@@ -5,6 +5,7 @@ use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::attitude::Attitude;
 use physics::bodies::Body;
+use physics::bodies::surface::MERCURY;
 use physics::constants::{GM_MERCURY_M3_S2, RADIUS_MERCURY_M, SPEED_OF_LIGHT_M_S};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::ephemeris::Ephemeris;
@@ -17,7 +18,7 @@ use physics::momentum::{
 use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, ExternalLoad, Motion, PanelSetting, Plant,
-    PreparedSpacecraft, PropagatorState, RadiationSettings, SunLight, orbit_from_elements,
+    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, orbit_from_elements,
 };
 use physics::radiation::{Effect, SolarModel};
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -111,6 +112,21 @@ impl Rig {
 
     fn plant<'a>(&'a mut self, configuration: &'a Configuration) -> Plant<'a, fn(f64) -> ExternalLoad> {
         self.plant_with(configuration, |_| ExternalLoad::default())
+    }
+
+    fn plant_in_light<'a>(
+        &'a mut self,
+        configuration: &'a Configuration,
+        light: &'a mut RadiationSolver,
+    ) -> Plant<'a, fn(f64) -> ExternalLoad> {
+        let prepared = PreparedSpacecraft {
+            panels: &self.spacecraft.panels,
+            solar: &self.solar,
+            orbit_method: &self.method,
+        };
+        let load: fn(f64) -> ExternalLoad = |_| ExternalLoad::default();
+        let (propagator, ephemeris) = (&mut self.propagator, &mut self.ephemeris);
+        Plant::new(prepared, configuration, propagator, ephemeris, Some(light), load, u32::MAX)
     }
 
     pub(crate) fn plant_with<'a, L: Fn(f64) -> ExternalLoad>(
@@ -217,4 +233,69 @@ fn a_given_sun_is_where_it_was_given() {
     let distance_au = evaluation.instant.sun_distance_m / 149_597_870_700.0;
     let pressure_pa = 1353.0 / SPEED_OF_LIGHT_M_S / (distance_au * distance_au);
     assert!(evaluation.loads[Effect::Solar].force_body_n.norm() < 2.0 * 5.4 * pressure_pa);
+}
+
+/// What a planner asks changes nothing in the flight, whatever it assumes of the time ahead.
+#[test]
+fn a_span_ahead_is_asked_of_a_clone() {
+    let orbit = orbit();
+    let configuration = configuration(orbit, guided(&orbit));
+    let torques = |rig: &mut Rig, times_s: &[f64]| -> Vec<Vector3<f64>> {
+        let mut plant = rig.plant(&configuration);
+        let torque = |time_s: &f64| {
+            plant.prepare(*time_s).unwrap();
+            plant.evaluate(*time_s).loads.total().torque_body_n_m
+        };
+        times_s.iter().map(torque).collect()
+    };
+    let (mut asked, mut flown) = (Rig::new(), Rig::new());
+    torques(&mut asked, &[0.0, 600.0]);
+    torques(&mut flown, &[0.0, 600.0]);
+    let before = asked.propagator.clone();
+    let ahead_s = [1200.0, 5000.0, 9000.0];
+    let foreseen = torques(&mut asked, &ahead_s);
+    asked.propagator = before;
+    assert_eq!(asked.propagator, flown.propagator);
+    assert_eq!(torques(&mut asked, &ahead_s), foreseen);
+    assert_eq!(torques(&mut flown, &ahead_s), foreseen);
+}
+
+/// An attitude sampled every 10 s and propagated in between gives the light of the motion it was sampled from.
+#[test]
+fn light_follows_an_attitude_that_is_known_only_up_to_now() {
+    let truth = Command {
+        attitude: Attitude::from_quaternion([0.5, -0.5, 0.5, 0.5]).unwrap(),
+        rate_body_rad_s: Vector3::new(2e-4, -1e-4, 3e-4),
+        since_s: 0.0,
+    };
+    let settings =
+        RadiationSettings { planet_light: true, recoil: true, grid_s: 10.0, ..RadiationSettings::OFF };
+    let with = |command: Command| Configuration {
+        light_and_heat: settings,
+        ..configuration(orbit(), AttitudeSource::Commanded(command))
+    };
+    let spacecraft = spacecraft();
+    let light = RadiationSolver::new(&spacecraft, &with(truth), &MERCURY, 6).unwrap();
+    let fly = |sample_s: Option<f64>| {
+        let (mut rig, mut light, mut command) = (Rig::new(), light.clone(), truth);
+        let mut loads = Vec::new();
+        for k in 0..=60 {
+            let time_s = 5.0 * f64::from(k);
+            if sample_s.is_some_and(|sample_s| time_s % sample_s == 0.0) {
+                rig.propagator.cut(&with(command), time_s, true);
+                command = Command { attitude: truth.attitude_at(time_s), since_s: time_s, ..truth };
+            }
+            let configuration = with(command);
+            let mut plant = rig.plant_in_light(&configuration, &mut light);
+            plant.prepare(time_s).unwrap();
+            loads.push(plant.evaluate(time_s).loads.total());
+        }
+        loads
+    };
+    for (continuous, sampled) in fly(None).into_iter().zip(fly(Some(10.0))) {
+        let scale_n = continuous.force_body_n.norm();
+        assert!(scale_n > 0.0);
+        assert!((continuous.force_body_n - sampled.force_body_n).norm() < 1e-9 * scale_n);
+        assert!((continuous.torque_body_n_m - sampled.torque_body_n_m).norm() < 1e-9 * scale_n);
+    }
 }

@@ -4,7 +4,8 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Directions, Plant, Sampling, StarSample};
+use super::commands::Directions;
+use super::state::{Plant, Sampling, StarSample};
 use crate::attitude::angle_between_rad;
 use crate::spin::{
     crossing_detector::CrossingDetector, forecast::Timing, motion::Motion, nutation::Spin,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{MassSource, Plant, SpinPlantError};
+use super::state::{MassSource, Plant, SpinPlantError};
 use crate::attitude::Inertia;
 use crate::spin::{
     spinner::Spinner,

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Plant, Sampling, SpinPlantError, StarSample};
+use super::state::{DIRECTION_INTERVAL_S, Plant, Sampling, SpinPlantError, StarSample};
 use crate::attitude::{RigidBodyState, angle_between_rad};
 use crate::spin::{
     crossing::{Crossing, Pole},
@@ -14,9 +14,6 @@ use crate::spin::{
     tracker::{picket_of, searched},
     work::{Cost, Work},
 };
-
-/// Sun and Earth of the L1 orbit stand still for the sensors over intervals of this length, in s: less than 0.01 deg.
-pub(super) const DIRECTION_INTERVAL_S: f64 = 600.0;
 
 impl Plant {
     /// Looks up Sun and Earth on the L1 orbit for the next interval.

@@ -2,11 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::{
-    LEAST_WORK, MOST_WORK, Plant, Sampling, commands::PulseCommand, sensing::DIRECTION_INTERVAL_S,
-    start::orbit_is_sound,
-};
+use super::commands::PulseCommand;
+use super::state::{DIRECTION_INTERVAL_S, LEAST_WORK, MOST_WORK, Plant, Sampling};
 use crate::spin::{
+    geometry::L1Ephemeris,
     sequencer::{FASTEST_RAD_S, SLOWEST_RAD_S, Sequencer},
     spinner::Spinner,
 };
@@ -109,4 +108,13 @@ impl Plant {
         };
         self.directions.are_directions() && refreshes
     }
+}
+
+/// Whether Sun and Earth of an L1 orbit have a direction at any time.
+pub(super) fn orbit_is_sound(L1Ephemeris { orbit, phases }: &L1Ephemeris) -> bool {
+    let angles = [phases.longitude_rad, phases.in_plane_rad, phases.out_of_plane_rad, orbit.obliquity_deg];
+    let rates = [orbit.line_rate_deg_day, orbit.in_plane_frequency, orbit.out_of_plane_frequency];
+    let distances = [orbit.sun_earth_distance_m, orbit.earth_l1_distance_m];
+    angles.iter().chain(&rates).chain(&distances).chain(&orbit.amplitude_m).all(|&x| is_moderate(x))
+        && orbit.amplitude_m[0].abs() < orbit.earth_l1_distance_m
 }

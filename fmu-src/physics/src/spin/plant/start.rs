@@ -3,11 +3,11 @@
 use core::f64::consts::PI;
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
-use super::{
-    Commands, Directions, Plant, SensorAzimuths, StarSample, sensing::DIRECTION_INTERVAL_S,
-    sound::is_moderate,
+use super::commands::{Commands, Directions};
+use super::sound::orbit_is_sound;
+use super::state::{
+    DIRECTION_INTERVAL_S, LEAST_WORK, MOST_WORK, MassSource, Plant, Sampling, SensorAzimuths, StarSample,
 };
 use crate::attitude::{Inertia, InertiaError, Quaternion, angle_between_rad};
 use crate::spin::{
@@ -24,29 +24,6 @@ use crate::spin::{
     tracker::NutationEstimator,
     work::{Work, WorkExceeded},
 };
-
-/// Least work of a step that may be allowed, in units of about a microsecond.
-pub const LEAST_WORK: u32 = 1000;
-/// Most.
-pub const MOST_WORK: u32 = 1_000_000_000;
-
-/// What the inertia follows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum MassSource {
-    /// Stays as given.
-    Fixed,
-    /// Follows the propellant by the setup's table, at the end of each pulse.
-    Propellant,
-}
-
-/// When the star tracker samples its star.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Sampling {
-    /// On the turns that search the star's picket, when it passes the boresight.
-    Spins,
-    /// Every 8 nominal turns by the clock, as eqs 16 to 20 assume.
-    Clock,
-}
 
 /// How a flight starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -259,13 +236,4 @@ fn check(spinner: &Spinner, start: &Start) -> Result<Quaternion, StartError> {
         Some(attitude) => Ok(attitude),
         None => refuse("start.q", format!("{:?}", start.attitude), "its norm must be 1 within 1e-3"),
     }
-}
-
-/// Whether Sun and Earth of an L1 orbit have a direction at any time.
-pub(super) fn orbit_is_sound(L1Ephemeris { orbit, phases }: &L1Ephemeris) -> bool {
-    let angles = [phases.longitude_rad, phases.in_plane_rad, phases.out_of_plane_rad, orbit.obliquity_deg];
-    let rates = [orbit.line_rate_deg_day, orbit.in_plane_frequency, orbit.out_of_plane_frequency];
-    let distances = [orbit.sun_earth_distance_m, orbit.earth_l1_distance_m];
-    angles.iter().chain(&rates).chain(&distances).chain(&orbit.amplitude_m).all(|&x| is_moderate(x))
-        && orbit.amplitude_m[0].abs() < orbit.earth_l1_distance_m
 }

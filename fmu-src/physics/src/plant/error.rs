@@ -1,0 +1,58 @@
+//! Why a flight of the plant ends.
+
+use thiserror::Error;
+
+use super::work::WorkExceeded;
+use crate::environment::orbit::OrbitIntegrationError;
+use crate::momentum::TooManyDumps;
+use crate::radiation::disturbance::GeometryError;
+
+/// Why a flight ends.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum PlantError {
+    /// The orbit.
+    #[error(transparent)]
+    Orbit(#[from] OrbitIntegrationError),
+    /// Light and heat have no meaning where the spacecraft is.
+    #[error(
+        "at {time_s} s, the spacecraft being at {position_m:?} m about the orbit's centre, light has no meaning: {source}"
+    )]
+    Light {
+        /// When, in s.
+        time_s: f64,
+        /// Position about the orbit's centre, EME2000, in m.
+        position_m: [f64; 3],
+        /// Why.
+        source: GeometryError,
+    },
+    /// Restored bytes of another spacecraft.
+    #[error("the state holds {found} temperatures, allowed: {allowed}, one for each face")]
+    Temperatures {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        allowed: usize,
+    },
+    /// Restored bytes that are no flight's.
+    #[error("the state holds a temperature of {found_k} K, allowed: 0 to 1e5 K")]
+    Temperature {
+        /// What was found.
+        found_k: f64,
+    },
+    /// Dumps without end.
+    #[error(transparent)]
+    Dumps(#[from] TooManyDumps),
+    /// More work than a step may take.
+    #[error(transparent)]
+    Work(#[from] WorkExceeded),
+    /// An orbit that goes no further: restored bytes that belong to another kind of motion.
+    #[error(
+        "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.dynamics"
+    )]
+    Stuck {
+        /// Where it should go on, in s.
+        start_s: f64,
+        /// Where it ends, in s.
+        end_s: f64,
+    },
+}

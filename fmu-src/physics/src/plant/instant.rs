@@ -1,0 +1,86 @@
+//! One instant of a flight: where everything is, how the body stands, how much of the Sun it sees.
+
+use nalgebra::{Rotation3, Vector3};
+
+use super::geometry::Geometry;
+use crate::attitude::MovingFrame;
+use crate::environment::CartesianState;
+use crate::momentum::EventValues;
+
+/// Everything about one time but what acts on the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Where everything is.
+    pub geometry: Geometry,
+    /// Body frame and rate.
+    pub frame: MovingFrame,
+    /// From EME2000 to the body frame.
+    pub to_body: Rotation3<f64>,
+    /// Unit vector to the Sun, body frame.
+    pub sun_body: Vector3<f64>,
+    /// Distance from the Sun's centre, in m.
+    pub sun_distance_m: f64,
+    /// From the spacecraft to the planet's centre, body frame, in m.
+    pub planet_body_m: Option<Vector3<f64>>,
+    /// Visible part of the Sun's disc, 0 to 1.
+    pub lit_fraction: f64,
+    /// Which form the attitude law and the shadow have.
+    pub regime: Regime,
+    /// Outer and inner gap of the shadow, in rad, and the margins of the attitude law; see [`EventValues`].
+    pub events: EventValues,
+    /// Up to when window and slew last, in s of the flight.
+    pub attitude_until_s: f64,
+}
+
+impl Instant {
+    /// Of a spacecraft of which nothing is known but how it stands.
+    pub fn nowhere(frame: MovingFrame) -> Self {
+        let geometry = Geometry {
+            spacecraft: CartesianState::default(),
+            to_sun: CartesianState::default(),
+            to_planet: None,
+            to_earth: CartesianState::default(),
+        };
+        Self {
+            geometry,
+            frame,
+            to_body: frame.inertial_from_body.inverse(),
+            sun_body: Vector3::zeros(),
+            sun_distance_m: 0.0,
+            planet_body_m: None,
+            lit_fraction: 0.0,
+            regime: Regime {
+                window_since_s: f64::NEG_INFINITY,
+                downlink: false,
+                slewing: false,
+                in_shadow: false,
+            },
+            events: EventValues::repeat(f64::INFINITY),
+            attitude_until_s: f64::INFINITY,
+        }
+    }
+
+    /// From the spacecraft to the Sun, body frame, in m.
+    pub fn sun_position_body_m(&self) -> Vector3<f64> {
+        self.sun_body * self.sun_distance_m
+    }
+
+    /// Unit vector to the Earth, body frame; zero where its place is not known.
+    pub fn earth_body(&self) -> Vector3<f64> {
+        let to_earth_m = self.geometry.to_earth.position_m;
+        to_earth_m.try_normalize(0.0).map_or(Vector3::zeros(), |unit| self.to_body * unit)
+    }
+}
+
+/// Which form the attitude law and the shadow have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regime {
+    /// Since when the window of science or downlink lasts, in s past J2000 TDB; minus infinity where there is none.
+    pub window_since_s: f64,
+    /// Whether the window is a downlink.
+    pub downlink: bool,
+    /// Whether the body turns from one attitude to the other.
+    pub slewing: bool,
+    /// Whether the planet hides a part of the Sun.
+    pub in_shadow: bool,
+}
