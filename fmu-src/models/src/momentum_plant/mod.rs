@@ -194,7 +194,7 @@ fn begin(
     let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
     let mut plant =
         Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), |_| load, limit);
-    plant.prepare(time_s).map_err(ended)?;
+    plant.prepare(time_s, time_s).map_err(ended)?;
     let totals = start_totals(context, values, &plant.evaluate(time_s));
     state.integrator = MomentumIntegrator::new(time_s, totals);
     let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);

@@ -152,8 +152,8 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
 impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
     type Failure = PlantError;
 
-    fn prepare(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        self.reach(start_s)
+    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        self.reach(start_s, limit_s)
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {
