@@ -97,10 +97,7 @@ impl<'a> Center<'a> {
     /// the poles, about the Sun one of 1 AU.
     pub fn elements(&self) -> Elements {
         let orbit = &self.variables.orbit;
-        let own = match self.body {
-            Body::Sun => Elements::circle(physics::constants::ASTRONOMICAL_UNIT_M, 0.0),
-            planet => Elements::circle(3.0 * planet.data().radius_m, core::f64::consts::FRAC_PI_2),
-        };
+        let own = Elements::simple_about(self.body);
         Elements {
             semi_major_axis_m: self.followed(
                 orbit.semi_major_axis,
@@ -136,29 +133,29 @@ impl<'a> Center<'a> {
 
     /// Elements of the centre's own ellipse about the Sun, in the ecliptic of J2000.
     pub fn ellipse(&self) -> Elements {
-        let (ephemeris, default, own) = (&self.variables.ephemeris, defaults::PRINTED, self.body.data());
-        let argument_rad = own.orbit_perihelion_longitude_rad - own.orbit_node_rad;
+        let ephemeris = &self.variables.ephemeris;
+        let (default, own) = (defaults::PRINTED, Elements::mean_orbit_of(self.body.data()));
         Elements {
             semi_major_axis_m: self.followed(
                 ephemeris.semi_major_axis,
                 default.semi_major_axis_m,
-                own.orbit_semi_major_axis_m,
+                own.semi_major_axis_m,
             ),
-            eccentricity: self.followed(ephemeris.eccentricity, default.eccentricity, own.orbit_eccentricity),
+            eccentricity: self.followed(ephemeris.eccentricity, default.eccentricity, own.eccentricity),
             inclination_rad: self.followed(
                 ephemeris.inclination,
                 default.inclination_rad,
-                own.orbit_inclination_rad,
+                own.inclination_rad,
             ),
             ascending_node_rad: self.followed(
                 ephemeris.ascending_node,
                 default.ascending_node_rad,
-                own.orbit_node_rad,
+                own.ascending_node_rad,
             ),
             periapsis_argument_rad: self.followed(
                 ephemeris.periapsis_argument,
                 default.periapsis_argument_rad,
-                argument_rad,
+                own.periapsis_argument_rad,
             ),
             true_anomaly_rad: self.values.real(ephemeris.true_anomaly),
         }

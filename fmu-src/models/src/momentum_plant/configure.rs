@@ -9,6 +9,7 @@ use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
+use physics::environment::time;
 use physics::guidance::{self, Guided, Schedule};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
@@ -43,7 +44,7 @@ pub fn refreshed(
     previous: Option<Configuration>,
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
-    let epoch_minus_time_s = values.real(variables.start.epoch) - state.start_s;
+    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let center = Center::of(variables, values);
     let (body, data) = (center.body, center.data());
     let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
@@ -166,11 +167,7 @@ fn orbit(
     match values.choice(orbit.source) {
         // Nothing is computed on it before position and velocity are set.
         Some(OrbitSource::Inputs) if state.waiting => {
-            let distance_m = 1e10;
-            let start = CartesianState {
-                position_m: nalgebra::Vector3::x() * distance_m,
-                velocity_m_s: nalgebra::Vector3::y() * (data.gm_m3_s2 / distance_m).sqrt(),
-            };
+            let start = CartesianState::on_circle(1e10, data.gm_m3_s2);
             TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_minus_time_s)
                 .map_err(|error| Failure::new(format!("planet.gravitationalParameter: {error}")))
         }
@@ -179,7 +176,8 @@ fn orbit(
                 position_m: physics_vector(values.vector(orbit.position)),
                 velocity_m_s: physics_vector(values.vector(orbit.velocity)),
             };
-            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, state.orbit_since_s + epoch_minus_time_s)
+            let epoch_s = time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s);
+            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s)
                 .map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
         }
         Some(OrbitSource::Elements) | None => {

@@ -1,7 +1,11 @@
 //! Start values that are computed or come from the spacecraft.
 
 use physics::bodies::{Body, BodyData};
-use physics::environment::{ephemeris, orbit::Elements, paper004, sun, time};
+use physics::environment::{
+    ephemeris,
+    orbit::{self, Elements},
+    paper004, sun, time,
+};
 use physics::spacecraft::{self, SunKeepIn};
 
 use super::choices::{PanelControl, PanelTilt, SunshadeShape};
@@ -9,6 +13,7 @@ use super::setup::PlantSetup;
 
 /// 2009-04-06 00:00 TDB: orbit insertion in paper 000's plan, in s past J2000 TDB.
 pub(super) const EPOCH_TDB_S: f64 = time::MOMENTUM_STUDY_START_S;
+pub(super) const EARLIEST_EPOCH_S: f64 = ephemeris::EARLIEST_EPOCH_S;
 pub(super) const VALID_EPOCH_S: f64 = ephemeris::VALID_EPOCH_S;
 pub(super) const SOLAR_FLUX_W_M2: f64 = sun::SOLAR_FLUX_PAPER_000_W_M2;
 /// The body that the other defaults are of.
@@ -23,9 +28,7 @@ pub(super) const PRINTED: Elements = paper004::MERCURY_AS_PRINTED;
 
 /// The semi-major axis of a 12 h orbit about Mercury (Kepler's third law).
 pub(super) fn semi_major_axis_m() -> f64 {
-    let mean_motion_rad_s = core::f64::consts::TAU / 43_200.0;
-    // Start values enter the GUID: no digit may hang on the machine's own library of functions.
-    libm::cbrt(MERCURY.gm_m3_s2 / (mean_motion_rad_s * mean_motion_rad_s))
+    orbit::semi_major_axis_m(MERCURY.gm_m3_s2, 43_200.0)
 }
 
 /// Inertia by rows.

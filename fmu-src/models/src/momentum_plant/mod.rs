@@ -15,8 +15,7 @@ use fmi_export::{
     About, Context, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source,
     StartValue, Step, StepEnd, Values,
 };
-use physics::constants::RADIUS_SUN_M;
-use physics::momentum::{DumpEvent, MomentumIntegrator, TorqueModel, Totals};
+use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, TorqueModel, Totals};
 use physics::plant::{Cost, Evaluation, ExternalLoad, Plant, PlantError, PropagatorState};
 
 use choices::OrbitSource;
@@ -57,7 +56,8 @@ impl Model for MomentumPlant {
                 setup.spacecraft.name
             ),
             start_time_s: 0.0,
-            stop_time_s: 90.0 * 86_400.0,
+            // 90 days.
+            stop_time_s: 7_776_000.0,
             step_size_s: 600.0,
             tolerance: 1e-10,
             ..crate::about()
@@ -136,10 +136,12 @@ impl Model for MomentumPlant {
         if state.request.rises(values.boolean(context.variables.dump.request)) {
             let target = physics_vector(values.vector(context.variables.dump.target));
             let event = integrator.dump_to(&mut plant, &configuration.momentum, step.start_s, target);
-            spacing.dumped(context, &event);
+            note_dump(context, spacing, &event);
         }
         integrator
-            .advance(&mut plant, &configuration.momentum, step.end_s, |event| spacing.dumped(context, event))
+            .advance(&mut plant, &configuration.momentum, step.end_s, |event| {
+                note_dump(context, spacing, event)
+            })
             .map_err(ended)?;
         let evaluation = plant.evaluate(step.end_s);
         flyable(&evaluation, &state.integrator.totals(step.end_s), step.end_s)?;
@@ -199,7 +201,7 @@ fn begin(
     state.integrator = MomentumIntegrator::new(time_s, totals);
     let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
     integrator
-        .advance(&mut plant, &configuration.momentum, time_s, |event| spacing.dumped(context, event))
+        .advance(&mut plant, &configuration.momentum, time_s, |event| note_dump(context, spacing, event))
         .map_err(ended)?;
     let evaluation = plant.evaluate(time_s);
     flyable(&evaluation, &state.integrator.totals(time_s), time_s)?;
@@ -226,11 +228,7 @@ fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s:
 /// What the flight starts with: start.momentum in the body frame.
 fn start_totals(context: &Plan<'_>, values: &Values, evaluation: &Evaluation) -> Totals {
     let momentum_body_n_m_s = physics_vector(values.vector(context.variables.start.momentum));
-    Totals {
-        momentum_inertial_n_m_s: evaluation.instant.frame.inertial_from_body * momentum_body_n_m_s,
-        torque_integral_body_n_m_s: momentum_body_n_m_s,
-        ..Totals::default()
-    }
+    Totals::at_start(momentum_body_n_m_s, &evaluation.instant.frame.inertial_from_body)
 }
 
 fn ended(error: PlantError) -> Failure {
@@ -277,13 +275,10 @@ fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<(), 
              force.applied, spacecraft.mass and spacecraft.centerOfMass"
         )));
     }
-    let (instant, total) = (&evaluation.instant, evaluation.loads.total());
-    let numbers = total.torque_body_n_m + total.force_body_n;
-    let outside_the_sun = instant.sun_distance_m > RADIUS_SUN_M;
-    if outside_the_sun && instant.lit_fraction.is_finite() && numbers.iter().all(|x| x.is_finite()) {
+    if evaluation.is_somewhere() {
         return Ok(());
     }
-    let spacecraft = instant.geometry.spacecraft.position_m;
+    let spacecraft = evaluation.instant.geometry.spacecraft.position_m;
     Err(Failure::new(format!(
         "at {time_s} s the spacecraft at {:?} m about the orbit's centre is inside the planet or the Sun, or its position \
          is no number; see orbit.*, sun.position and planet.radius",
@@ -302,7 +297,9 @@ fn physics_vector(value: [f64; 3]) -> nalgebra::Vector3<f64> {
     value.into()
 }
 
-fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
+/// Counts a dump and reports it.
+fn note_dump(context: &Plan<'_>, spacing: &mut DumpSpacing, event: &DumpEvent) {
+    spacing.dumped(event);
     if context.log.events_enabled() {
         let message = format!(
             "thruster dump: momentum {:?} -> {:?} N.m.s (body)",

@@ -3,12 +3,12 @@
 use fmi_export::{Enumeration, Failure, Values};
 use physics::attitude::Attitude;
 use physics::environment::ephemeris::Ephemeris;
-use physics::momentum::{DumpEvent, MomentumIntegrator, Totals};
+use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
 use serde::{Deserialize, Serialize};
 
 use super::choices::{AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource};
-use super::{Plan, log_dump, physics_vector};
+use super::{Plan, physics_vector};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct PlantState {
     /// `dump.request` at the last step.
     pub request: Request,
     /// Time between dumps.
-    pub spacing: Spacing,
+    pub spacing: DumpSpacing,
     /// Cache, not state: the same epoch gives the same bits.
     #[serde(skip)]
     pub ephemeris: Ephemeris,
@@ -74,31 +74,6 @@ impl Request {
     pub fn rises(&mut self, now: bool) -> bool {
         let before = std::mem::replace(&mut self.0, now);
         now && !before
-    }
-}
-
-/// Shortest time between two dumps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Spacing {
-    last_s: Option<f64>,
-    /// In s; absent before the second dump.
-    pub closest_s: Option<f64>,
-}
-
-impl Spacing {
-    /// Whether its numbers can come from a flight.
-    fn is_sound(&self) -> bool {
-        self.last_s.is_none_or(f64::is_finite)
-            && self.closest_s.is_none_or(|gap_s| (0.0..=1e100).contains(&gap_s))
-    }
-
-    /// Counts a dump and reports it.
-    pub fn dumped(&mut self, context: &Plan<'_>, event: &DumpEvent) {
-        log_dump(context, event);
-        if let Some(last_s) = self.last_s.replace(event.time_s) {
-            let gap_s = event.time_s - last_s;
-            self.closest_s = Some(self.closest_s.map_or(gap_s, |closest_s| closest_s.min(gap_s)));
-        }
     }
 }
 
@@ -142,7 +117,7 @@ impl PlantState {
             orbit_inputs: orbit_inputs(context, values),
             light_inputs: light_inputs(context, values).collect(),
             request: Request::default(),
-            spacing: Spacing::default(),
+            spacing: DumpSpacing::default(),
             ephemeris: Ephemeris::default(),
             configuration: None,
             light: None,

@@ -12,7 +12,6 @@ use fmi_export::{
     StartValue, Step, StepEnd, Values,
 };
 use nalgebra::Vector3;
-use physics::numerics::spacing::spacing;
 use physics::spin::{
     plant::{Directions, Plant},
     spinner::Spinner,
@@ -90,10 +89,11 @@ impl Model for SpinPlant {
             commands.torque = read::torque(context, values, step)?;
             // Directions that move within the step are taken where it ends: they are read, not integrated.
             let at_end = |handle| step.inputs.vector(values, handle, step.end_s);
-            if let Some(name) = cut_pulse(context, &commands, step) {
+            let cut = commands.cut_by(step.start_s, step.end_s);
+            if let Some(thruster) = cut.and_then(|index| context.setup.thrusters.get(index)) {
                 context.log.warning(&format!(
-                    "a pulse of thruster {name} reaches beyond the step from {} to {} s and is cut there",
-                    step.start_s, step.end_s
+                    "a pulse of thruster {} reaches beyond the step from {} to {} s and is cut there",
+                    thruster.name, step.start_s, step.end_s
                 ));
             }
             let directions = read::directions(context, values, at_end)?;
@@ -147,19 +147,13 @@ impl OutputRates for SpinPlant {
     }
 }
 
-/// A Sun-timed burn that comes closer to the Sun's line than so many pulses and kicks is not well timed: the Sun's
-/// azimuth then swings with nutation.
-const SUN_CLEARANCE: f64 = 4.0;
-
 /// What a burn that can be flown will not do as one may expect.
 fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
     let (log, seen) = (context.log, plant.predictions());
     if plant.is_dry() {
         log.warning("there is no propellant (propellant.loaded): no thruster fires");
     }
-    if let Some(apart_rad) =
-        plant.target_apart_rad().filter(|apart| seen.manoeuvre_rad > apart + seen.manoeuvre_per_pulse_rad)
-    {
+    if let Some(apart_rad) = plant.passed_target_rad() {
         log.warning(&format!(
             "the burn's {} pulses would move the momentum by {:.4} deg, but burn.targetDirection is {:.4} deg away, and \
              beyond it they take back what they did",
@@ -168,8 +162,7 @@ fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
             apart_rad.to_degrees()
         ));
     }
-    let near_rad = SUN_CLEARANCE * (seen.manoeuvre_per_pulse_rad + seen.kick_rad);
-    if let Some(clearance_rad) = plant.sun_clearance_rad().filter(|&clearance| clearance < near_rad) {
+    if let Some(clearance_rad) = plant.too_close_to_sun_rad() {
         log.warning(&format!(
             "the burn is timed by Sun crossings, and its way passes the Sun's line at {:.4} deg, where a crossing says \
              little: burn.timing 3 (true phase) or 1 (clock) does without",
@@ -204,20 +197,4 @@ fn warn_of_unknown(
             .log
             .warning(&format!("{} is 0: nothing is seen there until it has a direction", names.join(", ")));
     }
-}
-
-/// Name of a thruster whose commanded pulse does not end within the step.
-fn cut_pulse<'a>(
-    context: &'a Context<'_, SpinPlant>,
-    commands: &physics::spin::plant::Commands,
-    step: &Step<'_>,
-) -> Option<&'a str> {
-    let length_s = step.end_s - step.start_s;
-    // Rounding of times is no cut.
-    let rounding_s = 1e-9 * length_s + 8.0 * spacing(step.start_s.abs().max(step.end_s.abs()));
-    let late = commands
-        .pulses
-        .iter()
-        .position(|pulse| pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s + rounding_s)?;
-    context.setup.thrusters.get(late).map(|thruster| thruster.name.as_str())
 }

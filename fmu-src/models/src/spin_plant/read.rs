@@ -1,6 +1,6 @@
 //! From the master's parameters and inputs to what the physics takes.
 
-use fmi_export::{Context, Failure, Real, RealVector, Step, Values};
+use fmi_export::{Context, Failure, RealVector, Step, Values};
 use nalgebra::Vector3;
 use physics::spin::{
     burn::BurnRequest,
@@ -97,19 +97,14 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
 pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
     let v = context.variables;
     let resolution_s = values.real(v.pulse.resolution);
-    let rounded = |handle: Real| {
-        let time_s = values.real(handle).max(0.0);
-        let steps = time_s / resolution_s;
-        // So many steps that doubles do not count them are as fine as no rounding.
-        if resolution_s > 0.0 && steps < 1e15 { steps.round() * resolution_s } else { time_s }
-    };
     let mut commands =
         Commands { torque: BodyTorque::constant(values.vector(v.torque.applied).into()), ..Commands::none() };
     for (k, (thruster, pulse)) in v.thruster.iter().zip(&mut commands.pulses).enumerate() {
         if values.boolean(thruster.fire) {
             commands.fire |= 1 << k;
         }
-        *pulse = PulseCommand { delay_s: rounded(thruster.on_delay), on_s: rounded(thruster.on_time) };
+        let (delay_s, on_s) = (values.real(thruster.on_delay), values.real(thruster.on_time));
+        *pulse = PulseCommand::rounded(delay_s, on_s, resolution_s);
         commands.any_pulse |= pulse.on_s > 0.0;
     }
     commands
@@ -121,17 +116,14 @@ pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<Bo
     let mut torque = BodyTorque::constant(values.vector(handle).into());
     for axis in 0..3 {
         for (order, derivative) in step.inputs.derivatives(handle.element(axis)) {
-            let k = order as usize;
-            if k >= TORQUE_TERMS {
-                return Err(Failure::new(format!(
+            torque.set_derivative(axis, order, derivative).ok_or_else(|| {
+                Failure::new(format!(
                     "torque.applied[{}]: a derivative of order {order} was given; orders 1 to {} are used",
                     axis + 1,
                     TORQUE_TERMS - 1
-                )));
-            }
+                ))
+            })?;
             torque.origin_s = step.inputs.start_s();
-            let factorial: f64 = (1..=order).map(f64::from).product();
-            torque.coefficients_n_m[k][axis] = derivative / factorial;
         }
     }
     Ok(torque)
@@ -154,16 +146,8 @@ pub fn directions(
     let v = context.variables;
     let unit = |name: &str, handle| {
         let given = read(handle);
-        let direction = Vector3::from(given);
-        let norm = direction.norm();
-        // Beyond these the squares of components under- or overflow.
-        if (1e-100..=1e100).contains(&norm) {
-            return Ok(direction / norm);
-        }
-        if given == [0.0; 3] {
-            return Ok(Vector3::zeros());
-        }
-        Err(Failure::new(format!("{name} is {given:?}; allowed is 0 or a vector of length 1e-100 to 1e100")))
+        let allowed = "allowed is 0 or a vector of length 1e-100 to 1e100";
+        Directions::unit(given).ok_or_else(|| Failure::new(format!("{name} is {given:?}; {allowed}")))
     };
     let from_inputs = takes_directions(context, values);
     let unless_orbit = |name, handle| if from_inputs { unit(name, handle) } else { Ok(Vector3::zeros()) };

@@ -72,7 +72,7 @@ pub struct GuidedVariables {
 #[variables(setup = PlantSetup)]
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
-    #[parameter(unit = "s", display = "d", min = -defaults::VALID_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
+    #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
     pub epoch: Real,
     /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]

@@ -1,6 +1,5 @@
 //! The spinning body: mass properties, spin, nutation, momentum.
 
-use super::RPM_RAD_S;
 use fmi_export::{Choice, Integer, Real, RealVector, Variables};
 
 use super::super::choices::MassSource;
@@ -43,7 +42,7 @@ pub struct PropellantVariables {
 #[variables(setup = Spinner)]
 pub struct SpinRateVariables {
     /// Rate about the third axis at the start.
-    #[parameter(unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
+    #[parameter(unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rad_s())]
     pub initial_rate: Real,
     /// Rate about the third axis.
     #[output(unit = "rad/s", display = "rpm", nominal = 0.5)]

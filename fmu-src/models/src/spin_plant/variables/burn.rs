@@ -115,7 +115,7 @@ pub struct ThrusterVariables {
     #[output]
     pub active: Boolean,
     /// Moment arm across the spin axis, paper 002 Table 1.
-    #[output(constant, unit = "m", start = setup.torque_body_n_m.xy().norm() / setup.force_body_n.norm())]
+    #[output(constant, unit = "m", start = setup.arm_across_z_m())]
     pub arm: Real,
     /// Name in the setup.
     #[output(constant, start = setup.name.as_str())]

@@ -4,8 +4,6 @@ mod body;
 mod burn;
 mod observation;
 
-use core::f64::consts::PI;
-
 use fmi_export::{Integer, Real, RealVector, Variables};
 
 use body::{
@@ -20,9 +18,6 @@ use observation::{
 
 use crate::shared::WorkLimit;
 use physics::spin::spinner::Spinner;
-
-const RPM_RAD_S: f64 = PI / 30.0;
-const DEG_RAD: f64 = PI / 180.0;
 
 /// Every variable of the spinner, in the order of the XML.
 #[derive(Variables)]
