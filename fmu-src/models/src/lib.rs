@@ -1,11 +1,10 @@
 //! The heliotorque models: each declares its variables and wires physics to the model trait. No physics here.
 
+mod common;
 mod disturbance_torque;
 mod momentum_plant;
-mod shared;
 mod sources;
 mod spin_plant;
-mod start_values;
 
 pub use disturbance_torque::{DisturbanceSetup, DisturbanceTorque};
 pub use momentum_plant::{MomentumPlant, PlantSetup};

@@ -3,18 +3,17 @@
 use fmi_export::{Failure, Real, RealVector, Values};
 use nalgebra::Matrix3;
 use physics::bodies::surface::PlanetSurface;
-use physics::environment::eclipse::{Shadow, ShadowModel};
+use physics::environment::eclipse::Shadow;
 use physics::numerics::scalar::{Dual64, Scalar};
 use physics::radiation::disturbance::{
     BySource, DisturbanceModel, Options, Parameters, PlanetLightMethod, PositionError, Positions, Workspace,
 };
 use physics::radiation::grid::CellLayout;
-use physics::spacecraft::{self, Spacecraft};
+use physics::spacecraft::Spacecraft;
 
 use super::Plan;
 use super::variables::{DisturbanceVariables, PlanetLightVariables, PlanetMethod};
-use crate::momentum_plant::choices::{EclipseMethod, SunshadeShape};
-use crate::shared::inertia_body_kg_m2;
+use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// What parameters and spacecraft amount to.
 #[derive(Clone, Debug)]
@@ -146,25 +145,15 @@ impl Prepared {
         let planet = &variables.planet;
         let present = values.boolean(planet.present);
         let surface = planet.surface.read(values, planet.radius);
-        let sunshade_model = values.choice(variables.sunshade.shape).map(|model| match model {
-            SunshadeShape::Plates => spacecraft::SunshadeModel::Plates,
-            SunshadeShape::Cylinder => spacecraft::SunshadeModel::Cylinder,
-        });
+        let sunshade_model = values.choice(variables.sunshade.shape).map(Into::into);
         let options = Options {
             planet: present.then_some(surface),
             planet_light: method(values, &variables.planet_light, spacecraft)?,
             self_shadowing: values.boolean(variables.shadowing.enabled),
             sunshade_model: sunshade_model.filter(|_| spacecraft.sunshade.is_some()),
         };
-        let shadow_model = match values.choice(variables.eclipse.method) {
-            Some(EclipseMethod::Cone) => ShadowModel::AllOrNothingCone,
-            Some(EclipseMethod::Cylinder) => ShadowModel::AllOrNothingCylinder,
-            Some(EclipseMethod::Off) => ShadowModel::Off,
-            Some(EclipseMethod::Discs) | None => ShadowModel::DiscOverlap,
-        };
+        let shadow = variables.eclipse.read(values, surface.radius_m)?;
         let failure = |error: &dyn core::fmt::Display| Failure::new(error.to_string());
-        let shadow = Shadow::new(shadow_model, surface.radius_m)
-            .map_err(|error| Failure::new(format!("planet.radius: {error}")))?;
         let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
         Ok(Self {
             model: DisturbanceModel::new(spacecraft, &options).map_err(|error| failure(&error))?,

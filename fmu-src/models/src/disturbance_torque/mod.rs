@@ -55,7 +55,7 @@ impl Model for DisturbanceTorque {
     }
 
     fn start_values(setup: &DisturbanceSetup) -> Vec<StartValue> {
-        crate::start_values::start_values(&setup.spacecraft.start)
+        crate::common::start_values::start_values(&setup.spacecraft.start)
     }
 
     fn about(setup: &DisturbanceSetup) -> About {

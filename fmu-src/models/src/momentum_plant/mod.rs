@@ -1,14 +1,10 @@
 //! `MomentumPlant`: a three-axis spacecraft about a planet or the Sun, its disturbance torques by source and the
 //! momentum they add up to.
 
-mod center;
-pub(crate) mod choices;
-mod configure;
-pub(crate) mod defaults;
 mod dependencies;
+mod inputs;
 mod outputs;
 mod setup;
-mod state;
 mod variables;
 
 use fmi_export::{
@@ -18,10 +14,10 @@ use fmi_export::{
 use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, TorqueModel, Totals};
 use physics::plant::{Cost, Evaluation, ExternalLoad, Plant, PlantError, PropagatorState};
 
-use choices::OrbitSource;
+use inputs::state::{Changes, PlantState, unset_places};
 pub use setup::PlantSetup;
-use state::{Changes, PlantState, unset_places};
 use variables::PlantVariables;
+use variables::choices::OrbitSource;
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -45,7 +41,7 @@ impl Model for MomentumPlant {
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {
-        crate::start_values::start_values(&setup.spacecraft.start)
+        crate::common::start_values::start_values(&setup.spacecraft.start)
     }
 
     fn about(setup: &PlantSetup) -> About {
@@ -103,7 +99,7 @@ impl Model for MomentumPlant {
         let configuration = match state.configuration.take() {
             Some(configuration) if !changed => configuration,
             previous => {
-                let configuration = configure::refreshed(context, values, state, previous)?;
+                let configuration = inputs::refreshed(context, values, state, previous)?;
                 outputs::write_calculated(context, values, &configuration);
                 configuration
             }
@@ -126,7 +122,7 @@ impl Model for MomentumPlant {
         };
         let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
         if state.light.is_none() {
-            state.light = configure::light(context, values, &configuration)?;
+            state.light = inputs::light(context, values, &configuration)?;
         }
         let limit = context.variables.solver.work.units(values);
         let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
@@ -187,12 +183,12 @@ fn begin(
     state: &mut PlantState,
     time_s: f64,
 ) -> Result<(), Failure> {
-    let configuration = configure::configuration(context, values, state)?;
+    let configuration = inputs::configuration(context, values, state)?;
     let load = applied(context, values);
     let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
     let limit = context.variables.solver.work.units(values);
     state.propagator = PropagatorState::new(&configuration, time_s).map_err(ended)?;
-    state.light = configure::light(context, values, &configuration)?;
+    state.light = inputs::light(context, values, &configuration)?;
     let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
     let mut plant =
         Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), |_| load, limit);
@@ -215,7 +211,7 @@ fn begin(
 
 /// At `time_s` the flight still waits for inputs: the attitude is held as commanded, and nothing acts.
 fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s: f64) -> Result<(), Failure> {
-    let configuration = configure::configuration(context, values, state)?;
+    let configuration = inputs::configuration(context, values, state)?;
     let evaluation = Evaluation::nowhere(state.command.frame_at(time_s));
     let totals = start_totals(context, values, &evaluation);
     state.integrator = MomentumIntegrator::new(time_s, totals);

@@ -7,7 +7,7 @@ use physics::momentum::Totals;
 use physics::plant::{Configuration, Evaluation, ExternalLoad, PanelSetting, Plant};
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
-use super::state::PlantState;
+use super::inputs::state::PlantState;
 use super::{Plan, ended};
 
 /// Writes every output at `time_s`.

@@ -22,7 +22,7 @@ pub struct PlantSetup {
     cylinder: Option<SolarModel>,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
-    pub reported_faces: Vec<crate::shared::ReportedFace>,
+    pub reported_faces: Vec<crate::common::spacecraft::ReportedFace>,
     /// Distribution of momentum over the wheels; absent unless they span all directions.
     #[serde(skip)]
     pub wheel_array: Option<WheelArray>,
@@ -38,7 +38,7 @@ impl PlantSetup {
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let prepared = |model| SolarModel::with_sunshade_model(&spacecraft, model).ok();
         Ok(Self {
-            reported_faces: crate::shared::reported_faces(file, &spacecraft)?,
+            reported_faces: crate::common::spacecraft::reported_faces(file, &spacecraft)?,
             plates: prepared(SunshadeModel::Plates),
             cylinder: prepared(SunshadeModel::Cylinder),
             wheel_array: WheelArray::new(&axes),

@@ -1,10 +1,10 @@
 //! `SpinPlant`: a spin-stabilised spacecraft (ACE), its thruster pulses with exact edges, nutation and its damper, burn
 //! sequencing and sensors.
 
-mod choices;
 mod dependencies;
+mod inputs;
 mod outputs;
-mod read;
+mod setup;
 mod variables;
 
 use fmi_export::{
@@ -35,11 +35,11 @@ impl Model for SpinPlant {
     type State = Plant;
 
     fn parse_setup(file: &str, text: &str) -> Result<Spinner, SetupError> {
-        Spinner::parse(file, text).map_err(|error| SetupError(error.to_string()))
+        setup::parse(file, text)
     }
 
     fn start_values(setup: &Spinner) -> Vec<StartValue> {
-        crate::start_values::start_values(&setup.start)
+        crate::common::start_values::start_values(&setup.start)
     }
 
     fn about(setup: &Spinner) -> About {
@@ -66,9 +66,9 @@ impl Model for SpinPlant {
         values: &mut Values,
         start_time_s: f64,
     ) -> Result<Plant, Failure> {
-        let directions = read::directions(context, values, |handle| values.vector(handle))?;
-        let start = read::start(context, values);
-        let commands = read::commands(context, values);
+        let directions = inputs::directions(context, values, |handle| values.vector(handle))?;
+        let start = inputs::start(context, values);
+        let commands = inputs::commands(context, values);
         let plant = Plant::start(context.setup, &start, directions, commands, start_time_s)
             .map_err(|error| Failure::new(error.to_string()))?;
         warn_of_burn(context, &plant);
@@ -85,8 +85,8 @@ impl Model for SpinPlant {
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
         if step.changed {
-            let mut commands = read::commands(context, values);
-            commands.torque = read::torque(context, values, step)?;
+            let mut commands = inputs::commands(context, values);
+            commands.torque = inputs::torque(context, values, step)?;
             // Directions that move within the step are taken where it ends: they are read, not integrated.
             let at_end = |handle| step.inputs.vector(values, handle, step.end_s);
             let cut = commands.cut_by(step.start_s, step.end_s);
@@ -96,7 +96,7 @@ impl Model for SpinPlant {
                     thruster.name, step.start_s, step.end_s
                 ));
             }
-            let directions = read::directions(context, values, at_end)?;
+            let directions = inputs::directions(context, values, at_end)?;
             warn_of_unknown(context, values, Some(&plant.directions_at(step.start_s)), &directions);
             plant.command(commands, directions);
         }
@@ -178,7 +178,7 @@ fn warn_of_unknown(
     before: Option<&Directions>,
     now: &Directions,
 ) {
-    let from_inputs = read::takes_directions(context, values);
+    let from_inputs = inputs::takes_directions(context, values);
     let became_unknown = |before: Option<&Vector3<f64>>, now: &Vector3<f64>| {
         *now == Vector3::zeros() && before.is_none_or(|before| *before != Vector3::zeros())
     };

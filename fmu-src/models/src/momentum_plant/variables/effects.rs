@@ -4,10 +4,10 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use physics::radiation::Effect;
 
-use super::super::choices::{DumpReinitTo, MomentumConvention};
-use super::super::defaults;
 use super::super::setup::PlantSetup;
-use crate::shared::WorkLimit;
+use super::choices::{DumpReinitTo, MomentumConvention};
+use super::defaults;
+use crate::common::variables::WorkLimit;
 
 /// Light of the planet.
 #[derive(Variables)]

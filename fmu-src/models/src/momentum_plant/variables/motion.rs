@@ -2,11 +2,11 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
-use super::super::choices::{
+use super::super::setup::PlantSetup;
+use super::choices::{
     AttitudeSource, CommandKind, OrbitCenter, OrbitDynamics, OrbitFrame, OrbitSource, ScienceRule,
 };
-use super::super::defaults;
-use super::super::setup::PlantSetup;
+use super::defaults;
 
 /// Attitude: where it comes from, and what it is.
 #[derive(Variables)]

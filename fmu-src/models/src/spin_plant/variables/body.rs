@@ -2,7 +2,7 @@
 
 use fmi_export::{Choice, Integer, Real, RealVector, Variables};
 
-use super::super::choices::MassSource;
+use super::choices::MassSource;
 use physics::spin::spinner::Spinner;
 
 /// Mass properties.

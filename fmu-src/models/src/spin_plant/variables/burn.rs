@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
 
-use super::super::choices::{BurnPlan, BurnTiming};
+use super::choices::{BurnPlan, BurnTiming};
 use physics::spacecraft::Thruster;
 use physics::spin::spinner::Spinner;
 

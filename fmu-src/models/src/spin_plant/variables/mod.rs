@@ -2,6 +2,7 @@
 
 mod body;
 mod burn;
+pub mod choices;
 mod observation;
 
 use fmi_export::{Integer, Real, RealVector, Variables};
@@ -16,7 +17,7 @@ use observation::{
     SunSensorVariables, SunVariables,
 };
 
-use crate::shared::WorkLimit;
+use crate::common::variables::WorkLimit;
 use physics::spin::spinner::Spinner;
 
 /// Every variable of the spinner, in the order of the XML.

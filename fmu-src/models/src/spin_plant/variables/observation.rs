@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
-use super::super::choices::{GeometrySource, StarSampling};
+use super::choices::{GeometrySource, StarSampling};
 use physics::spin::spinner::Spinner;
 
 /// Where Sun and Earth stand.

@@ -6,9 +6,9 @@ use physics::bodies::{Body, BodyData};
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements;
 
-use super::choices::{OrbitCenter, OrbitFrame};
-use super::defaults;
-use super::variables::PlantVariables;
+use crate::momentum_plant::variables::PlantVariables;
+use crate::momentum_plant::variables::choices::{OrbitCenter, OrbitFrame};
+use crate::momentum_plant::variables::defaults;
 
 impl From<OrbitCenter> for Body {
     fn from(center: OrbitCenter) -> Self {

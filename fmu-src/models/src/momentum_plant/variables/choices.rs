@@ -1,4 +1,4 @@
-//! The plant's options.
+//! The plant's choices.
 
 use fmi_export::Enumeration;
 
@@ -101,19 +101,6 @@ pub enum EphemerisSource {
     Inputs = 3,
 }
 
-/// How the planet's shadow dims the Sun.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum EclipseMethod {
-    /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
-    Discs = 1,
-    /// Paper 004: no light as soon as the discs touch.
-    Cone = 2,
-    /// No light in the cylinder of the planet's radius behind it.
-    Cylinder = 3,
-    /// The planet casts no shadow; so in paper 000.
-    Off = 4,
-}
-
 /// What turns a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum PanelControl {
@@ -130,15 +117,6 @@ pub enum PanelTilt {
     Positive = 1,
     /// Left-handed about the panel's axis.
     Negative = 2,
-}
-
-/// Shape of the sunshade.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum SunshadeShape {
-    /// Flat plates.
-    Plates = 1,
-    /// Section of a cylinder.
-    Cylinder = 2,
 }
 
 /// Meaning of system momentum in the body frame.

@@ -1,4 +1,4 @@
-//! The spinner's options.
+//! The spinner's choices.
 
 use fmi_export::Enumeration;
 

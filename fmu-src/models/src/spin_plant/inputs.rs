@@ -13,7 +13,7 @@ use physics::spin::{
 
 use super::{
     SpinPlant,
-    choices::{BurnPlan, BurnTiming, GeometrySource, MassSource, StarSampling},
+    variables::choices::{BurnPlan, BurnTiming, GeometrySource, MassSource, StarSampling},
 };
 
 type Plan<'a> = Context<'a, SpinPlant>;

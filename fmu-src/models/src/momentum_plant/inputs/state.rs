@@ -7,8 +7,10 @@ use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
 use serde::{Deserialize, Serialize};
 
-use super::choices::{AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource};
-use super::{Plan, physics_vector};
+use crate::momentum_plant::variables::choices::{
+    AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource,
+};
+use crate::momentum_plant::{Plan, physics_vector};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]

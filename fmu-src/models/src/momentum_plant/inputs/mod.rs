@@ -1,11 +1,13 @@
 //! From parameters and inputs to the physics' configuration; refuses what cannot be flown, by name.
 
+pub mod center;
+pub mod state;
+
 use fmi_export::{Failure, Values};
 use physics::bodies::surface::MERCURY;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
 use physics::environment::CartesianState;
-use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
@@ -17,15 +19,15 @@ use physics::plant::{
 };
 use physics::spacecraft;
 
-use super::center::Center;
-use super::choices::{
-    AttitudeSource, DumpReinitTo, EclipseMethod, EphemerisSource, MomentumConvention, OrbitDynamics,
-    OrbitSource, PanelControl, PanelTilt, ScienceRule, SunshadeShape,
-};
-use super::state::PlantState;
+use self::center::Center;
+use self::state::PlantState;
 use super::variables::PlantVariables;
+use super::variables::choices::{
+    AttitudeSource, DumpReinitTo, EphemerisSource, MomentumConvention, OrbitDynamics, OrbitSource,
+    PanelControl, PanelTilt, ScienceRule,
+};
 use super::{Plan, physics_vector};
-use crate::shared::inertia_body_kg_m2;
+use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
 pub fn configuration(
@@ -96,7 +98,7 @@ pub fn refreshed(
         } else {
             SunLight::Distance { flux_w_m2: values.real(variables.solar.flux) }
         },
-        shadow: shadow(variables, values, data.radius_m)?,
+        shadow: variables.eclipse.read(values, data.radius_m)?,
         light_and_heat: RadiationSettings {
             planet_light: values.boolean(variables.planet_light.enabled),
             recoil: values.boolean(variables.thermal.enabled),
@@ -105,10 +107,9 @@ pub fn refreshed(
             grid_s: values.real(variables.solver.disturbance_step),
             tolerance: values.real(variables.solver.disturbance_tolerance),
         },
-        sunshade: match values.choice(variables.sunshade.shape) {
-            Some(SunshadeShape::Cylinder) => spacecraft::SunshadeModel::Cylinder,
-            Some(SunshadeShape::Plates) | None => spacecraft::SunshadeModel::Plates,
-        },
+        sunshade: values
+            .choice(variables.sunshade.shape)
+            .map_or(spacecraft::SunshadeModel::Plates, Into::into),
         panels,
         center_of_mass_body_m: physics_vector(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
@@ -144,16 +145,6 @@ pub fn light(
     RadiationSolver::new(spacecraft, configuration, &surface, nodes)
         .map(Some)
         .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.shape: {error}")))
-}
-
-fn shadow(variables: &PlantVariables, values: &Values, radius_m: f64) -> Result<Shadow, Failure> {
-    let model = match values.choice(variables.eclipse.method) {
-        Some(EclipseMethod::Cone) => ShadowModel::AllOrNothingCone,
-        Some(EclipseMethod::Cylinder) => ShadowModel::AllOrNothingCylinder,
-        Some(EclipseMethod::Off) => ShadowModel::Off,
-        Some(EclipseMethod::Discs) | None => ShadowModel::DiscOverlap,
-    };
-    Shadow::new(model, radius_m).map_err(|error| Failure::new(format!("planet.radius: {error}")))
 }
 
 fn orbit(

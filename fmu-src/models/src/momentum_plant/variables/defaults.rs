@@ -8,49 +8,36 @@ use physics::environment::{
 };
 use physics::spacecraft::{self, SunKeepIn};
 
-use super::choices::{PanelControl, PanelTilt, SunshadeShape};
-use super::setup::PlantSetup;
+use super::choices::{PanelControl, PanelTilt};
+use crate::momentum_plant::setup::PlantSetup;
 
 /// 2009-04-06 00:00 TDB: orbit insertion in paper 000's plan, in s past J2000 TDB.
-pub(super) const EPOCH_TDB_S: f64 = time::MOMENTUM_STUDY_START_S;
-pub(super) const EARLIEST_EPOCH_S: f64 = ephemeris::EARLIEST_EPOCH_S;
-pub(super) const VALID_EPOCH_S: f64 = ephemeris::VALID_EPOCH_S;
-pub(super) const SOLAR_FLUX_W_M2: f64 = sun::SOLAR_FLUX_PAPER_000_W_M2;
+pub const EPOCH_TDB_S: f64 = time::MOMENTUM_STUDY_START_S;
+pub const EARLIEST_EPOCH_S: f64 = ephemeris::EARLIEST_EPOCH_S;
+pub const VALID_EPOCH_S: f64 = ephemeris::VALID_EPOCH_S;
+pub const SOLAR_FLUX_W_M2: f64 = sun::SOLAR_FLUX_PAPER_000_W_M2;
 /// The body that the other defaults are of.
-pub(super) const MERCURY: &BodyData = Body::Mercury.data();
+pub const MERCURY: &BodyData = Body::Mercury.data();
 /// Elements of the default orbit: paper 004's Table 3, referred to Mercury's equator.
-pub(super) const ECCENTRICITY: f64 = paper004::MESSENGER_AS_PRINTED.eccentricity;
-pub(super) const INCLINATION_RAD: f64 = paper004::MESSENGER_AS_PRINTED.inclination_rad;
-pub(super) const ASCENDING_NODE_RAD: f64 = paper004::MESSENGER_AS_PRINTED.ascending_node_rad;
-pub(super) const PERIAPSIS_ARGUMENT_RAD: f64 = paper004::MESSENGER_AS_PRINTED.periapsis_argument_rad;
+pub const ECCENTRICITY: f64 = paper004::MESSENGER_AS_PRINTED.eccentricity;
+pub const INCLINATION_RAD: f64 = paper004::MESSENGER_AS_PRINTED.inclination_rad;
+pub const ASCENDING_NODE_RAD: f64 = paper004::MESSENGER_AS_PRINTED.ascending_node_rad;
+pub const PERIAPSIS_ARGUMENT_RAD: f64 = paper004::MESSENGER_AS_PRINTED.periapsis_argument_rad;
 /// Mercury's orbit as paper 004 prints it.
-pub(super) const PRINTED: Elements = paper004::MERCURY_AS_PRINTED;
+pub const PRINTED: Elements = paper004::MERCURY_AS_PRINTED;
 
 /// The semi-major axis of a 12 h orbit about Mercury (Kepler's third law).
-pub(super) fn semi_major_axis_m() -> f64 {
+pub fn semi_major_axis_m() -> f64 {
     orbit::semi_major_axis_m(MERCURY.gm_m3_s2, 43_200.0)
 }
 
 /// Inertia by rows.
-pub(super) fn inertia_kg_m2(setup: &PlantSetup) -> [[f64; 3]; 3] {
+pub fn inertia_kg_m2(setup: &PlantSetup) -> [[f64; 3]; 3] {
     setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into()
 }
 
-/// The shade model the spacecraft file asks for.
-pub(super) fn sunshade_shape(setup: &PlantSetup) -> SunshadeShape {
-    shade_of(&setup.spacecraft)
-}
-
-/// The shade model a spacecraft file asks for.
-pub(crate) fn shade_of(spacecraft: &spacecraft::Spacecraft) -> SunshadeShape {
-    match spacecraft.sunshade.as_ref().map(|shade| shade.model) {
-        Some(spacecraft::SunshadeModel::Cylinder) => SunshadeShape::Cylinder,
-        Some(spacecraft::SunshadeModel::Plates) | None => SunshadeShape::Plates,
-    }
-}
-
 /// How the spacecraft file says a panel is held.
-pub(super) fn panel_control(setup: &PlantSetup, index: usize) -> PanelControl {
+pub fn panel_control(setup: &PlantSetup, index: usize) -> PanelControl {
     match setup.spacecraft.panels[index].control {
         spacecraft::PanelControl::SunOffset => PanelControl::SunOffset,
         spacecraft::PanelControl::Angle => PanelControl::Angle,
@@ -58,12 +45,12 @@ pub(super) fn panel_control(setup: &PlantSetup, index: usize) -> PanelControl {
 }
 
 /// The sense in which the spacecraft file tilts a panel.
-pub(super) fn panel_tilt(setup: &PlantSetup, index: usize) -> PanelTilt {
+pub fn panel_tilt(setup: &PlantSetup, index: usize) -> PanelTilt {
     if setup.spacecraft.panels[index].tilt_sign < 0.0 { PanelTilt::Negative } else { PanelTilt::Positive }
 }
 
 /// The keep-in zone; without one in the file every direction is allowed.
-pub(super) fn keep_in(setup: &PlantSetup) -> SunKeepIn {
+pub fn keep_in(setup: &PlantSetup) -> SunKeepIn {
     let everywhere =
         SunKeepIn { azimuth_rad: core::f64::consts::PI, elevation_rad: core::f64::consts::FRAC_PI_2 };
     setup.spacecraft.sun_keep_in.unwrap_or(everywhere)
@@ -71,7 +58,7 @@ pub(super) fn keep_in(setup: &PlantSetup) -> SunKeepIn {
 
 /// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
 /// 000's for small wheels.
-pub(super) fn dump_threshold_n_m_s(setup: &PlantSetup) -> [f64; 3] {
+pub fn dump_threshold_n_m_s(setup: &PlantSetup) -> [f64; 3] {
     let spacecraft = &setup.spacecraft;
     let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
     let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
