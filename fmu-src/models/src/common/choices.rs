@@ -1,79 +1,85 @@
-//! Choices that several models offer, each with what it is in physics.
+//! Choices among the variants of a type of physics, which declares them: what their items are called and mean to a master.
 
-use fmi_export::Enumeration;
 use physics::bodies::surface;
 use physics::environment::eclipse::ShadowModel;
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
-/// How the day side's temperature is distributed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum DayTemperature {
-    /// One temperature for the whole day side (paper 004, eq 32).
-    Uniform = 1,
-    /// Local balance: the fourth power of temperature goes with the cosine of the Sun's zenith angle.
-    Cosine = 2,
-    /// The night's temperature everywhere, as under an atmosphere.
-    Isothermal = 3,
-}
+/// An enumeration whose items are the variants of an enum of physics: `item = value => Variant`, each with its description.
+macro_rules! enumeration_of {
+    ($(#[doc = $about:literal])+ $name:ident($type:ty) {
+        $($(#[doc = $meaning:literal])+ $item:ident = $value:literal => $variant:ident,)+
+    }) => {
+        $(#[doc = $about])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct $name(pub $type);
 
-impl From<DayTemperature> for surface::DayTemperature {
-    fn from(choice: DayTemperature) -> Self {
-        match choice {
-            DayTemperature::Uniform => Self::Uniform,
-            DayTemperature::Cosine => Self::Cosine,
-            DayTemperature::Isothermal => Self::Isothermal,
+        impl ::fmi_export::Enumeration for $name {
+            const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
+                name: stringify!($name),
+                description: concat!($($about),+).trim_ascii(),
+                items: &[$(::fmi_export::variables::Item {
+                    name: stringify!($item),
+                    value: $value,
+                    description: concat!($($meaning),+).trim_ascii(),
+                }),+],
+            };
+
+            fn from_value(value: i32) -> Option<Self> {
+                match value {
+                    $($value => Some(Self(<$type>::$variant)),)+
+                    _ => None,
+                }
+            }
+
+            fn value(self) -> i32 {
+                match self.0 {
+                    $(<$type>::$variant => $value,)+
+                }
+            }
         }
+    };
+}
+pub(crate) use enumeration_of;
+
+enumeration_of! {
+    /// How the day side's temperature is distributed.
+    DayTemperature(surface::DayTemperature) {
+        /// One temperature for the whole day side (paper 004, eq 32).
+        uniform = 1 => Uniform,
+        /// Local balance: the fourth power of temperature goes with the cosine of the Sun's zenith angle.
+        cosine = 2 => Cosine,
+        /// The night's temperature everywhere, as under an atmosphere.
+        isothermal = 3 => Isothermal,
     }
 }
 
-/// How the planet's shadow dims the Sun.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum EclipseMethod {
-    /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
-    Discs = 1,
-    /// Paper 004: no light as soon as the discs touch.
-    Cone = 2,
-    /// No light in the cylinder of the planet's radius behind it.
-    Cylinder = 3,
-    /// The planet casts no shadow; so in paper 000.
-    Off = 4,
-}
-
-impl From<EclipseMethod> for ShadowModel {
-    fn from(choice: EclipseMethod) -> Self {
-        match choice {
-            EclipseMethod::Discs => Self::DiscOverlap,
-            EclipseMethod::Cone => Self::AllOrNothingCone,
-            EclipseMethod::Cylinder => Self::AllOrNothingCylinder,
-            EclipseMethod::Off => Self::Off,
-        }
+enumeration_of! {
+    /// How the planet's shadow dims the Sun.
+    EclipseMethod(ShadowModel) {
+        /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
+        discs = 1 => DiscOverlap,
+        /// Paper 004: no light as soon as the discs touch.
+        cone = 2 => AllOrNothingCone,
+        /// No light in the cylinder of the planet's radius behind it.
+        cylinder = 3 => AllOrNothingCylinder,
+        /// The planet casts no shadow; so in paper 000.
+        off = 4 => Off,
     }
 }
 
-/// Shape of the sunshade.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum SunshadeShape {
-    /// Flat plates.
-    Plates = 1,
-    /// Section of a cylinder.
-    Cylinder = 2,
-}
-
-impl From<SunshadeShape> for SunshadeModel {
-    fn from(choice: SunshadeShape) -> Self {
-        match choice {
-            SunshadeShape::Plates => Self::Plates,
-            SunshadeShape::Cylinder => Self::Cylinder,
-        }
+enumeration_of! {
+    /// Shape of the sunshade.
+    SunshadeShape(SunshadeModel) {
+        /// Flat plates.
+        plates = 1 => Plates,
+        /// Section of a cylinder.
+        cylinder = 2 => Cylinder,
     }
 }
 
 impl SunshadeShape {
-    /// What a spacecraft file asks for.
+    /// What a spacecraft file asks for; plates without a shade.
     pub fn of(spacecraft: &Spacecraft) -> Self {
-        match spacecraft.sunshade.as_ref().map(|shade| shade.model) {
-            Some(SunshadeModel::Cylinder) => Self::Cylinder,
-            Some(SunshadeModel::Plates) | None => Self::Plates,
-        }
+        Self(spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model))
     }
 }

@@ -22,7 +22,7 @@ pub struct SurfaceVariables {
     #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
     pub night_temperature: Real,
     /// How the temperature of the planet's day side is distributed.
-    #[parameter(start = DayTemperature::Uniform)]
+    #[parameter(start = DayTemperature(surface::DayTemperature::Uniform))]
     pub day_temperature: Choice<DayTemperature>,
 }
 
@@ -37,7 +37,7 @@ impl SurfaceVariables {
             night_temperature_k: values.real(self.night_temperature),
             day_temperature: values
                 .choice(self.day_temperature)
-                .map_or(surface::DayTemperature::Uniform, Into::into),
+                .map_or(surface::DayTemperature::Uniform, |it| it.0),
         }
     }
 }
@@ -46,14 +46,14 @@ impl SurfaceVariables {
 #[derive(Variables)]
 pub struct EclipseVariables {
     /// How the planet's shadow dims the Sun.
-    #[parameter(start = EclipseMethod::Discs)]
+    #[parameter(start = EclipseMethod(ShadowModel::DiscOverlap))]
     pub method: Choice<EclipseMethod>,
 }
 
 impl EclipseVariables {
     /// The shadow of a planet of this radius.
     pub fn read(&self, values: &Values, radius_m: f64) -> Result<Shadow, Failure> {
-        let model = values.choice(self.method).map_or(ShadowModel::default(), Into::into);
+        let model = values.choice(self.method).map_or(ShadowModel::DiscOverlap, |it| it.0);
         Shadow::new(model, radius_m).map_err(|error| Failure::new(format!("planet.radius: {error}")))
     }
 }

@@ -145,7 +145,7 @@ impl Prepared {
         let planet = &variables.planet;
         let present = values.boolean(planet.present);
         let surface = planet.surface.read(values, planet.radius);
-        let sunshade_model = values.choice(variables.sunshade.shape).map(Into::into);
+        let sunshade_model = values.choice(variables.sunshade.shape).map(|it| it.0);
         let options = Options {
             planet: present.then_some(surface),
             planet_light: method(values, &variables.planet_light, spacecraft)?,

@@ -6,14 +6,14 @@ use physics::spin::{
     burn::BurnRequest,
     forecast::Timing,
     geometry::{L1Ephemeris, L1Phases},
-    plant::{self, Commands, Directions, PulseCommand, Start},
+    plant::{Commands, Directions, MassSource, PulseCommand, Sampling, Start},
     series::{BodyTorque, TORQUE_TERMS},
     train::Shape,
 };
 
 use super::{
     SpinPlant,
-    variables::choices::{BurnPlan, BurnTiming, GeometrySource, MassSource, StarSampling},
+    variables::choices::{BurnPlan, GeometrySource},
 };
 
 type Plan<'a> = Context<'a, SpinPlant>;
@@ -23,10 +23,7 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
     let v = context.variables;
     Start {
         inertia_kg_m2: values.vector(v.inertia),
-        mass_source: match values.choice(v.mass_properties.source) {
-            Some(MassSource::Propellant) => plant::MassSource::Propellant,
-            Some(MassSource::Fixed) | None => plant::MassSource::Fixed,
-        },
+        mass_source: values.choice(v.mass_properties.source).map_or(MassSource::Fixed, |it| it.0),
         propellant_kg: values.real(v.propellant.loaded),
         spin_rate_rad_s: values.real(v.spin.initial_rate),
         attitude: values.vector(v.start.q),
@@ -48,10 +45,7 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
             }
             Some(GeometrySource::Inputs) | None => None,
         },
-        sampling: match values.choice(v.star_tracker.sampling) {
-            Some(StarSampling::Clock) => plant::Sampling::Clock,
-            Some(StarSampling::Spins) | None => plant::Sampling::Spins,
-        },
+        sampling: values.choice(v.star_tracker.sampling).map_or(Sampling::Spins, |it| it.0),
         nominal_rate_rad_s: values.real(v.limit.spin_rate),
         seed: i64::from(values.integer(v.seed)) as u64,
         work_limit: v.solver.units(values),
@@ -70,11 +64,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
     };
     Some(BurnRequest {
         shape,
-        timing: match values.choice(v.timing) {
-            Some(BurnTiming::SunCrossing) => Timing::SunCrossing,
-            Some(BurnTiming::TruePhase) => Timing::TruePhase,
-            Some(BurnTiming::Clock) | None => Timing::Clock,
-        },
+        timing: values.choice(v.timing).map_or(Timing::Clock, |it| it.0),
         start_s: values.real(v.start),
         thruster: values.integer(v.thruster),
         opposite_thruster: values.integer(v.opposite_thruster),

@@ -7,21 +7,7 @@ use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements;
 
 use crate::momentum_plant::variables::PlantVariables;
-use crate::momentum_plant::variables::choices::{OrbitCenter, OrbitFrame};
 use crate::momentum_plant::variables::defaults;
-
-impl From<OrbitCenter> for Body {
-    fn from(center: OrbitCenter) -> Self {
-        match center {
-            OrbitCenter::Mercury => Self::Mercury,
-            OrbitCenter::Sun => Self::Sun,
-            OrbitCenter::Venus => Self::Venus,
-            OrbitCenter::Earth => Self::Earth,
-            OrbitCenter::Mars => Self::Mars,
-            OrbitCenter::Jupiter => Self::Jupiter,
-        }
-    }
-}
 
 /// The parameters about the centre, as they count.
 pub struct Center<'a> {
@@ -34,7 +20,7 @@ pub struct Center<'a> {
 impl<'a> Center<'a> {
     /// The centre that `orbit.center` names.
     pub fn of(variables: &'a PlantVariables, values: &'a Values) -> Self {
-        let body = values.choice(variables.orbit.center).map_or(Body::Mercury, Body::from);
+        let body = values.choice(variables.orbit.center).map_or(Body::Mercury, |it| it.0);
         Self { variables, values, body }
     }
 
@@ -122,12 +108,9 @@ impl<'a> Center<'a> {
 
     /// Frame of those elements; about the Sun the default is the ecliptic.
     pub fn frame(&self) -> Frame {
-        match self.values.choice(self.variables.orbit.frame) {
-            Some(OrbitFrame::PlanetEquator) if self.body == Body::Sun => Frame::Ecliptic,
-            Some(OrbitFrame::PlanetEquator) => Frame::PlanetEquator,
-            Some(OrbitFrame::Eme2000) => Frame::Eme2000,
-            Some(OrbitFrame::Ecliptic) => Frame::Ecliptic,
-            Some(OrbitFrame::PlanetOrbit) | None => Frame::PlanetOrbit,
+        match self.values.choice(self.variables.orbit.frame).map_or(Frame::PlanetOrbit, |it| it.0) {
+            Frame::PlanetEquator if self.body == Body::Sun => Frame::Ecliptic,
+            frame => frame,
         }
     }
 

@@ -17,14 +17,13 @@ use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
     self, Configuration, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
 };
-use physics::spacecraft;
+use physics::spacecraft::{PanelControl, SunshadeModel};
 
 use self::center::Center;
 use self::state::PlantState;
 use super::variables::PlantVariables;
 use super::variables::choices::{
-    AttitudeSource, DumpReinitTo, EphemerisSource, MomentumConvention, OrbitDynamics, OrbitSource,
-    PanelControl, PanelTilt, ScienceRule,
+    AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource, PanelTilt, ScienceRule,
 };
 use super::{Plan, physics_vector};
 use crate::common::spacecraft::inertia_body_kg_m2;
@@ -75,9 +74,9 @@ pub fn refreshed(
         if !values.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
-        match values.choice(panel.control) {
-            Some(PanelControl::Angle) => PanelSetting::Angle(values.real(panel.angle)),
-            Some(PanelControl::SunOffset) | None => PanelSetting::SunOffset {
+        match values.choice(panel.control).map_or(PanelControl::SunOffset, |it| it.0) {
+            PanelControl::Angle => PanelSetting::Angle(values.real(panel.angle)),
+            PanelControl::SunOffset => PanelSetting::SunOffset {
                 offset_rad: values.real(panel.sun_offset),
                 tilt_sign: match values.choice(panel.tilt) {
                     Some(PanelTilt::Negative) => -1.0,
@@ -107,9 +106,7 @@ pub fn refreshed(
             grid_s: values.real(variables.solver.disturbance_step),
             tolerance: values.real(variables.solver.disturbance_tolerance),
         },
-        sunshade: values
-            .choice(variables.sunshade.shape)
-            .map_or(spacecraft::SunshadeModel::Plates, Into::into),
+        sunshade: values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0),
         panels,
         center_of_mass_body_m: physics_vector(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
@@ -283,10 +280,7 @@ fn settings(variables: &PlantVariables, values: &Values) -> Settings {
     Settings {
         grid_s: values.real(variables.solver.step),
         tolerance: values.real(variables.solver.tolerance),
-        convention: match values.choice(variables.momentum.convention) {
-            Some(MomentumConvention::BodyIntegral) => Convention::BodyIntegral,
-            Some(MomentumConvention::Inertial) | None => Convention::Inertial,
-        },
+        convention: values.choice(variables.momentum.convention).map_or(Convention::Inertial, |it| it.0),
         policy: DumpPolicy {
             threshold_body_n_m_s: physics_vector(values.vector(dump.threshold)),
             reinitialise: match values.choice(dump.reinit_to) {

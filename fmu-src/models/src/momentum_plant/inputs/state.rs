@@ -2,6 +2,7 @@
 
 use fmi_export::{Enumeration, Failure, Values};
 use physics::attitude::Attitude;
+use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
 use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
@@ -231,7 +232,7 @@ pub fn unset_places(context: &Plan<'_>, values: &Values) -> Vec<&'static str> {
     let orbit_given = matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
     let sun_given = matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs));
     // About the Sun, the Sun is at zero.
-    let planet = !matches!(values.choice(variables.orbit.center), Some(OrbitCenter::Sun));
+    let planet = !matches!(values.choice(variables.orbit.center), Some(OrbitCenter(Body::Sun)));
     let places = [
         (orbit_given, variables.orbit.position, "orbit.position"),
         (orbit_given, variables.orbit.velocity, "orbit.velocity"),

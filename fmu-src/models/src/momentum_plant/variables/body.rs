@@ -44,7 +44,7 @@ pub struct SunshadeVariables {
 #[variables(setup = PlantSetup)]
 pub struct PanelVariables {
     /// What sets the panel's rotation angle.
-    #[parameter(start = defaults::panel_control(setup, index))]
+    #[parameter(start = PanelControl(setup.spacecraft.panels[index].control))]
     pub control: Choice<PanelControl>,
     /// Angle between the panel's normal and the Sun direction when it is held by Sun offset.
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]

@@ -8,7 +8,7 @@ use physics::environment::{
 };
 use physics::spacecraft::{self, SunKeepIn};
 
-use super::choices::{PanelControl, PanelTilt};
+use super::choices::PanelTilt;
 use crate::momentum_plant::setup::PlantSetup;
 
 /// 2009-04-06 00:00 TDB: orbit insertion in paper 000's plan, in s past J2000 TDB.
@@ -34,14 +34,6 @@ pub fn semi_major_axis_m() -> f64 {
 /// Inertia by rows.
 pub fn inertia_kg_m2(setup: &PlantSetup) -> [[f64; 3]; 3] {
     setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into()
-}
-
-/// How the spacecraft file says a panel is held.
-pub fn panel_control(setup: &PlantSetup, index: usize) -> PanelControl {
-    match setup.spacecraft.panels[index].control {
-        spacecraft::PanelControl::SunOffset => PanelControl::SunOffset,
-        spacecraft::PanelControl::Angle => PanelControl::Angle,
-    }
 }
 
 /// The sense in which the spacecraft file tilts a panel.

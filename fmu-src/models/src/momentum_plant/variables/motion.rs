@@ -3,6 +3,9 @@
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
+use physics::bodies::Body;
+use physics::environment::frames::Frame;
+
 use super::choices::{
     AttitudeSource, CommandKind, OrbitCenter, OrbitDynamics, OrbitFrame, OrbitSource, ScienceRule,
 };
@@ -87,7 +90,7 @@ pub struct StartVariables {
 #[variables(setup = PlantSetup)]
 pub struct OrbitVariables {
     /// What the spacecraft flies around.
-    #[parameter(start = OrbitCenter::Mercury)]
+    #[parameter(start = OrbitCenter(Body::Mercury))]
     pub center: Choice<OrbitCenter>,
     /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity. While one of these two is zero the
     /// flight waits for it: the attitude is held and nothing acts.
@@ -106,7 +109,7 @@ pub struct OrbitVariables {
     #[parameter(unit = "s", min = 1.0, max = 1_800.0, start = 300.0)]
     pub step: Real,
     /// Frame of the elements.
-    #[parameter(start = OrbitFrame::PlanetEquator)]
+    #[parameter(start = OrbitFrame(Frame::PlanetEquator))]
     pub frame: Choice<OrbitFrame>,
     /// Semi-major axis; the default gives a period of 12 h about Mercury. With another orbit.center, elements left at their
     /// defaults are those of a circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.

@@ -3,13 +3,13 @@
 use fmi_export::{Choice, Integer, Real, RealVector, Variables};
 
 use super::choices::MassSource;
-use physics::spin::spinner::Spinner;
+use physics::spin::{plant, spinner::Spinner};
 
 /// Mass properties.
 #[derive(Variables)]
 pub struct MassVariables {
     /// Where the moments of inertia come from.
-    #[parameter(start = MassSource::Fixed)]
+    #[parameter(start = MassSource(plant::MassSource::Fixed))]
     pub source: Choice<MassSource>,
     /// Principal moments of inertia now; they follow the propellant if massProperties.source says so.
     #[output(unit = "kg.m2", nominal = 300.0)]

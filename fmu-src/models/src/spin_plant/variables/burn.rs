@@ -6,7 +6,7 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
 
 use super::choices::{BurnPlan, BurnTiming};
 use physics::spacecraft::Thruster;
-use physics::spin::spinner::Spinner;
+use physics::spin::{forecast::Timing, spinner::Spinner};
 
 /// The burn the spacecraft flies by itself.
 #[derive(Variables)]
@@ -15,7 +15,7 @@ pub struct BurnVariables {
     #[parameter(start = BurnPlan::Uniform)]
     pub plan: Choice<BurnPlan>,
     /// What pulses are timed by.
-    #[parameter(start = BurnTiming::Clock)]
+    #[parameter(start = BurnTiming(Timing::Clock))]
     pub timing: Choice<BurnTiming>,
     /// No pulse begins before this time.
     #[parameter(unit = "s", start = 0.0)]

@@ -1,6 +1,12 @@
 //! The spinner's choices.
 
 use fmi_export::Enumeration;
+use physics::spin::{
+    forecast::Timing,
+    plant::{self, Sampling},
+};
+
+use crate::common::choices::enumeration_of;
 
 /// Shape of the burn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -15,15 +21,16 @@ pub enum BurnPlan {
     Commanded = 4,
 }
 
-/// What pulses are timed by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum BurnTiming {
-    /// The first pulse by phase, the others at fixed intervals of the assumed spin period.
-    Clock = 1,
-    /// A delay at the assumed spin rate after each Sun crossing.
-    SunCrossing = 2,
-    /// The instant that points exactly at the target, each turn.
-    TruePhase = 3,
+enumeration_of! {
+    /// What pulses are timed by.
+    BurnTiming(Timing) {
+        /// The first pulse by phase, the others at fixed intervals of the assumed spin period.
+        clock = 1 => Clock,
+        /// A delay at the assumed spin rate after each Sun crossing.
+        sunCrossing = 2 => SunCrossing,
+        /// The instant that points exactly at the target, each turn.
+        truePhase = 3 => TruePhase,
+    }
 }
 
 /// Origin of the directions of Sun and Earth.
@@ -35,20 +42,22 @@ pub enum GeometrySource {
     L1Orbit = 2,
 }
 
-/// Origin of the moments of inertia.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum MassSource {
-    /// The parameter inertia, unchanged by propellant use.
-    Fixed = 1,
-    /// The setup's table over propellant, at the end of each pulse.
-    Propellant = 2,
+enumeration_of! {
+    /// Origin of the moments of inertia.
+    MassSource(plant::MassSource) {
+        /// The parameter inertia, unchanged by propellant use.
+        fixed = 1 => Fixed,
+        /// The setup's table over propellant, at the end of each pulse.
+        propellant = 2 => Propellant,
+    }
 }
 
-/// When the star tracker samples its star.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum StarSampling {
-    /// When it passes the boresight, on the turns that search its picket.
-    Spins = 1,
-    /// Every 8 turns of the nominal rate by the clock, as paper 002 assumes in eqs 16 to 20.
-    Clock = 2,
+enumeration_of! {
+    /// When the star tracker samples its star.
+    StarSampling(Sampling) {
+        /// When it passes the boresight, on the turns that search its picket.
+        spins = 1 => Spins,
+        /// Every 8 turns of the nominal rate by the clock, as paper 002 assumes in eqs 16 to 20.
+        clock = 2 => Clock,
+    }
 }

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::choices::{GeometrySource, StarSampling};
-use physics::spin::spinner::Spinner;
+use physics::spin::{plant::Sampling, spinner::Spinner};
 
 /// Where Sun and Earth stand.
 #[derive(Variables)]
@@ -122,7 +122,7 @@ pub struct SunSensorVariables {
 #[derive(Variables)]
 pub struct StarTrackerVariables {
     /// When it samples the star.
-    #[parameter(start = StarSampling::Spins)]
+    #[parameter(start = StarSampling(Sampling::Spins))]
     pub sampling: Choice<StarSampling>,
     /// Declination of the star at the last sample, with noise; 0 before any.
     #[output(discrete, unit = "rad", display = "deg", nominal = 1e-2)]
