@@ -11,7 +11,7 @@ use physics::radiation::disturbance::{
 use physics::radiation::grid::CellLayout;
 use physics::spacecraft::Spacecraft;
 
-use super::Plan;
+use super::setup::Plan;
 use super::variables::{DisturbanceVariables, PlanetLightVariables, PlanetMethod};
 use crate::common::spacecraft::inertia_body_kg_m2;
 

@@ -10,21 +10,17 @@ mod variables;
 use std::sync::Arc;
 
 use fmi_export::{
-    About, Context, Dependencies, Differentiable, Extensions, Failure, Model, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Differentiable, Extensions, Failure, Model, Real, SetupError, Source, StartValue,
+    Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
 use physics::radiation::disturbance::{Positions, Workspace};
 use serde::{Deserialize, Serialize};
 
 use inputs::Prepared;
-pub use setup::DisturbanceSetup;
+use setup::Plan;
+pub use setup::{DisturbanceSetup, DisturbanceTorque};
 use variables::DisturbanceVariables;
-
-/// The memoryless disturbance model.
-pub struct DisturbanceTorque;
-
-type Plan<'a> = Context<'a, DisturbanceTorque>;
 
 /// What the last step was computed from; the rest is cache.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -69,7 +65,7 @@ impl Model for DisturbanceTorque {
             stop_time_s: 43_200.0,
             step_size_s: 60.0,
             tolerance: 1e-4,
-            ..crate::about()
+            ..crate::common::about()
         }
     }
 

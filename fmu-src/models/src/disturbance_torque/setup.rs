@@ -1,8 +1,14 @@
-//! The immutable setup: the spacecraft.
+//! The model and its immutable setup: the spacecraft.
 
-use fmi_export::SetupError;
+use fmi_export::{Context, SetupError};
 use physics::spacecraft::Spacecraft;
 use serde::Serialize;
+
+/// The memoryless disturbance model.
+pub struct DisturbanceTorque;
+
+/// What every call of the model is given.
+pub type Plan<'a> = Context<'a, DisturbanceTorque>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug, Serialize)]

@@ -8,21 +8,18 @@ mod setup;
 mod variables;
 
 use fmi_export::{
-    About, Context, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source, StartValue, Step,
+    StepEnd, Values,
 };
+use nalgebra::Vector3;
 use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, TorqueModel, Totals};
-use physics::plant::{Cost, Evaluation, ExternalLoad, Plant, PlantError, PropagatorState};
+use physics::plant::{Evaluation, ExternalLoad, Plant, PropagatorState};
 
 use inputs::state::{Changes, PlantState, unset_places};
-pub use setup::PlantSetup;
+use setup::Plan;
+pub use setup::{MomentumPlant, PlantSetup};
 use variables::PlantVariables;
 use variables::choices::OrbitSource;
-
-/// The momentum plant.
-pub struct MomentumPlant;
-
-type Plan<'a> = Context<'a, MomentumPlant>;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
@@ -56,7 +53,7 @@ impl Model for MomentumPlant {
             stop_time_s: 7_776_000.0,
             step_size_s: 600.0,
             tolerance: 1e-10,
-            ..crate::about()
+            ..crate::common::about()
         }
     }
 
@@ -109,12 +106,12 @@ impl Model for MomentumPlant {
             if changes.orbit
                 && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
             {
-                state.propagator.move_to(&configuration, step.start_s).map_err(ended)?;
+                state.propagator.move_to(&configuration, step.start_s).map_err(outputs::failure)?;
             }
         }
         let load = |time_s| ExternalLoad {
-            force_body_n: physics_vector(step.inputs.vector(values, context.variables.force.applied, time_s)),
-            torque_body_n_m: physics_vector(step.inputs.vector(
+            force_body_n: Vector3::from(step.inputs.vector(values, context.variables.force.applied, time_s)),
+            torque_body_n_m: Vector3::from(step.inputs.vector(
                 values,
                 context.variables.torque.applied,
                 time_s,
@@ -130,7 +127,7 @@ impl Model for MomentumPlant {
             Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), load, limit);
         let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
         if state.request.rises(values.boolean(context.variables.dump.request)) {
-            let target = physics_vector(values.vector(context.variables.dump.target));
+            let target = Vector3::from(values.vector(context.variables.dump.target));
             let event = integrator.dump_to(&mut plant, &configuration.momentum, step.start_s, target);
             note_dump(context, spacing, &event);
         }
@@ -138,7 +135,7 @@ impl Model for MomentumPlant {
             .advance(&mut plant, &configuration.momentum, step.end_s, |event| {
                 note_dump(context, spacing, event)
             })
-            .map_err(ended)?;
+            .map_err(outputs::failure)?;
         let evaluation = plant.evaluate(step.end_s);
         flyable(&evaluation, &state.integrator.totals(step.end_s), step.end_s)?;
         outputs::write_plates(context, values, state, &configuration, step.end_s)?;
@@ -187,18 +184,18 @@ fn begin(
     let load = applied(context, values);
     let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
     let limit = context.variables.solver.work.units(values);
-    state.propagator = PropagatorState::new(&configuration, time_s).map_err(ended)?;
+    state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
     state.light = inputs::light(context, values, &configuration)?;
     let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
     let mut plant =
         Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), |_| load, limit);
-    plant.prepare(time_s).map_err(ended)?;
+    plant.prepare(time_s).map_err(outputs::failure)?;
     let totals = start_totals(context, values, &plant.evaluate(time_s));
     state.integrator = MomentumIntegrator::new(time_s, totals);
     let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
     integrator
         .advance(&mut plant, &configuration.momentum, time_s, |event| note_dump(context, spacing, event))
-        .map_err(ended)?;
+        .map_err(outputs::failure)?;
     let evaluation = plant.evaluate(time_s);
     flyable(&evaluation, &state.integrator.totals(time_s), time_s)?;
     outputs::write_plates(context, values, state, &configuration, time_s)?;
@@ -223,44 +220,8 @@ fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s:
 
 /// What the flight starts with: start.momentum in the body frame.
 fn start_totals(context: &Plan<'_>, values: &Values, evaluation: &Evaluation) -> Totals {
-    let momentum_body_n_m_s = physics_vector(values.vector(context.variables.start.momentum));
+    let momentum_body_n_m_s = Vector3::from(values.vector(context.variables.start.momentum));
     Totals::at_start(momentum_body_n_m_s, &evaluation.instant.frame.inertial_from_body)
-}
-
-fn ended(error: PlantError) -> Failure {
-    let hint = match &error {
-        PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
-        PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
-        PlantError::Work(exceeded) => {
-            let most = match exceeded.most {
-                Cost::Segment => {
-                    "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
-                }
-                Cost::Refinement => {
-                    "internal steps shortened for solver.tolerance, which is small for this torque and attitude rate"
-                }
-                Cost::Search => {
-                    "searches for changes of attitude, light and eclipse: see orbit.*, guided.* and command.rate"
-                }
-                Cost::Dump => {
-                    "dumps: dump.threshold is low for this torque; see torque.applied and spacecraft.centerOfMass"
-                }
-                Cost::Light => {
-                    "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
-                }
-                Cost::Orbit => "integrating the orbit in steps of orbit.step",
-                Cost::Ephemeris => {
-                    "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"
-                }
-            };
-            return Failure::new(format!(
-                "{error} (solver.workLimit = {}); most went into {most}. Take a shorter step or raise solver.workLimit",
-                exceeded.limit
-            ));
-        }
-        _ => "",
-    };
-    Failure::new(format!("{error}{hint}"))
 }
 
 /// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
@@ -284,13 +245,9 @@ fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<(), 
 
 fn applied(context: &Plan<'_>, values: &Values) -> ExternalLoad {
     ExternalLoad {
-        force_body_n: physics_vector(values.vector(context.variables.force.applied)),
-        torque_body_n_m: physics_vector(values.vector(context.variables.torque.applied)),
+        force_body_n: Vector3::from(values.vector(context.variables.force.applied)),
+        torque_body_n_m: Vector3::from(values.vector(context.variables.torque.applied)),
     }
-}
-
-fn physics_vector(value: [f64; 3]) -> nalgebra::Vector3<f64> {
-    value.into()
 }
 
 /// Counts a dump and reports it.

@@ -4,11 +4,11 @@ use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
 use physics::momentum::Totals;
-use physics::plant::{Configuration, Evaluation, ExternalLoad, PanelSetting, Plant};
+use physics::plant::{Configuration, Cost, Evaluation, ExternalLoad, PanelSetting, Plant, PlantError};
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
 use super::inputs::state::PlantState;
-use super::{Plan, ended};
+use super::setup::Plan;
 
 /// Writes every output at `time_s`.
 pub fn write(
@@ -122,7 +122,7 @@ pub fn write_plates(
                 values.set_vector(plate.force, force_body_n.into());
             }
         })
-        .map_err(ended)
+        .map_err(failure)
 }
 
 /// Writes what follows from parameters alone.
@@ -197,4 +197,41 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
         return Some(values.vector(variables.velocity)[axis]);
     }
     None
+}
+
+/// Why a flight ends, with the variables to look at.
+pub fn failure(error: PlantError) -> Failure {
+    let hint = match &error {
+        PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
+        PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
+        PlantError::Work(exceeded) => {
+            let most = match exceeded.most {
+                Cost::Segment => {
+                    "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
+                }
+                Cost::Refinement => {
+                    "internal steps shortened for solver.tolerance, which is small for this torque and attitude rate"
+                }
+                Cost::Search => {
+                    "searches for changes of attitude, light and eclipse: see orbit.*, guided.* and command.rate"
+                }
+                Cost::Dump => {
+                    "dumps: dump.threshold is low for this torque; see torque.applied and spacecraft.centerOfMass"
+                }
+                Cost::Light => {
+                    "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
+                }
+                Cost::Orbit => "integrating the orbit in steps of orbit.step",
+                Cost::Ephemeris => {
+                    "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"
+                }
+            };
+            return Failure::new(format!(
+                "{error} (solver.workLimit = {}); most went into {most}. Take a shorter step or raise solver.workLimit",
+                exceeded.limit
+            ));
+        }
+        _ => "",
+    };
+    Failure::new(format!("{error}{hint}"))
 }

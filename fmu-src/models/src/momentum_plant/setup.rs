@@ -1,6 +1,6 @@
-//! The plant's immutable setup: the spacecraft and what is computed from it once.
+//! The model and its immutable setup: the spacecraft and what is computed from it once.
 
-use fmi_export::{Failure, SetupError};
+use fmi_export::{Context, Failure, SetupError};
 use nalgebra::Vector3;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
@@ -8,6 +8,12 @@ use physics::plant::PreparedSpacecraft;
 use physics::radiation::{SolarModel, TorquePolynomial};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
+
+/// The momentum plant.
+pub struct MomentumPlant;
+
+/// What every call of the model is given.
+pub type Plan<'a> = Context<'a, MomentumPlant>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug, Serialize)]

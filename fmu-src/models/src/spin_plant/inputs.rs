@@ -1,6 +1,6 @@
 //! From the master's parameters and inputs to what the physics takes.
 
-use fmi_export::{Context, Failure, RealVector, Step, Values};
+use fmi_export::{Failure, RealVector, Step, Values};
 use nalgebra::Vector3;
 use physics::spin::{
     burn::BurnRequest,
@@ -12,11 +12,9 @@ use physics::spin::{
 };
 
 use super::{
-    SpinPlant,
+    setup::Plan,
     variables::choices::{BurnPlan, GeometrySource},
 };
-
-type Plan<'a> = Context<'a, SpinPlant>;
 
 /// How the flight starts.
 pub fn start(context: &Plan<'_>, values: &Values) -> Start {

@@ -8,8 +8,8 @@ mod setup;
 mod variables;
 
 use fmi_export::{
-    About, Context, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source, StartValue, Step,
+    StepEnd, Values,
 };
 use nalgebra::Vector3;
 use physics::spin::{
@@ -17,10 +17,9 @@ use physics::spin::{
     spinner::Spinner,
 };
 
+use setup::Plan;
+pub use setup::SpinPlant;
 use variables::SpinVariables;
-
-/// The spinner.
-pub struct SpinPlant;
 
 impl Model for SpinPlant {
     const NAME: &'static str = "SpinPlant";
@@ -53,7 +52,7 @@ impl Model for SpinPlant {
             stop_time_s: 1400.0,
             step_size_s: 0.5,
             tolerance: 1e-12,
-            ..crate::about()
+            ..crate::common::about()
         }
     }
 
@@ -61,11 +60,7 @@ impl Model for SpinPlant {
         dependencies::table(setup, variables)
     }
 
-    fn initialize(
-        context: &Context<'_, Self>,
-        values: &mut Values,
-        start_time_s: f64,
-    ) -> Result<Plant, Failure> {
+    fn initialize(context: &Plan<'_>, values: &mut Values, start_time_s: f64) -> Result<Plant, Failure> {
         let directions = inputs::directions(context, values, |handle| values.vector(handle))?;
         let start = inputs::start(context, values);
         let commands = inputs::commands(context, values);
@@ -79,7 +74,7 @@ impl Model for SpinPlant {
     }
 
     fn step(
-        context: &Context<'_, Self>,
+        context: &Plan<'_>,
         values: &mut Values,
         plant: &mut Plant,
         step: &Step<'_>,
@@ -137,18 +132,13 @@ impl Model for SpinPlant {
 }
 
 impl OutputRates for SpinPlant {
-    fn output_rate(
-        context: &Context<'_, Self>,
-        _values: &Values,
-        state: &Plant,
-        output: Real,
-    ) -> Option<f64> {
+    fn output_rate(context: &Plan<'_>, _values: &Values, state: &Plant, output: Real) -> Option<f64> {
         outputs::derivative(context, state, output)
     }
 }
 
 /// What a burn that can be flown will not do as one may expect.
-fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
+fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
     let (log, seen) = (context.log, plant.predictions());
     if plant.is_dry() {
         log.warning("there is no propellant (propellant.loaded): no thruster fires");
@@ -172,12 +162,7 @@ fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
 }
 
 /// Directions that became 0: masters send that before the first exchange.
-fn warn_of_unknown(
-    context: &Context<'_, SpinPlant>,
-    values: &Values,
-    before: Option<&Directions>,
-    now: &Directions,
-) {
+fn warn_of_unknown(context: &Plan<'_>, values: &Values, before: Option<&Directions>, now: &Directions) {
     let from_inputs = inputs::takes_directions(context, values);
     let became_unknown = |before: Option<&Vector3<f64>>, now: &Vector3<f64>| {
         *now == Vector3::zeros() && before.is_none_or(|before| *before != Vector3::zeros())

@@ -1,15 +1,13 @@
 //! From what the physics shows to the master's variables.
 
-use fmi_export::{Context, Real, RealVector, Values};
+use fmi_export::{Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::spin::{
     outputs::{Bounds, Rates},
     plant::Plant,
 };
 
-use super::SpinPlant;
-
-type Plan<'a> = Context<'a, SpinPlant>;
+use super::setup::Plan;
 
 /// Writes what holds for the whole flight.
 pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {

@@ -4,6 +4,7 @@ pub mod center;
 pub mod state;
 
 use fmi_export::{Failure, Values};
+use nalgebra::Vector3;
 use physics::bodies::surface::MERCURY;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
@@ -21,11 +22,11 @@ use physics::spacecraft::{PanelControl, SunshadeModel};
 
 use self::center::Center;
 use self::state::PlantState;
+use super::setup::Plan;
 use super::variables::PlantVariables;
 use super::variables::choices::{
     AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource, PanelTilt, ScienceRule,
 };
-use super::{Plan, physics_vector};
 use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
@@ -108,7 +109,7 @@ pub fn refreshed(
         },
         sunshade: values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0),
         panels,
-        center_of_mass_body_m: physics_vector(values.vector(variables.spacecraft.center_of_mass)),
+        center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
         gravity_gradient_m3_s2: if values.boolean(variables.gravity_gradient.enabled) {
@@ -161,8 +162,8 @@ fn orbit(
         }
         Some(OrbitSource::Inputs) => {
             let start = CartesianState {
-                position_m: physics_vector(values.vector(orbit.position)),
-                velocity_m_s: physics_vector(values.vector(orbit.velocity)),
+                position_m: Vector3::from(values.vector(orbit.position)),
+                velocity_m_s: Vector3::from(values.vector(orbit.velocity)),
             };
             let epoch_s = time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s);
             TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s)
@@ -206,15 +207,15 @@ fn ephemeris(
     let ephemeris = &variables.ephemeris;
     Ok(match values.choice(ephemeris.source) {
         Some(EphemerisSource::Inputs) => {
-            let sun_m = physics_vector(values.vector(variables.sun.position));
-            let at_the_planet = center.body.is_planet() && sun_m == physics_vector([0.0; 3]);
+            let sun_m = Vector3::from(values.vector(variables.sun.position));
+            let at_the_planet = center.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
             if at_the_planet && !state.waiting {
                 return Err(Failure::new(
                     "sun.position is not set: found (0, 0, 0) m, allowed: the Sun's position from the orbit's centre, which \
                      ephemeris.source = inputs asks for",
                 ));
             }
-            let earth_m = physics_vector(values.vector(variables.earth.position));
+            let earth_m = Vector3::from(values.vector(variables.earth.position));
             plant::EphemerisSource::Given { sun_m, earth_m }
         }
         Some(EphemerisSource::Kepler) => {
@@ -282,10 +283,10 @@ fn settings(variables: &PlantVariables, values: &Values) -> Settings {
         tolerance: values.real(variables.solver.tolerance),
         convention: values.choice(variables.momentum.convention).map_or(Convention::Inertial, |it| it.0),
         policy: DumpPolicy {
-            threshold_body_n_m_s: physics_vector(values.vector(dump.threshold)),
+            threshold_body_n_m_s: Vector3::from(values.vector(dump.threshold)),
             reinitialise: match values.choice(dump.reinit_to) {
                 Some(DumpReinitTo::Target) => {
-                    Reinitialise::Target { momentum_body_n_m_s: physics_vector(values.vector(dump.target)) }
+                    Reinitialise::Target { momentum_body_n_m_s: Vector3::from(values.vector(dump.target)) }
                 }
                 Some(DumpReinitTo::Opposite) | None => {
                     Reinitialise::Opposite { fraction: values.real(dump.reinit_fraction) }

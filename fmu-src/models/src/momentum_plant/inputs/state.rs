@@ -1,6 +1,7 @@
 //! What the plant remembers between steps.
 
 use fmi_export::{Enumeration, Failure, Values};
+use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
@@ -8,10 +9,10 @@ use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
 use serde::{Deserialize, Serialize};
 
+use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::choices::{
     AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource,
 };
-use crate::momentum_plant::{Plan, physics_vector};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -106,7 +107,7 @@ impl PlantState {
         let q = values.vector(context.variables.start.q);
         let attitude =
             Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-        let rate_body_rad_s = physics_vector([0.0; 3]);
+        let rate_body_rad_s = Vector3::from([0.0; 3]);
         let mut state = Self {
             start_s,
             propagator: PropagatorState::default(),
@@ -180,7 +181,7 @@ impl PlantState {
             Some(CommandKind::Attitude) | None if is_zero(&q) => (held, [0.0; 3]),
             Some(CommandKind::Attitude) | None => (quaternion("command.q", q)?, rate),
         };
-        self.command = Command { attitude, rate_body_rad_s: physics_vector(rate), since_s: time_s };
+        self.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
         Ok(())
     }
 
