@@ -1,4 +1,4 @@
-//! The memory that parent and child share: a header, the mark of calls, and a ring of words with frames.
+//! The memory that parent and child share: a header, the record of calls, and a ring of words with frames.
 //!
 //! A frame is its kind and length, the token that the parent gave, and the payload. The parent checks all three, for
 //! the FMU lives in the child's memory and may write anywhere.
@@ -10,7 +10,7 @@ use std::{
     time::Duration,
 };
 
-use loader::{CallMark, MARK_WORDS, SharedWords};
+use loader::{CALL_RECORD_WORDS, CallRecord, SharedWords};
 
 use super::system;
 
@@ -20,8 +20,8 @@ const PARENT: usize = 1;
 const MEMORY: usize = 2;
 const FILES: usize = 3;
 const CANCEL: usize = 8;
-/// The mark of calls.
-const MARK: usize = 16;
+/// The record of calls.
+const CALLS: usize = 16;
 /// Words sent and words taken; far apart, so that the two processes do not wait for one cache line.
 const HEAD: usize = 32;
 const TAIL: usize = 48;
@@ -47,7 +47,7 @@ impl Link {
     /// Takes the memory that the parent gave as standard input, keeps the parent's limits and ends with the parent.
     pub fn attach() -> io::Result<Self> {
         let file = system::take_stdin()?;
-        // For the life of the process: the mark of calls is read from anywhere.
+        // For the life of the process: the record of calls is read from anywhere.
         let words: &'static SharedWords = Box::leak(Box::new(SharedWords::map(&file)?));
         drop(file);
         if words.len() != RING + RING_WORDS {
@@ -56,8 +56,8 @@ impl Link {
         let value = |index: usize| words[index].load(Ordering::Relaxed);
         system::end_with_parent(value(PARENT))?;
         system::restrict(value(MEMORY), value(FILES))?;
-        if let Ok(mark) = <&CallMark>::try_from(&words[MARK..MARK + MARK_WORDS]) {
-            loader::mark_calls(mark);
+        if let Ok(calls) = <&CallRecord>::try_from(&words[CALLS..CALLS + CALL_RECORD_WORDS]) {
+            loader::record_calls(calls);
         }
         // Where no instruction of the FMU runs yet, nobody else reads the token.
         let token = words[TOKEN].swap(0, Ordering::Relaxed);
@@ -186,9 +186,9 @@ impl Inbox {
         self.words[CANCEL].store(1, Ordering::Relaxed);
     }
 
-    /// The mark of calls.
-    pub fn mark(&self) -> Option<&CallMark> {
-        <&CallMark>::try_from(&self.words[MARK..MARK + MARK_WORDS]).ok()
+    /// The record of calls.
+    pub fn calls(&self) -> Option<&CallRecord> {
+        <&CallRecord>::try_from(&self.words[CALLS..CALLS + CALL_RECORD_WORDS]).ok()
     }
 
     /// Hands every frame that has come to `take`, whose error ends it; gives the number of words that came.

@@ -7,7 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use loader::{CallMark, Marked};
+use loader::{CallRecord, RecordedCalls};
 
 use super::{
     channel::{Inbox, Payload, RING_WORDS},
@@ -68,7 +68,7 @@ pub struct Supervised {
     /// How it ended.
     pub how: EndReason,
     /// The call it was in.
-    pub mark: Marked,
+    pub calls: RecordedCalls,
     /// The last lines it printed, each after a line break.
     pub printed: String,
 }
@@ -90,7 +90,7 @@ impl Supervised {
 
     fn placed(&self, what: &str) -> String {
         let printed = &self.printed;
-        match (&self.mark.under_way, &self.mark.last) {
+        match (&self.calls.in_progress, &self.calls.last) {
             (Some(call), _) => format!("{call}: {what}{printed}"),
             (None, Some(call)) => format!("{what}, after {call} had returned{printed}"),
             (None, None) => format!("{what}, before any call{printed}"),
@@ -147,10 +147,10 @@ impl ChildProcess {
         bounds: Bounds,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
-        tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
+        tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Supervised {
         let how = self.follow(bounds, take, line, tick);
-        let mark = self.inbox.mark().map(loader::read_mark).unwrap_or_default();
+        let calls = self.inbox.calls().map(loader::recorded_calls).unwrap_or_default();
         let status = system::end(&mut self.child);
         self.printed.finish(line);
         let how = match (how, status) {
@@ -158,7 +158,7 @@ impl ChildProcess {
             (None, Ok(status)) => EndReason::Ended(status),
             (None, Err(error)) => EndReason::Refused(format!("the process cannot be waited for: {error}")),
         };
-        Supervised { how, mark, printed: self.printed.last() }
+        Supervised { how, calls, printed: self.printed.last() }
     }
 
     /// Until it ended by itself (`None`) or has to be ended.
@@ -167,7 +167,7 @@ impl ChildProcess {
         bounds: Bounds,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
-        tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
+        tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Option<EndReason> {
         let began = Instant::now();
         let (mut call, mut call_began) = (None, began);
@@ -186,7 +186,7 @@ impl ChildProcess {
                 Ok(came) => came,
                 Err(why) => return Some(EndReason::Refused(why)),
             };
-            if let Err(why) = tick(self.inbox.mark()) {
+            if let Err(why) = tick(self.inbox.calls()) {
                 return Some(EndReason::Refused(why));
             }
             let printed = self.printed.read(line);
@@ -198,9 +198,9 @@ impl ChildProcess {
             }
             let now = Instant::now();
             // The call under way and its number.
-            let under_way = self.inbox.mark().and_then(loader::call_under_way);
-            if under_way != call {
-                (call, call_began) = (under_way, now);
+            let in_progress = self.inbox.calls().and_then(loader::call_in_progress);
+            if in_progress != call {
+                (call, call_began) = (in_progress, now);
             }
             let is_over = |from: Instant, time_s: &f64| (now - from).as_secs_f64() > *time_s;
             if let Some(time_s) = bounds.time_s.filter(|time_s| is_over(began, time_s)) {

@@ -71,7 +71,7 @@ pub fn simulate(
                 terminal::note(&format!("{}: what else it prints is left out", fmu.name()));
             }
         },
-        &mut |mark| tick(inbox_cell.borrow().collector.recording(), mark.and_then(loader::step_begin_s)),
+        &mut |calls| tick(inbox_cell.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
     );
     let Inbox { outcome, messages, .. } = inbox;
     let name = fmu.name();

@@ -2,6 +2,8 @@
 
 use std::{fs, io::Read, path::Path};
 
+use model_description::call_table::Function;
+
 use crate::{built, library, packed, probe_library, run, shown};
 
 const ACE: &str = "../../fmu-src/resources/ace.toml";
@@ -91,7 +93,7 @@ fn the_documentation_names_every_variable() {
         let cell = format!("<td class=\"n\">{}</td>", model_description::escape(&variable.name));
         assert!(page.contains(&cell), "{} is missing", variable.name);
     }
-    for symbol in loader::SYMBOLS {
+    for symbol in Function::ALL.iter().map(|function| function.symbol()) {
         assert!(page.contains(symbol), "{symbol} is missing");
     }
     assert!(page.contains("Gr\u{fc}\u{df}e") && page.contains("&lt;&amp;"), "texts are escaped");
