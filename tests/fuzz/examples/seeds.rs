@@ -51,7 +51,13 @@ fn states(choice: u8) -> Vec<(&'static str, Vec<u8>)> {
             assert_eq!(instance.do_step(60.0 * f64::from(step), 60.0), Status::Ok);
         }
         let running = instance.state_bytes().1;
-        vec![("fresh", fresh[HEADER..].to_vec()), ("running", running[HEADER..].to_vec())]
+        let payloads = vec![("fresh", fresh[HEADER..].to_vec()), ("running", running[HEADER..].to_vec())];
+        for (name, payload) in &payloads {
+            // A seed behind a header that is refused would never reach the decoder.
+            let sealed = subject.seal(payload);
+            assert_eq!(subject.instance.deserialize(&sealed).0, Status::Ok, "{name}");
+        }
+        payloads
     })
 }
 
