@@ -175,19 +175,19 @@ fn an_unknown_attribute_is_wrong() {
 const C: &str = "../../tests/c";
 
 /// An FMU in C as good ones in the wild are; see its source.
-fn frail() -> Option<tempfile::TempDir> {
+fn unguarded() -> Option<tempfile::TempDir> {
     let folder = tempfile::tempdir().unwrap();
     let platform = folder.path().join("binaries").join(loader::platform_folders()[0]);
     let sources = folder.path().join("sources");
     fs::create_dir_all(&platform).unwrap();
     fs::create_dir_all(&sources).unwrap();
-    fs::copy(format!("{C}/frail.xml"), folder.path().join("modelDescription.xml")).unwrap();
-    fs::copy(format!("{C}/frail.c"), sources.join("frail.c")).unwrap();
+    fs::copy(format!("{C}/unguarded.xml"), folder.path().join("modelDescription.xml")).unwrap();
+    fs::copy(format!("{C}/unguarded.c"), sources.join("unguarded.c")).unwrap();
     let compiled = Command::new("gcc")
         .args(["-std=c11", "-O2", "-Wall", "-Werror", "-shared", "-fPIC", "-fvisibility=hidden"])
-        .arg(sources.join("frail.c"))
+        .arg(sources.join("unguarded.c"))
         .arg("-o")
-        .arg(platform.join(format!("Frail{}", std::env::consts::DLL_SUFFIX)))
+        .arg(platform.join(format!("Unguarded{}", std::env::consts::DLL_SUFFIX)))
         .arg("-lm")
         .status();
     match compiled {
@@ -203,7 +203,7 @@ fn frail() -> Option<tempfile::TempDir> {
 
 #[test]
 fn an_fmu_that_senseless_times_hang_and_null_kills_is_checked_to_the_end() {
-    let Some(folder) = frail() else { return };
+    let Some(folder) = unguarded() else { return };
     let began = Instant::now();
     let text = run(&["check", shown(folder.path()), "--verbose"], 0);
     assert!(began.elapsed().as_secs() < 120, "{text}");
@@ -216,7 +216,7 @@ fn an_fmu_that_senseless_times_hang_and_null_kills_is_checked_to_the_end() {
     assert!(text.contains(found), "{text}");
     assert!(text.contains(" 0 wrong"), "{text}");
     // What follows the trials in the report is there.
-    for part in ["refuses a step backwards", "sources/frail.c is there", "100 instances came and went"] {
+    for part in ["refuses a step backwards", "sources/unguarded.c is there", "100 instances came and went"] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
     // A factor for an Integer output says nothing, which is no fault.
