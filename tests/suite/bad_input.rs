@@ -1,13 +1,14 @@
 //! Bad input gets an error that names what was found and what is allowed, and leaves everything else alive.
 
+use model_description::BaseType;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use client::{InProcess, Message};
+use client::{InProcess, Message, Names};
 use fmi_export::{Library, Model, Status};
 use models::MomentumPlant;
 
-use crate::support::{Base, LIBRARY, Names, everything, fresh, guid, library, names, ok, real_bits};
+use crate::support::{LIBRARY, everything, fresh, guid, library, names, ok, real_bits};
 
 const PLANT: &str = "MomentumPlant";
 
@@ -152,7 +153,7 @@ fn nan_and_infinity_are_discarded_and_the_instance_lives() {
     assert_eq!(instance.set_real(&[threshold], &[-1.0]), Status::Discard);
     says(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "from 1e-6 up"]);
     assert_eq!(instance.set_input_derivatives(&torque[..1], &[1], &[f64::NAN]), Status::Discard);
-    let kind = names.of(Base::Integer, "command.kind");
+    let kind = names.of(BaseType::Integer, "command.kind");
     assert_eq!(instance.set_integer(&[kind], &[17]), Status::Discard);
     // None of it leaves a trace.
     ok(instance.do_step(600.0, 600.0));
@@ -165,11 +166,11 @@ fn nan_and_infinity_are_discarded_and_the_instance_lives() {
 fn a_step_past_the_stop_time_is_an_error() {
     let (mut instance, names) = running();
     ok(instance.do_step(600.0, 5_400.0));
-    let before = real_bits(&mut instance, &names.all(Base::Real));
+    let before = real_bits(&mut instance, &names.all(BaseType::Real));
     assert_eq!(instance.do_step(6_000.0, 600.0), Status::Error);
     says(&text(&instance.take_messages()), &["6600.0", "6000.0", "stop"]);
     // Not carried out at all; Reset brings the instance back.
-    assert_eq!(real_bits(&mut instance, &names.all(Base::Real)), before);
+    assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
     ok(instance.reset());
     ok(instance.start(0.0, None));
     ok(instance.do_step(0.0, 6_600.0));
@@ -179,10 +180,10 @@ fn a_step_past_the_stop_time_is_an_error() {
 fn an_unknown_reference_in_a_vector_writes_nothing() {
     let (mut instance, names) = running();
     let torque = names.vector::<3>("torque.applied");
-    let before = real_bits(&mut instance, &names.all(Base::Real));
+    let before = real_bits(&mut instance, &names.all(BaseType::Real));
     assert_eq!(instance.set_real(&[torque[0], 4_000_000, torque[2]], &[1.0, 2.0, 3.0]), Status::Error);
     says(&text(&instance.take_messages()), &["4000000"]);
-    assert_eq!(real_bits(&mut instance, &names.all(Base::Real)), before);
+    assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
     let mut values = [0.0; 2];
     assert_eq!(instance.get_real(&[torque[0], u32::MAX], &mut values), Status::Error);
     says(&text(&instance.take_messages()), &["4294967295"]);

@@ -1,12 +1,12 @@
 //! Whatever bytes reach fmi2DeSerializeFMUstate, the answer is a status and the instance lives.
 
-use client::{InProcess, StatePointer};
+use client::{InProcess, Names, StatePointer};
 use heliotorque_tests::counting::counted;
-use model_description::Status;
+use model_description::{BaseType, Status};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use crate::support::{self, Names, fresh, ok};
+use crate::support::{self, fresh, ok};
 
 /// Mark, layout version, GUID digest; then payload length and checksum, then the payload (see `blob.rs`).
 const BEFORE_LENGTH: usize = 8 + 4 + 16;
@@ -52,9 +52,9 @@ fn genuine(model: &str) -> Vec<Vec<u8>> {
     if model == "MomentumPlant" {
         let mut instance = fresh(model);
         let names = support::names(model);
-        let on = |name: &str| names.of(support::Base::Boolean, name);
+        let on = |name: &str| names.of(BaseType::Boolean, name);
         ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
-        ok(instance.set_integer(&[names.of(support::Base::Integer, "orbit.dynamics")], &[2]));
+        ok(instance.set_integer(&[names.of(BaseType::Integer, "orbit.dynamics")], &[2]));
         ok(instance.start(0.0, None));
         ok(instance.do_step(0.0, 1000.0));
         save(&mut instance);
@@ -176,10 +176,10 @@ impl Target {
         ok(self.instance.set_state(state));
         // What is well formed may still be nonsense: any status, but an answer, and soon.
         let (_, time_s) = self.instance.last_successful_time();
-        let mut reals = vec![0.0; self.names.all(support::Base::Real).len()];
-        let _ = self.instance.get_real(&self.names.all(support::Base::Real), &mut reals);
+        let mut reals = vec![0.0; self.names.all(BaseType::Real).len()];
+        let _ = self.instance.get_real(&self.names.all(BaseType::Real), &mut reals);
         let _ = self.instance.do_step(time_s, 60.0);
-        let _ = self.instance.get_real(&self.names.all(support::Base::Real), &mut reals);
+        let _ = self.instance.get_real(&self.names.all(BaseType::Real), &mut reals);
         let _ = self.instance.state_bytes();
     }
 

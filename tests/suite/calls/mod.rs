@@ -9,13 +9,13 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use client::{InProcess, Message, StatePointer};
-use model_description::Status;
+use model_description::{BaseType, Status};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use proptest_state_machine::{ReferenceStateMachine, StateMachineTest};
 
-use crate::support::{self, Base};
+use crate::support;
 use master::{Answer, Call, Master, Misprint, Picked};
 use variables::{Value, references};
 
@@ -84,24 +84,24 @@ impl Subject {
         }
     }
 
-    fn get(&mut self, base: Base, picked: &[Picked]) -> (Status, Vec<Value>) {
+    fn get(&mut self, base: BaseType, picked: &[Picked]) -> (Status, Vec<Value>) {
         let references: Vec<u32> = picked.iter().map(reference).collect();
         let (mut reals, mut integers) = (vec![f64::NAN; picked.len()], vec![i32::MIN; picked.len()]);
         let instance = &mut self.instance;
         match base {
-            Base::Real => {
+            BaseType::Real => {
                 let status = instance.get_real(&references, &mut reals);
                 (status, reals.into_iter().map(Value::Real).collect())
             }
-            Base::Integer => {
+            BaseType::Integer => {
                 let status = instance.get_integer(&references, &mut integers);
                 (status, integers.into_iter().map(Value::Integer).collect())
             }
-            Base::Boolean => {
+            BaseType::Boolean => {
                 let status = instance.get_boolean(&references, &mut integers);
                 (status, integers.into_iter().map(Value::Boolean).collect())
             }
-            Base::Text => {
+            BaseType::String => {
                 let (status, texts) = instance.get_string(&references);
                 // Values are compared with texts that live for ever; few differ.
                 (status, texts.into_iter().map(|text| Value::Text(known(&text))).collect())
@@ -109,26 +109,26 @@ impl Subject {
         }
     }
 
-    fn set(&mut self, base: Base, expected: &[(Picked, Value)]) -> Status {
+    fn set(&mut self, base: BaseType, expected: &[(Picked, Value)]) -> Status {
         let references: Vec<u32> = expected.iter().map(|(picked, _)| reference(picked)).collect();
         let values = expected.iter().map(|(_, value)| value);
         match base {
-            Base::Real => {
+            BaseType::Real => {
                 let values: Vec<f64> =
                     values.map(|it| if let Value::Real(it) = it { *it } else { 0.0 }).collect();
                 self.instance.set_real(&references, &values)
             }
-            Base::Integer => {
+            BaseType::Integer => {
                 let values: Vec<i32> =
                     values.map(|it| if let Value::Integer(it) = it { *it } else { 0 }).collect();
                 self.instance.set_integer(&references, &values)
             }
-            Base::Boolean => {
+            BaseType::Boolean => {
                 let values: Vec<i32> =
                     values.map(|it| if let Value::Boolean(it) = it { *it } else { 0 }).collect();
                 self.instance.set_boolean(&references, &values)
             }
-            Base::Text => {
+            BaseType::String => {
                 let bytes = |value: &Value| match *value {
                     Value::Text(text) => text.as_bytes(),
                     _ => b"\xFF\xFE".as_slice(),
