@@ -85,11 +85,16 @@ impl Instance {
         if initializing {
             self.initialize_if_needed()?;
         }
+        // Lists of the model's own, in memory that is kept from call to call.
+        let (mut of, mut seeds) = core::mem::take(&mut self.directions);
+        of.clear();
+        of.extend(unknowns.iter().map(|&reference| real(reference)));
+        seeds.clear();
+        seeds.extend(knowns.iter().map(|&known| real(known)).zip(seed.iter().copied()));
         let values = self.values_at_last_step();
-        let of: Vec<Real> = unknowns.iter().map(|&reference| real(reference)).collect();
-        let seeds: Vec<(Real, f64)> =
-            knowns.iter().map(|&known| real(known)).zip(seed.iter().copied()).collect();
-        self.runtime.jacobian_vector_product(values, &of, &seeds, result, &self.logger)?;
+        let found = self.runtime.jacobian_vector_product(values, &of, &seeds, result, &self.logger);
+        self.directions = (of, seeds);
+        found?;
         match unknowns.iter().zip(result).find(|(_, slope)| !slope.is_finite()) {
             None => Ok(()),
             Some((&of, &mut value)) => {

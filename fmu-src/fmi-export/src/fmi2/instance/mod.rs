@@ -47,6 +47,8 @@ pub(crate) struct Instance {
     earliest_s: f64,
     /// Spare memory for [`InstanceState::at_last_step`].
     spare: Values,
+    /// Spare memory for the unknowns and seeds of directional derivatives.
+    directions: (Vec<Real>, Vec<(Real, f64)>),
     /// The parameter that the experiment's tolerance stands in for.
     tolerance: Option<Real>,
     poisoned: bool,
@@ -60,6 +62,7 @@ impl Instance {
         state.input_derivatives.reserve(access.real_limits.len());
         Self {
             spare: start.clone(),
+            directions: Default::default(),
             tolerance: runtime.tolerance(),
             state,
             runtime,
