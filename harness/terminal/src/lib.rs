@@ -26,7 +26,7 @@ pub fn note(text: &str) {
 }
 
 /// The text with every control character but line break and tab written out, and those that turn the direction of
-/// writing: what an FMU or a file says moves no cursor and hides nothing.
+/// writing: a text of an FMU or a file moves no cursor and hides nothing.
 pub fn plain(text: &str) -> Cow<'_, str> {
     let is_plain = |letter: char| match letter {
         '\n' | '\t' => true,

@@ -1,7 +1,7 @@
 //! The memory that parent and child share: a header, the record of calls, and a ring of words with frames.
 //!
 //! A frame is its kind and length, the token that the parent gave, and the payload. The parent checks all three, for
-//! the FMU lives in the child's memory and may write anywhere.
+//! the FMU runs in the child's memory and may write anywhere.
 
 use std::{
     hash::{BuildHasher, Hasher, RandomState},
@@ -31,7 +31,7 @@ const RING: usize = 64;
 pub const RING_WORDS: usize = 1 << 19;
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;
-/// How often a child looks whether a full ring has space again, and how much has to be free before it goes on.
+/// How often a child checks whether a full ring has space again, and how much has to be free before it goes on.
 const PAUSE: Duration = Duration::from_millis(1);
 const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
 
@@ -196,7 +196,7 @@ impl Inbox {
         &mut self,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<(), String>,
     ) -> Result<usize, String> {
-        const BROKEN: &str = "it wrote over the memory by which its results are told";
+        const BROKEN: &str = "it wrote over the memory that carries its results";
         let head = self.words[HEAD].load(Ordering::Acquire);
         let came = head.wrapping_sub(self.tail);
         if came > RING_WORDS as u64 {

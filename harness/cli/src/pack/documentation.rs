@@ -1,4 +1,4 @@
-//! `documentation/index.html`: everything the description says, for people.
+//! `documentation/index.html`: the model description as a readable page.
 
 use std::fmt::Write;
 

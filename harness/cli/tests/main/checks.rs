@@ -70,7 +70,7 @@ fn what_the_description_gets_wrong_is_named_with_its_line() {
 
     let folder = changed(&fmu, "start=\"1.5\"", "start=\"2.75\"");
     let text = run(&["check", shown(folder.path()), "--only", "values"], 1);
-    assert!(text.contains("parameter.real starts at 1.5, its XML says 2.75"), "{text}");
+    assert!(text.contains("parameter.real starts at 1.5, its XML has 2.75"), "{text}");
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn an_unknown_attribute_is_wrong() {
 /// The C sources of the tests.
 const C: &str = "../../tests/c";
 
-/// An FMU in C as good ones in the wild are; see its source.
+/// An FMU in C that does not check its arguments; see its source.
 fn unguarded() -> Option<tempfile::TempDir> {
     let folder = tempfile::tempdir().unwrap();
     let platform = folder.path().join("binaries").join(loader::platform_folders()[0]);
@@ -202,7 +202,7 @@ fn unguarded() -> Option<tempfile::TempDir> {
 }
 
 #[test]
-fn an_fmu_that_senseless_times_hang_and_null_kills_is_checked_to_the_end() {
+fn an_fmu_that_hangs_at_invalid_times_and_crashes_at_null_is_checked_to_the_end() {
     let Some(folder) = unguarded() else { return };
     let began = Instant::now();
     let text = run(&["check", shown(folder.path()), "--verbose"], 0);
@@ -219,7 +219,7 @@ fn an_fmu_that_senseless_times_hang_and_null_kills_is_checked_to_the_end() {
     for part in ["refuses a step backwards", "sources/unguarded.c is there", "100 instances came and went"] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
-    // A factor for an Integer output says nothing, which is no fault.
+    // A factor for an Integer output has no meaning, which is no fault.
     assert!(text.contains("warning [dependency-kind-real] ModelStructure/Outputs entry 2 (`m`)"), "{text}");
 }
 
@@ -289,7 +289,7 @@ fn a_spacecraft_is_judged_by_the_model_it_is_for() {
 
 #[test]
 fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
-    for (model, spacecraft, from, to, says) in [
+    for (model, spacecraft, from, to, expected) in [
         ("MomentumPlant", "messenger.toml", "mass_kg = 700", "mass_kg = 701", "MomentumPlant has GUID {"),
         (
             "MomentumPlant",
@@ -316,7 +316,7 @@ fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
         fs::write(&toml, text.replacen(from, to, 1)).unwrap();
         let text = run(&["run", shown(&folder)], 1);
         let changed = text.find("spacecraft.toml").unwrap();
-        assert!(text[changed..].contains("was changed after packing") && text.contains(says), "{text}");
+        assert!(text[changed..].contains("was changed after packing") && text.contains(expected), "{text}");
         // Models for another kind of file say nothing of this one.
         let other = if model == "SpinPlant" { "MomentumPlant" } else { "SpinPlant" };
         assert!(!text.contains(other), "{text}");

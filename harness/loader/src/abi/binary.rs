@@ -100,7 +100,7 @@ impl Binary {
     /// `fmi2GetVersion` and `fmi2GetTypesPlatform`; `None` where missing or NULL.
     pub fn versions(&self) -> (Option<String>, Option<String>) {
         let read = |function: Option<unsafe extern "C" fn() -> *const c_char>| {
-            // SAFETY: the function takes nothing and answers a text that lives as long as the library.
+            // SAFETY: the function takes nothing and returns a text that is valid as long as the library.
             function.and_then(|function| unsafe { text(function()) })
         };
         (read(self.functions.fmi2GetVersion), read(self.functions.fmi2GetTypesPlatform))

@@ -59,7 +59,7 @@ pub(crate) struct Component {
     number: u64,
 }
 
-/// A place for one FMU state; `generation` tells a freed one from its successor.
+/// A place for one FMU state; `generation` distinguishes a freed one from its successor.
 struct Slot {
     state: FmuState,
     generation: u64,
@@ -116,7 +116,7 @@ impl Component {
             component_environment: Arc::as_ptr(&buffer).cast_mut().cast(),
         }));
         let under_way = call_record::enter(const { call_record::number("fmi2Instantiate") });
-        // SAFETY: all texts and the struct live during the call; the buffer outlives the instance.
+        // SAFETY: all texts and the struct are valid during the call; the buffer outlives the instance.
         let handle = unsafe {
             function(
                 name.as_ptr(),

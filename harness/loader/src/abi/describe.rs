@@ -26,7 +26,7 @@ pub struct Described {
 
 /// Collects what `fmi_export_describe` sends: a kind and a text at a time.
 unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_char, length: usize) {
-    // SAFETY: the context is the list given to the call; the text has this length and lives until we return.
+    // SAFETY: the context is the list given to the call; the text has this length and is valid until we return.
     unsafe {
         let Some(received) = context.cast::<Vec<(c_int, String)>>().as_mut() else { return };
         let bytes = if length == 0 { &[] } else { std::slice::from_raw_parts(text.cast::<u8>(), length) };
@@ -70,7 +70,7 @@ impl Binary {
         let (model, file, setup) = (c_text(model)?, c_text(file)?, c_text(setup)?);
         let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
         let mut received: Vec<(c_int, String)> = Vec::new();
-        // SAFETY: texts and list live during the call, which is the only time `receive` is called.
+        // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
         let code = unsafe {
             function(
                 pointer(&model),

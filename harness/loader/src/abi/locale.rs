@@ -12,6 +12,6 @@ pub fn set_locale(name: &str) -> bool {
     // `LC_ALL` is 6 in glibc and musl, 0 elsewhere.
     let all = if cfg!(target_os = "linux") { 6 } else { 0 };
     let Ok(name) = CString::new(name) else { return false };
-    // SAFETY: the name lives during the call; the answer is only compared with NULL.
+    // SAFETY: the name is valid during the call; the answer is only compared with NULL.
     !unsafe { setlocale(all, name.as_ptr()) }.is_null()
 }

@@ -12,7 +12,7 @@ use physics::spin::{
 
 use super::{Firing, PlanError, Row, Task};
 
-/// What the FMU says of a plan.
+/// What the FMU computes for a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct Verification {
     /// Inertia ratios and spin rates; each with each is a simulation.
@@ -36,16 +36,16 @@ impl Verification {
     /// What of `task` it breaks, in words; empty if it keeps everything.
     pub fn broken(&self, task: &Task) -> Vec<String> {
         let mut broken = Vec::new();
-        let mut look = |what: &str, found: f64, limit: f64, unit: &str| {
+        let mut compare = |what: &str, found: f64, limit: f64, unit: &str| {
             if found > limit || found.is_nan() {
                 broken.push(format!("{what} {found:.6} {unit} beyond {limit:.6} {unit}"));
             }
         };
         let limits = &task.limits;
-        look("peak nutation", self.peak_rad.to_degrees(), limits.peak_rad.to_degrees(), "deg");
-        look("final nutation", self.final_rad.to_degrees(), limits.final_rad.to_degrees(), "deg");
-        look("time", self.longest_s / 60.0, limits.duration_s / 60.0, "min");
-        look("the move misses by", 100.0 * self.miss, 100.0 * task.angle_tolerance, "%");
+        compare("peak nutation", self.peak_rad.to_degrees(), limits.peak_rad.to_degrees(), "deg");
+        compare("final nutation", self.final_rad.to_degrees(), limits.final_rad.to_degrees(), "deg");
+        compare("time", self.longest_s / 60.0, limits.duration_s / 60.0, "min");
+        compare("the move misses by", 100.0 * self.miss, 100.0 * task.angle_tolerance, "%");
         broken
     }
 }

@@ -12,7 +12,7 @@ use crate::{Options, Report, StudyError};
 const NUTATION_RAD: f64 = 0.02 * PI / 180.0;
 /// Length of its picture, in s.
 const SHOWN_S: f64 = 800.0;
-/// Figure 7 looks at times beyond this, in min.
+/// Figure 7 shows times beyond this, in min.
 const LONG_MIN: f64 = 30.0;
 /// Its picture's height, in min.
 const TALLEST_MIN: f64 = 60.0;
@@ -40,7 +40,7 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
         let simulated = case.simulate(&fmu, &names)?;
         let (times, exact) = (&simulated.times_s, &simulated.columns[0]);
         let mean = exact.iter().sum::<f64>() / exact.len() as f64;
-        // Where a sample has just come: the true declination there, and what the tracker said.
+        // Where a sample has just come: the true declination there, and what the tracker measured.
         let samples: Vec<(f64, f64, f64)> = (1..times.len())
             .filter(|&i| {
                 simulated.columns[1][i] != simulated.columns[1][i - 1] && simulated.columns[1][i] >= 0.0

@@ -152,7 +152,7 @@ fn chart(rows: &[Row], turns: f64, phase: f64) -> Chart {
         panels: vec![Panel {
             y_label: "nutation [deg]".to_owned(),
             series: vec![
-                // Eq 8 says nothing between whole numbers of pulses.
+                // Eq 8 holds only at whole numbers of pulses.
                 Series::rings("eq 8", at_counts(|row| row.printed_rad)),
                 Series::line("exact envelope", envelope),
                 Series::dots("SpinPlant", at_counts(|row| row.simulated_rad)),

@@ -1,4 +1,4 @@
-//! Verdicts: what a comparison says, and nothing where it does not hold.
+//! Verdicts of comparisons with the paper.
 
 /// The comparison holds.
 pub const AGREES: &str = "agrees";
