@@ -1,4 +1,4 @@
-/* A co-simulation FMU as good ones in the wild are: right for lawful masters, and no match for others.
+/* A co-simulation FMU that does not check its arguments: right for masters that follow the standard.
 
    Its solver steps until it has passed the communication point, which for an infinite or NaN step is never, and
    fmi2FreeFMUstate reads through the pointer it is given. It needs no header of the standard. */

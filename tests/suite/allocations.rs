@@ -1,4 +1,4 @@
-//! Real, Integer and Boolean get and set and doStep ask for no memory once an instance has simulated a while.
+//! Real, Integer and Boolean get and set and doStep allocate no memory once an instance has simulated a while.
 
 use client::{InProcess, Names};
 use heliotorque_tests::counting::{Count, counted};

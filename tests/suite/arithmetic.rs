@@ -7,7 +7,7 @@ use syn::visit::{self, Visit};
 
 use crate::sources::{is_for_tests, rust_files, workspace};
 
-/// Files of the models with operators on quantities, and how many each still has. Goes down to nothing.
+/// Files of the models with operators on quantities, and how many each still has. The list is to become empty.
 const LEFT: &[(&str, usize)] = &[
     ("disturbance_torque/mod.rs", 2),
     ("disturbance_torque/outputs.rs", 1),
@@ -102,7 +102,7 @@ fn models_contain_no_arithmetic_on_quantities() {
 }
 
 #[test]
-fn operators_on_quantities_are_told_from_indices() {
+fn operators_on_quantities_are_distinguished_from_indices() {
     let text = "fn f() { let a = x[i + 1]; let b = force_n * arm_m; let c = -1.0; let d = -b; total += b; }\n\
                 #[cfg(test)]\nmod tests { fn g() { a * b; } }";
     assert_eq!(operators(text), ["force_n * arm_m", "- b", "total += b"]);

@@ -1,4 +1,4 @@
-//! Whatever bytes reach fmi2DeSerializeFMUstate, the answer is a status and the instance lives.
+//! Whatever bytes reach fmi2DeSerializeFMUstate, the answer is a status and the instance stays usable.
 
 use client::{InProcess, Names, StatePointer};
 use heliotorque_tests::counting::counted;
@@ -139,7 +139,7 @@ fn damage() -> impl Strategy<Value = Damage> {
     ]
 }
 
-/// One instance that is offered blobs, and what it should look like when reset.
+/// One instance that is offered blobs, and its state when reset.
 struct Target {
     model: &'static str,
     instance: InProcess,
@@ -155,12 +155,12 @@ impl Target {
         Self { model, instance, names: support::names(model), fresh_bytes, accepted: 0 }
     }
 
-    /// The bytes are refused with an error, or give a state the instance can live in; never a panic.
+    /// The bytes are refused with an error, or give a state the instance can go on from; never a panic.
     fn offer(&mut self, bytes: &[u8]) {
         let ((status, state), count) = counted(|| self.instance.deserialize(bytes));
-        // No length inside the bytes makes the decoder ask for more memory than they can fill.
+        // No length inside the bytes makes the decoder request more memory than they can fill.
         let limit = 200_000 + 100 * bytes.len() as u64;
-        assert!(count.bytes < limit, "{}: {} bytes asked for {}", self.model, count.bytes, bytes.len());
+        assert!(count.bytes < limit, "{}: {} bytes requested for {}", self.model, count.bytes, bytes.len());
         match status {
             Status::Ok => self.use_restored(&state),
             Status::Error => assert!(state.is_null()),

@@ -22,7 +22,7 @@ const CRATES: &[&str] = &[
 /// Names from the root of a crate to a module.
 type Module = Vec<String>;
 
-/// What a file says of modules and names.
+/// A file with its syntax tree.
 struct Source {
     file: PathBuf,
     syntax: syn::File,

@@ -1,4 +1,4 @@
-//! The plant at the edges of what a master may ask for.
+//! The plant at the limits of its parameters and times.
 
 use client::NamedInstance;
 use model_description::BaseType;

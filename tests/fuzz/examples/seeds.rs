@@ -10,11 +10,11 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 fn main() {
-    let home = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let root = home.join("../..");
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = package.join("../..");
     let shipped = |path: &str| fs::read(root.join(path)).unwrap();
     let seed = |target: &str, name: &str, bytes: &[u8]| {
-        let folder = home.join("corpus").join(target);
+        let folder = package.join("corpus").join(target);
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join(name), bytes).unwrap();
     };

@@ -267,7 +267,7 @@ impl Master {
             }
             Call::DoStep { step_s, off_s, .. } => return self.step(step_s, off_s),
             Call::CancelStep => return Answer::Error,
-            // No step is ever pending, so there is nothing to tell.
+            // No step is ever pending, so there is nothing to report.
             Call::GetStatus(_) | Call::GetIntegerStatus(_) | Call::GetStringStatus(_) => {
                 return Answer::Discard;
             }

@@ -19,7 +19,7 @@ use crate::support;
 use master::{Answer, Call, Master, Misprint, Picked};
 use variables::{Value, references};
 
-/// Calls in a run; `HELIOTORQUE_CALLS` asks for another number.
+/// Calls in a run; `HELIOTORQUE_CALLS` sets another number.
 const CALLS: u64 = 1_000_000;
 const LONGEST_SEQUENCE: usize = 300;
 
@@ -103,7 +103,7 @@ impl Subject {
             }
             BaseType::String => {
                 let (status, texts) = instance.get_string(&references);
-                // Values are compared with texts that live for ever; few differ.
+                // Values are compared with static texts; few differ.
                 (status, texts.into_iter().map(|text| Value::Text(known(&text))).collect())
             }
         }
@@ -237,8 +237,8 @@ impl Before {
     }
 }
 
-/// Whether an instance answered as the reference did, and told why it did not do as asked.
-fn judge(
+/// Whether an instance answered as the reference did, and logged the reason of a refusal.
+fn compare(
     master: &Master,
     call: &Call,
     (status, values): &(Status, Vec<Value>),
@@ -265,8 +265,8 @@ fn judge(
         return complain(format!("{values:?} not {:?}", master.answer));
     }
     // 2.1.5: the logger is called before anything but OK is returned.
-    let told = messages.iter().any(|message| message.status == *status);
-    if (*status == Status::Error || (*status == Status::Discard && master.logging)) && !told {
+    let logged = messages.iter().any(|message| message.status == *status);
+    if (*status == Status::Error || (*status == Status::Discard && master.logging)) && !logged {
         return complain(format!("{status:?} without a message"));
     }
     if messages.iter().any(|message| message.text.contains("panic")) {
@@ -292,7 +292,7 @@ impl StateMachineTest for Sequence {
     fn apply(mut sequence: Self, master: &Master, call: Call) -> Self {
         let answer = sequence.subject.call(&call, sequence.before);
         let messages = sequence.subject.instance.take_messages();
-        judge(master, &call, &answer, &messages).unwrap_or_else(|message| panic!("{message}"));
+        compare(master, &call, &answer, &messages).unwrap_or_else(|message| panic!("{message}"));
         sequence.before = Before::of(master);
         sequence
     }
@@ -353,7 +353,7 @@ fn calls_until_noticed(misprint: Misprint, runner: &mut TestRunner) -> Option<u6
             master.call(&call);
             let answer = subject.call(&call, before);
             calls += 1;
-            noticed = judge(&master, &call, &answer, &subject.instance.take_messages()).is_err();
+            noticed = compare(&master, &call, &answer, &subject.instance.take_messages()).is_err();
             if noticed {
                 break;
             }
