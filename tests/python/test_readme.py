@@ -43,9 +43,9 @@ def dump_rows(table_2, assumptions):
         ("panel tilts - -",) * 2, ("panel tilts + -",) * 2, ("panel tilts - +",) * 2,
     ]
     for rule in ("1.0", "0.9"):
-        for choice, said in choices:
+        for choice, stated_choice in choices:
             cells = [cell(rule, choice, threshold) for threshold in ("4 N.m.s", "7 N.m.s", "5.5 N.m.s")]
-            yield line({"1.0": "1.0, the paper's", "0.9": "0.9, our default"}[rule], said, *cells)
+            yield line({"1.0": "1.0, the paper's", "0.9": "0.9, our default"}[rule], stated_choice, *cells)
 
 
 def gap_rows(table_3):

@@ -138,7 +138,7 @@ pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> Str
     printed
 }
 
-/// The path in an environment variable that `cargo xtask test` sets; without it the test says so and ends, and fails in
+/// The path in an environment variable that `cargo xtask test` sets; without it the test prints that and ends, and fails in
 /// CI.
 #[track_caller]
 pub fn built(variable: &str) -> Option<PathBuf> {

@@ -1,4 +1,4 @@
-//! Ctrl-C and the other signals that ask a program to end.
+//! Ctrl-C and the other signals that request a program's end.
 
 use std::{
     process,

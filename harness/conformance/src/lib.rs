@@ -5,10 +5,10 @@
 
 mod experiment;
 mod finding;
-mod judge;
 mod probe;
 mod probes;
 mod static_checks;
+mod verdict;
 
 use loader::{Error, Fmu};
 

@@ -61,7 +61,7 @@ pub fn table(header: &[&str]) -> Table {
     table
 }
 
-/// A bar on stderr over `count` of what `unit` names; hidden when quiet or where nobody sees it.
+/// A bar on stderr over `count` of what `unit` names; hidden with `--quiet` and where stderr is no terminal.
 pub fn progress(count: u64, unit: &str, is_quiet: bool) -> ProgressBar {
     if is_quiet || !io::stderr().is_terminal() {
         return ProgressBar::hidden();

@@ -20,7 +20,7 @@ enum Place {
     SerializeSetup,
 }
 
-/// What `panicking.toml` says.
+/// The content of `panicking.toml`.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {

@@ -1,4 +1,4 @@
-//! Any sequence of calls, legal or not, is answered as the standard's call table says, and no other way.
+//! Any sequence of calls, legal or not, is answered by the standard's call table.
 
 mod master;
 mod strategies;

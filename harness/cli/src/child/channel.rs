@@ -64,12 +64,12 @@ impl Link {
         Ok(Self { words, token, head: 0, frame: Vec::new() })
     }
 
-    /// Whether the parent asks the child to end.
+    /// Whether the parent requests the child's end.
     pub fn is_cancelled(&self) -> bool {
         self.cancel_word().load(Ordering::Relaxed) != 0
     }
 
-    /// The word by which the parent asks the child to end.
+    /// The word by which the parent requests the child's end.
     pub fn cancel_word(&self) -> &'static AtomicU64 {
         &self.words[CANCEL]
     }
@@ -181,7 +181,7 @@ impl Inbox {
         Ok((file, Self { words, token, tail: 0, frame: Vec::new() }))
     }
 
-    /// Asks the child to end.
+    /// Requests the child's end.
     pub fn cancel(&self) {
         self.words[CANCEL].store(1, Ordering::Relaxed);
     }

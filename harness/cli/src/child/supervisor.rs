@@ -16,11 +16,11 @@ use super::{
 };
 use crate::interrupt;
 
-/// How often the parent looks: from often, while much comes, to seldom.
+/// Shortest and longest pause between two readings of the child; short while many words come.
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(5)];
-/// Words at a time that are much.
-const MUCH: usize = RING_WORDS / 8;
-/// How long a child that is asked to end, or has told its end, may take.
+/// So many words at a time are many.
+const MANY: usize = RING_WORDS / 8;
+/// How long a child that was requested to end, or has reported its end, may take.
 const GRACE: Duration = Duration::from_secs(2);
 
 /// What the child's process may take of the computer.
@@ -52,11 +52,11 @@ pub enum EndReason {
     Hangs(f64),
     /// A call took longer than it may, in s.
     CallHangs(f64),
-    /// It told its end and went on.
+    /// It reported its end and went on.
     DoesNotExit,
     /// It printed more bytes than it may.
     Prints(u64),
-    /// It was asked to end.
+    /// It was requested to end.
     Interrupted,
     /// What it sent could not be taken.
     Refused(String),
@@ -83,7 +83,7 @@ impl Supervised {
         Some(self.placed(&what))
     }
 
-    /// That it ended without telling its result.
+    /// That it ended without a result.
     pub fn without_result(&self) -> String {
         self.placed(&describe(&self.how))
     }
@@ -100,7 +100,7 @@ impl Supervised {
 
 fn describe(how: &EndReason) -> String {
     match how {
-        EndReason::Ended(status) => format!("the process died: {}", system::how(*status)),
+        EndReason::Ended(status) => format!("the process ended: {}", system::how(*status)),
         EndReason::Hangs(time_s) => format!("hangs: still busy after {time_s} s (see --timeout)"),
         EndReason::CallHangs(time_s) => {
             format!("hangs: the call did not return within {time_s} s (see --timeout)")
@@ -140,7 +140,7 @@ impl ChildProcess {
         }
     }
 
-    /// Supervises it to its end. `take` gets every frame and tells whether it was the last one, `line` every line that
+    /// Supervises it to its end. `take` gets every frame and returns whether it was the last one, `line` every line that
     /// is printed; `tick` is called between.
     pub fn supervise(
         mut self,
@@ -224,7 +224,7 @@ impl ChildProcess {
                 return Some(EndReason::Interrupted);
             }
             std::thread::sleep(pause);
-            pause = if came > MUCH || printed { (pause / 2).max(often) } else { (pause * 2).min(seldom) };
+            pause = if came > MANY || printed { (pause / 2).max(often) } else { (pause * 2).min(seldom) };
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The summary of a run on the terminal, where no file is asked for.
+//! The summary of a run on the terminal, where no file is named.
 
 use std::{error::Error, path::PathBuf};
 

@@ -137,11 +137,11 @@ fn signal(child: &Child, name: &str) {
 fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
     let in_step = "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): ";
     for (behaviour, more, expected) in [
-        ("EXITS", &[][..], "the process died: it exited with status 0"),
+        ("EXITS", &[][..], "the process ended: it exited with status 0"),
         ("CRASHES", &[], "signal 11 (segmentation fault)"),
         ("ABORTS", &[], "signal 6 (abort)"),
         ("FAILS", &[], "answered fmi2Error"),
-        ("LIES", &[], "the process died: it exited with status 0"),
+        ("LIES", &[], "the process ended: it exited with status 0"),
         ("SLEEPS", &["--timeout", "0.3s"], "hangs: the call did not return within 0.3 s (see --timeout)"),
         ("SPINS", &["--timeout", "300ms"], "hangs: the call did not return within 0.3 s (see --timeout)"),
         ("PRINTS", &["--timeout", "0.5s"], "hangs: the call did not return within 0.5 s (see --timeout)"),
@@ -201,15 +201,15 @@ fn a_check_outlives_every_fmu_and_leaves_nothing() {
         (
             "EXITS",
             "IN_STEP",
-            "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): the process died",
+            "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): the process ended",
         ),
         ("CRASHES", "IN_STEP", "segmentation fault"),
-        ("CRASHES", "AT_LOADING", "loading the shared library: the process died"),
+        ("CRASHES", "AT_LOADING", "loading the shared library: the process ended"),
         ("SLEEPS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
         ("SPINS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
         // Of 64 MiB each, with those of the process itself 4 GiB.
         ("ALLOCATES", "IN_INSTANTIATE", "it could allocate 6"),
-        ("LIES", "IN_INSTANTIATE", "fmi2Instantiate: the process died: it exited with status 0"),
+        ("LIES", "IN_INSTANTIATE", "fmi2Instantiate: the process ended: it exited with status 0"),
         // Fewer than it may, for the process has files of its own.
         ("OPENS", "IN_INSTANTIATE", "it could open 10"),
     ] {

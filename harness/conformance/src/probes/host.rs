@@ -7,8 +7,8 @@ use loader::{Callbacks, Error, Fmu, Instance, InstanceOptions, LogMessage, Resou
 use crate::{
     Finding,
     experiment::{self, STEPS},
-    judge::verdict,
     probe::{Findings, Trial},
+    verdict::verdict,
 };
 
 /// The callbacks' struct ends with `fmi2Instantiate` (2.0.5); memory functions may be NULL if the FMU declares it.

@@ -7,8 +7,8 @@ use model_description::{Causality, Initial, ScalarVariable, Variability, Variabl
 use crate::{
     Finding,
     experiment::{self, References},
-    judge::{refused, same, verdict},
     probe::Findings,
+    verdict::{refused, same, verdict},
 };
 
 /// Start values read back, limits are kept, unknown references refused.

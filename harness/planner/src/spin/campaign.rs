@@ -123,7 +123,7 @@ pub fn campaign(
             let sun_angle_rad = angle_between_rad(&-antenna, &pointing.sun_at_start_inertial);
             sized.allowed_nutation_rad = allowed_nutation_rad(
                 spinner.limits.period_variation_s,
-                sized.flight.spin.rate_rad_s,
+                sized.case.spin.rate_rad_s,
                 sun_angle_rad,
             );
             let uniform = paper_plan(&sized)?;

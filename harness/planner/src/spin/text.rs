@@ -50,7 +50,7 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
     best(&rows)?;
     let (chosen, simulations) = simulated_again(options, task, &rows)?;
     let mut text = String::new();
-    let spin = &task.flight.spin;
+    let spin = &task.case.spin;
     let mut line = |line: String| {
         let _ = writeln!(text, "{line}");
     };
@@ -58,8 +58,8 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
         "Turn by {:.4} deg with {} ({:.3} N m), pulses by {}, ratio {:.4} +- {:.4}, {:.3} +- {:.3} rpm",
         task.angle_rad.to_degrees(),
         options.thruster,
-        task.flight.torque_n_m,
-        timing_label(task.flight.timing),
+        task.case.torque_n_m,
+        timing_label(task.case.timing),
         spin.ratio,
         task.range.ratio,
         options.rate_rpm,

@@ -75,7 +75,7 @@ pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verifica
         longest_s: 0.0,
         miss: 0.0,
     };
-    let assumed = &task.flight.spin;
+    let assumed = &task.case.spin;
     for &rate_share in rates {
         for i in 0..ratios {
             let share = if ratios > 1 { 2.0 * f64::from(i) / f64::from(ratios - 1) - 1.0 } else { 0.0 };
@@ -92,10 +92,10 @@ pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verifica
             seen.longest_s = seen.longest_s.max(simulated.duration_s);
             let meant_rad = if rate_share == 0.0 {
                 task.angle_rad
-            } else if task.flight.timing == Timing::Clock {
+            } else if task.case.timing == Timing::Clock {
                 continue;
             } else {
-                ForecastCase { spin, ..task.flight }.forecast(&row.train).moved_rad
+                ForecastCase { spin, ..task.case }.forecast(&row.train).moved_rad
             };
             seen.miss = seen.miss.max((simulated.moved_rad / meant_rad - 1.0).abs());
         }
@@ -167,12 +167,12 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
         Shape::Tapered { order } => (2, order as i32),
         Shape::Split => (3, 1),
     };
-    let timing = match task.flight.timing {
+    let timing = match task.case.timing {
         Timing::Clock => 1,
         Timing::SunCrossing => 2,
         Timing::TruePhase => 3,
     };
-    let (assumed, transverse) = (&task.flight.spin, spin.inertia_kg_m2 / spin.ratio);
+    let (assumed, transverse) = (&task.case.spin, spin.inertia_kg_m2 / spin.ratio);
     let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));
     let integer = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
     let mut sets = vec![

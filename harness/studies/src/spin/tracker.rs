@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::spinner::{RATIO, paper_case};
-use super::verdict::{rounds, says, verdict};
+use super::verdict::{rounds, verdict, verdict_text};
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -56,7 +56,7 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             (*label).to_owned(),
             "11.2 min".to_owned(),
             format!("{span:.2} min"),
-            says(rounds(span, 11.2, 0.1), "span of 8 samples").to_owned(),
+            verdict_text(rounds(span, 11.2, 0.1), "span of 8 samples").to_owned(),
         ]);
         rows.push(vec![
             format!("{label}: nutation from the samples of 4 h"),
@@ -176,7 +176,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
                 "exact, clock samples every 96 s".into(),
                 "-".into(),
                 share(|p| p.clock_min),
-                says(
+                verdict_text(
                     (percent(|p| p.clock_min) - percent(|p| p.eq20_min)).abs() < 1.0,
                     "what eq 20 approximates",
                 )
@@ -186,8 +186,11 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
                 "exact, samples every 8 spins".into(),
                 "-".into(),
                 share(|p| p.spins_min),
-                says(spread < 0.2 / 4.9 + 0.001, "the spin rate drops out but for the length of a spin")
-                    .to_owned(),
+                verdict_text(
+                    spread < 0.2 / 4.9 + 0.001,
+                    "the spin rate drops out but for the length of a spin",
+                )
+                .to_owned(),
             ],
         ],
     );
