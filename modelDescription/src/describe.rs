@@ -8,7 +8,7 @@ use core::ffi::{c_char, c_int, c_void};
 pub const SYMBOL: &str = "fmi_export_describe";
 
 /// Takes one text: the caller's context, the [`kind`], the UTF-8 text and its length in bytes. The text is the library's
-/// and lives until the function returns.
+/// and is valid until the function returns.
 pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize);
 
 /// `fmi_export_describe(model, setup_file, setup_text, context, receive)`.

@@ -1,4 +1,4 @@
-//! What FMI 2.0 says, once: C functions, call table, status codes, base types, and model descriptions with their rules,
+//! The facts of FMI 2.0: C functions, call table, status codes, base types, and model descriptions with their rules,
 //! validator and writer; feature `reader` adds the parser.
 //!
 //! Section numbers refer to the FMI 2.0.5 standard. Nothing here knows of a particular model.

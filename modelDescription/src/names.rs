@@ -17,7 +17,7 @@ pub fn is_c_identifier(name: &str) -> bool {
 /// indices      = "[" unsigned { "," unsigned } "]"
 /// ```
 ///
-/// The error says at which character (1-based) what was found and what may stand there.
+/// The error names the character (1-based), what was found and what may stand there.
 pub fn check_structured(name: &str) -> Result<(), String> {
     let mut scan = Scan { name, at: 0 };
     if name.starts_with("der(") {
@@ -58,8 +58,8 @@ impl Scan<'_> {
         self.name.as_bytes().get(self.at).copied()
     }
 
-    fn take(&mut self, wanted: u8) -> bool {
-        let found = self.peek() == Some(wanted);
+    fn take(&mut self, expected: u8) -> bool {
+        let found = self.peek() == Some(expected);
         self.at += usize::from(found);
         found
     }
@@ -162,12 +162,12 @@ pub fn elements(variables: &[ScalarVariable], name: &str) -> Vec<usize> {
 
 /// The names closest to `name`, best first.
 pub fn similar<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let wanted = name.to_lowercase();
+    let expected = name.to_lowercase();
     let mut ranked: Vec<(usize, &str)> = names
         .map(|candidate| {
             let lower = candidate.to_lowercase();
-            let contained = lower.contains(&wanted) || wanted.contains(&lower);
-            (if contained { 1 } else { strsim::levenshtein(&wanted, &lower) }, candidate)
+            let contained = lower.contains(&expected) || expected.contains(&lower);
+            (if contained { 1 } else { strsim::levenshtein(&expected, &lower) }, candidate)
         })
         .filter(|(distance, _)| *distance <= 2 + name.len() / 5 && *distance < name.len().max(2))
         .collect();

@@ -8,7 +8,7 @@ pub enum Status {
     Ok = 0,
     /// Done, with a message in the log.
     Warning = 1,
-    /// Not done (a value out of range, a step given up, a status that cannot be given); the instance lives.
+    /// Not done (a value out of range, a step given up, a status that cannot be given); the instance stays usable.
     Discard = 2,
     /// Not done, and the instance is in the error state.
     Error = 3,

@@ -18,11 +18,11 @@ extern void *__libc_realloc(void *block, size_t size);
 extern void *__libc_memalign(size_t alignment, size_t size);
 
 static int counting;
-static long asked, failing;
+static long requested, failing;
 
 /* Whether this allocation is the one that fails. */
 static int fails(void) {
-    if (!counting || ++asked != failing) return 0;
+    if (!counting || ++requested != failing) return 0;
     errno = ENOMEM;
     return 1;
 }
@@ -81,7 +81,7 @@ int main(int count, char **arguments) {
     counting = 1;
     CHECK(simulation(&library, xml, step_s) == fmi2OK);
     counting = 0;
-    long all = asked, tried = 0, aborted = 0, answered = 0;
+    long all = requested, tried = 0, aborted = 0, answered = 0;
     CHECK(all > 0);
     long stride = all / most + 1;
     for (long n = 1; n <= all; n += stride) {
@@ -92,10 +92,10 @@ int main(int count, char **arguments) {
         if (child == 0) {
             dup2(ends[1], 2);
             alarm(60);
-            asked = 0, failing = n, counting = 1;
+            requested = 0, failing = n, counting = 1;
             fmi2Status worst = simulation(&library, xml, step_s);
             counting = 0;
-            CHECK(asked >= n);
+            CHECK(requested >= n);
             _exit(worst == fmi2OK ? 10 : 11);
         }
         close(ends[1]);

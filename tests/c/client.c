@@ -55,7 +55,7 @@ static void simulate(const Library *library, const char *xml, const char *watche
     CHECK(memcmp(again, end, sizeof again) == 0);
     CHECK(library->FreeFMUstate(twin, &state) == fmi2OK);
 
-    /* A NaN is discarded and the instance lives; a wrong time is an error, and Reset brings the instance back. */
+    /* A NaN is discarded and the instance stays usable; a wrong time is an error, and Reset brings the instance back. */
     fmi2ValueReference torque = reference_of(xml, "torque.applied[1]");
     fmi2Real nan_value = NAN;
     CHECK(library->SetReal(twin, &torque, 1, &nan_value) == fmi2Discard);

@@ -117,7 +117,7 @@ static inline void quiet_logger(fmi2ComponentEnvironment environment, fmi2String
     if (getenv("SHOW_LOG")) fprintf(stderr, "%s\n", text);
 }
 
-/* Instantiates with callbacks that die right after the call, as the standard allows. */
+/* Instantiates with callbacks that end right after the call, as the standard allows. */
 static inline fmi2Component instantiate(const Library *library, const char *xml, fmi2String location) {
     char guid[256];
     snprintf(guid, sizeof guid, "%s", attribute_after(xml, "guid"));

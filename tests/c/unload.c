@@ -79,7 +79,7 @@ static void simulate(const Library *library, const char *xml, const char *model,
     CHECK(library->Terminate(c) == fmi2OK);
 }
 
-/* Instances that nobody frees; kept, so that a leak checker can tell them from what is lost. */
+/* Instances that nobody frees; kept, so that a leak checker can distinguish them from what is lost. */
 fmi2Component left_open[16];
 static int left_count;
 
@@ -120,12 +120,12 @@ int main(int count, char **arguments) {
         {arguments[2], "AllTypes"},      {arguments[2], "Panicking"},
     };
     for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
-        /* The first simulations warm up the loader and the heap. */
-        int warm = simulations / 10 + 2;
-        for (int i = 0; i < warm; i++) simulation(rows[row].library, rows[row].model, i, 0);
+        /* Loader and heap reach their size in the first simulations. */
+        int first = simulations / 10 + 2;
+        for (int i = 0; i < first; i++) simulation(rows[row].library, rows[row].model, i, 0);
         size_t bytes_before = mallinfo2().uordblks;
         long before_kb = anonymous_kb();
-        for (int i = 0; i < simulations; i++) simulation(rows[row].library, rows[row].model, warm + i, 0);
+        for (int i = 0; i < simulations; i++) simulation(rows[row].library, rows[row].model, first + i, 0);
         long grown = (long)mallinfo2().uordblks - (long)bytes_before;
         long grown_kb = anonymous_kb() - before_kb;
         printf("%s: %d simulations, heap %+ld bytes, memory %+ld kB\n", rows[row].model, simulations, grown, grown_kb);

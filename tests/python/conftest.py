@@ -57,7 +57,7 @@ def unpacked_plant(momentum_plant, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def studied(heliotorque, dist, tmp_path_factory):
-    """What a study prints and leaves, simulated once on four threads whoever asks."""
+    """What a study prints and leaves, simulated once on four threads for all tests."""
     done = {}
 
     def run(name):

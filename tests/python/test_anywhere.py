@@ -1,4 +1,4 @@
-"""What a file or a page says holds on other machines too: GUIDs do not hang on the host's mathematics, the README runs."""
+"""Files and pages hold on other machines too: GUIDs do not depend on the host's mathematics, the README's commands run."""
 
 import os
 import pathlib

@@ -74,7 +74,7 @@ def test_steps_of_60_and_600_s_give_the_same_bits_through_eclipses(orbiter):
     dark = fine["sun.litFraction"] == 0.0
     assert 10 < dark.sum() < len(fine) / 2
     assert not stack(fine, "force.solar")[dark].any()
-    # The spacecraft is its own mirror image across its Y-Z plane: whatever stays warm pushes within it.
+    # The spacecraft is its own mirror image across its Y-Z plane: the recoil of heat lies within it.
     thermal = np.abs(stack(fine, "force.thermal")[dark])
     assert thermal[:, 1:].max(axis=1).min() > 1e-9 and thermal[:, 0].max() < 1e-20
 

@@ -61,7 +61,7 @@ def momentum_alone(alone):
 
 
 def assert_close(momentum, alone, step_s):
-    """What a loop lacks is what the torque held over a step and told two steps late comes to."""
+    """A loop differs by the torque held over a step and exchanged two steps late."""
     expected, most_n_m = momentum_alone(alone)
     assert np.abs(expected).min() > 4.0 * step_s * most_n_m, "no momentum to compare"
     assert np.linalg.norm(momentum - expected) < 4.0 * step_s * most_n_m
@@ -118,9 +118,9 @@ def stack(result, name, size):
 
 
 def assert_followed(plant, spinner, lag):
-    """The plant turns as it was told `lag` rows before; a quaternion and its negative are one attitude."""
-    told, done = spinner[: len(spinner) - lag], plant[lag:]
-    assert np.abs(np.abs(np.sum(told * done, axis=1)) - 1.0).max() < 1e-12
+    """The plant turns as it was commanded `lag` rows before; a quaternion and its negative are one attitude."""
+    commanded, done = spinner[: len(spinner) - lag], plant[lag:]
+    assert np.abs(np.abs(np.sum(commanded * done, axis=1)) - 1.0).max() < 1e-12
     assert np.ptp(done, axis=0).max() > 0.5, "nothing turned"
 
 

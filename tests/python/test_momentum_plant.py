@@ -1,4 +1,4 @@
-"""MomentumPlant in FMPy: it validates, runs 90 days, and no choice of step changes what it says."""
+"""MomentumPlant in FMPy: it validates, runs 90 days, and no choice of step changes its outputs."""
 
 import numpy as np
 import pytest

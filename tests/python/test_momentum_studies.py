@@ -1,4 +1,4 @@
-"""`heliotorque study momentum/*` runs what FMPy runs, and says of its own numbers what they say."""
+"""`heliotorque study momentum/*` runs what FMPy runs, and its verdicts follow from its numbers."""
 
 import itertools
 import re

@@ -1,4 +1,4 @@
-"""Your own spacecraft: packed without a compiler, it runs in FMPy as its file says, and a bad file is refused by line."""
+"""Your own spacecraft: packed without a compiler, it runs in FMPy with the file's values, and a bad file is refused by line."""
 
 import itertools
 import json

@@ -80,20 +80,20 @@ def test_belts_run_from_south_to_north(pack):
 
 
 def test_without_a_map_the_method_is_refused_by_name(dist):
-    told = []
+    messages = []
     with pytest.raises(FMICallException):
-        forces(str(dist / "DisturbanceTorque.fmu"), MAP, logger=lambda *message: told.append(message[-1].decode()))
-    assert any("planetLight.method is map, allowed only where the spacecraft's file has a planet_map" in it for it in told), told
+        forces(str(dist / "DisturbanceTorque.fmu"), MAP, logger=lambda *message: messages.append(message[-1].decode()))
+    assert any("planetLight.method is map, allowed only where the spacecraft's file has a planet_map" in it for it in messages), messages
 
 
 def test_a_torn_map_is_told_by_line_and_cell(heliotorque, tmp_path):
     section = planet_map(lambda belt, column: -5.0 if (belt, column) == (2, 3) else 300.0, emissivity=1.5)
-    torn = section.replace("1.5, 1.5]]", "1.5]]")
-    assert torn != section
-    (tmp_path / "torn.toml").write_text(SPACECRAFT + torn, encoding="utf-8")
-    told = call(heliotorque, "check", tmp_path / "torn.toml")
-    assert told.returncode == 1
-    text = told.stdout + told.stderr
+    damaged = section.replace("1.5, 1.5]]", "1.5]]")
+    assert damaged != section
+    (tmp_path / "damaged.toml").write_text(SPACECRAFT + damaged, encoding="utf-8")
+    checked = call(heliotorque, "check", tmp_path / "damaged.toml")
+    assert checked.returncode == 1
+    text = checked.stdout + checked.stderr
     for words in (
         "planet_map.temperature_k[3][4]: found -5", "allowed: a number from 0 to 10000 K",
         "planet_map.emissivity[8]: found 15 cells, allowed: 16", "planet_map.emissivity[1][1]: found 1.5",

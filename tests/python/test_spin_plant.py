@@ -78,15 +78,15 @@ def test_nutation_follows_eq_8_pulse_by_pulse(spin_plant, loaded, ratio, turns, 
     kick = TORQUE_N_M * 2 * np.sin(rate * width_s / 2) / rate / (SPIN_KG_M2 * RATE)
     steps = np.exp(2j * np.pi * ratio * turns * np.arange(count))
     expected = np.arctan(kick * np.abs(np.cumsum(steps)))
-    quiet = ~(result["thruster[8].active"] | result["thruster[10].active"]) & (result["burn.pulsesFired"] > 0)
-    seen = result["nutation.angle"][quiet]
-    theory = expected[result["burn.pulsesFired"][quiet] - 1]
+    coasting = ~(result["thruster[8].active"] | result["thruster[10].active"]) & (result["burn.pulsesFired"] > 0)
+    seen = result["nutation.angle"][coasting]
+    theory = expected[result["burn.pulsesFired"][coasting] - 1]
     error = np.abs(seen - theory)
     assert np.all((error < 5e-5 * theory) | (error < np.radians(1e-6)))
     assert set(result["burn.pulsesFired"]) == set(range(count + 1))
 
 
-def test_the_tapered_train_ends_quiet_anywhere_in_the_range(spin_plant, loaded):
+def test_the_tapered_train_ends_without_nutation_anywhere_in_the_range(spin_plant, loaded):
     """2 deg in 11.4 min with less than 0.0033 deg of nutation left for any ratio from begin to end of life."""
     for ratio in np.linspace(1.471, 1.494, 24):
         for count in (57, 58):

@@ -25,7 +25,7 @@ def starts(fmu):
 
 
 @pytest.fixture(scope="module")
-def told(heliotorque, dist, tmp_path_factory):
+def with_start_values(heliotorque, dist, tmp_path_factory):
     """Packed with every value on the command line."""
     fmu = tmp_path_factory.mktemp("start") / "Told.fmu"
     words = [word for name, (text, _) in SET.items() for word in ("--set", f"{name}={text}")]
@@ -37,19 +37,19 @@ def told(heliotorque, dist, tmp_path_factory):
     return str(fmu)
 
 
-def test_fmpy_reads_what_was_packed_and_runs_it_as_if_it_had_set_it(told, momentum_plant):
-    before, after = starts(momentum_plant), starts(told)
+def test_fmpy_reads_what_was_packed_and_runs_it_as_if_it_had_set_it(with_start_values, momentum_plant):
+    before, after = starts(momentum_plant), starts(with_start_values)
     changed = {name for name in after if after[name] != before[name]}
     assert changed == set(SET)
     assert all(str(value).lower() == after[name] or float(after[name]) == value for name, (_, value) in SET.items())
 
     by_master = simulate(momentum_plant, days=20.0, start={name: value for name, (_, value) in SET.items()})
-    from_file, unset = simulate(told, days=20.0), simulate(momentum_plant, days=20.0)
+    from_file, unset = simulate(with_start_values, days=20.0), simulate(momentum_plant, days=20.0)
     assert from_file.tobytes() == by_master.tobytes()
     assert from_file.tobytes() != unset.tobytes()
 
 
-def test_the_table_in_the_file_is_the_same(told, heliotorque, dist, tmp_path):
+def test_the_table_in_the_file_is_the_same(with_start_values, heliotorque, dist, tmp_path):
     table = """
 [start]
 "eclipse.method" = "off"
@@ -65,8 +65,8 @@ def test_the_table_in_the_file_is_the_same(told, heliotorque, dist, tmp_path):
 """
     text = MESSENGER.read_text(encoding="utf-8") + table
     fmu = pack(heliotorque, dist, tmp_path, text, "Told")
-    assert read_model_description(fmu).guid == read_model_description(told).guid
-    assert starts(fmu) == starts(told)
+    assert read_model_description(fmu).guid == read_model_description(with_start_values).guid
+    assert starts(fmu) == starts(with_start_values)
     checked = call(heliotorque, "check", tmp_path / "Told.toml", "--template", dist / "MomentumPlant.fmu")
     assert checked.returncode == 0, checked.stdout
 

@@ -1,4 +1,4 @@
-"""Every study in `study list` runs, leaves whole tables and pictures, and says the same on one thread and on four."""
+"""Every study in `study list` runs, leaves whole tables and pictures, and prints the same on one thread and on four."""
 
 import re
 import subprocess

@@ -7,12 +7,12 @@ use std::cell::Cell;
 /// The system's allocator, counting.
 pub struct Counting;
 
-/// What one thread asked of the allocator.
+/// What one thread requested from the allocator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Blocks asked for, moved blocks included.
+    /// Blocks requested, moved blocks included.
     pub allocations: u64,
-    /// Bytes asked for in all.
+    /// Bytes requested in all.
     pub bytes: u64,
     /// Bytes not given back; negative where the thread freed what others allocated.
     pub live_bytes: i64,
@@ -28,7 +28,7 @@ pub fn count() -> Count {
     COUNT.get()
 }
 
-/// What `body` asked for on this thread.
+/// What `body` requested on this thread.
 pub fn counted<T>(body: impl FnOnce() -> T) -> (T, Count) {
     let before = count();
     let result = body();
@@ -41,13 +41,13 @@ pub fn counted<T>(body: impl FnOnce() -> T) -> (T, Count) {
     (result, difference)
 }
 
-fn note(asked: usize, given_back: usize) {
+fn note(requested: usize, given_back: usize) {
     // A thread that ends may allocate after its locals are gone.
     let _ = COUNT.try_with(|cell| {
         let mut count = cell.get();
-        count.allocations += u64::from(asked > 0);
-        count.bytes += asked as u64;
-        count.live_bytes += asked as i64 - given_back as i64;
+        count.allocations += u64::from(requested > 0);
+        count.bytes += requested as u64;
+        count.live_bytes += requested as i64 - given_back as i64;
         cell.set(count);
     });
 }

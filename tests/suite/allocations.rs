@@ -1,11 +1,11 @@
-//! Real, Integer and Boolean get and set and doStep ask for no memory once an instance has simulated a while.
+//! Real, Integer and Boolean get and set and doStep allocate no memory once an instance has simulated a while.
 
-use client::InProcess;
+use client::{InProcess, Names};
 use heliotorque_tests::counting::{Count, counted};
-use model_description::Status;
+use model_description::{BaseType, Status};
 
 use crate::scenarios::{Scenario, Simulation};
-use crate::support::{Base, LIBRARY, Names, library, names, ok, silent};
+use crate::support::{LIBRARY, library, names, ok, silent};
 
 /// References and scratch for values, made before counting begins.
 struct Client {
@@ -21,8 +21,8 @@ struct Client {
 
 impl Client {
     fn new(scenario: Scenario, names: &Names) -> Self {
-        let (reals, integers) = (names.all(Base::Real), names.all(Base::Integer));
-        let booleans = names.all(Base::Boolean);
+        let (reals, integers) = (names.all(BaseType::Real), names.all(BaseType::Integer));
+        let booleans = names.all(BaseType::Boolean);
         let (moved, switched): (&[&str], _) = match scenario.model() {
             "MomentumPlant" => (&["command.rate[1]", "spacecraft.centerOfMass[2]"], "dump.request"),
             _ => (&["thruster[8].onTime", "thruster[8].onDelay"], "thruster[1].fire"),
@@ -34,7 +34,7 @@ impl Client {
             booleans: (booleans.clone(), vec![0; booleans.len()]),
             torque: names.vector("torque.applied"),
             moved: moved.iter().map(|name| names.real(name)).collect(),
-            switched: names.of(Base::Boolean, switched),
+            switched: names.of(BaseType::Boolean, switched),
         }
     }
 
@@ -82,7 +82,7 @@ fn happened(simulation: &mut Simulation) -> i32 {
     let name =
         if simulation.scenario.model() == "MomentumPlant" { "dump.count" } else { "spin.sunCrossings" };
     let mut count = [0];
-    ok(simulation.instance.get_integer(&[simulation.names.of(Base::Integer, name)], &mut count));
+    ok(simulation.instance.get_integer(&[simulation.names.of(BaseType::Integer, name)], &mut count));
     count[0]
 }
 
@@ -128,8 +128,8 @@ fn stored_heat_allocates_nothing() {
 fn placing_allocates_nothing() {
     let mut simulation = Simulation::new(Scenario::Placed);
     let names = &simulation.names;
-    let (reals, booleans) = (names.all(Base::Real), names.all(Base::Boolean));
-    let integers = names.all(Base::Integer);
+    let (reals, booleans) = (names.all(BaseType::Real), names.all(BaseType::Boolean));
+    let integers = names.all(BaseType::Integer);
     let planet = names.vector::<3>("planet.positionBody");
     let others = [
         names.real("sun.positionBody[1]"),
@@ -168,8 +168,9 @@ fn all_types_allocates_nothing() {
     let mut instance = silent("AllTypes");
     ok(instance.start(0.0, None));
     let real = [names.real("input.real"), names.real("tunable.real")];
-    let integer = [names.of(Base::Integer, "input.integer"), names.of(Base::Integer, "tunable.choice")];
-    let boolean = [names.of(Base::Boolean, "input.boolean")];
+    let integer =
+        [names.of(BaseType::Integer, "input.integer"), names.of(BaseType::Integer, "tunable.choice")];
+    let boolean = [names.of(BaseType::Boolean, "input.boolean")];
     let output = [names.real("output.real"), names.real("output.integral")];
     let (mut reals, mut integers, mut booleans) = ([0.0; 2], [0; 2], [0; 1]);
     let mut step = |number: u32| {

@@ -93,7 +93,7 @@ fn models_contain_no_arithmetic_on_quantities() {
 }
 
 #[test]
-fn operators_on_quantities_are_told_from_indices() {
+fn operators_on_quantities_are_distinguished_from_indices() {
     let text = "struct S { #[parameter(tunable, min = -1.0, start = rate_rpm * RPM_RAD_S)] rate: Real }\n\
                 fn f() { let a = x[i + 1]; let b = force_n * arm_m; let c = -1.0; let d = -b; total += b; }\n\
                 #[cfg(test)]\nmod tests { fn g() { a * b; } }";

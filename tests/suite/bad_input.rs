@@ -1,13 +1,14 @@
-//! Bad input gets an error that names what was found and what is allowed, and leaves everything else alive.
+//! Bad input gets an error that names what was found and what is allowed, and nothing else changes.
 
+use model_description::BaseType;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use client::{InProcess, Message};
+use client::{InProcess, Message, Names};
 use fmi_export::{Library, Model, Status};
 use models::MomentumPlant;
 
-use crate::support::{Base, LIBRARY, Names, everything, fresh, guid, library, names, ok, real_bits};
+use crate::support::{LIBRARY, everything, fresh, guid, library, names, ok, real_bits};
 
 const PLANT: &str = "MomentumPlant";
 
@@ -25,7 +26,7 @@ fn text(messages: &[Message]) -> String {
 }
 
 #[track_caller]
-fn says(text: &str, words: &[&str]) {
+fn contains(text: &str, words: &[&str]) {
     for word in words {
         assert!(text.contains(word), "`{word}` is missing in: {text}");
     }
@@ -47,31 +48,31 @@ fn guid_of(spacecraft: &str) -> String {
 }
 
 #[test]
-fn a_wrong_guid_is_told_beside_the_right_ones() {
-    let asked = "{00000000-1111-2222-3333-444444444444}";
-    let told = refused(&LIBRARY, asked, None);
-    says(&told, &[asked, "AllTypes", guid("AllTypes"), PLANT, guid(PLANT)]);
+fn a_wrong_guid_is_named_beside_the_right_ones() {
+    let unknown = "{00000000-1111-2222-3333-444444444444}";
+    let text = refused(&LIBRARY, unknown, None);
+    contains(&text, &[unknown, "AllTypes", guid("AllTypes"), PLANT, guid(PLANT)]);
 }
 
 #[test]
-fn a_guid_of_another_spacecraft_is_told_as_such() {
+fn a_guid_of_another_spacecraft_is_named_as_such() {
     let folder = tempfile::tempdir().unwrap();
     let edited = MomentumPlant::DEFAULT_SETUP.replace("mass_kg = 700.0", "mass_kg = 701.0");
     let folder = resources(folder.path(), &edited);
-    let told = refused(library(PLANT), guid(PLANT), Some(&uri(&folder)));
-    says(&told, &[guid(PLANT), &guid_of(&edited), "spacecraft.toml", "changed after packing"]);
+    let text = refused(library(PLANT), guid(PLANT), Some(&uri(&folder)));
+    contains(&text, &[guid(PLANT), &guid_of(&edited), "spacecraft.toml", "changed after packing"]);
 }
 
 #[test]
 fn a_missing_resource_folder_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let missing = folder.path().join("no such folder");
-    let told = refused(library(PLANT), guid(PLANT), Some(&uri(&missing)));
-    says(&told, &[missing.to_str().unwrap(), "does not exist"]);
-    assert!(!told.contains("changed after packing"), "{told}");
+    let text = refused(library(PLANT), guid(PLANT), Some(&uri(&missing)));
+    contains(&text, &[missing.to_str().unwrap(), "does not exist"]);
+    assert!(!text.contains("changed after packing"), "{text}");
     // The folder is there, the file is not.
-    let told = refused(library(PLANT), guid(PLANT), Some(&uri(folder.path())));
-    says(&told, &["spacecraft.toml", "cannot read"]);
+    let text = refused(library(PLANT), guid(PLANT), Some(&uri(folder.path())));
+    contains(&text, &["spacecraft.toml", "cannot read"]);
 }
 
 #[test]
@@ -101,7 +102,7 @@ fn resource_folders_of_any_name_are_found() {
 }
 
 #[test]
-fn a_spacecraft_file_that_cannot_be_used_is_told_by_file_and_key() {
+fn a_spacecraft_file_that_cannot_be_used_is_named_by_file_and_key() {
     let good = MomentumPlant::DEFAULT_SETUP;
     let damaged = &good[..good.find("[sunshade.cylinder]").unwrap() + 8];
     let unknown = good.replace("mass_kg = 700.0", "mass_kg = 700.0\ncolour = \"red\"");
@@ -119,14 +120,14 @@ fn a_spacecraft_file_that_cannot_be_used_is_told_by_file_and_key() {
     for (spacecraft, words) in cases {
         let folder = tempfile::tempdir().unwrap();
         let folder = resources(folder.path(), spacecraft);
-        let told = refused(library(PLANT), guid(PLANT), Some(&uri(&folder)));
-        says(&told, &["spacecraft.toml"]);
-        says(&told, words);
+        let text = refused(library(PLANT), guid(PLANT), Some(&uri(&folder)));
+        contains(&text, &["spacecraft.toml"]);
+        contains(&text, words);
     }
     let folder = tempfile::tempdir().unwrap();
     let folder = resources(folder.path(), "");
     fs::write(folder.join("spacecraft.toml"), b"name = \"\xFF\xFE\"").unwrap();
-    says(&refused(library(PLANT), guid(PLANT), Some(&uri(&folder))), &["spacecraft.toml", "UTF-8"]);
+    contains(&refused(library(PLANT), guid(PLANT), Some(&uri(&folder))), &["spacecraft.toml", "UTF-8"]);
 }
 
 fn running() -> (InProcess, Names) {
@@ -138,21 +139,21 @@ fn running() -> (InProcess, Names) {
 }
 
 #[test]
-fn nan_and_infinity_are_discarded_and_the_instance_lives() {
+fn nan_and_infinity_are_discarded_and_the_instance_stays_usable() {
     let (mut instance, names) = running();
     let torque = names.vector::<3>("torque.applied");
     let before = everything(&mut instance, &names);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         // The good elements beside the bad one are not written either.
         assert_eq!(instance.set_real(&torque, &[1e-3, bad, 1e-3]), Status::Discard);
-        says(&text(&instance.take_messages()), &["torque.applied[2]", "finite"]);
+        contains(&text(&instance.take_messages()), &["torque.applied[2]", "finite"]);
         assert_eq!(everything(&mut instance, &names), before);
     }
     let threshold = names.real("dump.threshold[1]");
     assert_eq!(instance.set_real(&[threshold], &[-1.0]), Status::Discard);
-    says(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "from 1e-6 up"]);
+    contains(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "from 1e-6 up"]);
     assert_eq!(instance.set_input_derivatives(&torque[..1], &[1], &[f64::NAN]), Status::Discard);
-    let kind = names.of(Base::Integer, "command.kind");
+    let kind = names.of(BaseType::Integer, "command.kind");
     assert_eq!(instance.set_integer(&[kind], &[17]), Status::Discard);
     // None of it leaves a trace.
     ok(instance.do_step(600.0, 600.0));
@@ -165,11 +166,11 @@ fn nan_and_infinity_are_discarded_and_the_instance_lives() {
 fn a_step_past_the_stop_time_is_an_error() {
     let (mut instance, names) = running();
     ok(instance.do_step(600.0, 5_400.0));
-    let before = real_bits(&mut instance, &names.all(Base::Real));
+    let before = real_bits(&mut instance, &names.all(BaseType::Real));
     assert_eq!(instance.do_step(6_000.0, 600.0), Status::Error);
-    says(&text(&instance.take_messages()), &["6600.0", "6000.0", "stop"]);
+    contains(&text(&instance.take_messages()), &["6600.0", "6000.0", "stop"]);
     // Not carried out at all; Reset brings the instance back.
-    assert_eq!(real_bits(&mut instance, &names.all(Base::Real)), before);
+    assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
     ok(instance.reset());
     ok(instance.start(0.0, None));
     ok(instance.do_step(0.0, 6_600.0));
@@ -179,13 +180,13 @@ fn a_step_past_the_stop_time_is_an_error() {
 fn an_unknown_reference_in_a_vector_writes_nothing() {
     let (mut instance, names) = running();
     let torque = names.vector::<3>("torque.applied");
-    let before = real_bits(&mut instance, &names.all(Base::Real));
+    let before = real_bits(&mut instance, &names.all(BaseType::Real));
     assert_eq!(instance.set_real(&[torque[0], 4_000_000, torque[2]], &[1.0, 2.0, 3.0]), Status::Error);
-    says(&text(&instance.take_messages()), &["4000000"]);
-    assert_eq!(real_bits(&mut instance, &names.all(Base::Real)), before);
+    contains(&text(&instance.take_messages()), &["4000000"]);
+    assert_eq!(real_bits(&mut instance, &names.all(BaseType::Real)), before);
     let mut values = [0.0; 2];
     assert_eq!(instance.get_real(&[torque[0], u32::MAX], &mut values), Status::Error);
-    says(&text(&instance.take_messages()), &["4294967295"]);
+    contains(&text(&instance.take_messages()), &["4294967295"]);
 }
 
 #[test]
@@ -226,5 +227,5 @@ fn two_spacecraft_simulate_in_one_process_as_each_does_alone() {
     ok(status);
     let _ = together[1].take_messages();
     assert_eq!(together[1].deserialize(&bytes).0, Status::Error);
-    says(&text(&together[1].take_messages()), &["another setup"]);
+    contains(&text(&together[1].take_messages()), &["another setup"]);
 }

@@ -1,12 +1,12 @@
-//! Whatever bytes reach fmi2DeSerializeFMUstate, the answer is a status and the instance lives.
+//! Whatever bytes reach fmi2DeSerializeFMUstate, the answer is a status and the instance stays usable.
 
-use client::{InProcess, StatePointer};
+use client::{InProcess, Names, StatePointer};
 use heliotorque_tests::counting::counted;
-use model_description::Status;
+use model_description::{BaseType, Status};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use crate::support::{self, Names, fresh, ok};
+use crate::support::{self, fresh, ok};
 
 /// Mark, layout version, GUID digest; then payload length and checksum, then the payload (see `blob.rs`).
 const BEFORE_LENGTH: usize = 8 + 4 + 16;
@@ -52,9 +52,9 @@ fn genuine(model: &str) -> Vec<Vec<u8>> {
     if model == "MomentumPlant" {
         let mut instance = fresh(model);
         let names = support::names(model);
-        let on = |name: &str| names.of(support::Base::Boolean, name);
+        let on = |name: &str| names.of(BaseType::Boolean, name);
         ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
-        ok(instance.set_integer(&[names.of(support::Base::Integer, "orbit.dynamics")], &[2]));
+        ok(instance.set_integer(&[names.of(BaseType::Integer, "orbit.dynamics")], &[2]));
         ok(instance.start(0.0, None));
         ok(instance.do_step(0.0, 1000.0));
         save(&mut instance);
@@ -139,7 +139,7 @@ fn damage() -> impl Strategy<Value = Damage> {
     ]
 }
 
-/// One instance that is offered blobs, and what it should look like when reset.
+/// One instance that is offered blobs, and its state when reset.
 struct Target {
     model: &'static str,
     instance: InProcess,
@@ -155,12 +155,12 @@ impl Target {
         Self { model, instance, names: support::names(model), fresh_bytes, accepted: 0 }
     }
 
-    /// The bytes are refused with an error, or give a state the instance can live in; never a panic.
+    /// The bytes are refused with an error, or give a state the instance can go on from; never a panic.
     fn offer(&mut self, bytes: &[u8]) {
         let ((status, state), count) = counted(|| self.instance.deserialize(bytes));
-        // No length inside the bytes makes the decoder ask for more memory than they can fill.
+        // No length inside the bytes makes the decoder request more memory than they can fill.
         let limit = 200_000 + 100 * bytes.len() as u64;
-        assert!(count.bytes < limit, "{}: {} bytes asked for {}", self.model, count.bytes, bytes.len());
+        assert!(count.bytes < limit, "{}: {} bytes requested for {}", self.model, count.bytes, bytes.len());
         match status {
             Status::Ok => self.use_restored(&state),
             Status::Error => assert!(state.is_null()),
@@ -176,10 +176,10 @@ impl Target {
         ok(self.instance.set_state(state));
         // What is well formed may still be nonsense: any status, but an answer, and soon.
         let (_, time_s) = self.instance.last_successful_time();
-        let mut reals = vec![0.0; self.names.all(support::Base::Real).len()];
-        let _ = self.instance.get_real(&self.names.all(support::Base::Real), &mut reals);
+        let mut reals = vec![0.0; self.names.all(BaseType::Real).len()];
+        let _ = self.instance.get_real(&self.names.all(BaseType::Real), &mut reals);
         let _ = self.instance.do_step(time_s, 60.0);
-        let _ = self.instance.get_real(&self.names.all(support::Base::Real), &mut reals);
+        let _ = self.instance.get_real(&self.names.all(BaseType::Real), &mut reals);
         let _ = self.instance.state_bytes();
     }
 

@@ -92,7 +92,7 @@ fn the_library_exports_what_it_must_and_nothing_else() {
     }
 }
 
-/// The newest glibc that the library asks for, so that it loads on systems older than the one it is built on.
+/// The newest glibc that the library requires, so that it loads on systems older than the one it is built on.
 const NEWEST_GLIBC: [u32; 2] = [2, 34];
 
 #[test]

@@ -8,25 +8,22 @@ use syn::visit::{self, Visit};
 
 use crate::sources::{is_for_tests, workspace};
 
-/// Crates whose files are held to it, with the circles that are still there: the files of a circle, sorted.
-const CRATES: &[(&str, &[&[&str]])] = &[
-    ("fmu-src/models", &[]),
-    ("harness/files", &[]),
-    ("harness/terminal", &[]),
-    (
-        "harness/loader",
-        &[&["abi/component.rs", "abi/describe.rs", "abi/logger.rs", "abi/mod.rs", "calls.rs"]],
-    ),
-    ("harness/conformance", &[]),
-    ("harness/studies", &[]),
-    ("harness/planner", &[]),
-    ("harness/cli", &[]),
+/// The crates whose files are held to it; `physics` has a test of its own.
+const CRATES: &[&str] = &[
+    "fmu-src/models",
+    "harness/files",
+    "harness/terminal",
+    "harness/loader",
+    "harness/conformance",
+    "harness/studies",
+    "harness/planner",
+    "harness/cli",
 ];
 
 /// Names from the root of a crate to a module.
 type Module = Vec<String>;
 
-/// What a file says of modules and names.
+/// A file with its syntax tree.
 struct Source {
     file: PathBuf,
     syntax: syn::File,
@@ -204,14 +201,10 @@ fn circles(root: &Path) -> BTreeSet<Vec<String>> {
 
 #[test]
 fn no_file_uses_one_that_uses_it() {
-    let owned = |files: &[&str]| files.iter().map(|file| (*file).to_owned()).collect::<Vec<_>>();
-    let known: BTreeMap<&str, BTreeSet<Vec<String>>> = CRATES
-        .iter()
-        .map(|(folder, circles)| (*folder, circles.iter().map(|files| owned(files)).collect()))
-        .collect();
-    let found: BTreeMap<&str, BTreeSet<Vec<String>>> =
-        known.keys().map(|folder| (*folder, circles(&workspace().join(folder).join("src")))).collect();
-    assert_eq!(found, known);
+    let circles_in = |folder: &&str| (folder.to_string(), circles(&workspace().join(folder).join("src")));
+    let found: BTreeMap<String, BTreeSet<Vec<String>>> =
+        CRATES.iter().map(circles_in).filter(|(_, circles)| !circles.is_empty()).collect();
+    assert_eq!(found, BTreeMap::new());
 }
 
 #[test]

@@ -87,7 +87,7 @@ fn freeing_an_instance_gives_back_every_byte() {
 #[cfg(target_os = "linux")]
 const CHILD: &str = "HELIOTORQUE_TEST_MEMORY";
 /// As many as take some seconds: a shipped model reads its spacecraft and describes itself every time, and the models
-/// before it in the library are asked first.
+/// before it in the library are compared first.
 #[cfg(target_os = "linux")]
 const CYCLES: [(&str, usize); 4] =
     [("Empty", 100_000), ("MomentumPlant", 10_000), ("SpinPlant", 4_000), ("DisturbanceTorque", 4_000)];

@@ -1,9 +1,9 @@
 //! Ways to simulate a model that exercise all of it: inputs that change, derivatives, requests, tunables, odd steps.
 
-use client::InProcess;
+use client::{InProcess, Names};
+use model_description::BaseType;
 
-use crate::support::Base::{Boolean, Integer};
-use crate::support::{Names, RandomNumbers, names, ok, silent};
+use crate::support::{RandomNumbers, names, ok, silent};
 
 /// How a model is simulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,14 +49,14 @@ impl Scenario {
         match self {
             Self::Guided | Self::Commanded => {
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[1.0; 3]));
-                let source = names.of(Integer, "attitude.source");
+                let source = names.of(BaseType::Integer, "attitude.source");
                 ok(instance.set_integer(&[source], &[if self == Self::Guided { 1 } else { 2 }]));
             }
             Self::Lit => {
-                let on = |name: &str| names.of(Boolean, name);
+                let on = |name: &str| names.of(BaseType::Boolean, name);
                 ok(instance.set_boolean(&[on("planetLight.enabled"), on("thermal.enabled")], &[1, 1]));
                 let choices = ["orbit.dynamics", "ephemeris.source", "orbit.frame"];
-                ok(instance.set_integer(&choices.map(|name| names.of(Integer, name)), &[2, 2, 1]));
+                ok(instance.set_integer(&choices.map(|name| names.of(BaseType::Integer, name)), &[2, 2, 1]));
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[0.5; 3]));
                 ok(instance.set_real(&[names.real("ephemeris.trueAnomaly")], &[1.7]));
             }
@@ -65,7 +65,7 @@ impl Scenario {
                 ok(instance.set_real(&reals, &[0.01, 2_000.0]));
                 // 4 leaves the thrusters to the master.
                 let plan = if self == Self::Burning { 1 } else { 4 };
-                ok(instance.set_integer(&[names.of(Integer, "burn.plan")], &[plan]));
+                ok(instance.set_integer(&[names.of(BaseType::Integer, "burn.plan")], &[plan]));
             }
             Self::Placed => {}
         }
@@ -98,7 +98,7 @@ impl Scenario {
                     ok(instance
                         .set_real(&names.vector::<3>("command.rate"), &[1e-4 * random.unit(), -1e-5, 2e-5]));
                 }
-                let request = names.of(Boolean, "dump.request");
+                let request = names.of(BaseType::Boolean, "dump.request");
                 ok(instance.set_boolean(&[request], &[held]));
                 if random.below(40) == 0 {
                     let center = names.vector::<3>("spacecraft.centerOfMass");
@@ -109,7 +109,7 @@ impl Scenario {
                 let pulse = [names.real("thruster[8].onDelay"), names.real("thruster[8].onTime")];
                 let on_s = if random.below(3) == 0 { 0.032 } else { 0.0 };
                 ok(instance.set_real(&pulse, &[0.02 * random.unit(), on_s]));
-                let fire = names.of(Boolean, "thruster[1].fire");
+                let fire = names.of(BaseType::Boolean, "thruster[1].fire");
                 ok(instance.set_boolean(&[fire], &[held]));
             }
             Self::Placed => {

@@ -1,5 +1,5 @@
 //! The shared library itself, not the code it was made from: panics do not cross its boundary, two copies of it
-//! live side by side.
+//! run side by side.
 
 use std::fs;
 use std::path::Path;
@@ -39,7 +39,7 @@ fn panics_stay_inside_the_library() {
     let base = tempfile::tempdir().unwrap();
     let fmu = folder(base.path(), "Panicking", &library);
     let other = folder(base.path(), "AllTypes", &library);
-    let (mut neighbour, mut other_model) = (running(&fmu, "neighbour"), running(&other, "other_model"));
+    let (mut other, mut other_model) = (running(&fmu, "other"), running(&other, "other_model"));
     let in_step = [Fault::Step, Fault::StepPayload, Fault::StepPayloadDrop, Fault::StepIndex];
     for (number, fault) in in_step.into_iter().enumerate() {
         let mut failing = running(&fmu, "failing");
@@ -52,9 +52,9 @@ fn panics_stay_inside_the_library() {
         assert!(failing.reset().is_err(), "{fault:?}");
         drop(failing);
         let time_s = 0.5 * number as f64;
-        neighbour.do_step(time_s, 0.5, true).unwrap();
+        other.do_step(time_s, 0.5, true).unwrap();
         other_model.do_step(time_s, 0.5, true).unwrap();
-        assert_eq!(neighbour.get_real("clock").unwrap(), time_s + 0.5);
+        assert_eq!(other.get_real("clock").unwrap(), time_s + 0.5);
     }
 }
 

@@ -1,13 +1,14 @@
 //! A saved state goes on as if nothing had happened: in the same instance, after Reset, in another instance and
 //! in another process, to the bit.
 
+use model_description::BaseType;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use client::{InProcess, StatePointer};
 
 use crate::scenarios::{Scenario, Simulation};
-use crate::support::{self, Base, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok};
+use crate::support::{self, RandomNumbers, everything, fresh, in_a_process_of_its_own, names, ok};
 
 const POINTS: usize = 12;
 const STEPS: u64 = 50;
@@ -191,12 +192,12 @@ fn reset_is_a_fresh_instance_from_every_mode() {
     let names = support::names("AllTypes");
     let mut instance = fresh("AllTypes");
     let expected = instance.state_bytes();
-    ok(instance.set_string(&[names.of(Base::Text, "tunable.text")], &[b"other"]));
+    ok(instance.set_string(&[names.of(BaseType::String, "tunable.text")], &[b"other"]));
     ok(instance.start(0.0, None));
     ok(instance.set_real(&[names.real("input.real")], &[2.0]));
     ok(instance.set_input_derivatives(&[names.real("input.real")], &[1], &[2.0]));
     ok(instance.do_step(0.0, 1.0));
-    ok(instance.set_boolean(&[names.of(Base::Boolean, "input.boolean")], &[1]));
+    ok(instance.set_boolean(&[names.of(BaseType::Boolean, "input.boolean")], &[1]));
     ok(instance.reset());
     assert_eq!(instance.state_bytes(), expected);
 }

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
 
-use client::InProcess;
+use client::{InProcess, Names};
 use fmi_export::{Entry, Library, Status};
-use model_description::{Description, VariableKind};
+use model_description::{BaseType, Description};
 use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty, Panicking};
 
@@ -45,59 +45,6 @@ pub fn library(model: &str) -> &'static Library {
 
 /// The models that are packed into `dist/`.
 pub const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque"];
-
-/// The four base types of the interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Base {
-    Real,
-    Integer,
-    Boolean,
-    Text,
-}
-
-/// Value references by name.
-pub struct Names(BTreeMap<String, (Base, u32)>);
-
-impl Names {
-    /// The references of a description.
-    pub fn new(description: &Description) -> Self {
-        let entry = |variable: &model_description::ScalarVariable| {
-            let base = match variable.kind {
-                VariableKind::Real { .. } => Base::Real,
-                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => Base::Integer,
-                VariableKind::Boolean { .. } => Base::Boolean,
-                VariableKind::String { .. } => Base::Text,
-            };
-            (variable.name.clone(), (base, variable.value_reference))
-        };
-        Self(description.variables.iter().map(entry).collect())
-    }
-
-    /// The reference of a variable of this type.
-    pub fn of(&self, base: Base, name: &str) -> u32 {
-        match self.0.get(name) {
-            Some((found, reference)) if *found == base => *reference,
-            other => panic!("{name}: {other:?} is no {base:?}"),
-        }
-    }
-
-    /// The reference of a Real.
-    pub fn real(&self, name: &str) -> u32 {
-        self.of(Base::Real, name)
-    }
-
-    /// The references of `name[1]` to `name[N]`.
-    pub fn vector<const N: usize>(&self, name: &str) -> [u32; N] {
-        std::array::from_fn(|i| self.real(&format!("{name}[{}]", i + 1)))
-    }
-
-    /// Every reference of a type.
-    pub fn all(&self, base: Base) -> Vec<u32> {
-        let mut all: Vec<u32> = self.0.values().filter(|(of, _)| *of == base).map(|(_, it)| *it).collect();
-        all.sort_unstable();
-        all
-    }
-}
 
 /// The description of a model with its compiled-in setup.
 pub fn description(model: &str) -> Description {
@@ -143,13 +90,13 @@ pub fn real_bits(instance: &mut InProcess, references: &[u32]) -> Vec<u64> {
 
 /// All that a master can see: Reals by their bits, Integers, Booleans and Strings.
 pub fn everything(instance: &mut InProcess, names: &Names) -> (Vec<u64>, Vec<i32>, Vec<i32>, Vec<String>) {
-    let (integers, booleans) = (names.all(Base::Integer), names.all(Base::Boolean));
+    let (integers, booleans) = (names.all(BaseType::Integer), names.all(BaseType::Boolean));
     let (mut integer_values, mut boolean_values) = (vec![0; integers.len()], vec![0; booleans.len()]);
     ok(instance.get_integer(&integers, &mut integer_values));
     ok(instance.get_boolean(&booleans, &mut boolean_values));
-    let (status, texts) = instance.get_string(&names.all(Base::Text));
+    let (status, texts) = instance.get_string(&names.all(BaseType::String));
     ok(status);
-    (real_bits(instance, &names.all(Base::Real)), integer_values, boolean_values, texts)
+    (real_bits(instance, &names.all(BaseType::Real)), integer_values, boolean_values, texts)
 }
 
 /// Pseudo-random numbers, the same in every run: a Weyl sequence through an avalanche (splitmix64).
@@ -191,7 +138,7 @@ pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> Str
     printed
 }
 
-/// The path in an environment variable that `cargo xtask test` sets; without it the test says so and ends, and fails in
+/// The path in an environment variable that `cargo xtask test` sets; without it the test prints that and ends, and fails in
 /// CI.
 #[track_caller]
 pub fn built(variable: &str) -> Option<PathBuf> {

@@ -6,7 +6,7 @@ use crate::shell::{command, need, run, target};
 
 /// Its name, as `setlocale` takes it.
 const NAME: &str = "de_DE.UTF-8";
-/// Where the C library looks for locales before anywhere else.
+/// Where the C library searches for locales first.
 const VARIABLE: &str = "LOCPATH";
 /// What it is built from.
 const SOURCE: &str = "/usr/share/i18n/locales/de_DE";

@@ -34,7 +34,7 @@ const PARTS: &[Part] = &[
     ("writes", writes),
 ];
 
-/// Everything `cargo xtask test` runs, then what hunts longer; stops at the first that fails.
+/// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
 pub fn all() -> Outcome {
     let Some(chosen) = std::env::var_os(PARTS_VARIABLE) else {
         test::all()?;
@@ -80,17 +80,17 @@ fn fuzz() -> Outcome {
     if !answers(&mut nightly(&["fuzz", "--version"])) {
         return skipped("fuzzing", "cargo-fuzz: `cargo install cargo-fuzz`");
     }
-    let home = root().join("tests").join("fuzz");
+    let package = root().join("tests").join("fuzz");
     let seconds = std::env::var(SECONDS_VARIABLE).unwrap_or_else(|_| SECONDS.to_owned());
     for name in TARGETS {
         let found = build::scratch(&format!("fuzz/{name}"))?;
         run(nightly(&["fuzz", "run", "--fuzz-dir"])
-            .arg(&home)
+            .arg(&package)
             .arg("--target-dir")
             .arg(target().join("fuzz"))
             .arg(name)
             .arg(&found)
-            .arg(home.join("corpus").join(name))
+            .arg(package.join("corpus").join(name))
             .arg("--")
             .arg(format!("-max_total_time={seconds}"))
             .arg(format!(
@@ -132,7 +132,7 @@ fn sanitizers() -> Outcome {
             &format!("client-{name}"),
             &[&flag, "-fno-omit-frame-pointer"],
         )?;
-        // Older thread sanitizers cannot live with addresses as random as newer kernels make them.
+        // Older thread sanitizers do not work with addresses as random as newer kernels make them.
         let mut launched = match available("setarch") {
             true => command("setarch"),
             false => command(&client),
@@ -234,7 +234,7 @@ fn on_a_full_disk(
             .output()
             .map_err(|error| format!("{named}: {error}"))?;
         if output.status.success() {
-            eprintln!("{named}: {} writes failed in turn, each told and none damaged", write - 1);
+            eprintln!("{named}: {} writes failed in turn, each reported and no file damaged", write - 1);
             return if write > 1 { Ok(()) } else { Err(format!("{named}: wrote nothing that could fail")) };
         }
         let stderr = String::from_utf8_lossy(&output.stderr);
@@ -244,7 +244,7 @@ fn on_a_full_disk(
             return fault("it crashed");
         }
         if !stderr.contains("No space left") {
-            return fault("the cause is not told");
+            return fault("the cause is not reported");
         }
         if !stderr.contains(file) && !stderr.contains(&*unpacked.to_string_lossy()) {
             return fault("no file is named");

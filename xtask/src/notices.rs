@@ -1,6 +1,6 @@
 //! `cargo xtask notices`: the licences of the crates linked into the shared library, as every FMU carries them.
 //!
-//! The text is committed, so that packing needs no sources, and a test compares it with what `Cargo.lock` asks for.
+//! The text is committed, so that packing needs no sources, and a test compares it with what `Cargo.lock` lists.
 //!
 //! Why not `cargo-about`: it is a program to install, from the network and in minutes, before the test could run on a
 //! fresh machine; and it knows neither the Rust standard library nor GCC's unwinder, whose notices stand here too.
@@ -124,7 +124,7 @@ fn folder(metadata: &str, it: &Crate) -> Option<PathBuf> {
     Path::new(&path.replace("\\\\", "\\")).parent().map(Path::to_owned)
 }
 
-/// The texts a crate's licence asks to be passed on.
+/// The texts that a crate's licence requires to be passed on.
 fn notices(folder: &Path, license: &str) -> Result<Vec<String>, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut names = Vec::new();

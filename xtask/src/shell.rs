@@ -31,7 +31,7 @@ pub fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs to the end and wants success.
+/// Runs to the end and expects success.
 pub fn run(command: &mut Command) -> Outcome {
     let shown = show(command);
     eprintln!("+ {shown}");
@@ -39,7 +39,7 @@ pub fn run(command: &mut Command) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("`{shown}` ended with {status}")) }
 }
 
-/// Runs to the end, wants success, gives what it printed.
+/// Runs to the end, expects success, gives what it printed.
 pub fn output(command: &mut Command) -> Result<String, String> {
     let shown = show(command);
     let output = command.output().map_err(|error| format!("cannot start `{shown}`: {error}"))?;

@@ -170,7 +170,7 @@ pub struct Context<'a, M: Model> {
 
 /// Receives a model's messages.
 pub trait Log {
-    /// Whether events are logged; ask before formatting a message.
+    /// Whether events are logged; to be checked before a message is formatted.
     fn events_enabled(&self) -> bool;
     /// Reports an event at a time; `message` is plain text.
     fn event(&self, time_s: f64, message: &str);
@@ -279,7 +279,7 @@ impl StepEnd {
     }
 }
 
-/// What is told of a model beside its variables.
+/// Facts of a model beside its variables.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct About {
     /// One or two sentences.
@@ -292,11 +292,11 @@ pub struct About {
     pub step_size_s: f64,
     /// Relative tolerance of the results.
     pub tolerance: f64,
-    /// Who made the model; empty: not told.
+    /// Who made the model; empty: not stated.
     pub author: String,
-    /// Version of the model; empty: not told.
+    /// Version of the model; empty: not stated.
     pub version: String,
-    /// Licence of the model in one line; empty: not told.
+    /// Licence of the model in one line; empty: not stated.
     pub license: String,
 }
 

@@ -32,7 +32,7 @@ pub(crate) fn silence() {
 fn note(info: &PanicHookInfo<'_>) {
     let place = info.location().map(|location| {
         let mut file = [0; Place::LONGEST];
-        // The end of a long path tells more than its beginning.
+        // The end of a long path identifies the file better than its beginning.
         let bytes = location.file().as_bytes();
         let end = &bytes[bytes.len().saturating_sub(Place::LONGEST)..];
         file[..end.len()].copy_from_slice(end);

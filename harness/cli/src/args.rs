@@ -12,7 +12,7 @@ Example:
   heliotorque check my.toml                                  what is wrong with it, by line
   heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
 
-/// Spacecraft disturbance torque and momentum as FMUs: look at them, check them, simulate them, make your own.
+/// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100)]
 pub struct Arguments {

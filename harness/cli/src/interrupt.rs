@@ -1,4 +1,4 @@
-//! Ctrl-C and the other signals that ask a program to end.
+//! Ctrl-C and the other signals that request a program's end.
 
 use std::{
     process,
@@ -13,7 +13,7 @@ pub const INTERRUPTED: u8 = 130;
 static RAISED: AtomicBool = AtomicBool::new(false);
 
 /// From now on SIGINT, SIGTERM and SIGHUP end the program and its children and leave no temporary files. A patient
-/// command is only told the first time: see [`raised`].
+/// command is notified the first time only: see [`raised`].
 pub fn listen(patient: bool) -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(move || {
         if RAISED.swap(true, Ordering::Relaxed) || !patient {
@@ -24,7 +24,7 @@ pub fn listen(patient: bool) -> Result<(), ctrlc::Error> {
     })
 }
 
-/// Whether a signal came that asks the command to end.
+/// Whether a signal came that requests the end of the command.
 pub fn raised() -> bool {
     RAISED.load(Ordering::Relaxed)
 }

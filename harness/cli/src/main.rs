@@ -1,6 +1,6 @@
 //! The heliotorque command line.
 
-// They panic when the reader went away; `output` does not.
+// They panic when the reader went away; `terminal` does not.
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod app;
@@ -11,9 +11,9 @@ mod coefficients;
 mod info;
 mod interrupt;
 mod outcome;
+mod output;
 mod pack;
 mod plan;
-mod plot;
 mod run;
 mod study;
 

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use crate::{args::Plan, outcome::Outcome};
 
-/// Prints the plan asked for.
+/// Prints the plan.
 pub fn run(arguments: &Plan) -> Outcome {
     let text = match arguments {
         Plan::Spin(options) => planner::spin::plan(options)?,

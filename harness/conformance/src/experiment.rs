@@ -1,4 +1,4 @@
-//! What the probes share: an instance brought to a state, and everything it says as bits.
+//! What the probes share: an instance brought to a state, and all its values as bits.
 
 use loader::{Checking, Error, Fmu, Instance, InstanceOptions, Times};
 use model_description::call_table::State;
@@ -122,7 +122,7 @@ pub fn simulate(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error
     Ok(())
 }
 
-/// What a short simulation says at its end.
+/// All values at the end of a short simulation.
 pub fn short_simulation(fmu: &Fmu, options: &InstanceOptions) -> Result<Bits, Error> {
     let mut instance = ready(fmu, options)?;
     simulate(&mut instance, 0, STEPS)?;

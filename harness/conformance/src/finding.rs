@@ -7,7 +7,7 @@ pub enum Verdict {
     Good,
     /// Not applicable, or not possible on this computer.
     Skipped,
-    /// Odd, but the standard or its users live with it.
+    /// Unusual, but the standard or its users accept it.
     Note,
     /// Wrong.
     Bad,

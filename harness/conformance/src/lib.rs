@@ -5,10 +5,10 @@
 
 mod experiment;
 mod finding;
-mod judge;
 mod probe;
 mod probes;
 mod static_checks;
+mod verdict;
 
 use loader::{Error, Fmu};
 
@@ -26,7 +26,7 @@ pub fn trials() -> impl Iterator<Item = &'static Trial> {
 /// Every probe, in the order of the report.
 pub const PROBES: &[Probe] = &[
     Probe { name: "library", title: "loads, exports every function", run: library::probe },
-    Probe { name: "simulation", title: "runs as its default experiment says", run: stepping::simulation },
+    Probe { name: "simulation", title: "runs its default experiment", run: stepping::simulation },
     Probe {
         name: "values",
         title: "start values read back, limits and references are kept",
@@ -34,7 +34,7 @@ pub const PROBES: &[Probe] = &[
     },
     Probe {
         name: "calls",
-        title: "answers every function in every state as FMI 2.0 says",
+        title: "answers every function in every state as FMI 2.0 requires",
         run: calls::probe,
     },
     Probe { name: "times", title: "takes jittered, uneven and refuses wrong times", run: times::probe },
@@ -46,7 +46,7 @@ pub const PROBES: &[Probe] = &[
     },
     Probe {
         name: "callbacks",
-        title: "lives without memory functions and without the callbacks' struct",
+        title: "works without memory functions and without the callbacks' struct",
         run: host::callbacks,
     },
     Probe { name: "nulls", title: "takes NULL for vectors of no length", run: host::nulls },

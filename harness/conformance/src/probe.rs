@@ -11,7 +11,7 @@ pub type Findings = Result<Vec<Finding>, Error>;
 pub struct Probe {
     /// Short name.
     pub name: &'static str,
-    /// What it asks.
+    /// What it tests.
     pub title: &'static str,
     /// Runs it, in a process of its own.
     pub run: fn(&Fmu) -> Findings,
@@ -34,7 +34,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// What the process is told to run.
+    /// What the process runs.
     pub fn name(&self) -> String {
         format!("{}: {}", self.probe, self.what)
     }

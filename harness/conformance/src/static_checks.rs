@@ -63,10 +63,10 @@ fn source_files(fmu: &Fmu, findings: &mut Vec<Finding>) {
     let of_simulation = description.co_simulation.iter().map(|it| ("CoSimulation", &it.source_files));
     for (element, files) in of_exchange.chain(of_simulation) {
         for name in files {
-            // An absolute path or `..` would be looked for outside the FMU.
+            // An absolute path or `..` would be searched outside the FMU.
             let inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
             findings.push(if inside && fmu.folder().join("sources").join(name).is_file() {
-                Finding::good(format!("sources/{name} is there, as {element}/SourceFiles says"))
+                Finding::good(format!("sources/{name} is there, as {element}/SourceFiles lists"))
             } else {
                 Finding::bad(format!(
                     "{element}/SourceFiles lists {name:?}; sources holds no such file (2.3)"

@@ -1,4 +1,4 @@
-//! Files to write, looked at before the work whose result they take.
+//! Files to write, checked before the work whose result they take.
 
 use std::{
     ffi::OsString,
@@ -135,7 +135,7 @@ impl Growing {
         self.rename().map_err(|error| self.destination.message(&error))
     }
 
-    /// Leaves what was recorded as it is and tells where, if anything was.
+    /// Leaves what was recorded as it is and gives its path, if anything was.
     pub fn leave(self) -> Option<PathBuf> {
         self.part.filter(|_| self.file.is_some())
     }

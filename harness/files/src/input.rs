@@ -28,7 +28,7 @@ pub fn kind(metadata: &Metadata) -> Option<&'static str> {
     Some(if kind.is_dir() { "a directory" } else { "no regular file" })
 }
 
-/// Opens a regular file for reading; anything else is an error that says what was found.
+/// Opens a regular file for reading; anything else is an error that names what was found.
 pub fn open(path: &Path) -> io::Result<File> {
     // Looked at before it is opened: opening a FIFO waits for its writer.
     refuse(&std::fs::metadata(path)?)?;

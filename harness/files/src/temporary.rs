@@ -22,7 +22,7 @@ pub fn remove_temporaries() {
     }
 }
 
-/// A path that [`remove_temporaries`] removes for as long as this value lives.
+/// A path that [`remove_temporaries`] removes until this value is dropped.
 #[derive(Debug)]
 pub(crate) struct Registered(PathBuf);
 

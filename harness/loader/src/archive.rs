@@ -125,7 +125,7 @@ fn inside(name: &str) -> Option<PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    //! A full disk is told as such, not as a damaged archive.
+    //! A full disk is reported as such, not as a damaged archive.
 
     use super::*;
 

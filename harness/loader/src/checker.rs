@@ -101,7 +101,7 @@ impl Checker {
                 _ => {}
             }
         }
-        // From an unknown state, what happens next tells as if the steps were complete.
+        // From an unknown state, the next calls are checked as if the steps were complete.
         let known = self.state.get();
         let next = after(function, known.unwrap_or(State::StepComplete), status);
         match (next, known, function) {

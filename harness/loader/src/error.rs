@@ -12,7 +12,7 @@ pub enum Error {
     File {
         /// Which one.
         path: PathBuf,
-        /// What the system says.
+        /// What the system reports.
         source: std::io::Error,
     },
     /// The archive is no usable FMU.
@@ -39,7 +39,7 @@ pub enum Error {
     },
     /// No shared library for this computer.
     #[error(
-        "{}: no shared library for this computer: looked for {looked_for}; the FMU holds {found}", path.display()
+        "{}: no shared library for this computer: searched for {looked_for}; the FMU holds {found}", path.display()
     )]
     NoBinary {
         /// The FMU.
@@ -65,7 +65,7 @@ pub enum Error {
     UnknownVariable {
         /// Model name.
         fmu: String,
-        /// The name asked for.
+        /// The requested name.
         name: String,
         /// Similar names, or where to see all.
         hint: String,

@@ -43,7 +43,7 @@ impl Fmu {
     /// Opens an `.fmu` file, or a folder that one was unpacked into.
     ///
     /// The shared library is loaded by [`Fmu::binary`] or the first instance, so FMUs for other
-    /// platforms can be looked at.
+    /// platforms can be read.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let source = path.as_ref().to_owned();
         let at_source = |error| Error::File { path: source.clone(), source: error };

@@ -8,7 +8,7 @@
 mod abi;
 mod access;
 mod archive;
-mod calls;
+mod call_record;
 mod checker;
 mod error;
 mod fmu;
@@ -22,9 +22,12 @@ mod status;
 mod uri;
 mod values;
 
-pub use abi::{Binary, Callbacks, Described, SYMBOLS, SharedWords, set_locale};
+pub use abi::{Binary, Callbacks, Described, SharedWords, set_locale};
 pub use archive::{Limits, unpack};
-pub use calls::{CallMark, MARK_WORDS, Marked, call_under_way, mark_calls, read_mark, step_begin_s};
+pub use call_record::{
+    CALL_RECORD_WORDS, CallRecord, RecordedCalls, call_in_progress, record_calls, recorded_calls,
+    step_begin_s,
+};
 pub use checker::Checking;
 pub use error::{CallError, Error, Outcome};
 pub use fmu::{Fmu, platform_folders};

@@ -15,7 +15,7 @@ pub(crate) struct Case {
     step_s: f64,
 }
 
-/// Recorded columns, in the order asked for, and the communication points.
+/// Recorded columns, in the order of the names, and the communication points.
 #[derive(Clone, Debug)]
 pub(crate) struct Recorded {
     /// Communication points, in s.
@@ -150,7 +150,7 @@ fn listed(labels: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    //! A filter that leaves nothing says what there is, in a few lines.
+    //! The error of a filter that leaves nothing lists the cases, in a few lines.
     use super::*;
 
     #[test]

@@ -39,7 +39,7 @@ pub enum ChartError {
     Drawing {
         /// The chart's title.
         title: String,
-        /// What the library says.
+        /// What the library reports.
         reason: String,
     },
 }
@@ -173,7 +173,7 @@ impl Chart {
 }
 
 impl Panel {
-    /// Height above the lines: the legend's rows, or a little room.
+    /// Height above the lines: the legend's rows, or a margin.
     fn top(&self) -> u32 {
         legend::height(self).max(8 * FINE)
     }
@@ -199,18 +199,18 @@ fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// The range with a little room; a single value gets room of its own size.
+/// The range with a margin; a single value gets a margin of its own size.
 fn padded(low: f64, high: f64) -> (f64, f64) {
     let span = high - low;
     let magnitude = low.abs().max(high.abs());
     // Differences too small for the axis to write are drawn as a flat line.
-    let room = match span > 1e-5 * magnitude {
+    let margin = match span > 1e-5 * magnitude {
         true => 0.06 * span,
         // Nothing but zero has no size of its own.
         false if magnitude < f64::MIN_POSITIVE => 1.0,
         false => 0.1 * magnitude,
     };
-    (low - room, high + room)
+    (low - margin, high + margin)
 }
 
 /// The pieces between points that are not finite.

@@ -1,4 +1,4 @@
-//! What a study is asked for, and why it did not finish.
+//! Options of a study, and why it did not finish.
 
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ pub enum StudyError {
     /// No study of that name.
     #[error("there is no study `{found}`; the studies are {known}")]
     Unknown {
-        /// What was asked for.
+        /// What was requested.
         found: String,
         /// The names there are.
         known: String,

@@ -26,7 +26,7 @@ pub fn note(text: &str) {
 }
 
 /// The text with every control character but line break and tab written out, and those that turn the direction of
-/// writing: what an FMU or a file says moves no cursor and hides nothing.
+/// writing: a text of an FMU or a file moves no cursor and hides nothing.
 pub fn plain(text: &str) -> Cow<'_, str> {
     let is_plain = |letter: char| match letter {
         '\n' | '\t' => true,
@@ -61,7 +61,7 @@ pub fn table(header: &[&str]) -> Table {
     table
 }
 
-/// A bar on stderr over `count` of what `unit` names; hidden when quiet or where nobody sees it.
+/// A bar on stderr over `count` of what `unit` names; hidden with `--quiet` and where stderr is no terminal.
 pub fn progress(count: u64, unit: &str, is_quiet: bool) -> ProgressBar {
     if is_quiet || !io::stderr().is_terminal() {
         return ProgressBar::hidden();

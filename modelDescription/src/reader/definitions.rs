@@ -196,7 +196,7 @@ impl Read<'_> {
         self.leaf(start)
     }
 
-    /// `VendorAnnotations` and `Annotations`: only the tools' names are looked at.
+    /// `VendorAnnotations` and `Annotations`: only the tools' names are read.
     pub(super) fn annotations(&mut self, start: &mut Start) -> Result<(), ReadError> {
         let mut names = BTreeSet::new();
         self.list(start, "Tool", |read, tool| {

@@ -157,7 +157,7 @@ impl Read<'_> {
             seen[rank] = true;
             // Either of ModelExchange and CoSimulation may come first.
             if rank < last && last > 1 {
-                let message = format!("stands after <{}>; the schema wants it before", SECTIONS[last].0);
+                let message = format!("stands after <{}>; the schema requires it before", SECTIONS[last].0);
                 self.xml.warn(Code::ElementOrder, start.line, &start.name, message);
             }
             last = last.max(rank);
@@ -205,7 +205,7 @@ impl Read<'_> {
                 self.unknown(&child)?;
             }
         }
-        // The validator says it of these two.
+        // The validator reports these two.
         if empty && !matches!(start.name.as_str(), "ModelVariables" | "Enumeration") {
             let message = format!("has no <{name}>; allowed is at least one, or to leave the list out");
             self.xml.warn(Code::EmptyList, start.line, &start.name, message);

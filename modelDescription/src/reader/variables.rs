@@ -32,7 +32,7 @@ impl Read<'_> {
                     return Err(twice(&child));
                 }
                 if kind.is_none() {
-                    let message = "stands before the base type; the schema wants it after".to_owned();
+                    let message = "stands before the base type; the schema requires it after".to_owned();
                     self.xml.warn(Code::ElementOrder, child.line, &child.name, message);
                 }
                 self.annotations(&mut child)?;
@@ -113,7 +113,7 @@ impl Read<'_> {
             }
             seen[rank] = true;
             if rank < last {
-                let message = format!("stands after <{}>; the schema wants it before", LISTS[last]);
+                let message = format!("stands after <{}>; the schema requires it before", LISTS[last]);
                 self.xml.warn(Code::ElementOrder, child.line, &child.name, message);
             }
             last = last.max(rank);

@@ -196,7 +196,7 @@ impl Check<'_> {
             self.add(Code::DependencyKindCount, place, message);
             return;
         }
-        // The standard asks this of the unknown alone: a Real may have a factor for a known of any type.
+        // The standard requires this of the unknown alone: a Real may have a factor for a known of any type.
         let variable = self.variable(unknown.index);
         if variable.is_none_or(|variable| matches!(variable.kind, VariableKind::Real { .. })) {
             return;
@@ -204,7 +204,7 @@ impl Check<'_> {
         let factor = dependencies.iter().zip(kinds).find(|(_, kind)| **kind != DependencyKind::Dependent);
         if let Some((index, kind)) = factor {
             let message = format!(
-                "dependenciesKind is {kind} for index {index}; it says something for Real unknowns only"
+                "dependenciesKind is {kind} for index {index}; it has a meaning for Real unknowns only"
             );
             self.add(Code::DependencyKindReal, place, message);
         }

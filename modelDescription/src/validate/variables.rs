@@ -49,7 +49,7 @@ impl Check<'_> {
             self.add(Code::ContinuousNotReal, place, message);
         }
         let Some(rule) = rules::initial(causality, variability) else {
-            // Already said of Integers and the like that leave out their variability.
+            // Already reported for Integers and the like that leave out their variability.
             if is_real || variability != Variability::Continuous {
                 let allowed: Vec<_> =
                     rules::legal_variabilities(causality).map(Variability::as_str).collect();

@@ -251,8 +251,8 @@ fn variable(i: usize, role: Role, so_far: &Description) -> ScalarVariable {
     let initial = row.rule.allowed.get(role.bits as usize % (row.rule.allowed.len() + 1)).copied();
     let effective = rules::effective(row.causality, row.variability, initial);
     let started = rules::start(row.causality, effective) == rules::StartRule::Required;
-    let of_kind = |wanted: fn(&SimpleTypeKind) -> bool| {
-        so_far.types.iter().filter(|known| wanted(&known.kind)).nth(role.bits as usize % 2)
+    let of_kind = |is_kind: fn(&SimpleTypeKind) -> bool| {
+        so_far.types.iter().filter(|known| is_kind(&known.kind)).nth(role.bits as usize % 2)
     };
     let name_of = |known: Option<&SimpleType>| known.map(|known| known.name.clone());
     let enumeration = of_kind(|kind| matches!(kind, SimpleTypeKind::Enumeration { .. }));

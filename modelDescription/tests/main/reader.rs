@@ -267,7 +267,7 @@ fn errors_name_line_and_element() {
 }
 
 /// Does what must take time in proportion to its input. The inputs are so large that it takes a second or two on any
-/// machine, however busy, and hours where each element looks at all the others: the bound lies far from both.
+/// machine, however busy, and hours where each element is compared with all the others: the bound lies far from both.
 fn in_proportion<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> T {
     let (sender, receiver) = mpsc::channel();
     thread::spawn(move || sender.send(work()));
@@ -276,7 +276,7 @@ fn in_proportion<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -
         .expect("it takes more than time in proportion to its input")
 }
 
-/// Runs the reader on a hostile file and says how it ended.
+/// Runs the reader on a hostile file; how it ended.
 fn hostile(xml: &str) -> Option<Code> {
     let xml = xml.to_owned();
     in_proportion(move || parse(xml.as_bytes()).err().map(|problem| problem.code))

@@ -75,8 +75,8 @@ fn a_real_may_have_a_factor_for_a_known_of_any_type() {
         assert_eq!(codes(boolean(Some(true)), real(None), kind), [], "{kind}");
         assert_eq!(codes(real(Some(0.0)), real(None), kind), [], "{kind}");
         let of_boolean = codes(boolean(Some(true)), boolean(None), kind);
-        let said = [(Code::DependencyKindReal, Severity::Warning)];
-        assert_eq!(of_boolean, if kind == Dependent { &said[..0] } else { &said[..] }, "{kind}");
+        let reported = [(Code::DependencyKindReal, Severity::Warning)];
+        assert_eq!(of_boolean, if kind == Dependent { &reported[..0] } else { &reported[..] }, "{kind}");
     }
 }
 
@@ -162,6 +162,6 @@ fn ten_times_the_faults_take_ten_times_as_long() {
         (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
     };
     let (few, many) = (seconds(1_000), seconds(10_000));
-    // With room for caches; each pair compared once would make a hundred.
+    // With a margin for caches; each pair compared once would make a hundred.
     assert!(many < 40.0 * few, "{few} s for 1000, {many} s for 10000");
 }

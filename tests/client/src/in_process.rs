@@ -79,7 +79,7 @@ unsafe extern "C" fn receive(
     category: *const c_char,
     message: *const c_char,
 ) {
-    // SAFETY: the environment is the mutex of the `InProcess` that made the instance; texts live for the call.
+    // SAFETY: the environment is the mutex of the `InProcess` that made the instance; texts are valid during the call.
     let (messages, category, message) =
         unsafe { (&*environment.cast::<Messages>(), CStr::from_ptr(category), CStr::from_ptr(message)) };
     if let (Ok(mut messages), Some(status)) = (messages.lock(), Status::from_code(status)) {
@@ -116,7 +116,7 @@ impl InProcess {
         };
         let guid = CString::new(guid).unwrap_or_default();
         let location = resource_location.map(|location| CString::new(location).unwrap_or_default());
-        // SAFETY: all pointers live for the call; the messages live as long as the instance.
+        // SAFETY: all pointers are valid during the call, the messages as long as the instance.
         let component = unsafe {
             c::instantiate(
                 library,

@@ -3,6 +3,8 @@
 
 mod in_process;
 mod named;
+mod names;
 
 pub use in_process::{InProcess, Message, StatePointer};
 pub use named::NamedInstance;
+pub use names::Names;

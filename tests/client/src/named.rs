@@ -1,11 +1,9 @@
 //! One instance with its variables by name. A call that is not answered with `fmi2OK` fails the test, with the log.
 
-use std::collections::HashMap;
-
 use fmi_export::Library;
 use model_description::{Description, Status};
 
-use crate::InProcess;
+use crate::{in_process::InProcess, names::Names};
 
 /// An instance driven through the C functions, its variables by name.
 #[derive(Debug)]
@@ -16,15 +14,15 @@ pub struct NamedInstance {
     pub description: Description,
     /// The last communication point, in s.
     pub time_s: f64,
-    references: HashMap<String, u32>,
+    /// Its value references.
+    pub names: Names,
 }
 
 impl NamedInstance {
     /// An instance and its description.
     pub fn new(fmu: InProcess, description: Description) -> Self {
-        let references =
-            description.variables.iter().map(|it| (it.name.clone(), it.value_reference)).collect();
-        Self { fmu, description, time_s: 0.0, references }
+        let names = Names::new(&description);
+        Self { fmu, description, time_s: 0.0, names }
     }
 
     /// A model of a library with its compiled-in setup.
@@ -45,7 +43,7 @@ impl NamedInstance {
 
     /// The value reference of a variable that may be missing.
     pub fn find(&self, name: &str) -> Option<u32> {
-        self.references.get(name).copied()
+        self.names.find(name)
     }
 
     /// The value references of `name[1]` to `name[N]`.

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
-use client::InProcess;
+use client::{InProcess, Names};
 use fmi_export::{Entry, Library, Status};
-use model_description::VariableKind;
+use model_description::BaseType;
 use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty};
 
@@ -49,26 +49,14 @@ impl Subject {
         let library = library(model);
         let description = library.find(model).unwrap().describe(None, None).unwrap();
         let mut instance = InProcess::of(library, model).unwrap();
-        let references = |is_kind: fn(&VariableKind) -> bool| {
-            let mut all: Vec<u32> = description
-                .variables
-                .iter()
-                .filter(|variable| is_kind(&variable.kind))
-                .map(|variable| variable.value_reference)
-                .collect();
-            all.sort_unstable();
-            all.dedup();
-            all
-        };
+        let names = Names::new(&description);
         let fresh = instance.state_bytes().1;
         Self {
             instance,
-            reals: references(|kind| matches!(kind, VariableKind::Real { .. })),
-            integers: references(|kind| {
-                matches!(kind, VariableKind::Integer { .. } | VariableKind::Enumeration { .. })
-            }),
-            booleans: references(|kind| matches!(kind, VariableKind::Boolean { .. })),
-            strings: references(|kind| matches!(kind, VariableKind::String { .. })),
+            reals: names.all(BaseType::Real),
+            integers: names.all(BaseType::Integer),
+            booleans: names.all(BaseType::Boolean),
+            strings: names.all(BaseType::String),
             fresh,
         }
     }
@@ -100,7 +88,7 @@ impl Subject {
         status
     }
 
-    /// What was logged tells of no panic, and an error has a message.
+    /// No message reports a panic, and an error has a message.
     pub fn check_messages(&self, status: Status) {
         let messages = self.instance.take_messages();
         assert!(!messages.iter().any(|message| message.text.contains("panic")), "{messages:?}");

@@ -3,8 +3,8 @@
 //! The call table itself is held by the tests of call sequences; here coverage leads deeper into the models.
 #![no_main]
 
-use fmi_export::model_description::Status;
 use client::StatePointer;
+use fmi_export::model_description::Status;
 use heliotorque_fuzz::Subject;
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;

@@ -7,7 +7,7 @@ use model_description::{Severity, validate};
 use physics::spacecraft::{Spacecraft, SpacecraftError};
 use physics::spin::spinner::Spinner;
 
-/// Whether the file was read; what was refused is told.
+/// Whether the file was read; the reason of a refusal is not empty.
 fn read<T>(outcome: Result<T, SpacecraftError>) -> bool {
     if let Err(error) = &outcome {
         assert!(error.to_string().starts_with("any.toml"), "{error}");

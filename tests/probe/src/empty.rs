@@ -7,7 +7,7 @@ use fmi_export::{
 /// A model of one output.
 pub struct Empty;
 
-/// The variables of [`Empty`]; the schema asks for at least one.
+/// The variables of [`Empty`]; the schema requires at least one.
 #[derive(Variables)]
 pub struct EmptyVariables {
     /// Time of the last communication point.

@@ -1,7 +1,7 @@
 //! Models that probe the export tooling from all sides; none of them is about anything.
 //!
 //! [`Empty`] has the least a model can have, [`AllTypes`] has everything, and [`Panicking`] panics or fails in
-//! the callback it is told to.
+//! the callback that is set.
 
 pub mod all_types;
 pub mod empty;

@@ -1,4 +1,4 @@
-//! The model that panics: in the callback it is told to by its setup or by the parameter `fault`.
+//! The model that panics: in the callback that its setup or the parameter `fault` names.
 
 use fmi_export::{
     About, Choice, Context, Dependencies, Differentiable, Enumeration, Extensions, Failure, Model,
@@ -20,7 +20,7 @@ enum Place {
     SerializeSetup,
 }
 
-/// What `panicking.toml` says.
+/// The content of `panicking.toml`.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {

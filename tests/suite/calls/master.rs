@@ -2,7 +2,7 @@
 
 use super::table;
 use super::variables::{Content, VARIABLES, Value, Variable, echoes, position};
-use crate::support::Base;
+use model_description::BaseType;
 
 /// One call of a master; any may come at any time.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,8 +18,8 @@ pub enum Call {
     Reset,
     /// `fmi2FreeInstance`, and another instance in its place.
     Replace,
-    Get(Base, Vec<Picked>),
-    Set(Base, Vec<(Picked, Value)>),
+    Get(BaseType, Vec<Picked>),
+    Set(BaseType, Vec<(Picked, Value)>),
     GetState(usize),
     SetState(usize),
     FreeState(usize),
@@ -267,7 +267,7 @@ impl Master {
             }
             Call::DoStep { step_s, off_s, .. } => return self.step(step_s, off_s),
             Call::CancelStep => return Answer::Error,
-            // No step is ever pending, so there is nothing to tell.
+            // No step is ever pending, so there is nothing to report.
             Call::GetStatus(_) | Call::GetIntegerStatus(_) | Call::GetStringStatus(_) => {
                 return Answer::Discard;
             }
@@ -349,14 +349,14 @@ pub fn function(call: &Call) -> &'static str {
         Call::Terminate => "Terminate",
         Call::Reset => "Reset",
         Call::Replace => "FreeInstance",
-        Call::Get(Base::Real, _) => "GetReal",
-        Call::Get(Base::Integer, _) => "GetInteger",
-        Call::Get(Base::Boolean, _) => "GetBoolean",
-        Call::Get(Base::Text, _) => "GetString",
-        Call::Set(Base::Real, _) => "SetReal",
-        Call::Set(Base::Integer, _) => "SetInteger",
-        Call::Set(Base::Boolean, _) => "SetBoolean",
-        Call::Set(Base::Text, _) => "SetString",
+        Call::Get(BaseType::Real, _) => "GetReal",
+        Call::Get(BaseType::Integer, _) => "GetInteger",
+        Call::Get(BaseType::Boolean, _) => "GetBoolean",
+        Call::Get(BaseType::String, _) => "GetString",
+        Call::Set(BaseType::Real, _) => "SetReal",
+        Call::Set(BaseType::Integer, _) => "SetInteger",
+        Call::Set(BaseType::Boolean, _) => "SetBoolean",
+        Call::Set(BaseType::String, _) => "SetString",
         Call::GetState(_) => "GetFMUstate",
         Call::SetState(_) => "SetFMUstate",
         Call::FreeState(_) => "FreeFMUstate",

@@ -1,4 +1,4 @@
-//! Any sequence of calls, legal or not, is answered as the standard's call table says, and no other way.
+//! Any sequence of calls, legal or not, is answered by the standard's call table.
 
 mod master;
 mod strategies;
@@ -9,17 +9,17 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use client::{InProcess, Message, StatePointer};
-use model_description::Status;
+use model_description::{BaseType, Status};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use proptest_state_machine::{ReferenceStateMachine, StateMachineTest};
 
-use crate::support::{self, Base};
+use crate::support;
 use master::{Answer, Call, Master, Misprint, Picked};
 use variables::{Value, references};
 
-/// Calls in a run; `HELIOTORQUE_CALLS` asks for another number.
+/// Calls in a run; `HELIOTORQUE_CALLS` sets another number.
 const CALLS: u64 = 1_000_000;
 const LONGEST_SEQUENCE: usize = 300;
 
@@ -84,51 +84,51 @@ impl Subject {
         }
     }
 
-    fn get(&mut self, base: Base, picked: &[Picked]) -> (Status, Vec<Value>) {
+    fn get(&mut self, base: BaseType, picked: &[Picked]) -> (Status, Vec<Value>) {
         let references: Vec<u32> = picked.iter().map(reference).collect();
         let (mut reals, mut integers) = (vec![f64::NAN; picked.len()], vec![i32::MIN; picked.len()]);
         let instance = &mut self.instance;
         match base {
-            Base::Real => {
+            BaseType::Real => {
                 let status = instance.get_real(&references, &mut reals);
                 (status, reals.into_iter().map(Value::Real).collect())
             }
-            Base::Integer => {
+            BaseType::Integer => {
                 let status = instance.get_integer(&references, &mut integers);
                 (status, integers.into_iter().map(Value::Integer).collect())
             }
-            Base::Boolean => {
+            BaseType::Boolean => {
                 let status = instance.get_boolean(&references, &mut integers);
                 (status, integers.into_iter().map(Value::Boolean).collect())
             }
-            Base::Text => {
+            BaseType::String => {
                 let (status, texts) = instance.get_string(&references);
-                // Values are compared with texts that live for ever; few differ.
+                // Values are compared with static texts; few differ.
                 (status, texts.into_iter().map(|text| Value::Text(known(&text))).collect())
             }
         }
     }
 
-    fn set(&mut self, base: Base, expected: &[(Picked, Value)]) -> Status {
+    fn set(&mut self, base: BaseType, expected: &[(Picked, Value)]) -> Status {
         let references: Vec<u32> = expected.iter().map(|(picked, _)| reference(picked)).collect();
         let values = expected.iter().map(|(_, value)| value);
         match base {
-            Base::Real => {
+            BaseType::Real => {
                 let values: Vec<f64> =
                     values.map(|it| if let Value::Real(it) = it { *it } else { 0.0 }).collect();
                 self.instance.set_real(&references, &values)
             }
-            Base::Integer => {
+            BaseType::Integer => {
                 let values: Vec<i32> =
                     values.map(|it| if let Value::Integer(it) = it { *it } else { 0 }).collect();
                 self.instance.set_integer(&references, &values)
             }
-            Base::Boolean => {
+            BaseType::Boolean => {
                 let values: Vec<i32> =
                     values.map(|it| if let Value::Boolean(it) = it { *it } else { 0 }).collect();
                 self.instance.set_boolean(&references, &values)
             }
-            Base::Text => {
+            BaseType::String => {
                 let bytes = |value: &Value| match *value {
                     Value::Text(text) => text.as_bytes(),
                     _ => b"\xFF\xFE".as_slice(),
@@ -237,8 +237,8 @@ impl Before {
     }
 }
 
-/// Whether an instance answered as the reference did, and told why it did not do as asked.
-fn judge(
+/// Whether an instance answered as the reference did, and logged the reason of a refusal.
+fn compare(
     master: &Master,
     call: &Call,
     (status, values): &(Status, Vec<Value>),
@@ -265,8 +265,8 @@ fn judge(
         return complain(format!("{values:?} not {:?}", master.answer));
     }
     // 2.1.5: the logger is called before anything but OK is returned.
-    let told = messages.iter().any(|message| message.status == *status);
-    if (*status == Status::Error || (*status == Status::Discard && master.logging)) && !told {
+    let logged = messages.iter().any(|message| message.status == *status);
+    if (*status == Status::Error || (*status == Status::Discard && master.logging)) && !logged {
         return complain(format!("{status:?} without a message"));
     }
     if messages.iter().any(|message| message.text.contains("panic")) {
@@ -292,7 +292,7 @@ impl StateMachineTest for Sequence {
     fn apply(mut sequence: Self, master: &Master, call: Call) -> Self {
         let answer = sequence.subject.call(&call, sequence.before);
         let messages = sequence.subject.instance.take_messages();
-        judge(master, &call, &answer, &messages).unwrap_or_else(|message| panic!("{message}"));
+        compare(master, &call, &answer, &messages).unwrap_or_else(|message| panic!("{message}"));
         sequence.before = Before::of(master);
         sequence
     }
@@ -353,7 +353,7 @@ fn calls_until_noticed(misprint: Misprint, runner: &mut TestRunner) -> Option<u6
             master.call(&call);
             let answer = subject.call(&call, before);
             calls += 1;
-            noticed = judge(&master, &call, &answer, &subject.instance.take_messages()).is_err();
+            noticed = compare(&master, &call, &answer, &subject.instance.take_messages()).is_err();
             if noticed {
                 break;
             }

@@ -1,20 +1,20 @@
 //! Which calls are tried: in each state mostly those that lead on, often any other.
 
+use model_description::BaseType;
 use proptest::prelude::*;
 use proptest::sample::select;
 
 use super::master::{Call, Picked};
 use super::table::STATES;
 use super::variables::{VARIABLES, Value};
-use crate::support::Base;
 
-const BASES: [Base; 4] = [Base::Real, Base::Integer, Base::Boolean, Base::Text];
+const BASES: [BaseType; 4] = [BaseType::Real, BaseType::Integer, BaseType::Boolean, BaseType::String];
 
-fn rows(base: Base) -> Vec<usize> {
+fn rows(base: BaseType) -> Vec<usize> {
     (0..VARIABLES.len()).filter(|row| VARIABLES[*row].base == base).collect()
 }
 
-fn picked(base: Base) -> impl Strategy<Value = Picked> {
+fn picked(base: BaseType) -> impl Strategy<Value = Picked> {
     prop_oneof![
         40 => select(rows(base)).prop_map(Picked::Row),
         1 => (1000_u32..).prop_map(Picked::Unknown),
@@ -22,22 +22,22 @@ fn picked(base: Base) -> impl Strategy<Value = Picked> {
 }
 
 /// Numbers whose sums and products are exact, and what no variable admits.
-fn value(base: Base) -> BoxedStrategy<Value> {
+fn value(base: BaseType) -> BoxedStrategy<Value> {
     match base {
-        Base::Real => {
+        BaseType::Real => {
             let exact = (-40_i32..=80).prop_map(|eighths| Value::Real(f64::from(eighths) / 8.0));
             let odd = select(vec![1e6, -1e6, 1.5e6, f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
             prop_oneof![12 => exact, 1 => odd.prop_map(Value::Real)].boxed()
         }
-        Base::Integer => {
+        BaseType::Integer => {
             let odd = select(vec![3, 11, 1000, -1000, 1001, i32::MIN, i32::MAX]);
             prop_oneof![12 => (-2..=8).prop_map(Value::Integer), 1 => odd.prop_map(Value::Integer)].boxed()
         }
-        Base::Boolean => {
+        BaseType::Boolean => {
             prop_oneof![12 => (0..=1).prop_map(Value::Boolean), 1 => select(vec![-1, 2]).prop_map(Value::Boolean)]
                 .boxed()
         }
-        Base::Text => {
+        BaseType::String => {
             let texts = select(vec!["", "a", "100 % #1#", "Ωμέγα", "a rather long text, longer than the others"]);
             prop_oneof![12 => texts.prop_map(Value::Text), 1 => Just(Value::Bytes)].boxed()
         }
@@ -173,7 +173,7 @@ fn useful(state: char) -> BoxedStrategy<Call> {
             3 => derivatives(),
             1 => select(vec![Call::LastSuccessfulTime, Call::Terminated]),
             1 => (-4_i32..=8).prop_map(|it| {
-                Call::Set(Base::Real, vec![(Picked::Row(super::variables::position("end.time")), Value::Real(f64::from(it)))])
+                Call::Set(BaseType::Real, vec![(Picked::Row(super::variables::position("end.time")), Value::Real(f64::from(it)))])
             }),
         ]
         .boxed(),

@@ -1,8 +1,9 @@
 //! A few variables of AllTypes with their roles and limits, typed from its declarations.
 
+use model_description::BaseType;
 use std::sync::OnceLock;
 
-use crate::support::{self, Base};
+use crate::support;
 
 /// What a read gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +31,7 @@ pub enum Value {
 #[derive(Clone, Copy, Debug)]
 pub struct Variable {
     pub name: &'static str,
-    pub base: Base,
+    pub base: BaseType,
     /// causality, variability, initial
     pub role: (&'static str, &'static str, &'static str),
     pub start: Value,
@@ -39,7 +40,7 @@ pub struct Variable {
     pub admits: fn(Value) -> bool,
 }
 
-use Base::{Boolean, Integer, Real, Text};
+use BaseType::{Boolean, Integer, Real, String as Text};
 use Content::{AsSet, Echo, Other};
 
 const PARAMETER: (&str, &str, &str) = ("parameter", "fixed", "exact");
@@ -51,7 +52,7 @@ const DISCRETE_OUTPUT: (&str, &str, &str) = ("output", "discrete", "calculated")
 
 const fn row(
     name: &'static str,
-    base: Base,
+    base: BaseType,
     role: (&'static str, &'static str, &'static str),
     start: Value,
     content: Content,

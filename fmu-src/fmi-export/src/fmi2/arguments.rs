@@ -67,7 +67,7 @@ pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &'static str) -> Result
 /// The C string at `pointer`.
 ///
 /// # Safety
-/// A `pointer` that is not NULL points to a NUL-terminated string that lives for the time of the call.
+/// A `pointer` that is not NULL points to a NUL-terminated string that is valid during the call.
 pub(super) unsafe fn text<'a>(pointer: *const c_char, name: &'static str) -> Result<&'a CStr, Problem> {
     if pointer.is_null() {
         return Err(wrong(name, ArgumentError::Null));

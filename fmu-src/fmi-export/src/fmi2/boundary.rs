@@ -16,7 +16,7 @@ use super::problem::{ArgumentError, Problem};
 use super::state_bytes::SavedState;
 use crate::panics::contain;
 
-/// Their addresses tell this library's handles from those of any other, another copy of this library
+/// Their addresses distinguish this library's handles from those of any other, another copy of this library
 /// included, and instances from states.
 static MARKS: [u8; 2] = [0; 2];
 
@@ -48,7 +48,7 @@ pub(super) struct Inner {
 pub(super) struct Strings(Vec<Option<CString>>);
 
 impl Strings {
-    /// A C string with this text (NUL replaced) that lives in the slot of the String `index`.
+    /// A C string with this text (NUL replaced) in the slot of the String `index`.
     pub(super) fn hold(&mut self, index: usize, text: &str) -> *const c_char {
         let text = match text.contains('\0') {
             true => Cow::Owned(text.replace('\0', "\u{FFFD}")),

@@ -12,7 +12,7 @@ use crate::panics::contain;
 /// `fmi_export_describe` over the models of a library.
 ///
 /// # Safety
-/// Every pointer is NULL or a NUL-terminated string that lives for the time of the call; `receive` may be called with
+/// Every pointer is NULL or a NUL-terminated string that is valid during the call; `receive` may be called with
 /// `context`.
 pub unsafe fn describe(
     library: &Library,
@@ -24,7 +24,7 @@ pub unsafe fn describe(
 ) -> c_int {
     let Some(receive) = receive else { return 1 };
     let send = |kind: i32, text: &str| {
-        // SAFETY: the caller's promise; the text lives until `receive` returns.
+        // SAFETY: the caller's promise; the text is valid until `receive` returns.
         unsafe { receive(context, kind, text.as_ptr().cast(), text.len()) }
     };
     let introduce = |entry: &Entry| {
@@ -55,7 +55,7 @@ pub unsafe fn describe(
             .find(model)
             .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))?;
         let description = library.describe(entry, file, setup).map_err(|error| match error {
-            // They name their file and line first, where editors look for them.
+            // They name their file and line first, where editors expect them.
             DescribeError::Setup(problem) => problem.to_string(),
             DescribeError::Start(problems) => problems,
             other => format!("{model}: {other}"),

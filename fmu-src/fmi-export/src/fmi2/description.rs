@@ -225,7 +225,7 @@ fn units_of(description: &Description) -> Vec<model_description::Unit> {
     units::UNITS.iter().filter(|row| used(row.name)).map(units::KnownUnit::to_unit).collect()
 }
 
-/// UUIDv5 of what is declared, what is told of the model, the setup's content, the model's name and optional traits, and the
+/// UUIDv5 of what is declared, the model's `About`, the setup's content, the model's name and optional traits, and the
 /// version of its state. Default times do not enter.
 fn digest_of<M: Model>(interface: &str, about: &About, setup: &M::Setup) -> Result<Uuid, DescribeError> {
     let setup = postcard::to_allocvec(setup).map_err(|error| DescribeError::Digest(error.to_string()))?;

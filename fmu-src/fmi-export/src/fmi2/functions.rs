@@ -1,7 +1,7 @@
 //! The C functions, each with its symbol, its contract and its body.
 //!
 //! The contract of all: `c` is NULL or a live instance that no other thread uses meanwhile; an array has the announced
-//! length, a string ends with NUL, and both stay the caller's and need to live for the time of the call only, unless a
+//! length, a string ends with NUL, and both stay the caller's and need to be valid during the call only, unless a
 //! function says otherwise. Nothing the caller gives is kept. The signatures are held against
 //! [`model_description::functions::types`].
 #![allow(non_snake_case, reason = "the standard's names")]
@@ -45,7 +45,7 @@ macro_rules! functions {
     )* };
 }
 
-/// `"default"`. The text is the library's and lives as long as the library is loaded.
+/// `"default"`. The text is the library's and valid as long as the library is loaded.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
     c"default".as_ptr()
@@ -53,7 +53,7 @@ pub unsafe extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
 
 const _: types::fmi2GetTypesPlatform = fmi2GetTypesPlatform;
 
-/// `"2.0"`. The text is the library's and lives as long as the library is loaded.
+/// `"2.0"`. The text is the library's and valid as long as the library is loaded.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetVersion() -> *const c_char {
     c"2.0".as_ptr()
@@ -181,7 +181,7 @@ functions! {
         let values = slice_mut(values, count, "value")?;
         inner.instance.get_boolean(slice(references, count, "vr")?, values)
     }
-    /// Points the elements of `value` to texts in UTF-8. They are the instance's: each lives until the same variable is read
+    /// Points the elements of `value` to texts in UTF-8. They are the instance's: each is valid until the same variable is read
     /// again with another value or the instance is freed.
     GetString fmi2GetString(inner, references: *const u32, count: usize, values: *mut *const c_char) {
         let values = slice_mut(values, count, "value")?;
@@ -292,7 +292,7 @@ functions! {
     CancelStep fmi2CancelStep(inner) {
         inner.instance.cancel_step()
     }
-    /// Only a pending step has what this tells: answers `fmi2Discard`.
+    /// Only a pending step has this status: answers `fmi2Discard`.
     GetStatus fmi2GetStatus(inner, kind: c_int, value: *mut c_int) {
         place(value, "value")?;
         inner.instance.no_status(Function::GetStatus, StatusKind::from_code(kind))
@@ -303,7 +303,7 @@ functions! {
         *value = inner.instance.real_status(StatusKind::from_code(kind))?;
         Ok(())
     }
-    /// Only a pending step has what this tells: answers `fmi2Discard`.
+    /// Only a pending step has this status: answers `fmi2Discard`.
     GetIntegerStatus fmi2GetIntegerStatus(inner, kind: c_int, value: *mut c_int) {
         place(value, "value")?;
         inner.instance.no_status(Function::GetIntegerStatus, StatusKind::from_code(kind))
@@ -314,7 +314,7 @@ functions! {
         *value = c_int::from(inner.instance.boolean_status(StatusKind::from_code(kind))?);
         Ok(())
     }
-    /// Only a pending step has what this tells: answers `fmi2Discard`.
+    /// Only a pending step has this status: answers `fmi2Discard`.
     GetStringStatus fmi2GetStringStatus(inner, kind: c_int, value: *mut *const c_char) {
         place(value, "value")?;
         inner.instance.no_status(Function::GetStringStatus, StatusKind::from_code(kind))

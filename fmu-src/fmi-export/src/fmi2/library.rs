@@ -110,8 +110,8 @@ impl Library {
         self.entries.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
     }
 
-    /// The model whose GUID is `guid` for the setup at `resource_location`; the error tells what was
-    /// looked at.
+    /// The model whose GUID is `guid` for the setup at `resource_location`; the error names what was
+    /// compared.
     pub(crate) fn select(&self, guid: &str, resource_location: &[u8]) -> Result<Prepared, String> {
         let resources = location::resolve(resource_location);
         let mut texts: BTreeMap<&str, Result<String, String>> = BTreeMap::new();
@@ -141,7 +141,7 @@ impl Library {
     }
 }
 
-/// A model that does not have the GUID asked for.
+/// A model that does not have the requested GUID.
 struct Tried {
     entry: &'static Entry,
     /// Its setup file, unless the compiled-in setup was taken.
@@ -153,7 +153,7 @@ struct Tried {
 }
 
 impl Tried {
-    /// Whether the GUID asked for is the one it has with the setup that it was compiled with.
+    /// Whether the requested GUID is the one it has with the setup that it was compiled with.
     fn is_changed(&self, guid: &str) -> bool {
         let original = || self.entry.prepare(None, None, &[]).is_ok_and(|it| it.description.guid == guid);
         self.file.is_some() && self.was_read && original()
@@ -169,7 +169,7 @@ impl Tried {
     }
 }
 
-/// Why there is no instance: what most likely happened first, then what was looked at.
+/// Why there is no instance: the likeliest cause first, then what was compared.
 fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
     let with_file = || tried.iter().filter(|it| it.file.is_some());
     let lead = if let Some(index) = tried.iter().position(|it| it.is_changed(guid)) {
@@ -208,7 +208,7 @@ fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
 fn changed(guid: &str, it: &Tried) -> String {
     let (file, name) = (it.file.unwrap_or_default(), it.entry.name);
     format!(
-        "{file}: the file was changed after packing: pack the FMU again (the GUID asked for, {guid}, is that of {name} \
+        "{file}: the file was changed after packing: pack the FMU again (the requested GUID {guid} is that of {name} \
          with its original {file})"
     )
 }

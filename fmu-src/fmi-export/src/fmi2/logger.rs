@@ -14,7 +14,7 @@ use model_description::Status;
 pub enum Category {
     /// What happens in the model: dumps, eclipse edges, pulses.
     Events,
-    /// Something odd that the instance lives with.
+    /// Something unusual that does not stop the instance.
     Warning,
     /// A value or a step was not accepted.
     Discard,
@@ -39,7 +39,7 @@ impl Category {
         }
     }
 
-    /// What the category tells.
+    /// The category's description.
     pub const fn description(self) -> &'static str {
         match self {
             Self::Events => "events inside the model, with their times",
@@ -131,7 +131,7 @@ impl Logger {
         self.enabled.set(0);
     }
 
-    /// Back to what was asked for when the instance was made.
+    /// Back to the setting with which the instance was made.
     pub(crate) fn reset(&self) {
         self.enabled.set(self.initially);
     }
@@ -199,7 +199,7 @@ impl Log for Logger {
 
 #[cfg(test)]
 mod tests {
-    //! What reaches the master is what was logged, only in the categories it asked for.
+    //! What reaches the master is what was logged, only in the categories it turned on.
     use std::sync::{Arc, Mutex};
 
     use super::*;

@@ -290,7 +290,7 @@ impl fmt::Display for Explained<'_> {
                 write!(f, " came out as {value:?}, which is no finite number")
             }
             Problem::Order { order, largest: 0 } => {
-                write!(f, "derivatives of order {order} are asked for, this model offers none")
+                write!(f, "derivatives of order {order} were requested, this model offers none")
             }
             Problem::Order { order, largest } => {
                 write!(f, "the derivative order is {order}, allowed are 1 to {largest}")

@@ -1,4 +1,4 @@
-//! Start values that a setup gives to parameters and inputs: looked up, converted, checked, put in.
+//! Start values that a setup gives to parameters and inputs: found by name, converted, checked, set.
 //!
 //! A setup may serve several models of a library. A start value without a model is for each of them that has the
 //! variable; it is an error if none has it. Later wins: the declared start value, a vector under its bare name, one of
@@ -21,7 +21,7 @@ use crate::variables::Values;
 pub struct StartValue {
     /// The key as it stands in the setup, for messages.
     pub key: String,
-    /// Line from 1, where it could be told.
+    /// Line from 1, where it is known.
     pub line: Option<usize>,
     /// The only model that it is for.
     pub model: Option<String>,

@@ -88,7 +88,7 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2DeSerializeFMUstate`. Total: any bytes give a state or an error, and no more memory is asked for
+    /// `fmi2DeSerializeFMUstate`. Total: any bytes give a state or an error, and no more memory is requested
     /// than the bytes can fill.
     pub(crate) fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Problem> {
         self.guard(Function::DeSerializeFmuState)?;

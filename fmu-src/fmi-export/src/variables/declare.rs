@@ -154,7 +154,7 @@ impl Declare {
         Ok(Text(at))
     }
 
-    /// Declares an Enumeration; its values live in the Integer table.
+    /// Declares an Enumeration; its values are in the Integer table.
     pub fn choice<E: Enumeration>(
         &mut self,
         spec: &ScalarSpec<'_>,

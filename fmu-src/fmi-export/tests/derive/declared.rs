@@ -23,15 +23,15 @@ enum AttitudeSource {
     FreeMotion,
 }
 
-struct Craft {
+struct Vehicle {
     mass_kg: f64,
     name: String,
     panel_angles_rad: Vec<f64>,
 }
 
 #[derive(Variables)]
-#[variables(setup = Craft)]
-struct CraftVariables {
+#[variables(setup = Vehicle)]
+struct VehicleVariables {
     /// Spacecraft mass,
     /// dry plus propellant.
     #[parameter(tunable, unit = "kg", min = 0.0, start = setup.mass_kg)]
@@ -45,7 +45,7 @@ struct CraftVariables {
     /// Where the attitude comes from.
     #[parameter(start = AttitudeSource::Commanded)]
     source: Choice<AttitudeSource>,
-    /// Name of the craft.
+    /// Name of the vehicle.
     #[parameter(start = &setup.name)]
     label: Text,
     /// Torque from outside, body frame.
@@ -84,7 +84,7 @@ struct OrbitVariables {
 }
 
 #[derive(Variables)]
-#[variables(setup = Craft)]
+#[variables(setup = Vehicle)]
 struct PanelVariables {
     /// Panel angle.
     #[input(unit = "rad", start = setup.panel_angles_rad[index])]
@@ -94,7 +94,7 @@ struct PanelVariables {
 }
 
 #[derive(Variables)]
-#[variables(setup = Craft)]
+#[variables(setup = Vehicle)]
 struct OpticsVariables {
     /// Number of the panel, seen from a group inside.
     #[parameter(start = index as i32 + 1)]
@@ -129,8 +129,8 @@ struct Declared {
     interface: Interface,
 }
 
-fn craft() -> (CraftVariables, Declared) {
-    let setup = Craft { mass_kg: 500.0, name: "Prüfling".to_owned(), panel_angles_rad: vec![0.25, 0.5] };
+fn vehicle() -> (VehicleVariables, Declared) {
+    let setup = Vehicle { mass_kg: 500.0, name: "Prüfling".to_owned(), panel_angles_rad: vec![0.25, 0.5] };
     declare(&setup).unwrap()
 }
 
@@ -140,7 +140,7 @@ fn find<'a>(table: &'a Declared, name: &str) -> &'a ScalarVariable {
 
 #[test]
 fn names_follow_fields_groups_and_elements() {
-    let (_, table) = craft();
+    let (_, table) = vehicle();
     let names: Vec<_> = table.variables.iter().map(|variable| variable.name.as_str()).collect();
     let expected = "mass inertia[1,1] inertia[1,2] inertia[1,3] inertia[2,1] inertia[2,2] inertia[2,3] \
         centerOfMass[1] centerOfMass[2] centerOfMass[3] source label external[1] external[2] external[3] \
@@ -152,7 +152,7 @@ fn names_follow_fields_groups_and_elements() {
 
 #[test]
 fn references_are_unique_and_dense_for_each_base_type_in_order() {
-    let (variables, table) = craft();
+    let (variables, table) = vehicle();
     let all: BTreeSet<_> = table.variables.iter().map(|variable| variable.value_reference).collect();
     assert_eq!(all.len(), table.variables.len());
     let mut next = BaseType::ALL.map(references::first);
@@ -190,7 +190,7 @@ fn references_are_unique_and_dense_for_each_base_type_in_order() {
 
 #[test]
 fn starts_come_from_setup_index_and_literals() {
-    let (variables, table) = craft();
+    let (variables, table) = vehicle();
     let start = &table.interface.start;
     assert_eq!(start.real(variables.mass), 500.0);
     assert_eq!(start.matrix(variables.inertia), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
@@ -210,7 +210,7 @@ fn starts_come_from_setup_index_and_literals() {
 
 #[test]
 fn roles_and_attributes_reach_the_table() {
-    let (_, table) = craft();
+    let (_, table) = vehicle();
     for (name, causality, variability, initial) in [
         ("mass", Causality::Parameter, Variability::Tunable, None),
         ("source", Causality::Parameter, Variability::Fixed, None),
@@ -239,7 +239,7 @@ fn roles_and_attributes_reach_the_table() {
 
 #[test]
 fn an_array_is_one_variable() {
-    let (variables, table) = craft();
+    let (variables, table) = vehicle();
     let find = |name| table.interface.variables.iter().find(|variable| variable.name == name).unwrap();
     assert!(find("mass").dimensions.is_empty());
     assert_eq!(
@@ -256,7 +256,7 @@ fn an_array_is_one_variable() {
 
 #[test]
 fn enumeration_items_follow_variants_and_discriminants() {
-    let (_, table) = craft();
+    let (_, table) = vehicle();
     let [source] = table.interface.enumerations.as_slice() else { panic!() };
     assert_eq!(source.name, "AttitudeSource");
     assert_eq!(source.description, "Where the attitude comes from.");

@@ -25,13 +25,13 @@ fn declare(change: impl FnOnce(&mut Setup)) -> Result<(), DeclareError> {
 #[allow(dead_code, reason = "declared only")]
 struct Outer {
     #[group]
-    craft: Craft,
+    vehicle: Vehicle,
 }
 
 #[derive(Variables)]
 #[variables(setup = Setup)]
 #[allow(dead_code, reason = "declared only")]
-struct Craft {
+struct Vehicle {
     /// A mass.
     #[parameter(unit = "kg", min = 0.0, nominal = setup.nominal, start = setup.start_kg)]
     mass: Real,
@@ -54,14 +54,14 @@ fn refusal<T>(result: Result<T, DeclareError>) -> String {
 fn values_of_the_setup_are_checked_as_literals_are() {
     declare(|_| ()).unwrap();
     for (found, named) in [
-        (declare(|it| it.start_kg = -1.0), "`craft.mass`: start -1 is below min 0"),
-        (declare(|it| it.start_kg = f64::NAN), "`craft.mass`: start is NaN; it must be finite"),
-        (declare(|it| it.nominal = 0.0), "`craft.mass`: nominal is 0; it must be above 0"),
-        (declare(|it| it.vector_m[1] = 2.0), "`craft.place[2]`: start 2 is above max 1"),
-        (declare(|it| it.max_m = -2.0), "`craft.place[1]`: min -1 is above max -2"),
-        (declare(|it| it.max_m = f64::INFINITY), "`craft.place[1]`: max is inf; it must be finite"),
-        (declare(|it| it.count = 8), "`craft.count`: start 8 is above max 7"),
-        (declare(|it| it.label = "a\0b".to_owned()), "`craft.label`: start holds the character '\\0'"),
+        (declare(|it| it.start_kg = -1.0), "`vehicle.mass`: start -1 is below min 0"),
+        (declare(|it| it.start_kg = f64::NAN), "`vehicle.mass`: start is NaN; it must be finite"),
+        (declare(|it| it.nominal = 0.0), "`vehicle.mass`: nominal is 0; it must be above 0"),
+        (declare(|it| it.vector_m[1] = 2.0), "`vehicle.place[2]`: start 2 is above max 1"),
+        (declare(|it| it.max_m = -2.0), "`vehicle.place[1]`: min -1 is above max -2"),
+        (declare(|it| it.max_m = f64::INFINITY), "`vehicle.place[1]`: max is inf; it must be finite"),
+        (declare(|it| it.count = 8), "`vehicle.count`: start 8 is above max 7"),
+        (declare(|it| it.label = "a\0b".to_owned()), "`vehicle.label`: start holds the character '\\0'"),
     ] {
         let found = refusal(found);
         assert!(found.contains(named), "{found}");

@@ -1,4 +1,4 @@
-//! The GUID finds the model; when it does not, the log tells everything one needs to know.
+//! The GUID finds the model; when it does not, the log names every GUID that was compared.
 
 use client::InProcess;
 use fmi_export::model_description::Description;
@@ -97,25 +97,25 @@ fn a_setup_file_changed_after_packing_is_named() {
 
 #[test]
 fn a_bad_setup_file_or_folder_is_named() {
-    let asked = guid("AllTypes", TWO);
+    let requested = guid("AllTypes", TWO);
     for (name, files, words) in [
         ("damaged", vec![("all-types.toml", "label = 'x\n")], ["all-types.toml", "cannot be set up"]),
         ("key", vec![("all-types.toml", "label = ''\nlabl = ''\n")], ["labl", "all-types.toml"]),
         ("none", vec![], ["all-types.toml", "cannot read"]),
     ] {
         let folder = Folder::new(name, &files);
-        let text = refused(&asked, Some(&folder.uri()));
+        let text = refused(&requested, Some(&folder.uri()));
         assert!(words.iter().all(|word| text.contains(word)), "{text}");
     }
-    let text = refused(&asked, Some("file:///no/such%20folder"));
-    // What could not be read is the first thing told, and told once.
+    let text = refused(&requested, Some("file:///no/such%20folder"));
+    // What could not be read is reported first, and once.
     assert!(
         text.starts_with("fmi2Instantiate: the resource location")
             && text.matches("such folder").count() == 1,
         "{text}"
     );
     assert!(text.contains("`/no/such folder`, which does not exist"), "{text}");
-    let text = refused(&asked, Some("https://example.org/x"));
+    let text = refused(&requested, Some("https://example.org/x"));
     assert!(text.contains("is no file URI"), "{text}");
 }
 

@@ -1,4 +1,4 @@
-//! The log tells what the master asked for, in text that no receiver can stumble over.
+//! The log has the categories that the master turned on, in text without format characters.
 
 use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
 

@@ -56,7 +56,7 @@ fn real(instance: &mut InProcess, reference: u32) -> f64 {
     value[0]
 }
 
-/// The one message logged since the last look.
+/// The one message logged since the last call.
 fn only_message(instance: &InProcess) -> String {
     let mut messages = instance.take_messages();
     assert_eq!(messages.len(), 1, "{messages:?}");

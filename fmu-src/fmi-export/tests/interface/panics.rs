@@ -1,4 +1,4 @@
-//! A panic in any callback ends its instance with an error and a message; everybody else lives.
+//! A panic in any callback ends its instance with an error and a message; other instances go on.
 
 use client::{InProcess, StatePointer};
 use fmi_export::Enumeration;

@@ -51,10 +51,10 @@ fn callbacks() -> CallbackFunctions {
 
 fn instantiate(name: *const c_char, kind: c_int, guid: *const c_char, flag: c_int) -> *mut c_void {
     let mut functions = Box::new(callbacks());
-    // SAFETY: everything lives for the call, or is NULL.
+    // SAFETY: everything is valid during the call, or NULL.
     let component =
         unsafe { fmi2::instantiate(PROBE, name, kind, guid, null(), &raw const *functions, 0, flag) };
-    // The struct dies, and what it held is gone.
+    // The struct is dropped, and its content is overwritten.
     functions.logger = None;
     drop(functions);
     component
@@ -93,7 +93,7 @@ fn instantiation_refuses_what_it_cannot_use() {
     }
     let mut silent = callbacks();
     silent.logger = None;
-    // SAFETY: everything lives for the call, or is NULL.
+    // SAFETY: everything is valid during the call, or NULL.
     unsafe {
         assert!(fmi2::instantiate(PROBE, name, 1, guid, null(), null(), 0, 0).is_null());
         assert!(fmi2::instantiate(PROBE, name, 1, guid, null(), &raw const silent, 0, 0).is_null());
@@ -146,7 +146,7 @@ fn null_is_an_error_and_no_elements_need_no_pointer() {
 fn handles_of_others_are_recognised() {
     let mut foreign = [0_usize; 16];
     let component = foreign.as_mut_ptr().cast::<c_void>();
-    // SAFETY: large enough to be looked at; that it is no handle is what is under test.
+    // SAFETY: large enough to be read; that it is no handle is what is under test.
     unsafe {
         assert_eq!(fmi2::fmi2Reset(component), ERROR);
         assert_eq!(fmi2::fmi2DoStep(component, 0.0, 1.0, 0), ERROR);

@@ -174,8 +174,8 @@ impl Walk {
     fn go(&mut self, call: &'static str) {
         let before = self.expected;
         let (status, if_legal) = self.call(call);
-        let wanted = if self.legal_before(before, call) { if_legal } else { Error };
-        assert_eq!(status, wanted, "{call} in {:?}", before.place);
+        let expected = if self.legal_before(before, call) { if_legal } else { Error };
+        assert_eq!(status, expected, "{call} in {:?}", before.place);
         self.follow(call, status, before);
         self.visits[self.expected.place as usize] += 1;
         self.instance.take_messages();

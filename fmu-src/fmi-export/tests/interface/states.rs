@@ -6,7 +6,7 @@ use fmi_export::model_description::Status::{self, Error, Ok};
 use super::{Random, fresh, only_message, reference, started};
 
 /// Steps with sets, derivatives and texts that depend on the step's number only.
-fn fly(instance: &mut InProcess, input: u32, text: u32, steps: core::ops::Range<i32>) {
+fn advance(instance: &mut InProcess, input: u32, text: u32, steps: core::ops::Range<i32>) {
     for i in steps {
         let time_s = 0.25 * f64::from(i);
         if i % 3 == 0 {
@@ -31,31 +31,31 @@ fn saved_and_restored_equals_never_interrupted() {
         let (from, to) = (random.below(40) as i32, 60 + random.below(20) as i32);
         assert_eq!(instance.reset(), Ok);
         assert_eq!(instance.start(0.0, None), Ok);
-        fly(&mut instance, input, text, 0..from);
+        advance(&mut instance, input, text, 0..from);
         let mut state = StatePointer::null();
         assert_eq!(instance.get_state(&mut state), Ok);
         let (status, bytes) = instance.serialize(&state);
         assert_eq!(status, Ok);
-        fly(&mut instance, input, text, from..to);
+        advance(&mut instance, input, text, from..to);
         let (_, end) = instance.state_bytes();
         // Back in the same instance, after an error, in a fresh one from memory, in another from bytes.
         assert_eq!(instance.set_state(&state), Ok);
-        fly(&mut instance, input, text, from..to);
+        advance(&mut instance, input, text, from..to);
         assert_eq!(instance.state_bytes().1, end);
         assert_eq!(instance.do_step(-1.0, 1.0), Error);
         assert_eq!(instance.set_state(&state), Ok);
-        fly(&mut instance, input, text, from..to);
+        advance(&mut instance, input, text, from..to);
         assert_eq!(instance.state_bytes().1, end);
         let (mut twin, _) = fresh("AllTypes");
         assert_eq!(twin.set_state(&state), Ok);
-        fly(&mut twin, input, text, from..to);
+        advance(&mut twin, input, text, from..to);
         assert_eq!(twin.state_bytes().1, end);
         let (mut third, _) = fresh("AllTypes");
         let (status, decoded) = third.deserialize(&bytes);
         assert_eq!(status, Ok);
         assert_eq!(third.serialize(&decoded), (Ok, bytes));
         assert_eq!(third.set_state(&decoded), Ok);
-        fly(&mut third, input, text, from..to);
+        advance(&mut third, input, text, from..to);
         assert_eq!(third.state_bytes().1, end);
     }
 }

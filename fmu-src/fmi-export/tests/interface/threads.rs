@@ -5,7 +5,7 @@ use fmi_export::model_description::Status::Ok;
 
 use super::{PROBE, Random, described, fresh, reference};
 
-fn flight(seed: u64) -> Vec<u8> {
+fn simulation(seed: u64) -> Vec<u8> {
     let (mut instance, description) = fresh("AllTypes");
     let input = reference(&description, "input.real");
     let mut random = Random(seed);
@@ -22,10 +22,10 @@ fn flight(seed: u64) -> Vec<u8> {
 
 #[test]
 fn sixty_four_instances_on_eight_threads_give_the_bits_of_one() {
-    let alone: Vec<_> = (0..64).map(flight).collect();
+    let alone: Vec<_> = (0..64).map(simulation).collect();
     let together: Vec<_> = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..8)
-            .map(|thread| scope.spawn(move || (0..8).map(|i| flight(8 * thread + i)).collect::<Vec<_>>()))
+            .map(|thread| scope.spawn(move || (0..8).map(|i| simulation(8 * thread + i)).collect::<Vec<_>>()))
             .collect();
         threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
     });

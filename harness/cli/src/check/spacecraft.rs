@@ -57,8 +57,8 @@ pub fn run(arguments: &Check) -> Outcome {
     };
     let takes_the_same =
         |model: &Described| binary.describe(&model.model, None, Some(&fittest.0.default_setup)).is_ok();
-    let judge = refusals.iter().find(|(model, _)| is_own(model) && takes_the_same(model));
-    let (model, problems) = judge.unwrap_or(fittest);
+    let chosen = refusals.iter().find(|(model, _)| is_own(model) && takes_the_same(model));
+    let (model, problems) = chosen.unwrap_or(fittest);
     refused(&file, model, problems)
 }
 
@@ -83,7 +83,7 @@ fn without_start_values(text: &str) -> Option<String> {
 
 /// How many keys two files have in common, tables inside of tables left out.
 fn common_keys(one: &str, other: &str) -> usize {
-    // What can be read of a damaged file tells its kind too.
+    // What can be read of a damaged file shows its kind too.
     let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
     one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }

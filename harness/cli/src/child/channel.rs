@@ -1,7 +1,7 @@
-//! The memory that parent and child share: a header, the mark of calls, and a ring of words with frames.
+//! The memory that parent and child share: a header, the record of calls, and a ring of words with frames.
 //!
 //! A frame is its kind and length, the token that the parent gave, and the payload. The parent checks all three, for
-//! the FMU lives in the child's memory and may write anywhere.
+//! the FMU runs in the child's memory and may write anywhere.
 
 use std::{
     hash::{BuildHasher, Hasher, RandomState},
@@ -10,7 +10,7 @@ use std::{
     time::Duration,
 };
 
-use loader::{CallMark, MARK_WORDS, SharedWords};
+use loader::{CALL_RECORD_WORDS, CallRecord, SharedWords};
 
 use super::system;
 
@@ -20,8 +20,8 @@ const PARENT: usize = 1;
 const MEMORY: usize = 2;
 const FILES: usize = 3;
 const CANCEL: usize = 8;
-/// The mark of calls.
-const MARK: usize = 16;
+/// The record of calls.
+const CALLS: usize = 16;
 /// Words sent and words taken; far apart, so that the two processes do not wait for one cache line.
 const HEAD: usize = 32;
 const TAIL: usize = 48;
@@ -31,7 +31,7 @@ const RING: usize = 64;
 pub const RING_WORDS: usize = 1 << 19;
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;
-/// How often a child looks whether a full ring has space again, and how much has to be free before it goes on.
+/// How often a child checks whether a full ring has space again, and how much has to be free before it goes on.
 const PAUSE: Duration = Duration::from_millis(1);
 const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
 
@@ -47,7 +47,7 @@ impl Link {
     /// Takes the memory that the parent gave as standard input, keeps the parent's limits and ends with the parent.
     pub fn attach() -> io::Result<Self> {
         let file = system::take_stdin()?;
-        // For the life of the process: the mark of calls is read from anywhere.
+        // For the life of the process: the record of calls is read from anywhere.
         let words: &'static SharedWords = Box::leak(Box::new(SharedWords::map(&file)?));
         drop(file);
         if words.len() != RING + RING_WORDS {
@@ -56,20 +56,20 @@ impl Link {
         let value = |index: usize| words[index].load(Ordering::Relaxed);
         system::end_with_parent(value(PARENT))?;
         system::restrict(value(MEMORY), value(FILES))?;
-        if let Ok(mark) = <&CallMark>::try_from(&words[MARK..MARK + MARK_WORDS]) {
-            loader::mark_calls(mark);
+        if let Ok(calls) = <&CallRecord>::try_from(&words[CALLS..CALLS + CALL_RECORD_WORDS]) {
+            loader::record_calls(calls);
         }
         // Where no instruction of the FMU runs yet, nobody else reads the token.
         let token = words[TOKEN].swap(0, Ordering::Relaxed);
         Ok(Self { words, token, head: 0, frame: Vec::new() })
     }
 
-    /// Whether the parent asks the child to end.
+    /// Whether the parent requests the child's end.
     pub fn is_cancelled(&self) -> bool {
         self.cancel_word().load(Ordering::Relaxed) != 0
     }
 
-    /// The word by which the parent asks the child to end.
+    /// The word by which the parent requests the child's end.
     pub fn cancel_word(&self) -> &'static AtomicU64 {
         &self.words[CANCEL]
     }
@@ -181,14 +181,14 @@ impl Inbox {
         Ok((file, Self { words, token, tail: 0, frame: Vec::new() }))
     }
 
-    /// Asks the child to end.
+    /// Requests the child's end.
     pub fn cancel(&self) {
         self.words[CANCEL].store(1, Ordering::Relaxed);
     }
 
-    /// The mark of calls.
-    pub fn mark(&self) -> Option<&CallMark> {
-        <&CallMark>::try_from(&self.words[MARK..MARK + MARK_WORDS]).ok()
+    /// The record of calls.
+    pub fn calls(&self) -> Option<&CallRecord> {
+        <&CallRecord>::try_from(&self.words[CALLS..CALLS + CALL_RECORD_WORDS]).ok()
     }
 
     /// Hands every frame that has come to `take`, whose error ends it; gives the number of words that came.
@@ -196,7 +196,7 @@ impl Inbox {
         &mut self,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<(), String>,
     ) -> Result<usize, String> {
-        const BROKEN: &str = "it wrote over the memory by which its results are told";
+        const BROKEN: &str = "it wrote over the memory that carries its results";
         let head = self.words[HEAD].load(Ordering::Acquire);
         let came = head.wrapping_sub(self.tail);
         if came > RING_WORDS as u64 {

@@ -1,6 +1,6 @@
 //! An FMU in a process of its own: this program again, supervised from outside.
 //!
-//! Parent and child share one memory without a name. In it the child marks the FMI call under way and sends frames:
+//! Parent and child share one memory without a name. In it the child records the FMI call in progress and sends frames:
 //! rows of a recording, findings of a probe, its end. What stands there after a crash is still read. Whatever the
 //! FMU prints goes through pipes of its own and is never taken for a frame.
 

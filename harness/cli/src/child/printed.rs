@@ -12,7 +12,7 @@ pub const BYTES_FORWARDED: u64 = 1 << 20;
 const LINE: usize = 4096;
 /// Lines kept for the report of a crash.
 const LINES_KEPT: usize = 3;
-/// Read at a time, so that the parent looks after other things too.
+/// Read at a time, so that the parent reads the other channels too.
 const AT_ONCE: usize = 1 << 20;
 
 /// Both streams of a child.

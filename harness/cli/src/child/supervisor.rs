@@ -7,7 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use loader::{CallMark, Marked};
+use loader::{CallRecord, RecordedCalls};
 
 use super::{
     channel::{Inbox, Payload, RING_WORDS},
@@ -16,11 +16,11 @@ use super::{
 };
 use crate::interrupt;
 
-/// How often the parent looks: from often, while much comes, to seldom.
+/// Shortest and longest pause between two readings of the child; short while many words come.
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(5)];
-/// Words at a time that are much.
-const MUCH: usize = RING_WORDS / 8;
-/// How long a child that is asked to end, or has told its end, may take.
+/// So many words at a time are many.
+const MANY: usize = RING_WORDS / 8;
+/// How long a child that was requested to end, or has reported its end, may take.
 const GRACE: Duration = Duration::from_secs(2);
 
 /// What the child's process may take of the computer.
@@ -52,11 +52,11 @@ pub enum EndReason {
     Hangs(f64),
     /// A call took longer than it may, in s.
     CallHangs(f64),
-    /// It told its end and went on.
+    /// It reported its end and went on.
     DoesNotExit,
     /// It printed more bytes than it may.
     Prints(u64),
-    /// It was asked to end.
+    /// It was requested to end.
     Interrupted,
     /// What it sent could not be taken.
     Refused(String),
@@ -68,7 +68,7 @@ pub struct Supervised {
     /// How it ended.
     pub how: EndReason,
     /// The call it was in.
-    pub mark: Marked,
+    pub calls: RecordedCalls,
     /// The last lines it printed, each after a line break.
     pub printed: String,
 }
@@ -83,14 +83,14 @@ impl Supervised {
         Some(self.placed(&what))
     }
 
-    /// That it ended without telling its result.
+    /// That it ended without a result.
     pub fn without_result(&self) -> String {
         self.placed(&describe(&self.how))
     }
 
     fn placed(&self, what: &str) -> String {
         let printed = &self.printed;
-        match (&self.mark.under_way, &self.mark.last) {
+        match (&self.calls.in_progress, &self.calls.last) {
             (Some(call), _) => format!("{call}: {what}{printed}"),
             (None, Some(call)) => format!("{what}, after {call} had returned{printed}"),
             (None, None) => format!("{what}, before any call{printed}"),
@@ -100,7 +100,7 @@ impl Supervised {
 
 fn describe(how: &EndReason) -> String {
     match how {
-        EndReason::Ended(status) => format!("the process died: {}", system::how(*status)),
+        EndReason::Ended(status) => format!("the process ended: {}", system::how(*status)),
         EndReason::Hangs(time_s) => format!("hangs: still busy after {time_s} s (see --timeout)"),
         EndReason::CallHangs(time_s) => {
             format!("hangs: the call did not return within {time_s} s (see --timeout)")
@@ -140,17 +140,17 @@ impl ChildProcess {
         }
     }
 
-    /// Supervises it to its end. `take` gets every frame and tells whether it was the last one, `line` every line that
+    /// Supervises it to its end. `take` gets every frame and returns whether it was the last one, `line` every line that
     /// is printed; `tick` is called between.
     pub fn supervise(
         mut self,
         bounds: Bounds,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
-        tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
+        tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Supervised {
         let how = self.follow(bounds, take, line, tick);
-        let mark = self.inbox.mark().map(loader::read_mark).unwrap_or_default();
+        let calls = self.inbox.calls().map(loader::recorded_calls).unwrap_or_default();
         let status = system::end(&mut self.child);
         self.printed.finish(line);
         let how = match (how, status) {
@@ -158,7 +158,7 @@ impl ChildProcess {
             (None, Ok(status)) => EndReason::Ended(status),
             (None, Err(error)) => EndReason::Refused(format!("the process cannot be waited for: {error}")),
         };
-        Supervised { how, mark, printed: self.printed.last() }
+        Supervised { how, calls, printed: self.printed.last() }
     }
 
     /// Until it ended by itself (`None`) or has to be ended.
@@ -167,7 +167,7 @@ impl ChildProcess {
         bounds: Bounds,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,
         line: &mut dyn FnMut(&str),
-        tick: &mut dyn FnMut(Option<&CallMark>) -> Result<(), String>,
+        tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Option<EndReason> {
         let began = Instant::now();
         let (mut call, mut call_began) = (None, began);
@@ -186,7 +186,7 @@ impl ChildProcess {
                 Ok(came) => came,
                 Err(why) => return Some(EndReason::Refused(why)),
             };
-            if let Err(why) = tick(self.inbox.mark()) {
+            if let Err(why) = tick(self.inbox.calls()) {
                 return Some(EndReason::Refused(why));
             }
             let printed = self.printed.read(line);
@@ -198,9 +198,9 @@ impl ChildProcess {
             }
             let now = Instant::now();
             // The call under way and its number.
-            let under_way = self.inbox.mark().and_then(loader::call_under_way);
-            if under_way != call {
-                (call, call_began) = (under_way, now);
+            let in_progress = self.inbox.calls().and_then(loader::call_in_progress);
+            if in_progress != call {
+                (call, call_began) = (in_progress, now);
             }
             let is_over = |from: Instant, time_s: &f64| (now - from).as_secs_f64() > *time_s;
             if let Some(time_s) = bounds.time_s.filter(|time_s| is_over(began, time_s)) {
@@ -224,7 +224,7 @@ impl ChildProcess {
                 return Some(EndReason::Interrupted);
             }
             std::thread::sleep(pause);
-            pause = if came > MUCH || printed { (pause / 2).max(often) } else { (pause * 2).min(seldom) };
+            pause = if came > MANY || printed { (pause / 2).max(often) } else { (pause * 2).min(seldom) };
         }
     }
 }

@@ -21,8 +21,8 @@ pub fn tables(fmu: &Fmu, sets: &[(String, Value)], instance: &mut Instance) -> R
     if fmu.find("torque.total[1]").is_some() && fmu.find("sun.elevation").is_some() {
         tables.push(loads(fmu, instance)?);
     }
-    let asked = ["wheel[1].capacity", "wheel[1].momentum", "start.momentum[3]", "dump.guaranteedThreshold"];
-    if asked.iter().all(|name| fmu.find(name).is_some()) {
+    let names = ["wheel[1].capacity", "wheel[1].momentum", "start.momentum[3]", "dump.guaranteedThreshold"];
+    if names.iter().all(|name| fmu.find(name).is_some()) {
         tables.push(wheels::table(fmu, sets)?);
     }
     Ok(tables)

@@ -1,4 +1,4 @@
-//! `documentation/index.html`: everything the description says, for people.
+//! `documentation/index.html`: the model description as a readable page.
 
 use std::fmt::Write;
 
@@ -22,7 +22,7 @@ td.n, code { font-family: ui-monospace, 'Cascadia Code', Menlo, monospace; font-
 .wide { overflow-x: auto; clear: both; }
 .calls td, .calls th { text-align: center; padding: .2rem .4rem; }
 .calls td:first-child, .calls th:first-child { text-align: left; }
-p.quiet, .quiet { color: light-dark(#5c6570, #9aa2ac); }
+p.secondary, .secondary { color: light-dark(#5c6570, #9aa2ac); }
 nav a { margin-right: 1rem; }
 ";
 
@@ -224,7 +224,7 @@ fn computation(page: &mut String, sources: &[(String, String)]) {
 fn stepping(page: &mut String, description: &Description) {
     page.push_str(
         "<h2 id=\"stepping\">Stepping</h2>\n<p>Communication points may lie anywhere: while inputs and tunable parameters stay \
-         as they are, results do not depend on where they lie, but for what Sources says. Setting an input to another value takes effect at the \
+         as they are, results do not depend on where they lie, except as Sources states. Setting an input to another value takes effect at the \
          beginning of the next step; setting it to the same value does nothing.</p>\n",
     );
     let Some(flags) = &description.co_simulation else { return };
@@ -269,7 +269,7 @@ fn calls(page: &mut String) {
         for state in State::ALL {
             match allowed(function, state) {
                 Access::Allowed => page.push_str("<td>yes</td>"),
-                Access::Forbidden => page.push_str("<td class=\"quiet\">&ndash;</td>"),
+                Access::Forbidden => page.push_str("<td class=\"secondary\">&ndash;</td>"),
                 Access::Conditional(condition) => {
                     if !notes.contains(&condition) {
                         notes.push(condition);
@@ -280,7 +280,7 @@ fn calls(page: &mut String) {
         }
         page.push_str("</tr>\n");
     }
-    page.push_str("</table></div>\n<p class=\"quiet\">");
+    page.push_str("</table></div>\n<p class=\"secondary\">");
     notes.sort_by_key(|condition| condition.number());
     for condition in notes {
         let _ = write!(page, "({}) {}. ", condition.number(), escape(condition.text()));
@@ -290,7 +290,7 @@ fn calls(page: &mut String) {
         let functions: Vec<&str> = leniency.functions.iter().map(|function| function.symbol()).collect();
         let _ = writeln!(
             page,
-            "<p class=\"quiet\">Beyond the table: {} in state {} for {}, because {}.</p>",
+            "<p class=\"secondary\">Beyond the table: {} in state {} for {}, because {}.</p>",
             functions.join(", "),
             leniency.state.name(),
             leniency.variables,

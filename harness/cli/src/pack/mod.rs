@@ -63,7 +63,7 @@ pub fn run(arguments: &Pack) -> Outcome {
         description = model_description::parse(again.xml.as_bytes())?.description;
     }
     if arguments.per_plate {
-        // After the user's own text was read as it stands, so that errors tell its lines.
+        // After the user's own text was read as it stands, so that errors name its lines.
         setup = per_plate::asking(&setup)?;
         description = per_plate::describe(source.binary(), &model, file.as_deref(), &setup)?;
     }

@@ -1,10 +1,10 @@
-//! `--per-plate`: the spacecraft's file as if it asked for the outputs of single plates.
+//! `--per-plate`: the spacecraft's file with the key that requests the outputs of single plates.
 
 use loader::Binary;
 use model_description::Description;
 use toml::de::DeTable;
 
-/// The key of a spacecraft file that asks for them.
+/// The key of a spacecraft file that requests them.
 const KEY: &str = "per_plate_outputs";
 
 /// The text with the key set to true; whatever else stands in it stays, comments too.
@@ -24,7 +24,7 @@ pub fn asking(text: &str) -> Result<String, String> {
     })
 }
 
-/// The model's description for a spacecraft that asks for the outputs.
+/// The model's description for a spacecraft with these outputs.
 ///
 /// # Errors
 /// A model that has none, with the models that do.
@@ -34,7 +34,7 @@ pub fn describe(
     file: Option<&str>,
     text: &str,
 ) -> Result<Description, Box<dyn std::error::Error>> {
-    // A model that does not know the key says so about its own kind of file, which helps nobody here.
+    // A model that does not know the key reports its own kind of file, which does not explain the option.
     if let Some(description) = described(binary, model, file, text).filter(has_plates) {
         return Ok(description);
     }

@@ -33,7 +33,7 @@ struct Surface {
 
 /// Draws the spacecraft; `None` if the text describes no surface and no thruster.
 pub fn png(spacecraft_toml: &str) -> Option<Vec<u8>> {
-    // A file that no reader takes has no picture; the library that packs it says what is wrong.
+    // A file that no reader takes has no picture; the library that packs it reports what is wrong.
     let svg = match Spacecraft::from_toml("", spacecraft_toml) {
         Ok(spacecraft) => svg(&surfaces(&spacecraft)),
         Err(_) => spinner::svg(&Spinner::parse("", spacecraft_toml).ok()?.thrusters),
@@ -151,7 +151,7 @@ fn svg(surfaces: &[Surface]) -> Option<String> {
     Some(svg)
 }
 
-/// Front sides in the light are bright; cells are blue, cloth is warm white, backs are grey.
+/// Front sides in the light are bright; cells are blue, cloth is yellowish white, backs are grey.
 fn colour(surface: &Surface, view: Vector) -> String {
     let front = dot(surface.normal, view) > 0.0;
     let light = unit(LIGHT).map_or(0.0, |light| dot(surface.normal, light)).max(0.0);
@@ -165,7 +165,7 @@ fn colour(surface: &Surface, view: Vector) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The grid that makes a solar panel look like one: nearly square cells over the rectangle around the outline.
+/// The grid of a solar panel: nearly square cells over the rectangle around the outline.
 fn cell_lines(surface: &Surface, screen: &dyn Fn(Vector) -> (f64, f64)) -> String {
     const CELLS: f64 = 25.0;
     let [low, high] = [f64::min, f64::max].map(|pick| {

@@ -35,7 +35,7 @@ impl Source {
             let fmu = open_template(&arguments.template)?;
             return Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) });
         };
-        // A bare file name would be looked for where the system keeps its libraries.
+        // A bare file name would be searched in the system's library folders.
         let path = std::path::absolute(path)?;
         if let Some(found) = fs::metadata(&path).ok().as_ref().and_then(files::kind) {
             let path = path.display();
@@ -132,7 +132,7 @@ pub fn open_template(path: &Path) -> Result<Fmu, String> {
 /// The model that a heliotorque FMU holds.
 pub fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
     let models = binary.models()?;
-    // An FMU with its own name still tells its model by the GUID.
+    // An FMU with its own name is recognised by the GUID.
     let holds = |model: &Described| {
         let setup = model
             .setup_file

@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn what_no_variable_takes_is_refused() {
-        for (set, says) in [
+        for (set, expected) in [
             ("ship.mas=1", "near it: ship.mass"),
             ("ship.mass=10", "ship.mass: found 10, allowed: a number up to 9"),
             ("arm=1", "1 values given for its 2 elements"),
@@ -152,7 +152,7 @@ mod tests {
         ] {
             let refused = with_start_values("", "Plant", &description(), &[set.to_owned()]).unwrap_err();
             let text = refused.to_string();
-            assert!(text.contains(says) && text.contains("--set"), "{set}: {text}");
+            assert!(text.contains(expected) && text.contains("--set"), "{set}: {text}");
         }
     }
 }

@@ -37,7 +37,7 @@ pub struct Simulated {
     pub fault: Option<String>,
 }
 
-/// Runs in a child process. `tick` is shown the recording so far and the beginning of the step under way.
+/// Runs in a child process. `tick` is shown the recording so far and the beginning of the step in progress.
 pub fn simulate(
     fmu: &Fmu,
     timeout_s: Option<f64>,
@@ -71,7 +71,7 @@ pub fn simulate(
                 terminal::note(&format!("{}: what else it prints is left out", fmu.name()));
             }
         },
-        &mut |mark| tick(inbox_cell.borrow().collector.recording(), mark.and_then(loader::step_begin_s)),
+        &mut |calls| tick(inbox_cell.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
     );
     let Inbox { outcome, messages, .. } = inbox;
     let name = fmu.name();
@@ -120,28 +120,28 @@ impl<'a> Inbox<'a> {
 
     /// Whether it was the last frame.
     fn take(&mut self, kind: u8, mut payload: Payload<'_>) -> Result<bool, String> {
-        const UNASKED: &str = "it sent what it was not asked for";
+        const NOT_REQUESTED: &str = "it sent what was not requested";
         if self.outcome.is_some() {
-            return Err(UNASKED.to_owned());
+            return Err(NOT_REQUESTED.to_owned());
         }
         match kind {
             ROW => {
-                self.rows_left = self.rows_left.checked_sub(1).ok_or(UNASKED)?;
-                let time_s = self.row(&mut payload).filter(|_| payload.is_empty()).ok_or(UNASKED)?;
+                self.rows_left = self.rows_left.checked_sub(1).ok_or(NOT_REQUESTED)?;
+                let time_s = self.row(&mut payload).filter(|_| payload.is_empty()).ok_or(NOT_REQUESTED)?;
                 let Self { collector, reals, integers, booleans, texts, .. } = self;
                 let row = Row { time_s, reals, integers, booleans, texts };
                 collector.take(&row).map_err(|error| error.to_string())?;
             }
             MESSAGE if self.messages.len() < MESSAGES => {
-                self.messages.push(message(&mut payload).ok_or(UNASKED)?);
+                self.messages.push(message(&mut payload).ok_or(NOT_REQUESTED)?);
             }
             ENDED => {
                 let ended =
                     payload.word().and_then(|number| ENDS.get(usize::try_from(number).ok()?).copied());
-                self.outcome = Some(Ok(ended.ok_or(UNASKED)?));
+                self.outcome = Some(Ok(ended.ok_or(NOT_REQUESTED)?));
             }
-            FAILED => self.outcome = Some(Err(payload.text().ok_or(UNASKED)?)),
-            _ => return Err(UNASKED.to_owned()),
+            FAILED => self.outcome = Some(Err(payload.text().ok_or(NOT_REQUESTED)?)),
+            _ => return Err(NOT_REQUESTED.to_owned()),
         }
         Ok(self.outcome.is_some())
     }
@@ -209,7 +209,7 @@ pub fn run(arguments: &RunInChild) -> Outcome {
             link.send(FAILED, |payload| push_text(payload, &text))?;
         }
     }
-    // The failure is told; the parent looks at how the process ends.
+    // The failure is reported; the parent reads how the process ends.
     Ok(ExitCode::SUCCESS)
 }
 
@@ -219,9 +219,9 @@ fn simulation(
 ) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
     let fmu = Fmu::open(&arguments.unpacked_in)?;
     let settings = Settings::of(&fmu, &arguments.run)?;
-    let (cancel, asked) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
-    let mut look = |_: f64| {
-        if asked.load(Ordering::Relaxed) != 0 {
+    let (cancel, cancel_word) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
+    let mut check_cancel = |_: f64| {
+        if cancel_word.load(Ordering::Relaxed) != 0 {
             cancel.store(true, Ordering::Relaxed);
         }
     };
@@ -236,7 +236,7 @@ fn simulation(
         input_derivatives: run.slopes,
         record: Some(settings.positions),
         instance: InstanceOptions { logging: run.log, ..InstanceOptions::default() },
-        progress: Some(&mut look),
+        progress: Some(&mut check_cancel),
         cancel: Some(&cancel),
     };
     Ok(loader::simulate_into(&fmu, options, &mut RowSender(link))?)

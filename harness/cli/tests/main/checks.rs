@@ -70,7 +70,7 @@ fn what_the_description_gets_wrong_is_named_with_its_line() {
 
     let folder = changed(&fmu, "start=\"1.5\"", "start=\"2.75\"");
     let text = run(&["check", shown(folder.path()), "--only", "values"], 1);
-    assert!(text.contains("parameter.real starts at 1.5, its XML says 2.75"), "{text}");
+    assert!(text.contains("parameter.real starts at 1.5, its XML has 2.75"), "{text}");
 }
 
 #[test]
@@ -174,20 +174,20 @@ fn an_unknown_attribute_is_wrong() {
 /// The C sources of the tests.
 const C: &str = "../../tests/c";
 
-/// An FMU in C as good ones in the wild are; see its source.
-fn frail() -> Option<tempfile::TempDir> {
+/// An FMU in C that does not check its arguments; see its source.
+fn unguarded() -> Option<tempfile::TempDir> {
     let folder = tempfile::tempdir().unwrap();
     let platform = folder.path().join("binaries").join(loader::platform_folders()[0]);
     let sources = folder.path().join("sources");
     fs::create_dir_all(&platform).unwrap();
     fs::create_dir_all(&sources).unwrap();
-    fs::copy(format!("{C}/frail.xml"), folder.path().join("modelDescription.xml")).unwrap();
-    fs::copy(format!("{C}/frail.c"), sources.join("frail.c")).unwrap();
+    fs::copy(format!("{C}/unguarded.xml"), folder.path().join("modelDescription.xml")).unwrap();
+    fs::copy(format!("{C}/unguarded.c"), sources.join("unguarded.c")).unwrap();
     let compiled = Command::new("gcc")
         .args(["-std=c11", "-O2", "-Wall", "-Werror", "-shared", "-fPIC", "-fvisibility=hidden"])
-        .arg(sources.join("frail.c"))
+        .arg(sources.join("unguarded.c"))
         .arg("-o")
-        .arg(platform.join(format!("Frail{}", std::env::consts::DLL_SUFFIX)))
+        .arg(platform.join(format!("Unguarded{}", std::env::consts::DLL_SUFFIX)))
         .arg("-lm")
         .status();
     match compiled {
@@ -202,8 +202,8 @@ fn frail() -> Option<tempfile::TempDir> {
 }
 
 #[test]
-fn an_fmu_that_senseless_times_hang_and_null_kills_is_checked_to_the_end() {
-    let Some(folder) = frail() else { return };
+fn an_fmu_that_hangs_at_invalid_times_and_crashes_at_null_is_checked_to_the_end() {
+    let Some(folder) = unguarded() else { return };
     let began = Instant::now();
     let text = run(&["check", shown(folder.path()), "--verbose"], 0);
     assert!(began.elapsed().as_secs() < 120, "{text}");
@@ -216,10 +216,10 @@ fn an_fmu_that_senseless_times_hang_and_null_kills_is_checked_to_the_end() {
     assert!(text.contains(found), "{text}");
     assert!(text.contains(" 0 wrong"), "{text}");
     // What follows the trials in the report is there.
-    for part in ["refuses a step backwards", "sources/frail.c is there", "100 instances came and went"] {
+    for part in ["refuses a step backwards", "sources/unguarded.c is there", "100 instances came and went"] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
-    // A factor for an Integer output says nothing, which is no fault.
+    // A factor for an Integer output has no meaning, which is no fault.
     assert!(text.contains("warning [dependency-kind-real] ModelStructure/Outputs entry 2 (`m`)"), "{text}");
 }
 
@@ -289,7 +289,7 @@ fn a_spacecraft_is_judged_by_the_model_it_is_for() {
 
 #[test]
 fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
-    for (model, spacecraft, from, to, says) in [
+    for (model, spacecraft, from, to, expected) in [
         ("MomentumPlant", "messenger.toml", "mass_kg = 700", "mass_kg = 701", "MomentumPlant has GUID {"),
         (
             "MomentumPlant",
@@ -316,7 +316,7 @@ fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
         fs::write(&toml, text.replacen(from, to, 1)).unwrap();
         let text = run(&["run", shown(&folder)], 1);
         let changed = text.find("spacecraft.toml").unwrap();
-        assert!(text[changed..].contains("was changed after packing") && text.contains(says), "{text}");
+        assert!(text[changed..].contains("was changed after packing") && text.contains(expected), "{text}");
         // Models for another kind of file say nothing of this one.
         let other = if model == "SpinPlant" { "MomentumPlant" } else { "SpinPlant" };
         assert!(!text.contains(other), "{text}");

@@ -158,9 +158,9 @@ fn what_is_no_file_is_refused_by_name() {
         (vec!["pack", "--library", shown(&archive), "--model", "M"], "pipe.fmu", "found a FIFO"),
         (vec!["pack", "--template", shown(&archive)], "pipe.fmu", "found a FIFO"),
     ];
-    for (arguments, name, says) in cases {
+    for (arguments, name, expected) in cases {
         let printed = run(&arguments, 1);
-        assert!(printed.contains(name) && printed.contains(says), "{arguments:?}: {printed}");
+        assert!(printed.contains(name) && printed.contains(expected), "{arguments:?}: {printed}");
     }
 }
 

@@ -28,10 +28,10 @@ const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </fmiModelDescription>
 "#;
 
-/// What tells the caller that something hangs: far beyond what any of these takes.
+/// The time after which the test counts a command as hanging: far beyond what any of these takes.
 const LONG: Duration = Duration::from_secs(60);
 
-/// An unpacked FMU that does this behaviour at this place; `None`, with a line that says why, where there is no compiler.
+/// An unpacked FMU that does this behaviour at this place; `None`, with a line that gives the reason, where there is no compiler.
 fn hostile(behaviour: &str, place: &str) -> Option<TempDir> {
     if Command::new("gcc").arg("--version").output().is_err() {
         assert!(std::env::var_os("CI").is_none(), "gcc is missing");
@@ -79,7 +79,7 @@ fn start(mut command: Command) -> Child {
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// What it says, once it ended with this status.
+/// What it prints, once it ended with this status.
 fn ended(scratch: &TempDir, name: &str, more: &[&str], status: i32) -> String {
     let output = start_to_file(scratch, command(scratch, name, more));
     let printed = text(&output);
@@ -136,12 +136,12 @@ fn signal(child: &Child, name: &str) {
 #[test]
 fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
     let in_step = "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): ";
-    for (behaviour, more, says) in [
-        ("EXITS", &[][..], "the process died: it exited with status 0"),
+    for (behaviour, more, expected) in [
+        ("EXITS", &[][..], "the process ended: it exited with status 0"),
         ("CRASHES", &[], "signal 11 (segmentation fault)"),
         ("ABORTS", &[], "signal 6 (abort)"),
         ("FAILS", &[], "answered fmi2Error"),
-        ("LIES", &[], "the process died: it exited with status 0"),
+        ("LIES", &[], "the process ended: it exited with status 0"),
         ("SLEEPS", &["--timeout", "0.3s"], "hangs: the call did not return within 0.3 s (see --timeout)"),
         ("SPINS", &["--timeout", "300ms"], "hangs: the call did not return within 0.3 s (see --timeout)"),
         ("PRINTS", &["--timeout", "0.5s"], "hangs: the call did not return within 0.5 s (see --timeout)"),
@@ -150,7 +150,7 @@ fn a_run_names_the_call_that_killed_or_stopped_it_and_keeps_the_rows() {
         let (table, part) = (scratch.path().join("a.csv"), scratch.path().join("a.csv.part"));
         fs::write(&table, "the last good one").unwrap();
         let printed = ended(&scratch, "run", &[&["--output", shown(&table)], more].concat(), 1);
-        assert!(printed.contains(in_step) && printed.contains(says), "{behaviour}: {printed}");
+        assert!(printed.contains(in_step) && printed.contains(expected), "{behaviour}: {printed}");
         assert!(
             printed.contains("4 rows so far: ") && printed.contains("a.csv.part"),
             "{behaviour}: {printed}"
@@ -174,13 +174,13 @@ fn nan_is_an_error_that_names_the_variable_and_keeps_the_rows_before() {
 
 #[test]
 fn a_run_names_the_call_before_the_first_step_too() {
-    for (place, says) in
+    for (place, expected) in
         [("IN_INSTANTIATE", "fmi2Instantiate: "), ("AT_LOADING", "loading the shared library: ")]
     {
         let Some(scratch) = hostile("CRASHES", place) else { return };
         let table = scratch.path().join("a.csv");
         let printed = ended(&scratch, "run", &["--output", shown(&table)], 1);
-        assert!(printed.contains(says) && printed.contains("segmentation fault"), "{printed}");
+        assert!(printed.contains(expected) && printed.contains("segmentation fault"), "{printed}");
         assert!(!table.exists() && !scratch.path().join("a.csv.part").exists());
     }
 }
@@ -197,25 +197,25 @@ fn what_an_fmu_forks_ends_with_the_run_and_sends_nothing() {
 
 #[test]
 fn a_check_outlives_every_fmu_and_leaves_nothing() {
-    for (behaviour, place, says) in [
+    for (behaviour, place, expected) in [
         (
             "EXITS",
             "IN_STEP",
-            "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): the process died",
+            "fmi2DoStep(currentCommunicationPoint=3, communicationStepSize=1): the process ended",
         ),
         ("CRASHES", "IN_STEP", "segmentation fault"),
-        ("CRASHES", "AT_LOADING", "loading the shared library: the process died"),
+        ("CRASHES", "AT_LOADING", "loading the shared library: the process ended"),
         ("SLEEPS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
         ("SPINS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
         // Of 64 MiB each, with those of the process itself 4 GiB.
         ("ALLOCATES", "IN_INSTANTIATE", "it could allocate 6"),
-        ("LIES", "IN_INSTANTIATE", "fmi2Instantiate: the process died: it exited with status 0"),
+        ("LIES", "IN_INSTANTIATE", "fmi2Instantiate: the process ended: it exited with status 0"),
         // Fewer than it may, for the process has files of its own.
         ("OPENS", "IN_INSTANTIATE", "it could open 10"),
     ] {
         let Some(scratch) = hostile(behaviour, place) else { return };
         let printed = ended(&scratch, "check", &["--only", "simulation", "--timeout", "1s"], 1);
-        assert!(printed.contains(says), "{behaviour}: {printed}");
+        assert!(printed.contains(expected), "{behaviour}: {printed}");
         // What it printed last is quoted, and nothing it printed is a verdict.
         let is_verdict = |line: &str| line.contains("everything is fine") && !line.contains("| ");
         assert!(!printed.lines().any(is_verdict) && printed.contains("1 wrong"), "{behaviour}: {printed}");

@@ -28,7 +28,7 @@ pub fn text(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
 }
 
-/// Runs it and wants this exit status.
+/// Runs it and expects this exit status.
 pub fn run(arguments: &[&str], status: i32) -> String {
     let output = heliotorque(arguments).output().unwrap();
     let text = text(&output);
@@ -41,7 +41,7 @@ pub fn shown(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// The shared library of the probe models, or a line that says why a test is left out.
+/// The shared library of the probe models, or a line that gives the reason why a test is left out.
 pub fn probe_library() -> Option<PathBuf> {
     built("HELIOTORQUE_PROBE_LIBRARY")
 }

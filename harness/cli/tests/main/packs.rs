@@ -2,6 +2,8 @@
 
 use std::{fs, io::Read, path::Path};
 
+use model_description::call_table::Function;
+
 use crate::{built, library, packed, probe_library, run, shown};
 
 const ACE: &str = "../../fmu-src/resources/ace.toml";
@@ -91,7 +93,7 @@ fn the_documentation_names_every_variable() {
         let cell = format!("<td class=\"n\">{}</td>", model_description::escape(&variable.name));
         assert!(page.contains(&cell), "{} is missing", variable.name);
     }
-    for symbol in loader::SYMBOLS {
+    for symbol in Function::ALL.iter().map(|function| function.symbol()) {
         assert!(page.contains(symbol), "{symbol} is missing");
     }
     assert!(page.contains("Gr\u{fc}\u{df}e") && page.contains("&lt;&amp;"), "texts are escaped");
@@ -130,7 +132,7 @@ fn what_cannot_be_packed_says_why() {
     };
     let text = pack(&["--model", "Warp"]);
     assert!(text.contains("Warp") && text.contains("AllTypes"), "{text}");
-    assert!(pack(&["--model", "AllTypes", "--name", "my craft"]).contains("no C identifier"));
+    assert!(pack(&["--model", "AllTypes", "--name", "my spacecraft"]).contains("no C identifier"));
     assert!(pack(&["--model", "AllTypes", "--spacecraft", "no/such.toml"]).contains("no/such.toml"));
     let toml = scratch.path().join("odd.toml");
     fs::write(&toml, "unknown_key = 1\n").unwrap();
@@ -227,7 +229,7 @@ fn models_without_outputs_of_single_plates_refuse_them() {
             "{text}"
         );
     }
-    // What is wrong with the file itself is told by the lines of the file itself.
+    // Errors in the file itself name the lines of the file itself.
     let toml = scratch.path().join("odd.toml");
     fs::write(&toml, "name = \"A\"\nwings = 2\n").unwrap();
     let text =
@@ -285,7 +287,7 @@ fn start_values_are_packed_and_simulated() {
         (10.0 / (180.0 / std::f64::consts::PI), 4.0)
     );
 
-    // It runs as the unset one does when it is told the same.
+    // It runs as the unset one does with the same values set.
     let simulate = |fmu: &Path, more: &[&str]| {
         let csv = scratch.path().join("simulation.csv");
         let mut arguments = vec!["run", shown(fmu), "--stop", "20d", "--quiet", "--output", shown(&csv)];

@@ -1,4 +1,4 @@
-//! A plan is simulated again through the shipped FMU where there is one, and says so.
+//! A plan is simulated again through the shipped FMU where there is one, and the text names it.
 
 use crate::{heliotorque, library, run, shown, text};
 
@@ -29,7 +29,7 @@ fn a_plan_is_simulated_through_the_fmu_in_dist() {
     };
     let (simulated, foreseen) = (degrees("worst final "), degrees("deg (foreseen "));
     assert!(simulated > 0.9 * foreseen && simulated < foreseen + 1.8e-5, "{line}");
-    // What is no FMU of this machine does not stop a plan that did not ask for it, but one that did.
+    // What is no FMU of this machine does not stop a plan that did not name it, but one that did.
     std::fs::write(&fmu, "not an archive").unwrap();
     let (status, text) = plan(&[]);
     assert!(status == Some(0) && text.contains("Not re-simulated: ") && text.contains("archive"), "{text}");

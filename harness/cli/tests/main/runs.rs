@@ -102,7 +102,7 @@ fn without_files_a_summary_is_shown() {
 #[test]
 fn bad_settings_name_the_variable_and_what_is_allowed() {
     let Some((_room, fmu)) = packed("AllTypes") else { return };
-    for (setting, says) in [
+    for (setting, expected) in [
         ("input.reel=1", "near it: input.real"),
         ("input.real=1 kg", "allowed: a number, with one of the units m/s, km/s"),
         ("input.choice=pink", "red (1)"),
@@ -111,14 +111,17 @@ fn bad_settings_name_the_variable_and_what_is_allowed() {
         ("input.real", "name=value"),
     ] {
         let text = run(&["run", shown(&fmu), "--set", setting], 1);
-        assert!(text.contains(says), "{setting}: {text}");
+        assert!(text.contains(expected), "{setting}: {text}");
     }
-    // What the FMU itself refuses is told with its reason, although nobody asked for the log.
-    for (setting, says) in
+    // What the FMU itself refuses is reported with its reason, also without the log.
+    for (setting, expected) in
         [("input.real=1e7", "-1000000.0 to 1000000.0"), ("input.integer=2000", "-1000 to 1000")]
     {
         let text = run(&["run", shown(&fmu), "--set", setting], 1);
-        assert!(text.contains("fmi2Discard") && text.contains("allowed is") && text.contains(says), "{text}");
+        assert!(
+            text.contains("fmi2Discard") && text.contains("allowed is") && text.contains(expected),
+            "{text}"
+        );
     }
     let text = run(&["run", shown(&fmu), "--output", "no/such/folder/out.csv"], 1);
     assert!(text.contains("no/such/folder/out.csv") && text.contains("--output"), "{text}");

@@ -20,7 +20,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
             for case in cases(fmu, function, state) {
                 match call(fmu, &case)? {
                     Answer::None => left_out += 1,
-                    Answer::Status(status) => match judge(&case, status) {
+                    Answer::Status(status) => match compare(&case, status) {
                         None => as_told += 1,
                         Some(finding) => findings.push(finding),
                     },
@@ -29,7 +29,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
         }
     }
     findings.push(Finding::good(format!(
-        "{as_told} calls answered as the table says, {left_out} not possible with this FMU"
+        "{as_told} calls answered as the table requires, {left_out} not possible with this FMU"
     )));
     Ok(findings)
 }
@@ -48,7 +48,7 @@ enum Expected {
     Done,
     /// The call is illegal.
     Refused,
-    /// The call is illegal, but our own FMUs and others live with it.
+    /// The call is illegal, but our own FMUs and others accept it.
     Either,
 }
 
@@ -134,7 +134,7 @@ fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Expec
     }
 }
 
-fn judge(case: &Case<'_>, status: Status) -> Option<Finding> {
+fn compare(case: &Case<'_>, status: Status) -> Option<Finding> {
     let subject = case.variable.map_or_else(String::new, |variable| format!(" of {}", variable.name));
     let call = format!("{}{subject} in state {}", case.function.symbol(), case.state.name());
     let wants_status = matches!(

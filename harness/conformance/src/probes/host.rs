@@ -7,11 +7,11 @@ use loader::{Callbacks, Error, Fmu, Instance, InstanceOptions, LogMessage, Resou
 use crate::{
     Finding,
     experiment::{self, STEPS},
-    judge::verdict,
     probe::{Findings, Trial},
+    verdict::verdict,
 };
 
-/// The callbacks' struct dies with `fmi2Instantiate` (2.0.5); memory functions may be NULL if the FMU says so.
+/// The callbacks' struct ends with `fmi2Instantiate` (2.0.5); memory functions may be NULL if the FMU declares it.
 pub fn callbacks(fmu: &Fmu) -> Findings {
     let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let may_be_null = fmu.co_simulation()?.can_not_use_memory_management_functions;
@@ -111,7 +111,7 @@ pub fn paths(fmu: &Fmu) -> Findings {
             Err(error) => Finding::note(format!("not so: {what}\n{error}")),
         });
     }
-    // Whatever it makes of these, it must live.
+    // Whatever it answers to these, it must go on.
     for (what, resources) in [
         ("NULL", Resources::Absent),
         ("an empty text", Resources::Uri(String::new())),
@@ -121,7 +121,7 @@ pub fn paths(fmu: &Fmu) -> Findings {
         let options = InstanceOptions { resources, ..experiment::strict() };
         let runs =
             if Instance::new(fmu, "probe", &options).is_ok() { "instantiates" } else { "gives no instance" };
-        findings.push(Finding::good(format!("{runs} with {what} for the resource location, and lives")));
+        findings.push(Finding::good(format!("{runs} with {what} for the resource location, and goes on")));
     }
     Ok(findings)
 }
@@ -149,7 +149,7 @@ pub fn identity(fmu: &Fmu) -> Findings {
         findings.push(match Instance::new(fmu, "probe", &options) {
             Ok(_) => Finding::bad(format!("gives an instance for the GUID {guid:?}, which is not its own")),
             Err(Error::Call(call)) if !call.messages.is_empty() => {
-                Finding::good(format!("refuses the GUID {guid:?} and says: {}", text(&call.messages)))
+                Finding::good(format!("refuses the GUID {guid:?} with the message: {}", text(&call.messages)))
             }
             Err(_) => Finding::note(format!("refuses the GUID {guid:?} without a word")),
         });
@@ -164,7 +164,7 @@ pub fn identity(fmu: &Fmu) -> Findings {
         let outcome = Instance::new(fmu, name, &experiment::unchecked());
         findings.push(match outcome {
             Err(_) => Finding::good(format!("refuses the instance name {name:?}")),
-            Ok(_) => Finding::note(format!("takes the instance name {name:?}, which says nothing (2.1.5)")),
+            Ok(_) => Finding::note(format!("takes the instance name {name:?}, which names nothing (2.1.5)")),
         });
     }
     // Two instances of one name are two instances.

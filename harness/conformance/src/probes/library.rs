@@ -1,6 +1,7 @@
 //! Whether the shared library loads and exports what it must.
 
-use loader::{Fmu, SYMBOLS};
+use loader::Fmu;
+use model_description::call_table::Function;
 
 use crate::{Finding, probe::Findings};
 
@@ -10,7 +11,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
     let mut findings = vec![Finding::good("loads")];
     let missing = binary.missing();
     if missing.is_empty() {
-        findings.push(Finding::good(format!("exports all {} functions", SYMBOLS.len())));
+        findings.push(Finding::good(format!("exports all {} functions", Function::ALL.len())));
     } else {
         let names = missing.join(", ");
         findings.push(Finding::bad(format!("does not export {names}; every function must exist (2.3)")));

@@ -6,8 +6,8 @@ use model_description::call_table::State;
 use crate::{
     Finding,
     experiment::{self, STEPS},
-    judge::refused,
     probe::Findings,
+    verdict::refused,
 };
 
 /// Saves between two steps and compares what follows.

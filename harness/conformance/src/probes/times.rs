@@ -6,8 +6,8 @@ use model_description::call_table::State;
 use crate::{
     Finding,
     experiment::{self, STEPS},
-    judge::{refused, verdict},
     probe::{Findings, Trial},
+    verdict::{refused, verdict},
 };
 
 /// Wrong times: an FMU whose solver goes on until it has passed the end of a step may never come back.

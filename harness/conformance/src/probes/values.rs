@@ -7,8 +7,8 @@ use model_description::{Causality, Initial, ScalarVariable, Variability, Variabl
 use crate::{
     Finding,
     experiment::{self, References},
-    judge::{refused, same, verdict},
     probe::Findings,
+    verdict::{refused, same, verdict},
 };
 
 /// Start values read back, limits are kept, unknown references refused.
@@ -43,14 +43,14 @@ fn start_values(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Er
         checked += 1;
         if !same(&found, &expected) {
             findings
-                .push(Finding::bad(format!("{} starts at {found}, its XML says {expected}", variable.name)));
+                .push(Finding::bad(format!("{} starts at {found}, its XML has {expected}", variable.name)));
         }
     }
     findings.push(Finding::good(format!("{checked} start values read back as in the XML")));
     Ok(())
 }
 
-/// Inputs, else parameters, with limits: just outside is refused, the instance lives, nothing is written.
+/// Inputs, else parameters, with limits: just outside is refused, the instance goes on, nothing is written.
 fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
     let mut tried = 0;
     for variable in &fmu.description().variables {

@@ -16,23 +16,23 @@ use model_description::functions::{
 };
 
 use super::{
-    Binary,
+    binary::Binary,
     logger::{FixedLogger, MessageBuffer, log_message},
-    text,
+    text::text,
 };
-use crate::{LogMessage, Status, calls, error::Outcome};
+use crate::{LogMessage, Status, call_record, error::Outcome};
 
 unsafe extern "C" {
     fn calloc(count: usize, size: usize) -> *mut c_void;
     fn free(pointer: *mut c_void);
 }
 
-/// How the callbacks are handed over; the default is the least_nutation to old FMUs.
+/// How the callbacks are handed over; the default suits old FMUs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Callbacks {
     /// NULL for `allocateMemory` and `freeMemory`.
     pub null_memory: bool,
-    /// The struct is overwritten with rubbish right after `fmi2Instantiate` (2.0.5 lets it die there).
+    /// The struct is overwritten with rubbish right after `fmi2Instantiate` (2.0.5 does not let the FMU read it afterwards).
     pub overwritten: bool,
 }
 
@@ -52,14 +52,14 @@ pub(crate) type Answer = Result<Status, Outcome>;
 pub(crate) struct Component {
     binary: Arc<Binary>,
     handle: types::Component,
-    book: Arc<MessageBuffer>,
+    buffer: Arc<MessageBuffer>,
     // Old FMUs read the callbacks from the caller's struct for the whole of their life.
     callbacks: *mut CallbackFunctions,
     states: Vec<Slot>,
     number: u64,
 }
 
-/// A place for one FMU state; `generation` tells a freed one from its successor.
+/// A place for one FMU state; `generation` distinguishes a freed one from its successor.
 struct Slot {
     state: FmuState,
     generation: u64,
@@ -74,14 +74,14 @@ pub(crate) struct StateKey {
 }
 
 // SAFETY: an FMI instance may be used from any thread as long as it is from one at a time (2.1.3), which
-// `&mut self` ensures; the log book is behind a mutex.
+// `&mut self` ensures; the message buffer is behind a mutex.
 unsafe impl Send for Component {}
 
 macro_rules! call {
     ($self:ident.$function:ident($($argument:expr),*)) => {
         match $self.binary.functions.$function {
             Some(function) => {
-                let _under_way = calls::enter(const { calls::number(stringify!($function)) });
+                let _under_way = call_record::enter(const { call_record::number(stringify!($function)) });
                 // SAFETY: the handle is alive until drop and the arguments' lengths were checked by the caller.
                 answered(unsafe { function($self.handle, $($argument),*) })
             }
@@ -104,7 +104,7 @@ impl Component {
         let Some(function) = binary.functions.fmi2Instantiate else {
             return Err((Outcome::Missing, Vec::new()));
         };
-        let book = Arc::new(MessageBuffer::default());
+        let buffer = Arc::new(MessageBuffer::default());
         let fixed: FixedLogger = log_message;
         let memory = !start.callbacks.null_memory;
         let callbacks = Box::into_raw(Box::new(CallbackFunctions {
@@ -113,10 +113,10 @@ impl Component {
             allocate_memory: memory.then_some(calloc as _),
             free_memory: memory.then_some(free as _),
             step_finished: None,
-            component_environment: Arc::as_ptr(&book).cast_mut().cast(),
+            component_environment: Arc::as_ptr(&buffer).cast_mut().cast(),
         }));
-        let under_way = calls::enter(const { calls::number("fmi2Instantiate") });
-        // SAFETY: all texts and the struct live during the call; the book outlives the instance.
+        let under_way = call_record::enter(const { call_record::number("fmi2Instantiate") });
+        // SAFETY: all texts and the struct are valid during the call; the buffer outlives the instance.
         let handle = unsafe {
             function(
                 name.as_ptr(),
@@ -136,7 +136,7 @@ impl Component {
         let component = Self {
             binary,
             handle,
-            book,
+            buffer,
             callbacks,
             states: Vec::new(),
             number: NUMBER.fetch_add(1, Ordering::Relaxed),
@@ -150,12 +150,12 @@ impl Component {
 
     /// The messages so far, oldest first.
     pub fn messages(&self) -> Vec<LogMessage> {
-        self.book.messages().iter().cloned().collect()
+        self.buffer.messages().iter().cloned().collect()
     }
 
     /// Takes the messages out.
     pub fn take_messages(&self) -> Vec<LogMessage> {
-        self.book.messages().drain(..).collect()
+        self.buffer.messages().drain(..).collect()
     }
 
     pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Answer {
@@ -189,7 +189,7 @@ impl Component {
 
     pub fn do_step(&mut self, time: f64, step: f64, no_set_state_prior: bool) -> Answer {
         let Some(function) = self.binary.functions.fmi2DoStep else { return Err(Outcome::Missing) };
-        let _under_way = calls::enter_with(const { calls::number("fmi2DoStep") }, [time, step]);
+        let _under_way = call_record::enter_with(const { call_record::number("fmi2DoStep") }, [time, step]);
         // SAFETY: the handle is alive until drop.
         answered(unsafe { function(self.handle, time, step, c_int::from(no_set_state_prior)) })
     }
@@ -390,7 +390,7 @@ impl Component {
     /// `fmi2FreeInstance(NULL)`, a no-op by the standard.
     pub fn free_nothing(&self) {
         if let Some(function) = self.binary.functions.fmi2FreeInstance {
-            let _under_way = calls::enter(const { calls::number("fmi2FreeInstance") });
+            let _under_way = call_record::enter(const { call_record::number("fmi2FreeInstance") });
             // SAFETY: NULL is allowed.
             unsafe { function(ptr::null_mut()) };
         }
@@ -431,13 +431,13 @@ impl Drop for Component {
                 if let (false, Some(function)) =
                     (slot.state.is_null(), self.binary.functions.fmi2FreeFMUstate)
                 {
-                    let _under_way = calls::enter(const { calls::number("fmi2FreeFMUstate") });
+                    let _under_way = call_record::enter(const { call_record::number("fmi2FreeFMUstate") });
                     // SAFETY: the state is this instance's and not yet freed.
                     unsafe { function(self.handle, &raw mut slot.state) };
                 }
             }
             if let Some(function) = self.binary.functions.fmi2FreeInstance {
-                let _under_way = calls::enter(const { calls::number("fmi2FreeInstance") });
+                let _under_way = call_record::enter(const { call_record::number("fmi2FreeInstance") });
                 // SAFETY: the handle is alive and never used again.
                 unsafe { function(self.handle) };
             }

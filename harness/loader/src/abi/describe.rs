@@ -1,4 +1,4 @@
-//! What a heliotorque library tells of its models: the C function `fmi_export_describe`.
+//! The models of a heliotorque library with their descriptions: the C function `fmi_export_describe`.
 
 use std::{
     ffi::{CString, c_char, c_int, c_void},
@@ -7,9 +7,9 @@ use std::{
 
 use model_description::describe::{Describe, SYMBOL, kind};
 
-use super::Binary;
+use super::binary::Binary;
 
-/// A model in a heliotorque library, as the library tells it.
+/// A model in a heliotorque library.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Described {
     /// The model's name.
@@ -26,7 +26,7 @@ pub struct Described {
 
 /// Collects what `fmi_export_describe` sends: a kind and a text at a time.
 unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_char, length: usize) {
-    // SAFETY: the context is the list given to the call; the text has this length and lives until we return.
+    // SAFETY: the context is the list given to the call; the text has this length and is valid until we return.
     unsafe {
         let Some(received) = context.cast::<Vec<(c_int, String)>>().as_mut() else { return };
         let bytes = if length == 0 { &[] } else { std::slice::from_raw_parts(text.cast::<u8>(), length) };
@@ -37,7 +37,7 @@ unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_c
 impl Binary {
     /// The models of a heliotorque library.
     pub fn models(&self) -> Result<Vec<Described>, String> {
-        self.ask(None, None, None)
+        self.call_describe(None, None, None)
     }
 
     /// The description of a model for a setup text (otherwise the compiled-in one); `file` names it in errors.
@@ -47,14 +47,14 @@ impl Binary {
         file: Option<&str>,
         setup: Option<&str>,
     ) -> Result<Described, String> {
-        let mut described = self.ask(Some(model), file, setup)?;
+        let mut described = self.call_describe(Some(model), file, setup)?;
         described
             .pop()
             .filter(|it| !it.xml.is_empty())
             .ok_or_else(|| format!("{model}: the library gave no XML"))
     }
 
-    fn ask(
+    fn call_describe(
         &self,
         model: Option<&str>,
         file: Option<&str>,
@@ -70,7 +70,7 @@ impl Binary {
         let (model, file, setup) = (c_text(model)?, c_text(file)?, c_text(setup)?);
         let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
         let mut received: Vec<(c_int, String)> = Vec::new();
-        // SAFETY: texts and list live during the call, which is the only time `receive` is called.
+        // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
         let code = unsafe {
             function(
                 pointer(&model),

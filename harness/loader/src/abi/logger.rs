@@ -6,9 +6,9 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
-use super::text;
 use model_description::Status;
 
+use super::text::text;
 use crate::LogMessage;
 
 pub(super) type FixedLogger =
@@ -40,17 +40,17 @@ pub(super) unsafe extern "C" fn log_message(
     category: *const c_char,
     message: *const c_char,
 ) {
-    // SAFETY: the environment is NULL or the book given to fmi2Instantiate, which outlives the instance; the
+    // SAFETY: the environment is NULL or the buffer given to fmi2Instantiate, which outlives the instance; the
     // texts are NULL or end with a zero byte.
     unsafe {
-        let Some(book) = environment.cast::<MessageBuffer>().as_ref() else { return };
+        let Some(buffer) = environment.cast::<MessageBuffer>().as_ref() else { return };
         let text = unescape(&text(message).unwrap_or_default());
         let message = LogMessage {
             status: Status::from_code(status).unwrap_or(Status::Error),
-            category: self::text(category),
+            category: super::text::text(category),
             text,
         };
-        let mut messages = book.messages();
+        let mut messages = buffer.messages();
         if messages.len() >= MESSAGES_KEPT {
             messages.pop_front();
         }

@@ -1,146 +1,21 @@
 //! The C interface of FMI 2.0, seen from the importer: the only unsafe code of the harness.
 //!
 //! [`Binary`] is a loaded shared library with its functions bound to their types; [`Component`] is one instance
-//! in it; [`SharedWords`] is memory shared with another process. All are safe to use from outside this folder: lengths are checked, strings copied, states freed before
-//! their instance, and the library is never unloaded (Rust and C++ libraries leave thread-local destructors
-//! behind that would jump into unmapped memory).
+//! in it; [`SharedWords`] is memory shared with another process. All are safe to use from outside this folder: lengths are
+//! checked, strings copied, and states freed before their instance.
 #![allow(unsafe_code, reason = "this folder is the boundary to the FMU's C interface")]
 
+mod binary;
 mod component;
 mod describe;
+mod locale;
 mod logger;
 mod shared;
+mod text;
 
-use std::{
-    ffi::{CStr, CString, c_char, c_int, c_void},
-    path::Path,
-};
-
-use model_description::functions::types;
-
-use crate::{Error, calls};
-
+pub use binary::Binary;
 pub use component::Callbacks;
 pub(crate) use component::{Answer, Component, Start, StateKey};
 pub use describe::Described;
+pub use locale::set_locale;
 pub use shared::SharedWords;
-
-unsafe extern "C" {
-    fn setlocale(category: c_int, locale: *const c_char) -> *const c_char;
-}
-
-/// Puts the whole process under a locale of the C library, as some simulation tools do; false if the computer
-/// does not have it. Call it while no other thread runs.
-pub fn set_locale(name: &str) -> bool {
-    // `LC_ALL` is 6 in glibc and musl, 0 elsewhere.
-    let all = if cfg!(target_os = "linux") { 6 } else { 0 };
-    let Ok(name) = CString::new(name) else { return false };
-    // SAFETY: the name lives during the call; the answer is only compared with NULL.
-    !unsafe { setlocale(all, name.as_ptr()) }.is_null()
-}
-
-macro_rules! bind {
-    ($($name:ident $symbol:ident $parameters:tt -> $result:ty: $access:expr;)*) => {
-        /// Every function of an FMI 2.0 co-simulation FMU, `None` where the library lacks it.
-        #[allow(non_snake_case, reason = "the standard's own names")]
-        struct Functions {
-            $($symbol: Option<types::$symbol>,)*
-        }
-
-        /// The symbols that a co-simulation FMU has to export (2.3).
-        pub const SYMBOLS: &[&str] = &[$(stringify!($symbol)),*];
-
-        impl Functions {
-            /// # Safety
-            /// The library's symbols of these names must have these types.
-            unsafe fn bind(library: &Library) -> Self {
-                // SAFETY: the caller's promise, one symbol at a time.
-                unsafe {
-                    Self { $($symbol: library
-                        .get(concat!(stringify!($symbol), "\0").as_bytes())
-                        .map(|symbol| *symbol)
-                        .ok(),)* }
-                }
-            }
-
-            fn missing(&self) -> Vec<&'static str> {
-                let mut missing = Vec::new();
-                $(if self.$symbol.is_none() { missing.push(stringify!($symbol)); })*
-                missing
-            }
-        }
-    };
-}
-
-model_description::functions!(bind);
-
-#[cfg(unix)]
-use libloading::os::unix::Library;
-#[cfg(windows)]
-use libloading::os::windows::Library;
-
-/// A loaded shared library; it stays loaded for the life of the process.
-pub struct Binary {
-    functions: Functions,
-    library: &'static Library,
-}
-
-impl std::fmt::Debug for Binary {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Binary").field("missing", &self.missing()).finish_non_exhaustive()
-    }
-}
-
-impl Binary {
-    /// Loads the library at `path` with its symbols to itself: every FMU names its functions alike.
-    pub fn load(path: &Path) -> Result<Self, Error> {
-        let _under_way = calls::enter(calls::LOADING);
-        // SAFETY: loading runs the library's initialisers; an FMU is code its user chose to run.
-        let opened = unsafe {
-            #[cfg(unix)]
-            {
-                use libloading::os::unix::{RTLD_LOCAL, RTLD_NOW};
-                Library::open(Some(path), RTLD_NOW | RTLD_LOCAL)
-            }
-            #[cfg(windows)]
-            {
-                Library::load_with_flags(path, libloading::os::windows::LOAD_WITH_ALTERED_SEARCH_PATH)
-            }
-        };
-        let library =
-            opened.map_err(|error| Error::Library { path: path.to_owned(), chain: Error::chain(&error) })?;
-        let library: &'static Library = Box::leak(Box::new(library));
-        // SAFETY: the names are the standard's, so the types are the standard's.
-        let functions = unsafe { Functions::bind(library) };
-        Ok(Self { functions, library })
-    }
-
-    /// Functions of the standard that the library does not export.
-    pub fn missing(&self) -> Vec<&'static str> {
-        self.functions.missing()
-    }
-
-    /// Whether the library exports `symbol`.
-    pub fn exports(&self, symbol: &str) -> bool {
-        // SAFETY: the address is only compared with nothing.
-        unsafe { self.library.get::<*const c_void>(symbol.as_bytes()).is_ok() }
-    }
-
-    /// `fmi2GetVersion` and `fmi2GetTypesPlatform`; `None` where missing or NULL.
-    pub fn versions(&self) -> (Option<String>, Option<String>) {
-        let read = |function: Option<unsafe extern "C" fn() -> *const c_char>| {
-            // SAFETY: the function takes nothing and answers a text that lives as long as the library.
-            function.and_then(|function| unsafe { text(function()) })
-        };
-        (read(self.functions.fmi2GetVersion), read(self.functions.fmi2GetTypesPlatform))
-    }
-}
-
-/// Copies a C text; `None` for NULL.
-///
-/// # Safety
-/// `pointer` is NULL or points to bytes that end with zero.
-unsafe fn text(pointer: *const c_char) -> Option<String> {
-    // SAFETY: the caller's promise.
-    (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned())
-}

@@ -45,7 +45,7 @@ impl Deref for SharedWords {
     type Target = [AtomicU64];
 
     fn deref(&self) -> &[AtomicU64] {
-        // SAFETY: the mapping is of this length, begins at a page, lives as long as `self` and is never made shorter
+        // SAFETY: the mapping is of this length, begins at a page, is valid as long as `self` and is never made shorter
         // by us; any bits are a valid word, and all processes use atomic operations only.
         unsafe { std::slice::from_raw_parts(self.mapping.as_ptr().cast(), self.count) }
     }

@@ -16,7 +16,7 @@ use crate::{
     uri::file_uri,
 };
 
-/// What the instance is told about its resources.
+/// Where the instance finds its resources.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub enum Resources {
     /// The URI of the unpacked `resources` folder.
@@ -31,7 +31,7 @@ pub enum Resources {
 /// How to instantiate; the default suits any FMU.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct InstanceOptions {
-    /// Turns on the FMU's whole log; otherwise only the categories that tell why a call failed.
+    /// Turns on the FMU's whole log; otherwise only the categories that give the reason of a failed call.
     pub logging: bool,
     /// Categories of the whole log; empty means all.
     pub categories: Vec<String>,
@@ -112,7 +112,7 @@ impl Instance {
         Ok(instance)
     }
 
-    /// Asks for the messages that say why a call failed, so that its error can tell.
+    /// Turns on the messages that give the reason of a failed call, for its error.
     fn listen_to_reasons(&mut self) {
         let declared = self.fmu.description().log_categories.iter().map(|category| category.name.clone());
         let expected: Vec<String> = declared.filter(|name| REASONS.contains(&name.as_str())).collect();
@@ -258,7 +258,7 @@ impl Instance {
         self.finish(function, answer, |symbol| self.call_text(symbol, unknowns, BaseType::Real))
     }
 
-    /// Whether the FMU ended by itself (`fmi2Terminated`), asked after a step was discarded.
+    /// Whether the FMU ended by itself (`fmi2Terminated`), read after a step was discarded.
     pub fn terminated(&mut self) -> Result<bool, Error> {
         let function = Function::GetBooleanStatus;
         self.allow(function)?;
@@ -267,7 +267,7 @@ impl Instance {
         Ok(value.unwrap_or(false))
     }
 
-    /// `fmi2LastSuccessfulTime` in s, asked after a step was discarded.
+    /// `fmi2LastSuccessfulTime` in s, read after a step was discarded.
     pub fn last_successful_time(&mut self) -> Result<f64, Error> {
         let function = Function::GetRealStatus;
         self.allow(function)?;

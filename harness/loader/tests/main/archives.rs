@@ -1,4 +1,4 @@
-//! An archive leaves nothing outside its folder and never more than it may, whatever it says of itself.
+//! An archive leaves nothing outside its folder and never more than it may, whatever sizes it states.
 
 use std::{fs, io::Write, path::Path};
 

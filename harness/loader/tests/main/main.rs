@@ -132,7 +132,7 @@ pub fn folder(description: &Description) -> (tempfile::TempDir, Fmu) {
     (folder, fmu)
 }
 
-/// The shared library of the probe models, or a line that says why a test is left out.
+/// The shared library of the probe models, or a line that gives the reason why a test is left out.
 pub fn probe_library() -> Option<PathBuf> {
     let path = std::env::var_os("HELIOTORQUE_PROBE_LIBRARY").map(PathBuf::from);
     if path.is_none() {

@@ -22,7 +22,7 @@ fn reals_take_units() {
     // Offsets too: 20 above a sea level that lies at 500.
     assert_eq!(value("ship.mass=20 above sea"), Value::Real(520.0));
     assert_eq!(value("ship.mass=2000 cm above sea"), Value::Real(520.0));
-    for (text, says) in [
+    for (text, expected) in [
         ("ship.mass=5km", "the units m, cm, above sea"),
         ("ship.mass=", "no number"),
         ("ship.mass=nan", "no number"),
@@ -32,7 +32,7 @@ fn reals_take_units() {
         ("ship.mass=日本", "no number"),
     ] {
         let error = assigned(text).unwrap_err();
-        assert!(error.contains(says) && error.contains("ship.mass"), "{text}: {error}");
+        assert!(error.contains(expected) && error.contains("ship.mass"), "{text}: {error}");
     }
 }
 

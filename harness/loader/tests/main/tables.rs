@@ -67,9 +67,9 @@ fn bad_tables_are_named_by_line_and_column() {
         (&[&["time", "drive.push"], &["0", "0"], &["-1", "0"]], "line 3: time -1 is before"),
         (&[&["time", "drive.push"], &["0", "x"]], "line 2: drive.push"),
     ];
-    for (rows, says) in cases {
+    for (rows, expected) in cases {
         let error = table(rows).unwrap_err();
-        assert!(error.contains(says), "{error} does not say {says}");
+        assert!(error.contains(expected), "{error} lacks {expected}");
     }
     for time in ["nan", "inf", "soon", ""] {
         assert!(table(&[&["time", "drive.push"], &[time, "0"]]).unwrap_err().contains("is no number"));

@@ -51,7 +51,7 @@ fn the_last_step_is_shortened_but_rounding_makes_no_extra_one() {
 
 #[test]
 fn times_that_make_no_run_name_their_flag() {
-    for (start, stop, step, says) in [
+    for (start, stop, step, expected) in [
         (None, Some(0.0), None, "--stop"),
         (Some(11.0), None, None, "--start"),
         (None, Some(f64::NAN), None, "--stop"),
@@ -63,7 +63,7 @@ fn times_that_make_no_run_name_their_flag() {
         (Some(1e300), Some(2e300), Some(1.0), "--step"),
     ] {
         let error = times(start, stop, step).unwrap_err();
-        assert!(error.contains(says), "{error} does not name {says}");
+        assert!(error.contains(expected), "{error} does not name {expected}");
     }
 }
 

@@ -50,7 +50,7 @@ pub fn windows(duration_s: f64, interval_s: f64) -> u32 {
     (duration_s / interval_s).ceil().clamp(1.0, 1e6) as u32
 }
 
-/// The antenna over the stretch from `start_s` to `end_s`.
+/// The antenna over the interval from `start_s` to `end_s`.
 fn point(spinner: &Spinner, phases: &L1Phases, start_s: f64, end_s: f64) -> Pointing {
     let at = |share: f64| spinner.l1_orbit.sun_earth(phases, start_s + share * (end_s - start_s));
     let (first, last) = (at(0.0), at(1.0));
@@ -86,7 +86,7 @@ fn pointings<'a>(
 }
 
 /// Runs the geometry for `duration_s` and turns every `interval_s`, each time with the train of least nutation that keeps the task's
-/// limits; `passed` is told of every stretch.
+/// limits; `passed` is called for every interval.
 ///
 /// # Errors
 /// A turn that no train makes within the limits.
@@ -123,7 +123,7 @@ pub fn campaign(
             let sun_angle_rad = angle_between_rad(&-antenna, &pointing.sun_at_start_inertial);
             sized.allowed_nutation_rad = allowed_nutation_rad(
                 spinner.limits.period_variation_s,
-                sized.flight.spin.rate_rad_s,
+                sized.case.spin.rate_rad_s,
                 sun_angle_rad,
             );
             let uniform = paper_plan(&sized)?;

@@ -28,7 +28,7 @@ pub enum PlanError {
     /// No such thruster.
     #[error("--thruster is \"{found}\"; this spacecraft has {known}")]
     Thruster {
-        /// What was asked for.
+        /// What was requested.
         found: String,
         /// What there is.
         known: String,
@@ -36,7 +36,7 @@ pub enum PlanError {
     /// A set of thrusters that cannot turn the spin axis.
     #[error("--thruster is \"{found}\", which has no torque across the spin axis")]
     NoTorque {
-        /// What was asked for.
+        /// What was requested.
         found: String,
     },
     /// The spacecraft's file.
@@ -64,7 +64,7 @@ pub enum PlanError {
          pulse of {thruster}, {pulse_ms} ms, moves {pulse_deg:.6} deg"
     )]
     NoTrain {
-        /// What was asked for.
+        /// What was requested.
         angle_deg: f64,
         /// How near it had to come.
         tolerance_percent: f64,

@@ -37,7 +37,7 @@ pub struct Task {
     /// Relative: trains move by whole pulses.
     pub angle_tolerance: f64,
     /// Best knowledge of the body, and the thruster.
-    pub flight: ForecastCase,
+    pub case: ForecastCase,
     /// What may be wrong with it.
     pub range: Range,
     /// Name of the thruster or group.
@@ -146,7 +146,7 @@ impl Task {
         Ok(Self {
             angle_rad: angle_deg.to_radians(),
             angle_tolerance: positive("--angle-tolerance", options.angle_tolerance_percent)? / 100.0,
-            flight: ForecastCase {
+            case: ForecastCase {
                 spin,
                 assumed_rate_rad_s: rate_rad_s,
                 timing: match options.timing {

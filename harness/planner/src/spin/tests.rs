@@ -50,7 +50,7 @@ fn with_the_papers_peak_the_planner_finds_the_tapered_train_in_half_the_time() {
 }
 
 #[test]
-fn what_is_best_keeps_every_limit_and_nothing_that_keeps_them_ends_quieter() {
+fn the_best_plan_keeps_every_limit_and_no_other_that_does_has_less_nutation() {
     let task =
         task("--angle 3 --max-nutation 0.08 --max-duration 10 --max-final 0.01 --rate-uncertainty-rpm 0.1");
     let row = chosen(&task);

@@ -21,7 +21,7 @@ const MOST_DAYS: f64 = 3653.0;
 /// What the best plan is simulated through unless another is named.
 const SHIPPED_FMU: &str = "dist/SpinPlant.fmu";
 
-/// Plans what the options ask for; the answer, ready to print.
+/// Plans by the options; the answer, ready to print.
 ///
 /// # Errors
 /// Options out of range, a spacecraft that cannot be read, limits that no plan keeps, an FMU that does not simulate.
@@ -50,7 +50,7 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
     best(&rows)?;
     let (chosen, simulations) = simulated_again(options, task, &rows)?;
     let mut text = String::new();
-    let spin = &task.flight.spin;
+    let spin = &task.case.spin;
     let mut line = |line: String| {
         let _ = writeln!(text, "{line}");
     };
@@ -58,8 +58,8 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
         "Turn by {:.4} deg with {} ({:.3} N m), pulses by {}, ratio {:.4} +- {:.4}, {:.3} +- {:.3} rpm",
         task.angle_rad.to_degrees(),
         options.thruster,
-        task.flight.torque_n_m,
-        timing_label(task.flight.timing),
+        task.case.torque_n_m,
+        timing_label(task.case.timing),
         spin.ratio,
         task.range.ratio,
         options.rate_rpm,
@@ -112,7 +112,7 @@ fn one_manoeuvre(options: &Options, task: &Task) -> Result<String, PlanError> {
     Ok(text)
 }
 
-/// The plan to take and what the FMU says of it: the best that keeps in simulation what it promised, or the best if none is
+/// The plan to take and what the FMU computes for it: the best that keeps in simulation what it promised, or the best if none is
 /// simulated, with the reason.
 fn simulated_again<'a>(
     options: &Options,
@@ -171,7 +171,7 @@ fn kept(task: &Task, row: &Row, simulated: &Verification) -> String {
         row.moved_range_rad.0.to_degrees(),
         row.moved_range_rad.1.to_degrees(),
         simulated.longest_s / 60.0,
-        if limited { "limits kept" } else { "turned as asked, no limits given" },
+        if limited { "limits kept" } else { "turned as required, no limits given" },
     )
 }
 

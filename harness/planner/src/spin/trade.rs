@@ -77,13 +77,13 @@ pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
         }
     }
     if rows.is_empty() {
-        let spin = &task.flight.spin;
+        let spin = &task.case.spin;
         return Err(PlanError::NoTrain {
             angle_deg: task.angle_rad.to_degrees(),
             tolerance_percent: 100.0 * task.angle_tolerance,
             thruster: task.thruster.clone(),
             pulse_ms: 1e3 * task.resolution_s,
-            pulse_deg: spin.manoeuvre_rad(task.flight.torque_n_m, task.resolution_s).to_degrees(),
+            pulse_deg: spin.manoeuvre_rad(task.case.torque_n_m, task.resolution_s).to_degrees(),
         });
     }
     for row in &mut rows {
@@ -120,7 +120,7 @@ pub fn best(rows: &[Row]) -> Result<&Row, PlanError> {
 /// # Errors
 /// A step of the thruster that is longer than half a turn, or too weak.
 pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
-    let (pulse_s, half_turn_s) = (task.resolution_s, 0.5 * task.flight.spin.period_s());
+    let (pulse_s, half_turn_s) = (task.resolution_s, 0.5 * task.case.spin.period_s());
     evaluate(&task.with_angle(task.angle_rad), Shape::Uniform, 1, 1.0)
         .map(|row| Row { fits: row.fits && task.meets_angle(row.moved_rad), ..row })
         .ok_or_else(|| PlanError::Coarse {
@@ -138,21 +138,21 @@ pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
 
 /// One train for the task; `None` where there is none of this kind.
 pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row> {
-    let spin = &task.flight.spin;
+    let spin = &task.case.spin;
     let width_s = f64::from(unit) * task.resolution_s;
     let make = |count| Train::new(shape, count, width_s, turns, spin, task.resolution_s);
-    let train = sized(&make, &task.flight, task.angle_rad).ok()?;
+    let train = sized(&make, &task.case, task.angle_rad).ok()?;
     // A pulse beyond half a turn works against itself.
     if train.widest_s() > 0.5 * spin.period_s() {
         return None;
     }
-    let nominal = task.flight.forecast(&train);
+    let nominal = task.case.forecast(&train);
     if !task.meets_angle(nominal.moved_rad) {
         return None;
     }
-    let worst = task.range.worst(&task.flight, &train);
+    let worst = task.range.worst(&task.case, &train);
     let duration_s = train.duration_s(spin.period_s());
-    let longest_s = match task.flight.timing {
+    let longest_s = match task.case.timing {
         Timing::Clock => duration_s,
         // A slow spinner takes longer.
         Timing::SunCrossing | Timing::TruePhase => {

@@ -12,7 +12,7 @@ use physics::spin::{
 
 use super::{Firing, PlanError, Row, Task};
 
-/// What the FMU says of a plan.
+/// What the FMU computes for a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct Verification {
     /// Inertia ratios and spin rates; each with each is a simulation.
@@ -36,16 +36,16 @@ impl Verification {
     /// What of `task` it breaks, in words; empty if it keeps everything.
     pub fn broken(&self, task: &Task) -> Vec<String> {
         let mut broken = Vec::new();
-        let mut look = |what: &str, found: f64, limit: f64, unit: &str| {
+        let mut compare = |what: &str, found: f64, limit: f64, unit: &str| {
             if found > limit || found.is_nan() {
                 broken.push(format!("{what} {found:.6} {unit} beyond {limit:.6} {unit}"));
             }
         };
         let limits = &task.limits;
-        look("peak nutation", self.peak_rad.to_degrees(), limits.peak_rad.to_degrees(), "deg");
-        look("final nutation", self.final_rad.to_degrees(), limits.final_rad.to_degrees(), "deg");
-        look("time", self.longest_s / 60.0, limits.duration_s / 60.0, "min");
-        look("the move misses by", 100.0 * self.miss, 100.0 * task.angle_tolerance, "%");
+        compare("peak nutation", self.peak_rad.to_degrees(), limits.peak_rad.to_degrees(), "deg");
+        compare("final nutation", self.final_rad.to_degrees(), limits.final_rad.to_degrees(), "deg");
+        compare("time", self.longest_s / 60.0, limits.duration_s / 60.0, "min");
+        compare("the move misses by", 100.0 * self.miss, 100.0 * task.angle_tolerance, "%");
         broken
     }
 }
@@ -75,7 +75,7 @@ pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verifica
         longest_s: 0.0,
         miss: 0.0,
     };
-    let assumed = &task.flight.spin;
+    let assumed = &task.case.spin;
     for &rate_share in rates {
         for i in 0..ratios {
             let share = if ratios > 1 { 2.0 * f64::from(i) / f64::from(ratios - 1) - 1.0 } else { 0.0 };
@@ -92,10 +92,10 @@ pub fn verify(fmu: &Fmu, task: &Task, row: &Row, ratios: u32) -> Result<Verifica
             seen.longest_s = seen.longest_s.max(simulated.duration_s);
             let meant_rad = if rate_share == 0.0 {
                 task.angle_rad
-            } else if task.flight.timing == Timing::Clock {
+            } else if task.case.timing == Timing::Clock {
                 continue;
             } else {
-                ForecastCase { spin, ..task.flight }.forecast(&row.train).moved_rad
+                ForecastCase { spin, ..task.case }.forecast(&row.train).moved_rad
             };
             seen.miss = seen.miss.max((simulated.moved_rad / meant_rad - 1.0).abs());
         }
@@ -167,12 +167,12 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
         Shape::Tapered { order } => (2, order as i32),
         Shape::Split => (3, 1),
     };
-    let timing = match task.flight.timing {
+    let timing = match task.case.timing {
         Timing::Clock => 1,
         Timing::SunCrossing => 2,
         Timing::TruePhase => 3,
     };
-    let (assumed, transverse) = (&task.flight.spin, spin.inertia_kg_m2 / spin.ratio);
+    let (assumed, transverse) = (&task.case.spin, spin.inertia_kg_m2 / spin.ratio);
     let real = |name: &str, value: f64| (name.to_owned(), Value::Real(value));
     let integer = |name: &str, value: i32| (name.to_owned(), Value::Integer(value));
     let mut sets = vec![

@@ -26,8 +26,8 @@ fn row(task: &Task, shape: Shape, turns: f64) -> Row {
 fn alternating_trains_fire_the_thrusters_they_were_planned_for() {
     let Some(fmu) = shipped() else { return };
     for thruster in ["IA", "IIIA", "IIIR", "IR+", "axial couple I-IV", "upper radial I"] {
-        let asked = options("--angle 2 --angle-tolerance 4 --ratio-uncertainty 0.01");
-        let task = Task::new(&Options { thruster: thruster.into(), ..asked }, &ace()).unwrap();
+        let given = options("--angle 2 --angle-tolerance 4 --ratio-uncertainty 0.01");
+        let task = Task::new(&Options { thruster: thruster.into(), ..given }, &ace()).unwrap();
         // A canted thruster also spins the body up, by 2 % on the way, which the theory does not know.
         let tolerance = if thruster == "IR+" { 0.02 } else { 0.002 };
         for turns in [0.5, 1.0, 1.5] {
@@ -122,7 +122,7 @@ fn a_plan_that_the_fmu_runs_otherwise_breaks_its_promise() {
     let row = row(&task, Shape::Tapered { order: 1 }, 1.0);
     let broken = |task: &Task| verify(&fmu, task, &row, 3).unwrap().broken(task).join("; ");
     assert_eq!(broken(&task), "");
-    // Other thrusters than planned for: the FMU says which it has.
+    // Other thrusters than planned for: the FMU names those it has.
     let firing = Firing::Thruster { number: 1, opposite: None };
     let error = verify(&fmu, &Task { firing, ..task.clone() }, &row, 1).unwrap_err().to_string();
     assert!(error.contains("thruster[1].name is \"IA\"") && error.contains("IIIR"), "{error}");

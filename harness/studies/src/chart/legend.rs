@@ -55,12 +55,12 @@ pub(super) fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
 
 /// The labelled series with their places, row by row.
 fn rows(panel: &Panel) -> Vec<Vec<(usize, &Series)>> {
-    let room = pixel(WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT);
+    let width_available = pixel(WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT);
     let (mut rows, mut used): (Vec<Vec<(usize, &Series)>>, i32) = (Vec::new(), 0);
     for (index, series) in panel.series.iter().enumerate().filter(|(_, series)| !series.label.is_empty()) {
         let width = entry_width(series);
         match rows.last_mut() {
-            Some(row) if used + width - BETWEEN <= room => {
+            Some(row) if used + width - BETWEEN <= width_available => {
                 row.push((index, series));
                 used += width;
             }

@@ -17,7 +17,7 @@ pub enum Mark {
 /// One line of a panel.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Series {
-    /// What the legend says; empty for no entry.
+    /// Text of the legend; empty for no entry.
     pub label: String,
     /// Points in ascending x; a point that is not finite interrupts the line.
     pub points: Vec<(f64, f64)>,
@@ -54,7 +54,7 @@ pub struct Panel {
     pub y_label: String,
     /// The lines.
     pub series: Vec<Series>,
-    /// Vertical range; otherwise that of the data with a little room.
+    /// Vertical range; otherwise that of the data with a margin.
     pub y_range: Option<(f64, f64)>,
     /// Values marked by a dashed horizontal line, such as limits.
     pub marks: Vec<f64>,

@@ -23,7 +23,7 @@ pub(super) const QUIET: RGBColor = RGBColor(0x5c, 0x65, 0x70);
 pub(super) const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
 pub(super) const FRAME: RGBColor = RGBColor(0x9a, 0xa2, 0xac);
 
-/// Colours of a panel's lines in their order; told apart by people with any colour vision (Okabe and Ito).
+/// Colours of a panel's lines in their order; distinguishable with any colour vision (Okabe and Ito).
 pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),

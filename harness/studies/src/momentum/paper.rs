@@ -36,7 +36,7 @@ const fn row(
     PaperRow { threshold_n_m_s, offset_m, dumps, spacing }
 }
 
-/// What the paper says of a case.
+/// What the paper prints of a case.
 pub enum Published {
     /// A cell of its tables.
     Row(&'static PaperRow),

@@ -1,7 +1,7 @@
 //! Figure 4: nutation during the 2 deg manoeuvre, and what shape of body gives the paper's range.
 
 use super::spinner::{RATIO, paper_case};
-use super::verdict::says;
+use super::verdict::verdict_text;
 use crate::case::{Case, chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -86,7 +86,7 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
                 "{least_deg:.4} to {most_deg:.4}, final {:.4} to {:.4}",
                 found.end_deg.0, found.end_deg.1
             ),
-            says(simulated.last(2) == 1.0, &found.verdict()).to_owned(),
+            verdict_text(simulated.last(2) == 1.0, &found.verdict()).to_owned(),
         ]);
         csv.extend(simulated.times_s.iter().zip(degrees(0)).zip(degrees(1)).map(
             |((time_s, angle), foreseen)| {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::spinner::{
     AXIAL_ARM_M, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, paper_case,
 };
-use super::verdict::{rounds, says, verdict};
+use super::verdict::{rounds, verdict, verdict_text};
 use crate::case::chosen;
 use crate::{Options, Report, StudyError};
 
@@ -90,7 +90,7 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             "thruster time for 6 deg",
             "11.02 s",
             format!("{total_s:.2} s"),
-            says(
+            verdict_text(
                 rounds(total_s, 11.03, 0.01) && rounds(6.0_f64.to_radians() / 0.0095, 11.02, 0.01),
                 "paper divides by the rounded 0.0095 rad",
             ),
@@ -129,13 +129,16 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             "duration, twice a turn",
             "11.6 min",
             format!("{:.2} min", half.last(1) / 60.0),
-            says(rounds(half.last(1) / 60.0, 11.3, 0.1), "113 half turns are 11.3 min: a slip of the paper"),
+            verdict_text(
+                rounds(half.last(1) / 60.0, 11.3, 0.1),
+                "113 half turns are 11.3 min: a slip of the paper",
+            ),
         ),
         Row::new(
             "simulation, end of the manoeuvre",
             "1368 s",
             format!("{:.0} s for 114 turns", 114.0 * PERIOD_S),
-            says(rounds(114.0 * PERIOD_S, 1368.0, 1.0), ARITHMETIC),
+            verdict_text(rounds(114.0 * PERIOD_S, 1368.0, 1.0), ARITHMETIC),
         ),
         Row::new(
             "days in the 3 deg deadband",
@@ -231,7 +234,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             quantity,
             paper_text,
             format!("{printed:.5} deg as printed, {exact:.5} deg exact"),
-            says(rounds(printed, paper, 1e-4), "as printed; eq 9 and 10 are misprinted"),
+            verdict_text(rounds(printed, paper, 1e-4), "as printed; eq 9 and 10 are misprinted"),
         ));
     }
     let hours = 9.5 * (envelope(RADIAL, 0.5, 113.0)?.0 / envelope(RADIAL, 1.0, 113.0)?.0).ln();
@@ -284,7 +287,7 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             "11.2 min",
             format!("{minutes:.2} min by eq 20, {exact:.2} min exactly"),
             // 8 samples 96 s apart span 7 of these; figure6 runs them.
-            says(
+            verdict_text(
                 rounds(minutes, 11.76, 0.01) && rounds(7.0 * 96.0 / 60.0, 11.2, 0.1),
                 "11.2 min is the span of 8 samples, not eq 20",
             ),
@@ -294,13 +297,13 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             "nutation that 7 ms allow at a Sun angle of 20 deg",
             "-",
             format!("{wide:.4} deg"),
-            says(rounds(wide, 0.038, 1e-3), "eq 1"),
+            verdict_text(rounds(wide, 0.038, 1e-3), "eq 1"),
         ),
         Row::new(
             "nutation that 7 ms allow at a Sun angle of 1 deg",
             "-",
             format!("{narrow:.4} deg"),
-            says(rounds(narrow, 0.0018, 1e-4), "eq 1 diverges as the Sun angle goes to 0"),
+            verdict_text(rounds(narrow, 0.0018, 1e-4), "eq 1 diverges as the Sun angle goes to 0"),
         ),
     ])
 }
@@ -369,20 +372,20 @@ impl Worst {
 
     /// What it has over `paper`'s plan, and what it pays.
     fn beyond(&self, paper: &Self) -> String {
-        let (quiet, fast) = (paper.final_deg / self.final_deg, paper.duration_min / self.duration_min);
+        let (nutation, duration) = (paper.final_deg / self.final_deg, paper.duration_min / self.duration_min);
         let text = format!(
-            "{quiet:.0} times quieter, {fast:.1} times faster, {:.1} times the peak",
+            "nutation 1/{nutation:.0}, duration 1/{duration:.1}, peak {:.1} times",
             self.peak_deg / paper.peak_deg
         );
-        says(self.turns() && quiet > 1.0 && fast > 1.0, &text).to_owned()
+        verdict_text(self.turns() && nutation > 1.0 && duration > 1.0, &text).to_owned()
     }
 }
 
-/// Beyond the paper: trains that end quietly.
+/// Beyond the paper: trains that end with little nutation.
 fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let (uniform, tapered) = (Worst::of(fmu, 1, 1, 114)?, Worst::of(fmu, 2, 1, 58)?);
     let (second, fourth) = (Worst::of(fmu, 2, 2, 30)?, Worst::of(fmu, 2, 4, 11)?);
-    let quiet = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;
+    let as_stated = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;
     let split = paper_case("split train", 1600.0, 1600.0)
         .integer("burn.plan", 3)
         .simulate(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
@@ -403,7 +406,7 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             "train 1 2 2 ... 2 1, worst of 1.471 to 1.494",
             "-",
             tapered.text(),
-            says(quiet, "2 deg in 11.4 min under 0.0033 deg"),
+            verdict_text(as_stated, "2 deg in 11.4 min under 0.0033 deg"),
         ),
         Row::new(
             "train 1 3 4 ... 4 3 1, worst of 1.471 to 1.494",
@@ -421,7 +424,7 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             "split train, ratio known",
             "-",
             format!("final {split_deg:.6} deg, {:.2} min", split.last(1) / 60.0),
-            says(
+            verdict_text(
                 split.last(2) == 1.0 && split_deg < 2e-5 && rounds(split_moved_deg, 2.0, 0.08),
                 "ends without nutation",
             ),

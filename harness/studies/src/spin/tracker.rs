@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::spinner::{RATIO, paper_case};
-use super::verdict::{rounds, says, verdict};
+use super::verdict::{rounds, verdict, verdict_text};
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -12,7 +12,7 @@ use crate::{Options, Report, StudyError};
 const NUTATION_RAD: f64 = 0.02 * PI / 180.0;
 /// Length of its picture, in s.
 const SHOWN_S: f64 = 800.0;
-/// Figure 7 looks at times beyond this, in min.
+/// Figure 7 shows times beyond this, in min.
 const LONG_MIN: f64 = 30.0;
 /// Its picture's height, in min.
 const TALLEST_MIN: f64 = 60.0;
@@ -40,7 +40,7 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
         let simulated = case.simulate(&fmu, &names)?;
         let (times, exact) = (&simulated.times_s, &simulated.columns[0]);
         let mean = exact.iter().sum::<f64>() / exact.len() as f64;
-        // Where a sample has just come: the true declination there, and what the tracker said.
+        // Where a sample has just come: the true declination there, and what the tracker measured.
         let samples: Vec<(f64, f64, f64)> = (1..times.len())
             .filter(|&i| {
                 simulated.columns[1][i] != simulated.columns[1][i - 1] && simulated.columns[1][i] >= 0.0
@@ -56,7 +56,7 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             (*label).to_owned(),
             "11.2 min".to_owned(),
             format!("{span:.2} min"),
-            says(rounds(span, 11.2, 0.1), "span of 8 samples").to_owned(),
+            verdict_text(rounds(span, 11.2, 0.1), "span of 8 samples").to_owned(),
         ]);
         rows.push(vec![
             format!("{label}: nutation from the samples of 4 h"),
@@ -176,7 +176,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
                 "exact, clock samples every 96 s".into(),
                 "-".into(),
                 share(|p| p.clock_min),
-                says(
+                verdict_text(
                     (percent(|p| p.clock_min) - percent(|p| p.eq20_min)).abs() < 1.0,
                     "what eq 20 approximates",
                 )
@@ -186,8 +186,11 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
                 "exact, samples every 8 spins".into(),
                 "-".into(),
                 share(|p| p.spins_min),
-                says(spread < 0.2 / 4.9 + 0.001, "the spin rate drops out but for the length of a spin")
-                    .to_owned(),
+                verdict_text(
+                    spread < 0.2 / 4.9 + 0.001,
+                    "the spin rate drops out but for the length of a spin",
+                )
+                .to_owned(),
             ],
         ],
     );

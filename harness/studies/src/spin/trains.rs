@@ -1,7 +1,7 @@
 //! Figures 2 and 3: nutation left by a 2 deg manoeuvre in n pulses, once per half turn and once per turn.
 
 use super::spinner::{PERIOD_S, RADIAL_ARM_M, RATIO, eq8, paper_case, width_s};
-use super::verdict::{AGREES, rounds, says, verdict};
+use super::verdict::{AGREES, rounds, verdict, verdict_text};
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -107,7 +107,10 @@ fn figure(
                 "agrees, though the paper's equation is misprinted"
             } else {
                 // Eq 9 lacks a factor 1/2 inside its root, 1 + x for 1 + x/2, and comes out low by this much.
-                says(rounds(printed_deg, paper_envelope_deg, 1e-4), "as its eq 9 is printed; ours is exact")
+                verdict_text(
+                    rounds(printed_deg, paper_envelope_deg, 1e-4),
+                    "as its eq 9 is printed; ours is exact",
+                )
             }
             .to_owned(),
         ],
@@ -152,7 +155,7 @@ fn chart(rows: &[Row], turns: f64, phase: f64) -> Chart {
         panels: vec![Panel {
             y_label: "nutation [deg]".to_owned(),
             series: vec![
-                // Eq 8 says nothing between whole numbers of pulses.
+                // Eq 8 holds only at whole numbers of pulses.
                 Series::rings("eq 8", at_counts(|row| row.printed_rad)),
                 Series::line("exact envelope", envelope),
                 Series::dots("SpinPlant", at_counts(|row| row.simulated_rad)),

@@ -1,4 +1,4 @@
-//! Verdicts: what a comparison says, and nothing where it does not hold.
+//! Verdicts of comparisons with the paper.
 
 /// The comparison holds.
 pub const AGREES: &str = "agrees";
@@ -7,11 +7,11 @@ pub const OFF: &str = "off";
 
 /// `AGREES` or `OFF`.
 pub fn verdict(holds: bool) -> &'static str {
-    says(holds, AGREES)
+    verdict_text(holds, AGREES)
 }
 
 /// `text`, which stands for a comparison that holds, or `OFF`.
-pub fn says(holds: bool, text: &str) -> &str {
+pub fn verdict_text(holds: bool, text: &str) -> &str {
     if holds { text } else { OFF }
 }
 
@@ -29,6 +29,6 @@ mod tests {
     fn a_number_agrees_to_half_its_last_digit() {
         assert!(rounds(0.01764, 0.0176, 1e-4) && rounds(0.01765, 0.0176, 1e-4));
         assert!(!rounds(0.017_651, 0.0176, 1e-4) && !rounds(f64::NAN, 0.0176, 1e-4));
-        assert_eq!((verdict(true), verdict(false), says(false, "as printed")), (AGREES, OFF, OFF));
+        assert_eq!((verdict(true), verdict(false), verdict_text(false, "as printed")), (AGREES, OFF, OFF));
     }
 }

@@ -9,14 +9,14 @@ use crate::{Options, Report, StudyError};
 pub(super) struct Simulated {
     pub(super) row: Row,
     pub(super) samples: Vec<Sample>,
-    /// By the planet's cells, where asked for.
+    /// By the planet's cells, where requested.
     pub(super) by_cells: Option<Vec<Sample>>,
 }
 
 /// How far the greatest of solar, albedo, infrared and recoil may be off the printed one, relative to it.
 pub(super) type Tolerances = [f64; 4];
 
-/// Greatest and least of an effect; solar and recoil are looked at in the light only.
+/// Greatest and least of an effect; solar and recoil are taken in the light only.
 fn extremes(samples: &[Sample], effect: usize) -> (f64, f64) {
     let in_light_only = effect == 0 || effect == 3;
     samples

@@ -3,7 +3,7 @@
 use fmi_export::SetupError;
 use serde::{Deserialize, Serialize};
 
-/// What `all-types.toml` says.
+/// The content of `all-types.toml`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {

@@ -36,8 +36,8 @@ fn use_everything(instance: &mut InProcess) -> Result<(), (&'static str, Status)
 
 #[test]
 fn every_fault_is_a_status_of_its_call() {
-    let mut neighbour = instance(Fault::Nowhere);
-    assert_eq!(neighbour.start(0.0, None), Status::Ok);
+    let mut other = instance(Fault::Nowhere);
+    assert_eq!(other.start(0.0, None), Status::Ok);
     for (step, item) in Fault::TYPE.items.iter().enumerate() {
         let fault = Fault::from_value(item.value).unwrap();
         let expected = match fault {
@@ -67,7 +67,7 @@ fn every_fault_is_a_status_of_its_call() {
             assert!(messages.iter().any(|it| !it.text.is_empty()), "{fault:?} is not reported");
         }
         let time_s = step as f64 * 0.5;
-        assert_eq!(neighbour.do_step(time_s, 0.5), Status::Ok, "the neighbour of {fault:?}");
+        assert_eq!(other.do_step(time_s, 0.5), Status::Ok, "the instance beside {fault:?}");
     }
 }
 

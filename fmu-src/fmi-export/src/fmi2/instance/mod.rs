@@ -1,6 +1,6 @@
 //! One instance: the state machine around a model, its values, its log. No C types here.
 //!
-//! Every function of the standard is one method that asks the call table, does its work and hands a
+//! Every function of the standard is one method that checks the call table, does its work and hands a
 //! [`Problem`] or nothing to [`Instance::conclude`], which logs, moves the state and gives the status.
 
 mod derivatives;
@@ -173,7 +173,7 @@ impl Instance {
         })
     }
 
-    /// The values that derivatives are asked of: those of the last step, whatever was set since.
+    /// The values at which derivatives are taken: those of the last step, whatever was set since.
     pub(super) fn values_at_last_step(&self) -> &Values {
         self.state.at_last_step.as_ref().unwrap_or(&self.state.values)
     }

@@ -13,7 +13,7 @@ use model_description::call_table::State;
 /// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
 pub const MAX_INPUT_DERIVATIVE_ORDER: u32 = 170;
 
-/// What `fmi2SetupExperiment` told.
+/// The arguments of `fmi2SetupExperiment`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Experiment {
     pub(crate) start_s: f64,

@@ -1,4 +1,4 @@
-//! The step, and what may be asked about it.
+//! The step and its status.
 
 use super::Instance;
 use crate::fmi2::problem::Problem;
@@ -6,7 +6,7 @@ use crate::model::{InputsOverTime, Step};
 use crate::time;
 use model_description::call_table::Function;
 
-/// What a `fmi2GetXXXStatus` asks for.
+/// The kind of a `fmi2GetXXXStatus`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum StatusKind {
     /// `fmi2LastSuccessfulTime`.
@@ -113,7 +113,7 @@ impl Instance {
         }
     }
 
-    /// `fmi2GetStatus`, `fmi2GetIntegerStatus` and `fmi2GetStringStatus`: what they tell only a pending step has.
+    /// `fmi2GetStatus`, `fmi2GetIntegerStatus` and `fmi2GetStringStatus`: their status only a pending step has.
     pub(crate) fn no_status(&mut self, function: Function, kind: StatusKind) -> Result<(), Problem> {
         self.guard(function)?;
         Err(Problem::NoStatus { kind: kind.code() })

@@ -1,10 +1,16 @@
 //! The picture of `run --plot`: one panel per vector or variable, in display units.
 
-use std::path::Path;
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
 
+use files::Destination;
 use loader::{Column, Fmu, Recording};
 use model_description::Causality;
 use studies::chart::{COLOURS, Chart, Panel, Series};
+
+use super::exporter::Exporter;
 
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
@@ -36,8 +42,35 @@ pub fn check_path(path: &Path) -> Result<(), String> {
     }
 }
 
+/// The picture, drawn at the end.
+pub struct Svg(Destination);
+
+impl Svg {
+    /// Draws into a file of which nothing is written yet.
+    pub fn new(file: Destination) -> Self {
+        Self(file)
+    }
+}
+
+impl Exporter for Svg {
+    fn finish(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>> {
+        let svg = chart(fmu, recording).to_svg()?;
+        Ok(self.0.fill(|file| file.write_all(svg.as_bytes()))?)
+    }
+
+    fn leave(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Option<PathBuf> {
+        if recording.times_s.is_empty() {
+            return None;
+        }
+        let svg = chart(fmu, recording).to_svg().ok()?;
+        let mut file = self.0.grow(&[]).ok()?;
+        file.append(svg.as_bytes()).ok()?;
+        file.leave()
+    }
+}
+
 /// The chart of a recording.
-pub fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
+fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
     let span_s = match (recording.times_s.first(), recording.times_s.last()) {
         (Some(first_s), Some(last_s)) => last_s - first_s,
         _ => 0.0,
@@ -59,10 +92,10 @@ pub fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
             if unit.is_empty() || unit == "1" { vector.to_owned() } else { format!("{vector} [{unit}]") };
         let full = panels.len() == PANELS;
         // What belongs together may stand apart in the description: wheel[1].momentum, wheel[1].speed, wheel[2]...
-        let with_room = panels.iter_mut().find(|(group, panel)| {
+        let with_space = panels.iter_mut().find(|(group, panel)| {
             group == vector && panel.y_label == y_label && panel.series.len() < COLOURS.len()
         });
-        match with_room {
+        match with_space {
             Some((_, panel)) => panel.series.push(series),
             None if full => left_out += 1,
             None => {

@@ -1,4 +1,4 @@
-/* A co-simulation FMU as good ones in the wild are: right for lawful masters, and no match for others.
+/* A co-simulation FMU that does not check its arguments: right for masters that follow the standard.
 
    Its solver steps until it has passed the communication point, which for an infinite or NaN step is never, and
    fmi2FreeFMUstate reads through the pointer it is given. It needs no header of the standard. */
@@ -49,7 +49,7 @@ static void start(model *m) {
 EXPORT component fmi2Instantiate(const char *name, int kind, const char *guid, const char *resources,
                                  const callbacks *functions, int visible, int logging) {
     (void)resources, (void)functions, (void)visible, (void)logging;
-    if (!name || !*name || kind != 1 || strcmp(guid, "{frail}") != 0) return NULL;
+    if (!name || !*name || kind != 1 || strcmp(guid, "{unguarded}") != 0) return NULL;
     model *m = malloc(sizeof *m);
     if (m) start(m);
     return m;

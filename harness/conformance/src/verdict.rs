@@ -1,4 +1,4 @@
-//! How the outcome of a call is judged.
+//! Verdicts on the outcome of a call.
 
 use loader::{Status, Value};
 

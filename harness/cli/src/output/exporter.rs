@@ -1,0 +1,20 @@
+//! What an output format of `heliotorque run` does with a recording.
+
+use std::{error::Error, path::PathBuf};
+
+use loader::{Fmu, Recording};
+
+/// An output of a run in one format.
+pub trait Exporter {
+    /// Takes the recording so far, of which only rows are added between two calls.
+    fn update(&mut self, _recording: &Recording) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Writes the complete recording and gives the file its name.
+    fn finish(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>>;
+
+    /// After a simulation that failed: keeps the recording so far under the name of a file in progress, and gives that
+    /// name if there is one. What cannot be kept is left out: the simulation's own error is the one to report.
+    fn leave(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Option<PathBuf>;
+}

@@ -1,0 +1,146 @@
+//! Which FMI call is in progress, recorded in memory that another process can read.
+
+use std::sync::{
+    OnceLock,
+    atomic::{AtomicU64, Ordering},
+};
+
+use model_description::call_table::Function;
+
+/// The words of a [`CallRecord`]: the call in progress (0: none), how many were begun, the last one begun, its
+/// arguments.
+pub const CALL_RECORD_WORDS: usize = 5;
+
+/// Where the calls of this process are recorded.
+pub type CallRecord = [AtomicU64; CALL_RECORD_WORDS];
+
+static RECORD: OnceLock<&'static CallRecord> = OnceLock::new();
+
+/// From now on records every call that this process makes; the first record stays.
+pub fn record_calls(record: &'static CallRecord) {
+    let _ = RECORD.set(record);
+}
+
+/// The number of a symbol; a name that there is not does not compile.
+pub(crate) const fn number(symbol: &str) -> u64 {
+    let mut at = 0;
+    loop {
+        assert!(at < Function::ALL.len(), "no function of FMI 2.0 co-simulation");
+        if is_same(Function::ALL[at].symbol(), symbol) {
+            return at as u64 + 1;
+        }
+        at += 1;
+    }
+}
+
+const fn is_same(one: &str, two: &str) -> bool {
+    let (one, two) = (one.as_bytes(), two.as_bytes());
+    let mut at = 0;
+    while at < one.len() && at < two.len() && one[at] == two[at] {
+        at += 1;
+    }
+    at == one.len() && at == two.len()
+}
+
+/// Loading the shared library, which is no function of the standard.
+pub(crate) const LOADING: u64 = Function::ALL.len() as u64 + 1;
+const LOADING_TEXT: &str = "loading the shared library";
+const DO_STEP: u64 = number("fmi2DoStep");
+
+/// A call in progress, until it is dropped.
+pub(crate) struct CallInProgress(Option<&'static CallRecord>);
+
+/// Records a call.
+#[inline]
+pub(crate) fn enter(number: u64) -> CallInProgress {
+    enter_with(number, [0.0, 0.0])
+}
+
+/// Records a call with its two times in s.
+#[inline]
+pub(crate) fn enter_with(number: u64, times_s: [f64; 2]) -> CallInProgress {
+    let record = RECORD.get().copied();
+    if let Some([in_progress, begun, last, first_time, second_time]) = record {
+        first_time.store(times_s[0].to_bits(), Ordering::Relaxed);
+        second_time.store(times_s[1].to_bits(), Ordering::Relaxed);
+        last.store(number, Ordering::Relaxed);
+        begun.store(begun.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
+        in_progress.store(number, Ordering::Release);
+    }
+    CallInProgress(record)
+}
+
+impl Drop for CallInProgress {
+    #[inline]
+    fn drop(&mut self) {
+        if let Some([in_progress, ..]) = self.0 {
+            in_progress.store(0, Ordering::Release);
+        }
+    }
+}
+
+/// The calls of a [`CallRecord`]; a process that writes over the record may leave any numbers in it.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct RecordedCalls {
+    /// The call in progress, with its times.
+    pub in_progress: Option<String>,
+    /// The call begun last.
+    pub last: Option<String>,
+}
+
+/// Reads the record of another process.
+pub fn recorded_calls(record: &CallRecord) -> RecordedCalls {
+    let [in_progress, _, last, first_time, second_time] = record;
+    let [first_s, second_s] =
+        [first_time, second_time].map(|time| f64::from_bits(time.load(Ordering::Relaxed)));
+    let call = |number: u64| match number {
+        LOADING => Some(LOADING_TEXT.to_owned()),
+        DO_STEP => {
+            Some(format!("fmi2DoStep(currentCommunicationPoint={first_s}, communicationStepSize={second_s})"))
+        }
+        _ => {
+            let function = Function::ALL.get(usize::try_from(number).ok()?.checked_sub(1)?)?;
+            Some(function.symbol().to_owned())
+        }
+    };
+    RecordedCalls {
+        in_progress: call(in_progress.load(Ordering::Acquire)),
+        last: call(last.load(Ordering::Relaxed)),
+    }
+}
+
+/// The call in progress: its number, and how many were begun. While both stay, it is the same call.
+pub fn call_in_progress(record: &CallRecord) -> Option<(u64, u64)> {
+    let [in_progress, begun, ..] = record;
+    let number = in_progress.load(Ordering::Acquire);
+    (number != 0).then(|| (number, begun.load(Ordering::Relaxed)))
+}
+
+/// Where the last step begins, in s.
+pub fn step_begin_s(record: &CallRecord) -> Option<f64> {
+    let [_, _, last, first_time, _] = record;
+    (last.load(Ordering::Relaxed) == DO_STEP).then(|| f64::from_bits(first_time.load(Ordering::Relaxed)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_of_any_words_is_read() {
+        let record = CallRecord::default();
+        assert_eq!(recorded_calls(&record), RecordedCalls::default());
+        for word in &record {
+            word.store(u64::MAX, Ordering::Relaxed);
+        }
+        assert_eq!(recorded_calls(&record).in_progress, None);
+        record[0].store(number("fmi2Reset"), Ordering::Relaxed);
+        assert_eq!(recorded_calls(&record).in_progress.as_deref(), Some("fmi2Reset"));
+        record[1].store(7, Ordering::Relaxed);
+        assert_eq!(call_in_progress(&record), Some((number("fmi2Reset"), 7)));
+        record[2].store(LOADING, Ordering::Relaxed);
+        assert_eq!(recorded_calls(&record).last.as_deref(), Some(LOADING_TEXT));
+        record[2].store(DO_STEP, Ordering::Relaxed);
+        assert!(recorded_calls(&record).last.is_some_and(|call| call.starts_with("fmi2DoStep(")));
+    }
+}
