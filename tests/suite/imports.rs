@@ -10,6 +10,7 @@ use crate::sources::{is_for_tests, workspace};
 
 /// The crates whose files are held to it; `physics` has a test of its own.
 const CRATES: &[&str] = &[
+    "fmu-src/models",
     "harness/files",
     "harness/terminal",
     "harness/loader",

@@ -12,6 +12,7 @@ mod foreign;
 mod golden;
 mod imports;
 mod instances;
+mod layout;
 mod plant;
 mod public_names;
 mod reference;

@@ -5,7 +5,7 @@ use fmi_export::{Dependencies, Knowns, knowns};
 
 use super::setup::DisturbanceSetup;
 use super::variables::DisturbanceVariables;
-use crate::shared::{
+use crate::common::spacecraft::{
     across, can_shadow, has_both_shapes, inertia_about_others, shape_recoils_along, turns_out_of,
 };
 

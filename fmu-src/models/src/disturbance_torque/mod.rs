@@ -2,34 +2,30 @@
 //! memory, with exact partial derivatives; to embed in somebody else's dynamics.
 
 mod dependencies;
+mod inputs;
 mod outputs;
-mod prepared;
 mod setup;
 mod variables;
 
 use std::sync::Arc;
 
 use fmi_export::{
-    About, Context, Dependencies, Differentiable, Extensions, Failure, Model, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Differentiable, Extensions, Failure, Model, Real, SetupError, Source, StartValue,
+    Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
-use physics::radiation::disturbance::Workspace;
+use physics::radiation::disturbance::{Positions, Workspace};
 use serde::{Deserialize, Serialize};
 
-use prepared::{Inputs, Parameters, Prepared};
-pub use setup::DisturbanceSetup;
+use inputs::Prepared;
+use setup::Plan;
+pub use setup::{DisturbanceSetup, DisturbanceTorque};
 use variables::DisturbanceVariables;
-
-/// The memoryless disturbance model.
-pub struct DisturbanceTorque;
-
-type Plan<'a> = Context<'a, DisturbanceTorque>;
 
 /// What the last step was computed from; the rest is cache.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DisturbanceState {
-    inputs: Inputs<f64>,
+    positions: Positions<f64>,
     /// Whether the warning was given which inputs are not set yet.
     said_unset: bool,
     #[serde(skip)]
@@ -55,7 +51,7 @@ impl Model for DisturbanceTorque {
     }
 
     fn start_values(setup: &DisturbanceSetup) -> Vec<StartValue> {
-        crate::start_values::start_values(&setup.spacecraft.start)
+        crate::common::start_values::start_values(&setup.spacecraft.start)
     }
 
     fn about(setup: &DisturbanceSetup) -> About {
@@ -69,7 +65,7 @@ impl Model for DisturbanceTorque {
             stop_time_s: 43_200.0,
             step_size_s: 60.0,
             tolerance: 1e-4,
-            ..crate::about()
+            ..crate::common::about()
         }
     }
 
@@ -84,7 +80,7 @@ impl Model for DisturbanceTorque {
     ) -> Result<DisturbanceState, Failure> {
         let prepared = Arc::new(Prepared::new(context, values)?);
         let mut state = DisturbanceState {
-            inputs: Inputs::read(context.variables, |handle| values.real(handle)),
+            positions: inputs::positions(context.variables, |handle| values.real(handle)),
             said_unset: false,
             prepared: Some(prepared.clone()),
             workspace: Workspace::default(),
@@ -103,9 +99,10 @@ impl Model for DisturbanceTorque {
             Some(prepared) => prepared,
             None => Arc::new(Prepared::new(context, values)?),
         };
-        state.inputs.refresh(context.variables, |handle| step.inputs.real(values, handle, step.end_s));
+        let at_end = |handle| step.inputs.real(values, handle, step.end_s);
+        inputs::refresh(&mut state.positions, context.variables, at_end);
         if !state.said_unset {
-            let unset = prepared.unset(&state.inputs);
+            let unset = prepared.unset(&state.positions);
             state.said_unset = !unset.is_empty();
             if state.said_unset {
                 context.log.warning(&format!(
@@ -121,8 +118,8 @@ impl Model for DisturbanceTorque {
     }
 
     fn check_state(setup: &DisturbanceSetup, state: &DisturbanceState) -> Result<(), Failure> {
-        let (found, allowed) = (state.inputs.panel_angles_rad.len(), setup.spacecraft.panels.len());
-        if found == allowed && state.inputs.is_finite() {
+        let (found, allowed) = (state.positions.panel_angles_rad.len(), setup.spacecraft.panels.len());
+        if found == allowed && state.positions.is_finite() {
             return Ok(());
         }
         if found == allowed {
@@ -142,8 +139,7 @@ impl Differentiable for DisturbanceTorque {
         products: &mut [f64],
     ) -> Result<(), Failure> {
         let variables = context.variables;
-        let known = |at: Real| Inputs::<f64>::has(variables, at) || Parameters::<f64>::has(variables, at);
-        if seeds.iter().any(|(at, _)| !known(*at)) {
+        if seeds.iter().any(|(at, _)| !inputs::is_known(variables, *at)) {
             return Err(Failure::new(
                 "directional derivatives are known with respect to the inputs, and in Initialization Mode to the Real \
                  parameters, only",
@@ -155,12 +151,12 @@ impl Differentiable for DisturbanceTorque {
         };
         let along =
             |known: Real| -> f64 { seeds.iter().filter(|(at, _)| *at == known).map(|(_, seed)| seed).sum() };
-        let inputs = state.inputs.with_seed(variables, along);
+        let positions = inputs::seeded_positions(&state.positions, variables, along);
+        let parameters = inputs::seeded_parameters(&prepared.parameters, variables, along);
         let mut workspace = Workspace::<Dual64>::default();
-        let parameters = prepared.parameters.with_seed(variables, along);
-        let outcome = prepared.evaluate(&parameters, &inputs, &mut workspace)?;
+        let found = prepared.evaluate(&parameters, &positions, &mut workspace)?;
         for (unknown, product) in unknowns.iter().zip(products) {
-            *product = outputs::value(variables, &outcome, &workspace, *unknown)
+            *product = outputs::value(variables, &found, &workspace, *unknown)
                 .ok_or_else(|| Failure::new("directional derivatives are known of the outputs only"))?
                 .eps;
         }
@@ -175,15 +171,13 @@ fn update(
     state: &mut DisturbanceState,
     prepared: &Prepared,
 ) -> Result<(), Failure> {
-    let outcome = prepared.evaluate(&prepared.parameters, &state.inputs, &mut state.workspace)?;
-    let total = outcome.disturbance.total();
-    let numbers = total.force_body_n + total.torque_body_n_m + outcome.gravity_gradient_n_m;
-    if !numbers.iter().all(|number| number.is_finite()) {
+    let found = prepared.evaluate(&prepared.parameters, &state.positions, &mut state.workspace)?;
+    if !found.is_finite() {
         return Err(Failure::new(
             "force or torque is no number at these inputs; see sun.positionBody, planet.positionBody, spacecraft.centerOfMass, solar.flux and \
              spacecraft.inertia, allowed: values a spacecraft can have",
         ));
     }
-    outputs::write(context.variables, values, &outcome, &state.workspace);
+    outputs::write(context.variables, values, &found, &state.workspace);
     Ok(())
 }

@@ -6,9 +6,8 @@ use physics::constants;
 use physics::environment::sun;
 
 use super::setup::DisturbanceSetup;
-use crate::momentum_plant::choices::{EclipseMethod, SunshadeShape};
-use crate::momentum_plant::defaults;
-use crate::shared::SurfaceVariables;
+use crate::common::choices::SunshadeShape;
+use crate::common::variables::{EclipseVariables, SurfaceVariables};
 
 /// Every variable, in the order of the XML.
 #[derive(Variables)]
@@ -93,15 +92,6 @@ pub struct SolarVariables {
     pub flux: Real,
 }
 
-/// Shadow of the planet.
-#[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
-pub struct EclipseVariables {
-    /// How the planet's shadow dims the Sun.
-    #[parameter(start = EclipseMethod::Discs)]
-    pub method: Choice<EclipseMethod>,
-}
-
 /// How planet light is summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum PlanetMethod {
@@ -155,7 +145,7 @@ pub struct SpacecraftVariables {
 #[variables(setup = DisturbanceSetup)]
 pub struct SunshadeVariables {
     /// Which model of the shade takes the light; without a shade it does not count.
-    #[parameter(start = defaults::shade_of(&setup.spacecraft))]
+    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
     pub shape: Choice<SunshadeShape>,
 }
 

@@ -4,7 +4,7 @@ use fmi_export::{Dependencies, Knowns, knowns};
 
 use super::setup::PlantSetup;
 use super::variables::PlantVariables;
-use crate::shared::{
+use crate::common::spacecraft::{
     across, can_shadow, has_both_shapes, inertia_about_others, shape_recoils_along, stores_heat_in_shadow,
     turns_out_of,
 };

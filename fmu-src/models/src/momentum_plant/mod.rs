@@ -1,33 +1,25 @@
 //! `MomentumPlant`: a three-axis spacecraft about a planet or the Sun, its disturbance torques by source and the
 //! momentum they add up to.
 
-mod center;
-pub(crate) mod choices;
-mod configure;
-pub(crate) mod defaults;
 mod dependencies;
+mod inputs;
 mod outputs;
 mod setup;
-mod state;
 mod variables;
 
 use fmi_export::{
-    About, Context, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source, StartValue, Step,
+    StepEnd, Values,
 };
-use physics::constants::RADIUS_SUN_M;
-use physics::momentum::{DumpEvent, MomentumIntegrator, TorqueModel, Totals};
-use physics::plant::{Cost, Evaluation, ExternalLoad, Plant, PlantError, PropagatorState};
+use nalgebra::Vector3;
+use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, TorqueModel, Totals};
+use physics::plant::{Evaluation, ExternalLoad, Plant, PropagatorState};
 
-use choices::OrbitSource;
-pub use setup::PlantSetup;
-use state::{Changes, PlantState, unset_places};
+use inputs::state::{Changes, PlantState, unset_places};
+use setup::Plan;
+pub use setup::{MomentumPlant, PlantSetup};
 use variables::PlantVariables;
-
-/// The momentum plant.
-pub struct MomentumPlant;
-
-type Plan<'a> = Context<'a, MomentumPlant>;
+use variables::choices::OrbitSource;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
@@ -46,7 +38,7 @@ impl Model for MomentumPlant {
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {
-        crate::start_values::start_values(&setup.spacecraft.start)
+        crate::common::start_values::start_values(&setup.spacecraft.start)
     }
 
     fn about(setup: &PlantSetup) -> About {
@@ -57,10 +49,11 @@ impl Model for MomentumPlant {
                 setup.spacecraft.name
             ),
             start_time_s: 0.0,
-            stop_time_s: 90.0 * 86_400.0,
+            // 90 days.
+            stop_time_s: 7_776_000.0,
             step_size_s: 600.0,
             tolerance: 1e-10,
-            ..crate::about()
+            ..crate::common::about()
         }
     }
 
@@ -103,7 +96,7 @@ impl Model for MomentumPlant {
         let configuration = match state.configuration.take() {
             Some(configuration) if !changed => configuration,
             previous => {
-                let configuration = configure::refreshed(context, values, state, previous)?;
+                let configuration = inputs::refreshed(context, values, state, previous)?;
                 outputs::write_calculated(context, values, &configuration);
                 configuration
             }
@@ -113,12 +106,12 @@ impl Model for MomentumPlant {
             if changes.orbit
                 && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
             {
-                state.propagator.move_to(&configuration, step.start_s).map_err(ended)?;
+                state.propagator.move_to(&configuration, step.start_s).map_err(outputs::failure)?;
             }
         }
         let load = |time_s| ExternalLoad {
-            force_body_n: physics_vector(step.inputs.vector(values, context.variables.force.applied, time_s)),
-            torque_body_n_m: physics_vector(step.inputs.vector(
+            force_body_n: Vector3::from(step.inputs.vector(values, context.variables.force.applied, time_s)),
+            torque_body_n_m: Vector3::from(step.inputs.vector(
                 values,
                 context.variables.torque.applied,
                 time_s,
@@ -126,7 +119,7 @@ impl Model for MomentumPlant {
         };
         let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
         if state.light.is_none() {
-            state.light = configure::light(context, values, &configuration)?;
+            state.light = inputs::light(context, values, &configuration)?;
         }
         let limit = context.variables.solver.work.units(values);
         let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
@@ -134,13 +127,15 @@ impl Model for MomentumPlant {
             Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), load, limit);
         let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
         if state.request.rises(values.boolean(context.variables.dump.request)) {
-            let target = physics_vector(values.vector(context.variables.dump.target));
+            let target = Vector3::from(values.vector(context.variables.dump.target));
             let event = integrator.dump_to(&mut plant, &configuration.momentum, step.start_s, target);
-            spacing.dumped(context, &event);
+            note_dump(context, spacing, &event);
         }
         integrator
-            .advance(&mut plant, &configuration.momentum, step.end_s, |event| spacing.dumped(context, event))
-            .map_err(ended)?;
+            .advance(&mut plant, &configuration.momentum, step.end_s, |event| {
+                note_dump(context, spacing, event)
+            })
+            .map_err(outputs::failure)?;
         let evaluation = plant.evaluate(step.end_s);
         flyable(&evaluation, &state.integrator.totals(step.end_s), step.end_s)?;
         outputs::write_plates(context, values, state, &configuration, step.end_s)?;
@@ -185,22 +180,22 @@ fn begin(
     state: &mut PlantState,
     time_s: f64,
 ) -> Result<(), Failure> {
-    let configuration = configure::configuration(context, values, state)?;
+    let configuration = inputs::configuration(context, values, state)?;
     let load = applied(context, values);
     let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
     let limit = context.variables.solver.work.units(values);
-    state.propagator = PropagatorState::new(&configuration, time_s).map_err(ended)?;
-    state.light = configure::light(context, values, &configuration)?;
+    state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
+    state.light = inputs::light(context, values, &configuration)?;
     let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
     let mut plant =
         Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), |_| load, limit);
-    plant.prepare(time_s).map_err(ended)?;
+    plant.prepare(time_s, time_s).map_err(outputs::failure)?;
     let totals = start_totals(context, values, &plant.evaluate(time_s));
     state.integrator = MomentumIntegrator::new(time_s, totals);
     let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
     integrator
-        .advance(&mut plant, &configuration.momentum, time_s, |event| spacing.dumped(context, event))
-        .map_err(ended)?;
+        .advance(&mut plant, &configuration.momentum, time_s, |event| note_dump(context, spacing, event))
+        .map_err(outputs::failure)?;
     let evaluation = plant.evaluate(time_s);
     flyable(&evaluation, &state.integrator.totals(time_s), time_s)?;
     outputs::write_plates(context, values, state, &configuration, time_s)?;
@@ -213,7 +208,7 @@ fn begin(
 
 /// At `time_s` the flight still waits for inputs: the attitude is held as commanded, and nothing acts.
 fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s: f64) -> Result<(), Failure> {
-    let configuration = configure::configuration(context, values, state)?;
+    let configuration = inputs::configuration(context, values, state)?;
     let evaluation = Evaluation::nowhere(state.command.frame_at(time_s));
     let totals = start_totals(context, values, &evaluation);
     state.integrator = MomentumIntegrator::new(time_s, totals);
@@ -225,48 +220,8 @@ fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s:
 
 /// What the flight starts with: start.momentum in the body frame.
 fn start_totals(context: &Plan<'_>, values: &Values, evaluation: &Evaluation) -> Totals {
-    let momentum_body_n_m_s = physics_vector(values.vector(context.variables.start.momentum));
-    Totals {
-        momentum_inertial_n_m_s: evaluation.instant.frame.inertial_from_body * momentum_body_n_m_s,
-        torque_integral_body_n_m_s: momentum_body_n_m_s,
-        ..Totals::default()
-    }
-}
-
-fn ended(error: PlantError) -> Failure {
-    let hint = match &error {
-        PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
-        PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
-        PlantError::Work(exceeded) => {
-            let most = match exceeded.most {
-                Cost::Segment => {
-                    "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
-                }
-                Cost::Refinement => {
-                    "internal steps shortened for solver.tolerance, which is small for this torque and attitude rate"
-                }
-                Cost::Search => {
-                    "searches for changes of attitude, light and eclipse: see orbit.*, guided.* and command.rate"
-                }
-                Cost::Dump => {
-                    "dumps: dump.threshold is low for this torque; see torque.applied and spacecraft.centerOfMass"
-                }
-                Cost::Light => {
-                    "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
-                }
-                Cost::Orbit => "integrating the orbit in steps of orbit.step",
-                Cost::Ephemeris => {
-                    "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"
-                }
-            };
-            return Failure::new(format!(
-                "{error} (solver.workLimit = {}); most went into {most}. Take a shorter step or raise solver.workLimit",
-                exceeded.limit
-            ));
-        }
-        _ => "",
-    };
-    Failure::new(format!("{error}{hint}"))
+    let momentum_body_n_m_s = Vector3::from(values.vector(context.variables.start.momentum));
+    Totals::at_start(momentum_body_n_m_s, &evaluation.instant.frame.inertial_from_body)
 }
 
 /// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
@@ -277,13 +232,10 @@ fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<(), 
              force.applied, spacecraft.mass and spacecraft.centerOfMass"
         )));
     }
-    let (instant, total) = (&evaluation.instant, evaluation.loads.total());
-    let numbers = total.torque_body_n_m + total.force_body_n;
-    let outside_the_sun = instant.sun_distance_m > RADIUS_SUN_M;
-    if outside_the_sun && instant.lit_fraction.is_finite() && numbers.iter().all(|x| x.is_finite()) {
+    if evaluation.is_somewhere() {
         return Ok(());
     }
-    let spacecraft = instant.geometry.spacecraft.position_m;
+    let spacecraft = evaluation.instant.geometry.spacecraft.position_m;
     Err(Failure::new(format!(
         "at {time_s} s the spacecraft at {:?} m about the orbit's centre is inside the planet or the Sun, or its position \
          is no number; see orbit.*, sun.position and planet.radius",
@@ -293,16 +245,14 @@ fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<(), 
 
 fn applied(context: &Plan<'_>, values: &Values) -> ExternalLoad {
     ExternalLoad {
-        force_body_n: physics_vector(values.vector(context.variables.force.applied)),
-        torque_body_n_m: physics_vector(values.vector(context.variables.torque.applied)),
+        force_body_n: Vector3::from(values.vector(context.variables.force.applied)),
+        torque_body_n_m: Vector3::from(values.vector(context.variables.torque.applied)),
     }
 }
 
-fn physics_vector(value: [f64; 3]) -> nalgebra::Vector3<f64> {
-    value.into()
-}
-
-fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
+/// Counts a dump and reports it.
+fn note_dump(context: &Plan<'_>, spacing: &mut DumpSpacing, event: &DumpEvent) {
+    spacing.dumped(event);
     if context.log.events_enabled() {
         let message = format!(
             "thruster dump: momentum {:?} -> {:?} N.m.s (body)",

@@ -3,12 +3,12 @@
 use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
-use physics::momentum::{Convention, Totals};
-use physics::plant::{Configuration, Evaluation, ExternalLoad, PanelSetting, Plant};
+use physics::momentum::Totals;
+use physics::plant::{Configuration, Cost, Evaluation, ExternalLoad, PanelSetting, Plant, PlantError};
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
-use super::state::PlantState;
-use super::{Plan, ended};
+use super::inputs::state::PlantState;
+use super::setup::Plan;
 
 /// Writes every output at `time_s`.
 pub fn write(
@@ -37,9 +37,9 @@ pub fn write(
     }
     values.set_vector(variables.torque.total, total.torque_body_n_m.into());
     values.set_vector(variables.force.total, total.force_body_n.into());
-    let force_inertial_n = rotation * total.force_body_n;
-    values.set_vector(variables.force.inertial, force_inertial_n.into());
-    values.set_vector(variables.acceleration, (force_inertial_n / configuration.mass_kg).into());
+    values.set_vector(variables.force.inertial, evaluation.force_inertial_n().into());
+    let acceleration_m_s2 = evaluation.acceleration_inertial_m_s2(configuration.mass_kg);
+    values.set_vector(variables.acceleration, acceleration_m_s2.into());
     values.set_vector(variables.delta_v, totals.delta_v_inertial_m_s.into());
 
     let sun = SunAngles::of(&instant.sun_body);
@@ -61,7 +61,7 @@ pub fn write(
     let spacecraft = &instant.geometry.spacecraft;
     values.set_vector(variables.position, spacecraft.position_m.into());
     values.set_vector(variables.velocity, spacecraft.velocity_m_s.into());
-    values.set_vector(variables.heliocentric.position, (-instant.geometry.to_sun.position_m).into());
+    values.set_vector(variables.heliocentric.position, instant.geometry.heliocentric_position_m().into());
     let since_s = if state.waiting {
         0.0
     } else {
@@ -122,7 +122,7 @@ pub fn write_plates(
                 values.set_vector(plate.force, force_body_n.into());
             }
         })
-        .map_err(ended)
+        .map_err(failure)
 }
 
 /// Writes what follows from parameters alone.
@@ -150,8 +150,7 @@ fn write_wheels(
 ) {
     let Some(array) = &context.setup.wheel_array else { return };
     let frame = &evaluation.instant.frame;
-    let system = totals.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
-    let wheels_body_n_m_s = system - configuration.inertia_body_kg_m2 * frame.rate_body_rad_s;
+    let wheels_body_n_m_s = totals.wheels_body_n_m_s(&configuration.inertia_body_kg_m2, frame);
     for (number, variables) in context.variables.wheel.iter().enumerate() {
         let momentum_n_m_s = array.momentum_n_m_s(number, &wheels_body_n_m_s);
         values.set_real(variables.momentum, momentum_n_m_s);
@@ -183,18 +182,13 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     let convention = state.configuration.as_ref()?.momentum.convention;
     let torque_body = Vector3::from(values.vector(variables.torque.total));
     if let Some(axis) = variables.momentum.body.index_of(output) {
-        let rate = match convention {
-            Convention::BodyIntegral => torque_body,
-            Convention::Inertial => {
-                let rate_body = Vector3::from(values.vector(variables.attitude.rate));
-                torque_body - rate_body.cross(&Vector3::from(values.vector(variables.momentum.body)))
-            }
-        };
-        return Some(rate[axis]);
+        let [momentum_body, rate_body] = [variables.momentum.body, variables.attitude.rate]
+            .map(|handle| Vector3::from(values.vector(handle)));
+        return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
     }
     if let Some(axis) = variables.momentum.inertial.index_of(output) {
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
-        return Some((attitude.inertial_from_body() * torque_body)[axis]);
+        return Some(attitude.to_inertial(&torque_body)[axis]);
     }
     if let Some(axis) = variables.delta_v.index_of(output) {
         return Some(values.vector(variables.acceleration)[axis]);
@@ -203,4 +197,41 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
         return Some(values.vector(variables.velocity)[axis]);
     }
     None
+}
+
+/// Why a flight ends, with the variables to look at.
+pub fn failure(error: PlantError) -> Failure {
+    let hint = match &error {
+        PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
+        PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
+        PlantError::Work(exceeded) => {
+            let most = match exceeded.most {
+                Cost::Segment => {
+                    "internal steps, which solver.step, orbit.step and solver.disturbanceStep keep short"
+                }
+                Cost::Refinement => {
+                    "internal steps shortened for solver.tolerance, which is small for this torque and attitude rate"
+                }
+                Cost::Search => {
+                    "searches for changes of attitude, light and eclipse: see orbit.*, guided.* and command.rate"
+                }
+                Cost::Dump => {
+                    "dumps: dump.threshold is low for this torque; see torque.applied and spacecraft.centerOfMass"
+                }
+                Cost::Light => {
+                    "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
+                }
+                Cost::Orbit => "integrating the orbit in steps of orbit.step",
+                Cost::Ephemeris => {
+                    "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"
+                }
+            };
+            return Failure::new(format!(
+                "{error} (solver.workLimit = {}); most went into {most}. Take a shorter step or raise solver.workLimit",
+                exceeded.limit
+            ));
+        }
+        _ => "",
+    };
+    Failure::new(format!("{error}{hint}"))
 }

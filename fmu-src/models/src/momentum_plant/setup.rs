@@ -1,6 +1,6 @@
-//! The plant's immutable setup: the spacecraft and what is computed from it once.
+//! The model and its immutable setup: the spacecraft and what is computed from it once.
 
-use fmi_export::{Failure, SetupError};
+use fmi_export::{Context, Failure, SetupError};
 use nalgebra::Vector3;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
@@ -8,6 +8,12 @@ use physics::plant::PreparedSpacecraft;
 use physics::radiation::{SolarModel, TorquePolynomial};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
+
+/// The momentum plant.
+pub struct MomentumPlant;
+
+/// What every call of the model is given.
+pub type Plan<'a> = Context<'a, MomentumPlant>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug, Serialize)]
@@ -22,7 +28,7 @@ pub struct PlantSetup {
     cylinder: Option<SolarModel>,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
-    pub reported_faces: Vec<crate::shared::ReportedFace>,
+    pub reported_faces: Vec<crate::common::spacecraft::ReportedFace>,
     /// Distribution of momentum over the wheels; absent unless they span all directions.
     #[serde(skip)]
     pub wheel_array: Option<WheelArray>,
@@ -38,7 +44,7 @@ impl PlantSetup {
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let prepared = |model| SolarModel::with_sunshade_model(&spacecraft, model).ok();
         Ok(Self {
-            reported_faces: crate::shared::reported_faces(file, &spacecraft)?,
+            reported_faces: crate::common::spacecraft::reported_faces(file, &spacecraft)?,
             plates: prepared(SunshadeModel::Plates),
             cylinder: prepared(SunshadeModel::Cylinder),
             wheel_array: WheelArray::new(&axes),

@@ -1,27 +1,25 @@
 //! `SpinPlant`: a spin-stabilised spacecraft (ACE), its thruster pulses with exact edges, nutation and its damper, burn
 //! sequencing and sensors.
 
-mod choices;
 mod dependencies;
+mod inputs;
 mod outputs;
-mod read;
+mod setup;
 mod variables;
 
 use fmi_export::{
-    About, Context, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source, StartValue, Step,
+    StepEnd, Values,
 };
 use nalgebra::Vector3;
-use physics::numerics::spacing::spacing;
 use physics::spin::{
     plant::{Directions, Plant},
     spinner::Spinner,
 };
 
+use setup::Plan;
+pub use setup::SpinPlant;
 use variables::SpinVariables;
-
-/// The spinner.
-pub struct SpinPlant;
 
 impl Model for SpinPlant {
     const NAME: &'static str = "SpinPlant";
@@ -36,11 +34,11 @@ impl Model for SpinPlant {
     type State = Plant;
 
     fn parse_setup(file: &str, text: &str) -> Result<Spinner, SetupError> {
-        Spinner::parse(file, text).map_err(|error| SetupError(error.to_string()))
+        setup::parse(file, text)
     }
 
     fn start_values(setup: &Spinner) -> Vec<StartValue> {
-        crate::start_values::start_values(&setup.start)
+        crate::common::start_values::start_values(&setup.start)
     }
 
     fn about(setup: &Spinner) -> About {
@@ -54,7 +52,7 @@ impl Model for SpinPlant {
             stop_time_s: 1400.0,
             step_size_s: 0.5,
             tolerance: 1e-12,
-            ..crate::about()
+            ..crate::common::about()
         }
     }
 
@@ -62,14 +60,10 @@ impl Model for SpinPlant {
         dependencies::table(setup, variables)
     }
 
-    fn initialize(
-        context: &Context<'_, Self>,
-        values: &mut Values,
-        start_time_s: f64,
-    ) -> Result<Plant, Failure> {
-        let directions = read::directions(context, values, |handle| values.vector(handle))?;
-        let start = read::start(context, values);
-        let commands = read::commands(context, values);
+    fn initialize(context: &Plan<'_>, values: &mut Values, start_time_s: f64) -> Result<Plant, Failure> {
+        let directions = inputs::directions(context, values, |handle| values.vector(handle))?;
+        let start = inputs::start(context, values);
+        let commands = inputs::commands(context, values);
         let plant = Plant::start(context.setup, &start, directions, commands, start_time_s)
             .map_err(|error| Failure::new(error.to_string()))?;
         warn_of_burn(context, &plant);
@@ -80,23 +74,24 @@ impl Model for SpinPlant {
     }
 
     fn step(
-        context: &Context<'_, Self>,
+        context: &Plan<'_>,
         values: &mut Values,
         plant: &mut Plant,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
         if step.changed {
-            let mut commands = read::commands(context, values);
-            commands.torque = read::torque(context, values, step)?;
+            let mut commands = inputs::commands(context, values);
+            commands.torque = inputs::torque(context, values, step)?;
             // Directions that move within the step are taken where it ends: they are read, not integrated.
             let at_end = |handle| step.inputs.vector(values, handle, step.end_s);
-            if let Some(name) = cut_pulse(context, &commands, step) {
+            let cut = commands.cut_by(step.start_s, step.end_s);
+            if let Some(thruster) = cut.and_then(|index| context.setup.thrusters.get(index)) {
                 context.log.warning(&format!(
-                    "a pulse of thruster {name} reaches beyond the step from {} to {} s and is cut there",
-                    step.start_s, step.end_s
+                    "a pulse of thruster {} reaches beyond the step from {} to {} s and is cut there",
+                    thruster.name, step.start_s, step.end_s
                 ));
             }
-            let directions = read::directions(context, values, at_end)?;
+            let directions = inputs::directions(context, values, at_end)?;
             warn_of_unknown(context, values, Some(&plant.directions_at(step.start_s)), &directions);
             plant.command(commands, directions);
         }
@@ -137,29 +132,18 @@ impl Model for SpinPlant {
 }
 
 impl OutputRates for SpinPlant {
-    fn output_rate(
-        context: &Context<'_, Self>,
-        _values: &Values,
-        state: &Plant,
-        output: Real,
-    ) -> Option<f64> {
+    fn output_rate(context: &Plan<'_>, _values: &Values, state: &Plant, output: Real) -> Option<f64> {
         outputs::derivative(context, state, output)
     }
 }
 
-/// A Sun-timed burn that comes closer to the Sun's line than so many pulses and kicks is not well timed: the Sun's
-/// azimuth then swings with nutation.
-const SUN_CLEARANCE: f64 = 4.0;
-
 /// What a burn that can be flown will not do as one may expect.
-fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
+fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
     let (log, seen) = (context.log, plant.predictions());
     if plant.is_dry() {
         log.warning("there is no propellant (propellant.loaded): no thruster fires");
     }
-    if let Some(apart_rad) =
-        plant.target_apart_rad().filter(|apart| seen.manoeuvre_rad > apart + seen.manoeuvre_per_pulse_rad)
-    {
+    if let Some(apart_rad) = plant.passed_target_rad() {
         log.warning(&format!(
             "the burn's {} pulses would move the momentum by {:.4} deg, but burn.targetDirection is {:.4} deg away, and \
              beyond it they take back what they did",
@@ -168,8 +152,7 @@ fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
             apart_rad.to_degrees()
         ));
     }
-    let near_rad = SUN_CLEARANCE * (seen.manoeuvre_per_pulse_rad + seen.kick_rad);
-    if let Some(clearance_rad) = plant.sun_clearance_rad().filter(|&clearance| clearance < near_rad) {
+    if let Some(clearance_rad) = plant.too_close_to_sun_rad() {
         log.warning(&format!(
             "the burn is timed by Sun crossings, and its way passes the Sun's line at {:.4} deg, where a crossing says \
              little: burn.timing 3 (true phase) or 1 (clock) does without",
@@ -179,13 +162,8 @@ fn warn_of_burn(context: &Context<'_, SpinPlant>, plant: &Plant) {
 }
 
 /// Directions that became 0: masters send that before the first exchange.
-fn warn_of_unknown(
-    context: &Context<'_, SpinPlant>,
-    values: &Values,
-    before: Option<&Directions>,
-    now: &Directions,
-) {
-    let from_inputs = read::takes_directions(context, values);
+fn warn_of_unknown(context: &Plan<'_>, values: &Values, before: Option<&Directions>, now: &Directions) {
+    let from_inputs = inputs::takes_directions(context, values);
     let became_unknown = |before: Option<&Vector3<f64>>, now: &Vector3<f64>| {
         *now == Vector3::zeros() && before.is_none_or(|before| *before != Vector3::zeros())
     };
@@ -204,20 +182,4 @@ fn warn_of_unknown(
             .log
             .warning(&format!("{} is 0: nothing is seen there until it has a direction", names.join(", ")));
     }
-}
-
-/// Name of a thruster whose commanded pulse does not end within the step.
-fn cut_pulse<'a>(
-    context: &'a Context<'_, SpinPlant>,
-    commands: &physics::spin::plant::Commands,
-    step: &Step<'_>,
-) -> Option<&'a str> {
-    let length_s = step.end_s - step.start_s;
-    // Rounding of times is no cut.
-    let rounding_s = 1e-9 * length_s + 8.0 * spacing(step.start_s.abs().max(step.end_s.abs()));
-    let late = commands
-        .pulses
-        .iter()
-        .position(|pulse| pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s + rounding_s)?;
-    context.setup.thrusters.get(late).map(|thruster| thruster.name.as_str())
 }

@@ -1,12 +1,13 @@
 //! From what the physics shows to the master's variables.
 
-use fmi_export::{Context, Real, RealVector, Values};
+use fmi_export::{Real, RealVector, Values};
 use nalgebra::Vector3;
-use physics::spin::{outputs::Rates, plant::Plant};
+use physics::spin::{
+    outputs::{Bounds, Rates},
+    plant::Plant,
+};
 
-use super::SpinPlant;
-
-type Plan<'a> = Context<'a, SpinPlant>;
+use super::setup::Plan;
 
 /// Writes what holds for the whole flight.
 pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
@@ -69,19 +70,20 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_vector(v.delta_v, seen.delta_v_inertial_m_s.into());
     values.set_real(v.propellant.used, seen.propellant_used_kg);
     values.set_real(v.propellant.left, seen.propellant_left_kg);
-    values.set_real(v.mass, spinner.mass_properties.dry_mass_kg + seen.propellant_left_kg);
+    values.set_real(v.mass, seen.mass_kg);
     values.set_real(v.energy, seen.energy_j);
-    let beyond = |value: f64, limit: Real| value > values.real(limit);
-    let sun = beyond(seen.sun_angle_rad, v.limit.sun_angle);
-    let earth = beyond(seen.earth_angle_rad, v.limit.earth_angle);
-    let off_rad_s = (seen.rate_rad_s.z - values.real(v.limit.spin_rate)).abs();
-    let spin = beyond(off_rad_s, v.limit.spin_rate_tolerance);
-    let period = beyond(seen.period_variation_s, v.limit.period_variation);
-    values.set_boolean(v.limit.sun_angle_violated, sun);
-    values.set_boolean(v.limit.earth_angle_violated, earth);
-    values.set_boolean(v.limit.spin_rate_violated, spin);
-    values.set_boolean(v.limit.period_variation_violated, period);
-    values.set_boolean(v.limit.any_violated, sun || earth || spin || period);
+    let violated = seen.violations(&Bounds {
+        sun_angle_rad: values.real(v.limit.sun_angle),
+        earth_angle_rad: values.real(v.limit.earth_angle),
+        spin_rate_rad_s: values.real(v.limit.spin_rate),
+        spin_rate_tolerance_rad_s: values.real(v.limit.spin_rate_tolerance),
+        period_variation_s: values.real(v.limit.period_variation),
+    });
+    values.set_boolean(v.limit.sun_angle_violated, violated.sun_angle);
+    values.set_boolean(v.limit.earth_angle_violated, violated.earth_angle);
+    values.set_boolean(v.limit.spin_rate_violated, violated.spin_rate);
+    values.set_boolean(v.limit.period_variation_violated, violated.period_variation);
+    values.set_boolean(v.limit.any_violated, violated.any());
 }
 
 /// First time derivative of an output that is continuous in time.
@@ -107,7 +109,7 @@ pub fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64
         .or_else(|| of(v.star_tracker.declination_true, rates.declination_rad_s))
         .or_else(|| of(v.energy, rates.power_w))
         .or_else(|| of(v.propellant.used, rates.flow_kg_s))
-        .or_else(|| of(v.propellant.left, -rates.flow_kg_s))
-        .or_else(|| of(v.mass, -rates.flow_kg_s))
+        .or_else(|| of(v.propellant.left, rates.mass_kg_s))
+        .or_else(|| of(v.mass, rates.mass_kg_s))
         .filter(|rate| rate.is_finite())
 }

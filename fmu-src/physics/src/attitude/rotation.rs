@@ -91,6 +91,11 @@ impl Attitude {
         Self::of(&self.unit().inverse())
     }
 
+    /// A vector's inertial components from those in the body frame.
+    pub fn to_inertial(&self, body: &Vector3<f64>) -> Vector3<f64> {
+        self.inertial_from_body() * body
+    }
+
     /// Whether it is a rotation: every number finite, the norm 1 within rounding.
     pub fn is_rotation(&self) -> bool {
         (self.unit().coords.norm() - 1.0).abs() < 1e-9

@@ -9,15 +9,11 @@
 
 pub mod surface;
 
-use core::f64::consts::PI;
-
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::constants;
+use crate::constants::{self, DEG_RAD};
 use surface::{DayTemperature, PlanetSurface};
-
-const DEG_RAD: f64 = PI / 180.0;
 
 /// A body a spacecraft can fly around or look at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

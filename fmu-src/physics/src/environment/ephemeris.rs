@@ -38,6 +38,8 @@ const SHORT_S: f64 = 8.0 * DAY_S;
 
 /// Epochs VSOP87 is made for: 4000 years around J2000, s.
 pub const VALID_EPOCH_S: f64 = 4000.0 * 365.25 * DAY_S;
+/// The earliest of those epochs, in s.
+pub const EARLIEST_EPOCH_S: f64 = -VALID_EPOCH_S;
 
 /// Planet positions, a cache over VSOP87 of fixed size: looking up never allocates, and the same epoch always gives
 /// the same bits. It is no state: skip it when serialising and start from the default.

@@ -19,3 +19,13 @@ pub struct CartesianState {
     /// Velocity, m/s.
     pub velocity_m_s: Vector3<f64>,
 }
+
+impl CartesianState {
+    /// On a circle of `radius_m` about a centre of gravitational parameter `mu_m3_s2`, at the first axis.
+    pub fn on_circle(radius_m: f64, mu_m3_s2: f64) -> Self {
+        Self {
+            position_m: Vector3::x() * radius_m,
+            velocity_m_s: Vector3::y() * (mu_m3_s2 / radius_m).sqrt(),
+        }
+    }
+}

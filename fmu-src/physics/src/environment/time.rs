@@ -21,6 +21,16 @@ pub const fn midnight_s(year: i32, month: u32, day: u32) -> f64 {
     (days_from_civil(year as i64, month, day) as f64 - 0.5) * DAY_S
 }
 
+/// What turns the time of a flight into epochs, in s: at `time_s` the epoch is `epoch_s`.
+pub fn epoch_minus_time_s(epoch_s: f64, time_s: f64) -> f64 {
+    epoch_s - time_s
+}
+
+/// The epoch at a time of a flight, in s; see [`epoch_minus_time_s`].
+pub fn epoch_at_s(time_s: f64, epoch_minus_time_s: f64) -> f64 {
+    time_s + epoch_minus_time_s
+}
+
 /// The Julian date (TDB) of an epoch; resolves 4e-5 s.
 pub fn julian_date(epoch_s: f64) -> f64 {
     J2000_JULIAN_DATE + epoch_s / DAY_S

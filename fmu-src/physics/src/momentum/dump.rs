@@ -107,6 +107,30 @@ impl DumpEvent {
     }
 }
 
+/// Shortest time between two dumps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DumpSpacing {
+    last_s: Option<f64>,
+    /// In s; absent before the second dump.
+    pub closest_s: Option<f64>,
+}
+
+impl DumpSpacing {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.last_s.is_none_or(f64::is_finite)
+            && self.closest_s.is_none_or(|gap_s| (0.0..=GREATEST_IN_STATE).contains(&gap_s))
+    }
+
+    /// Counts a dump.
+    pub fn dumped(&mut self, event: &DumpEvent) {
+        if let Some(last_s) = self.last_s.replace(event.time_s) {
+            let gap_s = event.time_s - last_s;
+            self.closest_s = Some(self.closest_s.map_or(gap_s, |closest_s| closest_s.min(gap_s)));
+        }
+    }
+}
+
 impl Dumps {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub(super) fn is_sound(&self) -> bool {

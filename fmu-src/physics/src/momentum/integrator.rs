@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::intervals::next_multiple_s;
+
 use super::dump::{DumpEvent, Dumps};
 use super::segment::{MomentumSegment, Settings};
 use super::torque_model::{Effort, Sample, TorqueModel};
@@ -76,7 +78,7 @@ impl MomentumIntegrator {
             let start_s = self.segment.end_s();
             let longest_s = self.segment.next_longest_s();
             let mut totals = self.segment.totals(start_s);
-            let horizon_s = flight.prepare(start_s)?;
+            let horizon_s = flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
             let first = flight.sample(start_s);
             let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
             if settings.policy.exceeded(&momentum) {
@@ -135,7 +137,7 @@ mod tests {
     impl TorqueModel for Known {
         type Failure = TooManyDumps;
 
-        fn prepare(&mut self, _: f64) -> Result<f64, Self::Failure> {
+        fn prepare(&mut self, _: f64, _: f64) -> Result<f64, Self::Failure> {
             Ok(f64::INFINITY)
         }
 

@@ -12,7 +12,7 @@ mod torque_model;
 mod totals;
 mod wheels;
 
-pub use dump::{DumpEvent, DumpPolicy, Dumps, Reinitialise, TooManyDumps};
+pub use dump::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, Reinitialise, TooManyDumps};
 pub use integrator::MomentumIntegrator;
 pub use segment::Settings;
 pub use torque_model::{Effort, EventValues, Sample, TorqueModel, after_event_s};

@@ -48,12 +48,12 @@ pub trait TorqueModel {
     /// Why a flight cannot go on.
     type Failure: From<TooManyDumps>;
 
-    /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to the next change whose time is
-    /// known: a segment that starts there ends at that time or before. Called with rising times, and again with the same one.
+    /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to `limit_s` and to the next change
+    /// whose time is known: a segment that starts there ends at that time or before. Called with rising times, and again with the same one.
     ///
     /// # Errors
     /// Whatever ends a flight.
-    fn prepare(&mut self, start_s: f64) -> Result<f64, Self::Failure>;
+    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, Self::Failure>;
 
     /// Sample at `time_s`; a pure function of time within what was prepared.
     fn sample(&mut self, time_s: f64) -> Sample;

@@ -1,7 +1,9 @@
 //! Totals of momentum and delta-v: what is integrated over time, and in which convention.
 
-use nalgebra::{Rotation3, SVector, Vector3};
+use nalgebra::{Matrix3, Rotation3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
+
+use crate::attitude::MovingFrame;
 
 /// Sampled quantities that are integrated: torque (inertial), torque (body), acceleration (inertial).
 pub(super) const RATES: usize = 9;
@@ -26,7 +28,37 @@ pub struct Totals {
     pub delta_v_inertial_m_s: Vector3<f64>,
 }
 
+impl Convention {
+    /// Rate of the system momentum in the body frame, in N m, under a torque and at a body rate.
+    pub fn momentum_rate_body_n_m(
+        self,
+        momentum_body_n_m_s: &Vector3<f64>,
+        torque_body_n_m: &Vector3<f64>,
+        rate_body_rad_s: &Vector3<f64>,
+    ) -> Vector3<f64> {
+        match self {
+            Self::BodyIntegral => *torque_body_n_m,
+            Self::Inertial => torque_body_n_m - rate_body_rad_s.cross(momentum_body_n_m_s),
+        }
+    }
+}
+
 impl Totals {
+    /// At the start of a flight, with system momentum in the body frame, in N m s, in any convention.
+    pub fn at_start(momentum_body_n_m_s: Vector3<f64>, inertial_from_body: &Rotation3<f64>) -> Self {
+        Self {
+            momentum_inertial_n_m_s: inertial_from_body * momentum_body_n_m_s,
+            torque_integral_body_n_m_s: momentum_body_n_m_s,
+            ..Self::default()
+        }
+    }
+
+    /// What ideal wheels hold, body frame, in N m s: the system's momentum less what the body's own rotation takes.
+    pub fn wheels_body_n_m_s(&self, inertia_body_kg_m2: &Matrix3<f64>, frame: &MovingFrame) -> Vector3<f64> {
+        let system = self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
+        system - inertia_body_kg_m2 * frame.rate_body_rad_s
+    }
+
     /// System momentum in the body frame by `convention`, in N m s.
     pub fn momentum_body_n_m_s(
         &self,

@@ -149,6 +149,15 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         Segment { center: self.center, half_length: self.half_length, coefficients }
     }
 
+    /// One function of the segment times `factor`, plus `offset`; the others, which may not be finite, have no part in it.
+    pub fn row(&self, row: usize, factor: f64, offset: f64) -> Segment<1, N> {
+        let mut coefficients = self.coefficients.fixed_rows::<1>(row) * factor;
+        if N > 0 {
+            coefficients[0] += offset;
+        }
+        Segment { center: self.center, half_length: self.half_length, coefficients }
+    }
+
     /// The scalar function `direction . f + offset` on the same interval: a component, a projection, a threshold.
     pub fn project(&self, direction: &SVector<f64, D>, offset: f64) -> Segment<1, N> {
         let mut coefficients = direction.transpose() * self.coefficients;

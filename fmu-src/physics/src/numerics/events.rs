@@ -28,6 +28,8 @@ const DEPTH: usize = 20;
 const MOST_FITS: u32 = 256;
 /// A fit whose last two coefficients are this small beside its largest is taken for the function.
 const FIT: f64 = 1e-12;
+/// The same for events, whose place is then found on the function itself: a dip of 1e-5 of the interval is still seen.
+const EVENT_FIT: f64 = 1e-10;
 
 /// Every change of sign of `function` in `(from, to]`, rising; of more than `R` the first ones.
 ///
@@ -46,7 +48,7 @@ pub fn sign_changes<const R: usize>(
     mut function: impl FnMut(f64) -> f64,
 ) -> Result<Roots<R>, RootError> {
     let mut found = Roots::default();
-    visit_sign_changes(from, to, &mut function, |at, _| {
+    visit_sign_changes(from, to, FIT, &mut function, |at, _| {
         found.push(at);
         ControlFlow::Continue(())
     })?;
@@ -57,6 +59,7 @@ pub fn sign_changes<const R: usize>(
 fn visit_sign_changes<F: FnMut(f64) -> f64>(
     from: f64,
     to: f64,
+    fit: f64,
     function: &mut F,
     mut visit: impl FnMut(f64, &mut F) -> ControlFlow<()>,
 ) -> Result<(), RootError> {
@@ -88,7 +91,7 @@ fn visit_sign_changes<F: FnMut(f64) -> f64>(
         if c[0].abs() > swing + 4.0 * tail {
             continue;
         }
-        if tail > FIT * c.amax() && depth < DEPTH && fits < MOST_FITS {
+        if tail > fit * c.amax() && depth < DEPTH && fits < MOST_FITS {
             let middle = 0.5 * (start + end);
             waiting[height] = (middle, end, depth + 1);
             waiting[height + 1] = (start, middle, depth + 1);
@@ -131,23 +134,30 @@ pub fn first_event<const K: usize, const N: usize>(
         }
         let swing: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
         let missed = MISSED * (terms[N - 1].abs() + terms[N - 2].abs());
-        if terms[0].abs() > swing + missed {
+        if terms[0].abs() > swing + missed || stays_away(&fitted, k, missed) {
             continue;
         }
         let limit = first.unwrap_or(to);
         let mut earlier = None;
-        let searched = visit_sign_changes(from, limit, &mut |at: f64| values(at)[k], |root, function| {
-            if root >= limit {
-                return ControlFlow::Break(());
-            }
-            earlier = (root > after).then(|| change_near(root, from.max(after), to, function)).flatten();
-            if earlier.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+        let searched =
+            visit_sign_changes(from, limit, EVENT_FIT, &mut |at: f64| values(at)[k], |root, function| {
+                if root >= limit {
+                    return ControlFlow::Break(());
+                }
+                earlier = (root > after).then(|| change_near(root, from.max(after), to, function)).flatten();
+                if earlier.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
         if searched.is_ok() {
             first = earlier.or(first);
         }
     }
     first
+}
+
+/// Whether row `k` of a fit keeps its sign and stays away from zero by more than `missed`.
+fn stays_away<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize, missed: f64) -> bool {
+    let above = fitted.row(k, fitted.value(fitted.start())[k].signum(), -missed);
+    above.value(above.start())[0] > 0.0 && above.sign_changes(above.start(), above.end()).is_empty()
 }
 
 /// The number at which `function` has changed its sign next to a root located roughly; `None` where it touches zero only.

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::{MovingFrame, gravity_gradient_n_m};
+use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel};
@@ -38,6 +39,24 @@ impl Evaluation {
     /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
     pub fn nowhere(frame: MovingFrame) -> Self {
         Self { instant: Instant::nowhere(frame), loads: Loads::zero() }
+    }
+
+    /// Whether a spacecraft can be there: outside the planet and the Sun, every number finite.
+    pub fn is_somewhere(&self) -> bool {
+        let total = self.loads.total();
+        self.instant.sun_distance_m > RADIUS_SUN_M
+            && self.instant.lit_fraction.is_finite()
+            && total.torque_body_n_m.iter().chain(&total.force_body_n).all(|x| x.is_finite())
+    }
+
+    /// Force of all effects, EME2000, in N.
+    pub fn force_inertial_n(&self) -> Vector3<f64> {
+        self.instant.frame.inertial_from_body * self.loads.total().force_body_n
+    }
+
+    /// Acceleration of a spacecraft of this mass by all effects, EME2000, in m/s2.
+    pub fn acceleration_inertial_m_s2(&self, mass_kg: f64) -> Vector3<f64> {
+        self.force_inertial_n() / mass_kg
     }
 }
 
@@ -152,19 +171,17 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
 impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
     type Failure = PlantError;
 
-    fn prepare(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        self.reach(start_s)
+    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        self.reach(start_s, limit_s)
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {
-        let Evaluation { instant, loads } = self.evaluate(time_s);
-        let total = loads.total();
-        let inertial_from_body = instant.frame.inertial_from_body;
+        let evaluation = self.evaluate(time_s);
         Sample {
-            inertial_from_body,
-            torque_body_n_m: total.torque_body_n_m,
-            acceleration_inertial_m_s2: inertial_from_body * total.force_body_n / self.configuration.mass_kg,
-            events: instant.events,
+            inertial_from_body: evaluation.instant.frame.inertial_from_body,
+            torque_body_n_m: evaluation.loads.total().torque_body_n_m,
+            acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(self.configuration.mass_kg),
+            events: evaluation.instant.events,
         }
     }
 

@@ -42,6 +42,11 @@ impl Geometry {
         }
     }
 
+    /// Position about the Sun, EME2000, in m.
+    pub fn heliocentric_position_m(&self) -> Vector3<f64> {
+        -self.to_sun.position_m
+    }
+
     /// Directions with their rates; a body at zero distance counts as lying toward +X.
     pub fn lines_of_sight(&self) -> LinesOfSight {
         let unit = |to: &CartesianState| {

@@ -18,9 +18,9 @@ use super::work::Cost;
 const NODES: usize = 8;
 
 impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
-    /// Makes sure that `start_s` lies in the present segment, and tells where that ends.
-    pub(super) fn reach(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        let known_s = self.orbit_and_light(start_s)?;
+    /// Makes sure that `start_s` lies in the present segment, and tells where that ends, `limit_s` at the latest.
+    pub(super) fn reach(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        let known_s = self.orbit_and_light(start_s)?.min(limit_s);
         let instant = self.instant(start_s);
         Ok(self.attitude_until_s(start_s, &instant, known_s))
     }

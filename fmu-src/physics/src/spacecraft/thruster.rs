@@ -19,6 +19,13 @@ pub struct Thruster {
     pub flow_kg_s: f64,
 }
 
+impl Thruster {
+    /// Moment arm across the body's Z axis, in m (paper 002 Table 1).
+    pub fn arm_across_z_m(&self) -> f64 {
+        self.torque_body_n_m.xy().norm() / self.force_body_n.norm()
+    }
+}
+
 /// Force, torque and flow of a set of thrusters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {

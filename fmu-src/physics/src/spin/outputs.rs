@@ -28,6 +28,26 @@ pub struct Bounds {
     pub period_variation_s: f64,
 }
 
+/// Which limits are violated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Violations {
+    /// The Sun angle's.
+    pub sun_angle: bool,
+    /// The Earth angle's.
+    pub earth_angle: bool,
+    /// The spin rate's.
+    pub spin_rate: bool,
+    /// The variation of the spin period's.
+    pub period_variation: bool,
+}
+
+impl Violations {
+    /// Whether any is violated.
+    pub fn any(&self) -> bool {
+        self.sun_angle || self.earth_angle || self.spin_rate || self.period_variation
+    }
+}
+
 /// Values that follow from the trajectory at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
@@ -95,6 +115,21 @@ pub struct Outputs {
     pub propellant_used_kg: f64,
     /// In kg.
     pub propellant_left_kg: f64,
+    /// Mass with the propellant left, in kg.
+    pub mass_kg: f64,
+}
+
+impl Outputs {
+    /// Which of these limits are violated.
+    pub fn violations(&self, bounds: &Bounds) -> Violations {
+        let off_rad_s = (self.rate_rad_s.z - bounds.spin_rate_rad_s).abs();
+        Violations {
+            sun_angle: self.sun_angle_rad > bounds.sun_angle_rad,
+            earth_angle: self.earth_angle_rad > bounds.earth_angle_rad,
+            spin_rate: off_rad_s > bounds.spin_rate_tolerance_rad_s,
+            period_variation: self.period_variation_s > bounds.period_variation_s,
+        }
+    }
 }
 
 /// Values that hold for a whole flight.
@@ -151,6 +186,7 @@ impl Plant {
             _ => -1.0,
         };
         let used_kg = self.propellant_used_kg(spinner);
+        let left_kg = (self.initial_propellant_kg() - used_kg).max(0.0);
         Outputs {
             state,
             rate_rad_s,
@@ -190,7 +226,8 @@ impl Plant {
             torque_body_n_m: thrust.torque_body_n_m,
             delta_v_inertial_m_s: self.delta_v_inertial_m_s(spinner),
             propellant_used_kg: used_kg,
-            propellant_left_kg: (self.initial_propellant_kg() - used_kg).max(0.0),
+            propellant_left_kg: left_kg,
+            mass_kg: spinner.mass_properties.dry_mass_kg + left_kg,
         }
     }
 
@@ -268,6 +305,8 @@ pub struct Rates {
     pub power_w: f64,
     /// Of the propellant used.
     pub flow_kg_s: f64,
+    /// Of the mass and of the propellant left.
+    pub mass_kg_s: f64,
 }
 
 impl Plant {
@@ -321,6 +360,7 @@ impl Plant {
             },
             power_w: 0.5 * (rate_dot.dot(&h) + rate.dot(&h_dot)),
             flow_kg_s: thrust.flow_kg_s,
+            mass_kg_s: -thrust.flow_kg_s,
         }
     }
 }

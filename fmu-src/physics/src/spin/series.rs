@@ -53,6 +53,14 @@ impl BodyTorque {
         Self { origin_s: 0.0, coefficients_n_m }
     }
 
+    /// Adds the derivative of an order from 1 along a body axis, at the origin; `None` beyond the orders that are used.
+    pub fn set_derivative(&mut self, axis: usize, order: u32, derivative: f64) -> Option<()> {
+        let coefficients = self.coefficients_n_m.get_mut(order as usize)?;
+        let factorial: f64 = (1..=order).map(f64::from).product();
+        coefficients[axis] = derivative / factorial;
+        Some(())
+    }
+
     /// Whether a decoded torque can be one.
     pub fn is_sound(&self) -> bool {
         self.origin_s.is_finite() && self.coefficients_n_m.iter().flatten().all(|c| c.is_finite())

@@ -243,7 +243,7 @@ fn a_span_ahead_is_asked_of_a_clone() {
     let torques = |rig: &mut Rig, times_s: &[f64]| -> Vec<Vector3<f64>> {
         let mut plant = rig.plant(&configuration);
         let torque = |time_s: &f64| {
-            plant.prepare(*time_s).unwrap();
+            plant.prepare(*time_s, f64::INFINITY).unwrap();
             plant.evaluate(*time_s).loads.total().torque_body_n_m
         };
         times_s.iter().map(torque).collect()
@@ -287,7 +287,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
             }
             let configuration = with(command);
             let mut plant = rig.plant_in_light(&configuration, &mut light);
-            plant.prepare(time_s).unwrap();
+            plant.prepare(time_s, f64::INFINITY).unwrap();
             loads.push(plant.evaluate(time_s).loads.total());
         }
         loads

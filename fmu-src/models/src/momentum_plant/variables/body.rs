@@ -2,9 +2,10 @@
 
 use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Text, Variables};
 
-use super::super::choices::{PanelControl, PanelTilt, SunshadeShape};
-use super::super::defaults;
 use super::super::setup::PlantSetup;
+use super::choices::{PanelControl, PanelTilt};
+use super::defaults;
+use crate::common::choices::SunshadeShape;
 
 /// Mass properties.
 #[derive(Variables)]
@@ -26,7 +27,7 @@ pub struct SpacecraftVariables {
 #[variables(setup = PlantSetup)]
 pub struct SunshadeVariables {
     /// Which model of the shade takes the light.
-    #[parameter(start = defaults::sunshade_shape(setup))]
+    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
     pub shape: Choice<SunshadeShape>,
     /// Coefficients of paper 000's eq 3 for the shade in use, about the centre of mass, in the shade's frame: rows are
     /// torque components x, y, z; columns the monomials x, y, z, xy, xz, yz, xx, yy, zz of the Sun direction. Torque
@@ -43,7 +44,7 @@ pub struct SunshadeVariables {
 #[variables(setup = PlantSetup)]
 pub struct PanelVariables {
     /// What sets the panel's rotation angle.
-    #[parameter(start = defaults::panel_control(setup, index))]
+    #[parameter(start = PanelControl(setup.spacecraft.panels[index].control))]
     pub control: Choice<PanelControl>,
     /// Angle between the panel's normal and the Sun direction when it is held by Sun offset.
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]

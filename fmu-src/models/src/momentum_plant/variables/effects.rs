@@ -2,12 +2,13 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
+use physics::momentum::Convention;
 use physics::radiation::Effect;
 
-use super::super::choices::{DumpReinitTo, MomentumConvention};
-use super::super::defaults;
 use super::super::setup::PlantSetup;
-use crate::shared::WorkLimit;
+use super::choices::{DumpReinitTo, MomentumConvention};
+use super::defaults;
+use crate::common::variables::WorkLimit;
 
 /// Light of the planet.
 #[derive(Variables)]
@@ -133,7 +134,7 @@ pub struct SolverVariables {
 #[variables(setup = PlantSetup)]
 pub struct MomentumVariables {
     /// What momentum.body and the dump thresholds mean.
-    #[parameter(start = MomentumConvention::Inertial)]
+    #[parameter(start = MomentumConvention(Convention::Inertial))]
     pub convention: Choice<MomentumConvention>,
     /// System momentum in the body frame, by momentum.convention.
     #[output(unit = "N.m.s", nominal = 1.0)]

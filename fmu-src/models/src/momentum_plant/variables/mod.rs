@@ -1,6 +1,8 @@
 //! The plant's variables at its public face.
 
 mod body;
+pub mod choices;
+pub mod defaults;
 mod effects;
 mod motion;
 mod surroundings;
@@ -16,11 +18,11 @@ use effects::{
 };
 use motion::{AttitudeVariables, CommandVariables, GuidedVariables, OrbitVariables, StartVariables};
 use surroundings::{
-    EarthVariables, EclipseVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables,
-    SolarVariables, SunVariables,
+    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables,
 };
 
 use super::setup::PlantSetup;
+use crate::common::variables::EclipseVariables;
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]

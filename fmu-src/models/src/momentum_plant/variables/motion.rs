@@ -2,11 +2,14 @@
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
-use super::super::choices::{
+use super::super::setup::PlantSetup;
+use physics::bodies::Body;
+use physics::environment::frames::Frame;
+
+use super::choices::{
     AttitudeSource, CommandKind, OrbitCenter, OrbitDynamics, OrbitFrame, OrbitSource, ScienceRule,
 };
-use super::super::defaults;
-use super::super::setup::PlantSetup;
+use super::defaults;
 
 /// Attitude: where it comes from, and what it is.
 #[derive(Variables)]
@@ -72,7 +75,7 @@ pub struct GuidedVariables {
 #[variables(setup = PlantSetup)]
 pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
-    #[parameter(unit = "s", display = "d", min = -defaults::VALID_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
+    #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
     pub epoch: Real,
     /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
@@ -87,7 +90,7 @@ pub struct StartVariables {
 #[variables(setup = PlantSetup)]
 pub struct OrbitVariables {
     /// What the spacecraft flies around.
-    #[parameter(start = OrbitCenter::Mercury)]
+    #[parameter(start = OrbitCenter(Body::Mercury))]
     pub center: Choice<OrbitCenter>,
     /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity. While one of these two is zero the
     /// flight waits for it: the attitude is held and nothing acts.
@@ -106,7 +109,7 @@ pub struct OrbitVariables {
     #[parameter(unit = "s", min = 1.0, max = 1_800.0, start = 300.0)]
     pub step: Real,
     /// Frame of the elements.
-    #[parameter(start = OrbitFrame::PlanetEquator)]
+    #[parameter(start = OrbitFrame(Frame::PlanetEquator))]
     pub frame: Choice<OrbitFrame>,
     /// Semi-major axis; the default gives a period of 12 h about Mercury. With another orbit.center, elements left at their
     /// defaults are those of a circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.

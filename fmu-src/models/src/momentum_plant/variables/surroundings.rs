@@ -2,10 +2,10 @@
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
-use super::super::choices::{EclipseMethod, EphemerisSource};
-use super::super::defaults;
 use super::super::setup::PlantSetup;
-use crate::shared::SurfaceVariables;
+use super::choices::EphemerisSource;
+use super::defaults;
+use crate::common::variables::SurfaceVariables;
 
 /// The planet the spacecraft orbits.
 #[derive(Variables)]
@@ -78,15 +78,6 @@ pub struct SolarVariables {
     /// Radiation pressure when it is fixed; the default is paper 000's value at 0.3 AU.
     #[parameter(unit = "Pa", display = "uPa", min = 0.0, max = 1.0, start = 5.0145e-5)]
     pub pressure: Real,
-}
-
-/// Shadow of the planet.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct EclipseVariables {
-    /// How the planet's shadow dims the Sun.
-    #[parameter(start = EclipseMethod::Discs)]
-    pub method: Choice<EclipseMethod>,
 }
 
 /// The Sun as seen from the spacecraft.

@@ -1,16 +1,15 @@
 //! The spinning body: mass properties, spin, nutation, momentum.
 
-use super::RPM_RAD_S;
 use fmi_export::{Choice, Integer, Real, RealVector, Variables};
 
-use super::super::choices::MassSource;
-use physics::spin::spinner::Spinner;
+use super::choices::MassSource;
+use physics::spin::{plant, spinner::Spinner};
 
 /// Mass properties.
 #[derive(Variables)]
 pub struct MassVariables {
     /// Where the moments of inertia come from.
-    #[parameter(start = MassSource::Fixed)]
+    #[parameter(start = MassSource(plant::MassSource::Fixed))]
     pub source: Choice<MassSource>,
     /// Principal moments of inertia now; they follow the propellant if massProperties.source says so.
     #[output(unit = "kg.m2", nominal = 300.0)]
@@ -43,7 +42,7 @@ pub struct PropellantVariables {
 #[variables(setup = Spinner)]
 pub struct SpinRateVariables {
     /// Rate about the third axis at the start.
-    #[parameter(unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
+    #[parameter(unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rad_s())]
     pub initial_rate: Real,
     /// Rate about the third axis.
     #[output(unit = "rad/s", display = "rpm", nominal = 0.5)]

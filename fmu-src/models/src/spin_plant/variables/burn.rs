@@ -4,9 +4,9 @@ use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
 
-use super::super::choices::{BurnPlan, BurnTiming};
+use super::choices::{BurnPlan, BurnTiming};
 use physics::spacecraft::Thruster;
-use physics::spin::spinner::Spinner;
+use physics::spin::{forecast::Timing, spinner::Spinner};
 
 /// The burn the spacecraft flies by itself.
 #[derive(Variables)]
@@ -15,7 +15,7 @@ pub struct BurnVariables {
     #[parameter(start = BurnPlan::Uniform)]
     pub plan: Choice<BurnPlan>,
     /// What pulses are timed by.
-    #[parameter(start = BurnTiming::Clock)]
+    #[parameter(start = BurnTiming(Timing::Clock))]
     pub timing: Choice<BurnTiming>,
     /// No pulse begins before this time.
     #[parameter(unit = "s", start = 0.0)]
@@ -115,7 +115,7 @@ pub struct ThrusterVariables {
     #[output]
     pub active: Boolean,
     /// Moment arm across the spin axis, paper 002 Table 1.
-    #[output(constant, unit = "m", start = setup.torque_body_n_m.xy().norm() / setup.force_body_n.norm())]
+    #[output(constant, unit = "m", start = setup.arm_across_z_m())]
     pub arm: Real,
     /// Name in the setup.
     #[output(constant, start = setup.name.as_str())]

@@ -2,9 +2,8 @@
 
 mod body;
 mod burn;
+pub mod choices;
 mod observation;
-
-use core::f64::consts::PI;
 
 use fmi_export::{Integer, Real, RealVector, Variables};
 
@@ -18,11 +17,8 @@ use observation::{
     SunSensorVariables, SunVariables,
 };
 
-use crate::shared::WorkLimit;
+use crate::common::variables::WorkLimit;
 use physics::spin::spinner::Spinner;
-
-const RPM_RAD_S: f64 = PI / 30.0;
-const DEG_RAD: f64 = PI / 180.0;
 
 /// Every variable of the spinner, in the order of the XML.
 #[derive(Variables)]

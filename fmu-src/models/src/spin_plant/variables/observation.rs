@@ -2,11 +2,10 @@
 
 use core::f64::consts::PI;
 
-use super::{DEG_RAD, RPM_RAD_S};
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
-use super::super::choices::{GeometrySource, StarSampling};
-use physics::spin::spinner::Spinner;
+use super::choices::{GeometrySource, StarSampling};
+use physics::spin::{plant::Sampling, spinner::Spinner};
 
 /// Where Sun and Earth stand.
 #[derive(Variables)]
@@ -37,7 +36,7 @@ pub struct GeometryVariables {
 pub struct SunVariables {
     /// Direction of the Sun in EME2000, of any length; 0 = not known yet, nothing is seen. Unused on the L1 orbit. The default is 10 deg off the spin axis,
     /// across the way to the default target: a burn timed by the Sun does not run into it.
-    #[input(unit = "1", start = [0.0, libm::sin(10.0 * DEG_RAD), libm::cos(10.0 * DEG_RAD)])]
+    #[input(unit = "1", start = [0.0, libm::sin(10.0_f64.to_radians()), libm::cos(10.0_f64.to_radians())])]
     pub direction: RealVector<3>,
     /// From the spin axis +Z to the Sun.
     #[output(unit = "rad", display = "deg", nominal = 0.1)]
@@ -74,13 +73,13 @@ pub struct StarVariables {
 #[variables(setup = Spinner)]
 pub struct LimitVariables {
     /// Greatest Sun angle.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.limits.sun_angle_deg * DEG_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.limits.sun_angle_rad())]
     pub sun_angle: Real,
     /// Greatest Earth angle.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.limits.earth_angle_deg * DEG_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.limits.earth_angle_rad())]
     pub earth_angle: Real,
     /// Nominal spin rate; at the start it also sets the star tracker's clock.
-    #[parameter(tunable, unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rpm * RPM_RAD_S)]
+    #[parameter(tunable, unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rad_s())]
     pub spin_rate: Real,
     /// Allowed either side of the nominal spin rate.
     #[parameter(
@@ -88,7 +87,7 @@ pub struct LimitVariables {
         unit = "rad/s",
         display = "rpm",
         min = 0.0,
-        start = setup.limits.spin_rate_tolerance_rpm * RPM_RAD_S
+        start = setup.limits.spin_rate_tolerance_rad_s()
     )]
     pub spin_rate_tolerance: Real,
     /// Greatest variation of the spin period, eq 1.
@@ -123,7 +122,7 @@ pub struct SunSensorVariables {
 #[derive(Variables)]
 pub struct StarTrackerVariables {
     /// When it samples the star.
-    #[parameter(start = StarSampling::Spins)]
+    #[parameter(start = StarSampling(Sampling::Spins))]
     pub sampling: Choice<StarSampling>,
     /// Declination of the star at the last sample, with noise; 0 before any.
     #[output(discrete, unit = "rad", display = "deg", nominal = 1e-2)]

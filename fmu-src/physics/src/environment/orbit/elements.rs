@@ -1,11 +1,13 @@
 //! Keplerian elements to state and back (paper 004 eqs 9-21, with all quadrants).
 
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::bodies::{Body, BodyData};
+use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::environment::CartesianState;
 
 /// Below this eccentricity an orbit counts as circular, below this sine of inclination as equatorial.
@@ -67,6 +69,12 @@ pub enum OrbitError {
     },
 }
 
+/// Semi-major axis of an ellipse of this period, m (Kepler's third law). The same to the last digit on every machine.
+pub fn semi_major_axis_m(mu_m3_s2: f64, period_s: f64) -> f64 {
+    let mean_motion_rad_s = TAU / period_s;
+    libm::cbrt(mu_m3_s2 / (mean_motion_rad_s * mean_motion_rad_s))
+}
+
 impl Elements {
     /// A circle of `radius_m` whose node lies on the first axis.
     pub const fn circle(radius_m: f64, inclination_rad: f64) -> Self {
@@ -76,6 +84,26 @@ impl Elements {
             inclination_rad,
             ascending_node_rad: 0.0,
             periapsis_argument_rad: 0.0,
+            true_anomaly_rad: 0.0,
+        }
+    }
+
+    /// An orbit to begin with: about the Sun a circle of 1 AU, about a planet one of three radii over the poles.
+    pub fn simple_about(body: Body) -> Self {
+        match body {
+            Body::Sun => Self::circle(ASTRONOMICAL_UNIT_M, 0.0),
+            planet => Self::circle(3.0 * planet.data().radius_m, FRAC_PI_2),
+        }
+    }
+
+    /// The mean ellipse of a planet about the Sun at J2000, in the ecliptic, at perihelion.
+    pub fn mean_orbit_of(planet: &BodyData) -> Self {
+        Self {
+            semi_major_axis_m: planet.orbit_semi_major_axis_m,
+            eccentricity: planet.orbit_eccentricity,
+            inclination_rad: planet.orbit_inclination_rad,
+            ascending_node_rad: planet.orbit_node_rad,
+            periapsis_argument_rad: planet.orbit_perihelion_longitude_rad - planet.orbit_node_rad,
             true_anomaly_rad: 0.0,
         }
     }

@@ -3,6 +3,7 @@
 //! [`DisturbanceModel::evaluate`] is the one call: geometry in, force and torque by effect and by face out. It is
 //! generic over the number type, so that dual numbers give exact derivatives by any part of the geometry.
 
+mod by_source;
 mod error;
 mod evaluate;
 mod faces;
@@ -18,6 +19,7 @@ mod paper_tests;
 #[cfg(test)]
 mod tests;
 
+pub use by_source::{BySource, Parameters, PositionError, Positions};
 pub use error::ModelError;
 pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
 pub use model::{DisturbanceModel, Options};

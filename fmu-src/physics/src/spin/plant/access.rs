@@ -12,6 +12,9 @@ use crate::spin::{
     sequencer::Sequencer, spinner::Spinner, tracker::NutationEstimator,
 };
 
+/// A Sun-timed burn that comes closer to the Sun's line than so many pulses and kicks is not well timed.
+const SUN_CLEARANCE: f64 = 4.0;
+
 impl Plant {
     /// The motion in force.
     pub fn motion(&self) -> &Motion {
@@ -91,16 +94,27 @@ impl Plant {
         self.initial_propellant_kg
     }
 
-    /// Angle from the momentum at the start to the burn's target, in rad: no burn moves it farther. `None` without a burn
-    /// that points.
-    pub fn target_apart_rad(&self) -> Option<f64> {
+    /// Angle from the momentum at the start to the burn's target, in rad, if the burn goes beyond it by more than a pulse:
+    /// there pulses take back what the others did.
+    pub fn passed_target_rad(&self) -> Option<f64> {
         let burn = self.sequencer()?.burn();
-        burn.points().then(|| angle_between_rad(&self.initial_momentum_inertial, &burn.target_inertial))
+        let apart_rad = angle_between_rad(&self.initial_momentum_inertial, &burn.target_inertial);
+        let seen = self.predictions();
+        let is_passed = seen.manoeuvre_rad > apart_rad + seen.manoeuvre_per_pulse_rad;
+        (burn.points() && is_passed).then_some(apart_rad)
+    }
+
+    /// How close the momentum comes to the Sun's line, in rad, if that is too close for a burn timed by the Sun: its azimuth
+    /// swings with nutation there.
+    pub fn too_close_to_sun_rad(&self) -> Option<f64> {
+        let seen = self.predictions();
+        let near_rad = SUN_CLEARANCE * (seen.manoeuvre_per_pulse_rad + seen.kick_rad);
+        self.sun_clearance_rad().filter(|&clearance_rad| clearance_rad < near_rad)
     }
 
     /// How close the momentum comes to the Sun's line (toward or away from it) on its way along the burn, in rad; `None`
     /// without a burn that is timed by the Sun.
-    pub fn sun_clearance_rad(&self) -> Option<f64> {
+    fn sun_clearance_rad(&self) -> Option<f64> {
         let burn = self.sequencer().map(Sequencer::burn)?;
         let sun = self.directions.sun_inertial;
         if !burn.points() || burn.timing != Timing::SunCrossing || sun == Vector3::zeros() {

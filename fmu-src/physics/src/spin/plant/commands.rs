@@ -3,7 +3,11 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::spacing::spacing;
 use crate::spin::{series::BodyTorque, spinner::MOST_THRUSTERS};
+
+/// Beyond these lengths the squares of a vector's components under- or overflow.
+const NORMALIZABLE: core::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// Directions in inertial space that the sensors look for; unit vectors, or 0 for one that is not known: nothing is seen
 /// there. On the L1 orbit those of Sun and Earth do not count.
@@ -39,7 +43,30 @@ pub struct Commands {
     pub torque: BodyTorque,
 }
 
+impl PulseCommand {
+    /// A pulse whose times are rounded to whole steps of `resolution_s`; 0 = not rounded.
+    pub fn rounded(delay_s: f64, on_s: f64, resolution_s: f64) -> Self {
+        let rounded = |time_s: f64| {
+            let time_s = time_s.max(0.0);
+            let steps = time_s / resolution_s;
+            // So many steps that doubles do not count them are as fine as no rounding.
+            if resolution_s > 0.0 && steps < 1e15 { steps.round() * resolution_s } else { time_s }
+        };
+        Self { delay_s: rounded(delay_s), on_s: rounded(on_s) }
+    }
+}
+
 impl Directions {
+    /// The unit vector along a vector; 0 of 0, and `None` of one so short or long that rounding takes its direction.
+    pub fn unit(along: [f64; 3]) -> Option<Vector3<f64>> {
+        let vector = Vector3::from(along);
+        let norm = vector.norm();
+        if NORMALIZABLE.contains(&norm) {
+            return Some(vector / norm);
+        }
+        (along == [0.0; 3]).then(Vector3::zeros)
+    }
+
     /// Whether all are unit vectors, or none.
     pub(super) fn are_directions(&self) -> bool {
         let unit = |direction: &Vector3<f64>| {
@@ -58,6 +85,15 @@ impl Commands {
             any_pulse: false,
             torque: BodyTorque::constant(Vector3::zeros()),
         }
+    }
+
+    /// The first thruster, from 0, whose pulse does not end within a step, by more than the rounding of times.
+    pub fn cut_by(&self, start_s: f64, end_s: f64) -> Option<usize> {
+        let length_s = end_s - start_s;
+        let rounding_s = 1e-9 * length_s + 8.0 * spacing(start_s.abs().max(end_s.abs()));
+        let is_cut =
+            |pulse: &PulseCommand| pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s + rounding_s;
+        self.pulses.iter().position(is_cut)
     }
 
     /// Thrusters on just after `time_s`, in a step from `from_s`.

@@ -1,6 +1,7 @@
 //! Hardware of a spinner: mass properties, thrusters, sensors, limits.
 
 use crate::attitude::{Inertia, InertiaError};
+use crate::constants::{DEG_RAD, RPM_RAD_S};
 use serde::{Deserialize, Serialize};
 
 /// A set of thrusters is a bit mask.
@@ -104,4 +105,26 @@ pub struct Limits {
     pub spin_rate_tolerance_rpm: f64,
     /// Greatest variation of the spin period, in s.
     pub period_variation_s: f64,
+}
+
+impl Limits {
+    /// Greatest angle from the spin axis to the Sun, in rad.
+    pub fn sun_angle_rad(&self) -> f64 {
+        self.sun_angle_deg * DEG_RAD
+    }
+
+    /// Greatest angle from the antenna (-Z) to the Earth, in rad.
+    pub fn earth_angle_rad(&self) -> f64 {
+        self.earth_angle_deg * DEG_RAD
+    }
+
+    /// Nominal spin rate, in rad/s.
+    pub fn spin_rate_rad_s(&self) -> f64 {
+        self.spin_rate_rpm * RPM_RAD_S
+    }
+
+    /// Allowed either way, in rad/s.
+    pub fn spin_rate_tolerance_rad_s(&self) -> f64 {
+        self.spin_rate_tolerance_rpm * RPM_RAD_S
+    }
 }

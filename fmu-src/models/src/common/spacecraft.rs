@@ -1,89 +1,12 @@
-//! What several models read from their variables and setups alike.
+//! What several models read from their spacecraft alike.
 
 use std::collections::BTreeSet;
 
-use fmi_export::{
-    Choice, Enumeration, Failure, Integer, Knowns, Real, RealMatrix, RealVector, SetupError, Values,
-    Variables,
-};
+use fmi_export::{Failure, Knowns, RealMatrix, RealVector, SetupError, Values};
 use nalgebra::Matrix3;
-use physics::bodies::surface::{self, MERCURY, PlanetSurface};
 use physics::radiation::disturbance::{DisturbanceModel, Options};
 use physics::spacecraft::{self, Spacecraft};
 use serde::Serialize;
-
-/// How the day side's temperature is distributed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum DayTemperature {
-    /// One temperature for the whole day side (paper 004, eq 32).
-    Uniform = 1,
-    /// Local balance: the fourth power of temperature goes with the cosine of the Sun's zenith angle.
-    Cosine = 2,
-    /// The night's temperature everywhere, as under an atmosphere.
-    Isothermal = 3,
-}
-
-impl From<DayTemperature> for surface::DayTemperature {
-    fn from(choice: DayTemperature) -> Self {
-        match choice {
-            DayTemperature::Uniform => Self::Uniform,
-            DayTemperature::Cosine => Self::Cosine,
-            DayTemperature::Isothermal => Self::Isothermal,
-        }
-    }
-}
-
-/// What a planet's surface does with sunlight; the defaults are Mercury's as they fit paper 004, which prints none.
-#[derive(Variables)]
-pub struct SurfaceVariables {
-    /// Fraction of sunlight the planet absorbs; 0.88 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
-    pub absorptivity: Real,
-    /// Fraction of sunlight the planet reflects diffusely; 0.12 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
-    pub diffuse_reflectivity: Real,
-    /// Infrared emissivity of the planet; 0.9 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
-    pub emissivity: Real,
-    /// Temperature of the planet's night side; 100 K fits paper 004, which does not print it.
-    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
-    pub night_temperature: Real,
-    /// How the temperature of the planet's day side is distributed.
-    #[parameter(start = DayTemperature::Uniform)]
-    pub day_temperature: Choice<DayTemperature>,
-}
-
-/// Bound on the work of one step.
-#[derive(Variables)]
-pub struct WorkLimit {
-    /// Most work a step may take, in units of about a microsecond; a step that would take more fails and says how far it
-    /// came. The default is more than twice what a Mercury year with every effect takes.
-    #[parameter(min = 1_000, max = 1_000_000_000, start = 20_000_000)]
-    pub work_limit: Integer,
-}
-
-impl WorkLimit {
-    /// The units.
-    pub fn units(&self, values: &Values) -> u32 {
-        values.integer(self.work_limit).unsigned_abs()
-    }
-}
-
-impl SurfaceVariables {
-    /// The surface of a planet of this radius; not checked yet.
-    pub fn read(&self, values: &Values, radius: Real) -> PlanetSurface {
-        PlanetSurface {
-            radius_m: values.real(radius),
-            absorptivity: values.real(self.absorptivity),
-            diffuse_reflectivity: values.real(self.diffuse_reflectivity),
-            emissivity: values.real(self.emissivity),
-            night_temperature_k: values.real(self.night_temperature),
-            day_temperature: values
-                .choice(self.day_temperature)
-                .map_or(surface::DayTemperature::Uniform, Into::into),
-        }
-    }
-}
 
 /// The inertia in body axes that `spacecraft.inertia` holds by rows, in kg m2.
 ///

@@ -1,32 +1,27 @@
 //! From the master's parameters and inputs to what the physics takes.
 
-use fmi_export::{Context, Failure, Real, RealVector, Step, Values};
+use fmi_export::{Failure, RealVector, Step, Values};
 use nalgebra::Vector3;
 use physics::spin::{
     burn::BurnRequest,
     forecast::Timing,
     geometry::{L1Ephemeris, L1Phases},
-    plant::{self, Commands, Directions, PulseCommand, Start},
+    plant::{Commands, Directions, MassSource, PulseCommand, Sampling, Start},
     series::{BodyTorque, TORQUE_TERMS},
     train::Shape,
 };
 
 use super::{
-    SpinPlant,
-    choices::{BurnPlan, BurnTiming, GeometrySource, MassSource, StarSampling},
+    setup::Plan,
+    variables::choices::{BurnPlan, GeometrySource},
 };
-
-type Plan<'a> = Context<'a, SpinPlant>;
 
 /// How the flight starts.
 pub fn start(context: &Plan<'_>, values: &Values) -> Start {
     let v = context.variables;
     Start {
         inertia_kg_m2: values.vector(v.inertia),
-        mass_source: match values.choice(v.mass_properties.source) {
-            Some(MassSource::Propellant) => plant::MassSource::Propellant,
-            Some(MassSource::Fixed) | None => plant::MassSource::Fixed,
-        },
+        mass_source: values.choice(v.mass_properties.source).map_or(MassSource::Fixed, |it| it.0),
         propellant_kg: values.real(v.propellant.loaded),
         spin_rate_rad_s: values.real(v.spin.initial_rate),
         attitude: values.vector(v.start.q),
@@ -48,10 +43,7 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
             }
             Some(GeometrySource::Inputs) | None => None,
         },
-        sampling: match values.choice(v.star_tracker.sampling) {
-            Some(StarSampling::Clock) => plant::Sampling::Clock,
-            Some(StarSampling::Spins) | None => plant::Sampling::Spins,
-        },
+        sampling: values.choice(v.star_tracker.sampling).map_or(Sampling::Spins, |it| it.0),
         nominal_rate_rad_s: values.real(v.limit.spin_rate),
         seed: i64::from(values.integer(v.seed)) as u64,
         work_limit: v.solver.units(values),
@@ -70,11 +62,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
     };
     Some(BurnRequest {
         shape,
-        timing: match values.choice(v.timing) {
-            Some(BurnTiming::SunCrossing) => Timing::SunCrossing,
-            Some(BurnTiming::TruePhase) => Timing::TruePhase,
-            Some(BurnTiming::Clock) | None => Timing::Clock,
-        },
+        timing: values.choice(v.timing).map_or(Timing::Clock, |it| it.0),
         start_s: values.real(v.start),
         thruster: values.integer(v.thruster),
         opposite_thruster: values.integer(v.opposite_thruster),
@@ -97,19 +85,14 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
 pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
     let v = context.variables;
     let resolution_s = values.real(v.pulse.resolution);
-    let rounded = |handle: Real| {
-        let time_s = values.real(handle).max(0.0);
-        let steps = time_s / resolution_s;
-        // So many steps that doubles do not count them are as fine as no rounding.
-        if resolution_s > 0.0 && steps < 1e15 { steps.round() * resolution_s } else { time_s }
-    };
     let mut commands =
         Commands { torque: BodyTorque::constant(values.vector(v.torque.applied).into()), ..Commands::none() };
     for (k, (thruster, pulse)) in v.thruster.iter().zip(&mut commands.pulses).enumerate() {
         if values.boolean(thruster.fire) {
             commands.fire |= 1 << k;
         }
-        *pulse = PulseCommand { delay_s: rounded(thruster.on_delay), on_s: rounded(thruster.on_time) };
+        let (delay_s, on_s) = (values.real(thruster.on_delay), values.real(thruster.on_time));
+        *pulse = PulseCommand::rounded(delay_s, on_s, resolution_s);
         commands.any_pulse |= pulse.on_s > 0.0;
     }
     commands
@@ -121,17 +104,14 @@ pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<Bo
     let mut torque = BodyTorque::constant(values.vector(handle).into());
     for axis in 0..3 {
         for (order, derivative) in step.inputs.derivatives(handle.element(axis)) {
-            let k = order as usize;
-            if k >= TORQUE_TERMS {
-                return Err(Failure::new(format!(
+            torque.set_derivative(axis, order, derivative).ok_or_else(|| {
+                Failure::new(format!(
                     "torque.applied[{}]: a derivative of order {order} was given; orders 1 to {} are used",
                     axis + 1,
                     TORQUE_TERMS - 1
-                )));
-            }
+                ))
+            })?;
             torque.origin_s = step.inputs.start_s();
-            let factorial: f64 = (1..=order).map(f64::from).product();
-            torque.coefficients_n_m[k][axis] = derivative / factorial;
         }
     }
     Ok(torque)
@@ -154,16 +134,8 @@ pub fn directions(
     let v = context.variables;
     let unit = |name: &str, handle| {
         let given = read(handle);
-        let direction = Vector3::from(given);
-        let norm = direction.norm();
-        // Beyond these the squares of components under- or overflow.
-        if (1e-100..=1e100).contains(&norm) {
-            return Ok(direction / norm);
-        }
-        if given == [0.0; 3] {
-            return Ok(Vector3::zeros());
-        }
-        Err(Failure::new(format!("{name} is {given:?}; allowed is 0 or a vector of length 1e-100 to 1e100")))
+        let allowed = "allowed is 0 or a vector of length 1e-100 to 1e100";
+        Directions::unit(given).ok_or_else(|| Failure::new(format!("{name} is {given:?}; {allowed}")))
     };
     let from_inputs = takes_directions(context, values);
     let unless_orbit = |name, handle| if from_inputs { unit(name, handle) } else { Ok(Vector3::zeros()) };

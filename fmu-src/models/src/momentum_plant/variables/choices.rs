@@ -1,6 +1,12 @@
-//! The plant's options.
+//! The plant's choices.
 
 use fmi_export::Enumeration;
+use physics::bodies::Body;
+use physics::environment::frames::Frame;
+use physics::momentum::Convention;
+use physics::spacecraft;
+
+use crate::common::choices::enumeration_of;
 
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -41,21 +47,22 @@ pub enum ScienceRule {
     FixedToSunLine = 3,
 }
 
-/// Central body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum OrbitCenter {
-    /// Mercury.
-    Mercury = 1,
-    /// The Sun.
-    Sun = 2,
-    /// Venus.
-    Venus = 3,
-    /// The Earth.
-    Earth = 4,
-    /// Mars.
-    Mars = 6,
-    /// Jupiter.
-    Jupiter = 7,
+enumeration_of! {
+    /// Central body.
+    OrbitCenter(Body) {
+        /// Mercury.
+        mercury = 1 => Mercury,
+        /// The Sun.
+        sun = 2 => Sun,
+        /// Venus.
+        venus = 3 => Venus,
+        /// The Earth.
+        earth = 4 => Earth,
+        /// Mars.
+        mars = 6 => Mars,
+        /// Jupiter.
+        jupiter = 7 => Jupiter,
+    }
 }
 
 /// Origin of the orbit.
@@ -76,17 +83,18 @@ pub enum OrbitDynamics {
     Disturbed = 2,
 }
 
-/// Frame of the orbital elements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum OrbitFrame {
-    /// The planet's orbit plane, from its ascending node on the ecliptic: the Mercury-centred inertial frame of paper 004.
-    PlanetOrbit = 1,
-    /// The planet's equator of J2000.
-    PlanetEquator = 2,
-    /// Earth mean equator and equinox of J2000.
-    Eme2000 = 3,
-    /// Ecliptic and equinox of J2000.
-    Ecliptic = 4,
+enumeration_of! {
+    /// Frame of the orbital elements.
+    OrbitFrame(Frame) {
+        /// The planet's orbit plane, from its ascending node on the ecliptic: the Mercury-centred inertial frame of paper 004.
+        planetOrbit = 1 => PlanetOrbit,
+        /// The planet's equator of J2000.
+        planetEquator = 2 => PlanetEquator,
+        /// Earth mean equator and equinox of J2000.
+        eme2000 = 3 => Eme2000,
+        /// Ecliptic and equinox of J2000.
+        ecliptic = 4 => Ecliptic,
+    }
 }
 
 /// Origin of the Sun's and the planets' positions.
@@ -101,26 +109,14 @@ pub enum EphemerisSource {
     Inputs = 3,
 }
 
-/// How the planet's shadow dims the Sun.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum EclipseMethod {
-    /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
-    Discs = 1,
-    /// Paper 004: no light as soon as the discs touch.
-    Cone = 2,
-    /// No light in the cylinder of the planet's radius behind it.
-    Cylinder = 3,
-    /// The planet casts no shadow; so in paper 000.
-    Off = 4,
-}
-
-/// What turns a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum PanelControl {
-    /// A constant angle between the panel's normal and the Sun.
-    SunOffset = 1,
-    /// The input angle.
-    Angle = 2,
+enumeration_of! {
+    /// What turns a panel.
+    PanelControl(spacecraft::PanelControl) {
+        /// A constant angle between the panel's normal and the Sun.
+        sunOffset = 1 => SunOffset,
+        /// The input angle.
+        angle = 2 => Angle,
+    }
 }
 
 /// Sense in which a panel tilts off the Sun.
@@ -132,22 +128,14 @@ pub enum PanelTilt {
     Negative = 2,
 }
 
-/// Shape of the sunshade.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum SunshadeShape {
-    /// Flat plates.
-    Plates = 1,
-    /// Section of a cylinder.
-    Cylinder = 2,
-}
-
-/// Meaning of system momentum in the body frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum MomentumConvention {
-    /// Physical: the inertial total shown in body components.
-    Inertial = 1,
-    /// Paper 000: each body component of torque integrated on its own.
-    BodyIntegral = 2,
+enumeration_of! {
+    /// Meaning of system momentum in the body frame.
+    MomentumConvention(Convention) {
+        /// Physical: the inertial total shown in body components.
+        inertial = 1 => Inertial,
+        /// Paper 000: each body component of torque integrated on its own.
+        bodyIntegral = 2 => BodyIntegral,
+    }
 }
 
 /// Where a dump leaves a component that exceeded its threshold.

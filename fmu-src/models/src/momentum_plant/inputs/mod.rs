@@ -1,30 +1,33 @@
 //! From parameters and inputs to the physics' configuration; refuses what cannot be flown, by name.
 
+pub mod center;
+pub mod state;
+
 use fmi_export::{Failure, Values};
+use nalgebra::Vector3;
 use physics::bodies::surface::MERCURY;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
 use physics::environment::CartesianState;
-use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
+use physics::environment::time;
 use physics::guidance::{self, Guided, Schedule};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
     self, Configuration, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
 };
-use physics::spacecraft;
+use physics::spacecraft::{PanelControl, SunshadeModel};
 
-use super::center::Center;
-use super::choices::{
-    AttitudeSource, DumpReinitTo, EclipseMethod, EphemerisSource, MomentumConvention, OrbitDynamics,
-    OrbitSource, PanelControl, PanelTilt, ScienceRule, SunshadeShape,
-};
-use super::state::PlantState;
+use self::center::Center;
+use self::state::PlantState;
+use super::setup::Plan;
 use super::variables::PlantVariables;
-use super::{Plan, physics_vector};
-use crate::shared::inertia_body_kg_m2;
+use super::variables::choices::{
+    AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource, PanelTilt, ScienceRule,
+};
+use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
 pub fn configuration(
@@ -43,7 +46,7 @@ pub fn refreshed(
     previous: Option<Configuration>,
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
-    let epoch_minus_time_s = values.real(variables.start.epoch) - state.start_s;
+    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let center = Center::of(variables, values);
     let (body, data) = (center.body, center.data());
     let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
@@ -72,9 +75,9 @@ pub fn refreshed(
         if !values.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
-        match values.choice(panel.control) {
-            Some(PanelControl::Angle) => PanelSetting::Angle(values.real(panel.angle)),
-            Some(PanelControl::SunOffset) | None => PanelSetting::SunOffset {
+        match values.choice(panel.control).map_or(PanelControl::SunOffset, |it| it.0) {
+            PanelControl::Angle => PanelSetting::Angle(values.real(panel.angle)),
+            PanelControl::SunOffset => PanelSetting::SunOffset {
                 offset_rad: values.real(panel.sun_offset),
                 tilt_sign: match values.choice(panel.tilt) {
                     Some(PanelTilt::Negative) => -1.0,
@@ -95,7 +98,7 @@ pub fn refreshed(
         } else {
             SunLight::Distance { flux_w_m2: values.real(variables.solar.flux) }
         },
-        shadow: shadow(variables, values, data.radius_m)?,
+        shadow: variables.eclipse.read(values, data.radius_m)?,
         light_and_heat: RadiationSettings {
             planet_light: values.boolean(variables.planet_light.enabled),
             recoil: values.boolean(variables.thermal.enabled),
@@ -104,12 +107,9 @@ pub fn refreshed(
             grid_s: values.real(variables.solver.disturbance_step),
             tolerance: values.real(variables.solver.disturbance_tolerance),
         },
-        sunshade: match values.choice(variables.sunshade.shape) {
-            Some(SunshadeShape::Cylinder) => spacecraft::SunshadeModel::Cylinder,
-            Some(SunshadeShape::Plates) | None => spacecraft::SunshadeModel::Plates,
-        },
+        sunshade: values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0),
         panels,
-        center_of_mass_body_m: physics_vector(values.vector(variables.spacecraft.center_of_mass)),
+        center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
         gravity_gradient_m3_s2: if values.boolean(variables.gravity_gradient.enabled) {
@@ -145,16 +145,6 @@ pub fn light(
         .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.shape: {error}")))
 }
 
-fn shadow(variables: &PlantVariables, values: &Values, radius_m: f64) -> Result<Shadow, Failure> {
-    let model = match values.choice(variables.eclipse.method) {
-        Some(EclipseMethod::Cone) => ShadowModel::AllOrNothingCone,
-        Some(EclipseMethod::Cylinder) => ShadowModel::AllOrNothingCylinder,
-        Some(EclipseMethod::Off) => ShadowModel::Off,
-        Some(EclipseMethod::Discs) | None => ShadowModel::DiscOverlap,
-    };
-    Shadow::new(model, radius_m).map_err(|error| Failure::new(format!("planet.radius: {error}")))
-}
-
 fn orbit(
     center: &Center<'_>,
     variables: &PlantVariables,
@@ -166,20 +156,17 @@ fn orbit(
     match values.choice(orbit.source) {
         // Nothing is computed on it before position and velocity are set.
         Some(OrbitSource::Inputs) if state.waiting => {
-            let distance_m = 1e10;
-            let start = CartesianState {
-                position_m: nalgebra::Vector3::x() * distance_m,
-                velocity_m_s: nalgebra::Vector3::y() * (data.gm_m3_s2 / distance_m).sqrt(),
-            };
+            let start = CartesianState::on_circle(1e10, data.gm_m3_s2);
             TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_minus_time_s)
                 .map_err(|error| Failure::new(format!("planet.gravitationalParameter: {error}")))
         }
         Some(OrbitSource::Inputs) => {
             let start = CartesianState {
-                position_m: physics_vector(values.vector(orbit.position)),
-                velocity_m_s: physics_vector(values.vector(orbit.velocity)),
+                position_m: Vector3::from(values.vector(orbit.position)),
+                velocity_m_s: Vector3::from(values.vector(orbit.velocity)),
             };
-            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, state.orbit_since_s + epoch_minus_time_s)
+            let epoch_s = time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s);
+            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s)
                 .map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
         }
         Some(OrbitSource::Elements) | None => {
@@ -220,15 +207,15 @@ fn ephemeris(
     let ephemeris = &variables.ephemeris;
     Ok(match values.choice(ephemeris.source) {
         Some(EphemerisSource::Inputs) => {
-            let sun_m = physics_vector(values.vector(variables.sun.position));
-            let at_the_planet = center.body.is_planet() && sun_m == physics_vector([0.0; 3]);
+            let sun_m = Vector3::from(values.vector(variables.sun.position));
+            let at_the_planet = center.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
             if at_the_planet && !state.waiting {
                 return Err(Failure::new(
                     "sun.position is not set: found (0, 0, 0) m, allowed: the Sun's position from the orbit's centre, which \
                      ephemeris.source = inputs asks for",
                 ));
             }
-            let earth_m = physics_vector(values.vector(variables.earth.position));
+            let earth_m = Vector3::from(values.vector(variables.earth.position));
             plant::EphemerisSource::Given { sun_m, earth_m }
         }
         Some(EphemerisSource::Kepler) => {
@@ -294,15 +281,12 @@ fn settings(variables: &PlantVariables, values: &Values) -> Settings {
     Settings {
         grid_s: values.real(variables.solver.step),
         tolerance: values.real(variables.solver.tolerance),
-        convention: match values.choice(variables.momentum.convention) {
-            Some(MomentumConvention::BodyIntegral) => Convention::BodyIntegral,
-            Some(MomentumConvention::Inertial) | None => Convention::Inertial,
-        },
+        convention: values.choice(variables.momentum.convention).map_or(Convention::Inertial, |it| it.0),
         policy: DumpPolicy {
-            threshold_body_n_m_s: physics_vector(values.vector(dump.threshold)),
+            threshold_body_n_m_s: Vector3::from(values.vector(dump.threshold)),
             reinitialise: match values.choice(dump.reinit_to) {
                 Some(DumpReinitTo::Target) => {
-                    Reinitialise::Target { momentum_body_n_m_s: physics_vector(values.vector(dump.target)) }
+                    Reinitialise::Target { momentum_body_n_m_s: Vector3::from(values.vector(dump.target)) }
                 }
                 Some(DumpReinitTo::Opposite) | None => {
                     Reinitialise::Opposite { fraction: values.real(dump.reinit_fraction) }

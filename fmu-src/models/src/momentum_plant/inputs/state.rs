@@ -1,14 +1,18 @@
 //! What the plant remembers between steps.
 
 use fmi_export::{Enumeration, Failure, Values};
+use nalgebra::Vector3;
 use physics::attitude::Attitude;
+use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
-use physics::momentum::{DumpEvent, MomentumIntegrator, Totals};
+use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
 use serde::{Deserialize, Serialize};
 
-use super::choices::{AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource};
-use super::{Plan, log_dump, physics_vector};
+use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::variables::choices::{
+    AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource,
+};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -36,7 +40,7 @@ pub struct PlantState {
     /// `dump.request` at the last step.
     pub request: Request,
     /// Time between dumps.
-    pub spacing: Spacing,
+    pub spacing: DumpSpacing,
     /// Cache, not state: the same epoch gives the same bits.
     #[serde(skip)]
     pub ephemeris: Ephemeris,
@@ -77,31 +81,6 @@ impl Request {
     }
 }
 
-/// Shortest time between two dumps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Spacing {
-    last_s: Option<f64>,
-    /// In s; absent before the second dump.
-    pub closest_s: Option<f64>,
-}
-
-impl Spacing {
-    /// Whether its numbers can come from a flight.
-    fn is_sound(&self) -> bool {
-        self.last_s.is_none_or(f64::is_finite)
-            && self.closest_s.is_none_or(|gap_s| (0.0..=1e100).contains(&gap_s))
-    }
-
-    /// Counts a dump and reports it.
-    pub fn dumped(&mut self, context: &Plan<'_>, event: &DumpEvent) {
-        log_dump(context, event);
-        if let Some(last_s) = self.last_s.replace(event.time_s) {
-            let gap_s = event.time_s - last_s;
-            self.closest_s = Some(self.closest_s.map_or(gap_s, |closest_s| closest_s.min(gap_s)));
-        }
-    }
-}
-
 impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
     pub fn check(&self) -> Result<(), Failure> {
@@ -128,7 +107,7 @@ impl PlantState {
         let q = values.vector(context.variables.start.q);
         let attitude =
             Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-        let rate_body_rad_s = physics_vector([0.0; 3]);
+        let rate_body_rad_s = Vector3::from([0.0; 3]);
         let mut state = Self {
             start_s,
             propagator: PropagatorState::default(),
@@ -142,7 +121,7 @@ impl PlantState {
             orbit_inputs: orbit_inputs(context, values),
             light_inputs: light_inputs(context, values).collect(),
             request: Request::default(),
-            spacing: Spacing::default(),
+            spacing: DumpSpacing::default(),
             ephemeris: Ephemeris::default(),
             configuration: None,
             light: None,
@@ -202,7 +181,7 @@ impl PlantState {
             Some(CommandKind::Attitude) | None if is_zero(&q) => (held, [0.0; 3]),
             Some(CommandKind::Attitude) | None => (quaternion("command.q", q)?, rate),
         };
-        self.command = Command { attitude, rate_body_rad_s: physics_vector(rate), since_s: time_s };
+        self.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
         Ok(())
     }
 
@@ -254,7 +233,7 @@ pub fn unset_places(context: &Plan<'_>, values: &Values) -> Vec<&'static str> {
     let orbit_given = matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
     let sun_given = matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs));
     // About the Sun, the Sun is at zero.
-    let planet = !matches!(values.choice(variables.orbit.center), Some(OrbitCenter::Sun));
+    let planet = !matches!(values.choice(variables.orbit.center), Some(OrbitCenter(Body::Sun)));
     let places = [
         (orbit_given, variables.orbit.position, "orbit.position"),
         (orbit_given, variables.orbit.velocity, "orbit.velocity"),

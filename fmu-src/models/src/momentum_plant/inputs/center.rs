@@ -6,22 +6,8 @@ use physics::bodies::{Body, BodyData};
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements;
 
-use super::choices::{OrbitCenter, OrbitFrame};
-use super::defaults;
-use super::variables::PlantVariables;
-
-impl From<OrbitCenter> for Body {
-    fn from(center: OrbitCenter) -> Self {
-        match center {
-            OrbitCenter::Mercury => Self::Mercury,
-            OrbitCenter::Sun => Self::Sun,
-            OrbitCenter::Venus => Self::Venus,
-            OrbitCenter::Earth => Self::Earth,
-            OrbitCenter::Mars => Self::Mars,
-            OrbitCenter::Jupiter => Self::Jupiter,
-        }
-    }
-}
+use crate::momentum_plant::variables::PlantVariables;
+use crate::momentum_plant::variables::defaults;
 
 /// The parameters about the centre, as they count.
 pub struct Center<'a> {
@@ -34,7 +20,7 @@ pub struct Center<'a> {
 impl<'a> Center<'a> {
     /// The centre that `orbit.center` names.
     pub fn of(variables: &'a PlantVariables, values: &'a Values) -> Self {
-        let body = values.choice(variables.orbit.center).map_or(Body::Mercury, Body::from);
+        let body = values.choice(variables.orbit.center).map_or(Body::Mercury, |it| it.0);
         Self { variables, values, body }
     }
 
@@ -97,10 +83,7 @@ impl<'a> Center<'a> {
     /// the poles, about the Sun one of 1 AU.
     pub fn elements(&self) -> Elements {
         let orbit = &self.variables.orbit;
-        let own = match self.body {
-            Body::Sun => Elements::circle(physics::constants::ASTRONOMICAL_UNIT_M, 0.0),
-            planet => Elements::circle(3.0 * planet.data().radius_m, core::f64::consts::FRAC_PI_2),
-        };
+        let own = Elements::simple_about(self.body);
         Elements {
             semi_major_axis_m: self.followed(
                 orbit.semi_major_axis,
@@ -125,40 +108,37 @@ impl<'a> Center<'a> {
 
     /// Frame of those elements; about the Sun the default is the ecliptic.
     pub fn frame(&self) -> Frame {
-        match self.values.choice(self.variables.orbit.frame) {
-            Some(OrbitFrame::PlanetEquator) if self.body == Body::Sun => Frame::Ecliptic,
-            Some(OrbitFrame::PlanetEquator) => Frame::PlanetEquator,
-            Some(OrbitFrame::Eme2000) => Frame::Eme2000,
-            Some(OrbitFrame::Ecliptic) => Frame::Ecliptic,
-            Some(OrbitFrame::PlanetOrbit) | None => Frame::PlanetOrbit,
+        match self.values.choice(self.variables.orbit.frame).map_or(Frame::PlanetOrbit, |it| it.0) {
+            Frame::PlanetEquator if self.body == Body::Sun => Frame::Ecliptic,
+            frame => frame,
         }
     }
 
     /// Elements of the centre's own ellipse about the Sun, in the ecliptic of J2000.
     pub fn ellipse(&self) -> Elements {
-        let (ephemeris, default, own) = (&self.variables.ephemeris, defaults::PRINTED, self.body.data());
-        let argument_rad = own.orbit_perihelion_longitude_rad - own.orbit_node_rad;
+        let ephemeris = &self.variables.ephemeris;
+        let (default, own) = (defaults::PRINTED, Elements::mean_orbit_of(self.body.data()));
         Elements {
             semi_major_axis_m: self.followed(
                 ephemeris.semi_major_axis,
                 default.semi_major_axis_m,
-                own.orbit_semi_major_axis_m,
+                own.semi_major_axis_m,
             ),
-            eccentricity: self.followed(ephemeris.eccentricity, default.eccentricity, own.orbit_eccentricity),
+            eccentricity: self.followed(ephemeris.eccentricity, default.eccentricity, own.eccentricity),
             inclination_rad: self.followed(
                 ephemeris.inclination,
                 default.inclination_rad,
-                own.orbit_inclination_rad,
+                own.inclination_rad,
             ),
             ascending_node_rad: self.followed(
                 ephemeris.ascending_node,
                 default.ascending_node_rad,
-                own.orbit_node_rad,
+                own.ascending_node_rad,
             ),
             periapsis_argument_rad: self.followed(
                 ephemeris.periapsis_argument,
                 default.periapsis_argument_rad,
-                argument_rad,
+                own.periapsis_argument_rad,
             ),
             true_anomaly_rad: self.values.real(ephemeris.true_anomaly),
         }

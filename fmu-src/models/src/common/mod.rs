@@ -1,0 +1,18 @@
+//! What several models have in common: choices, groups of variables, what they read from a spacecraft.
+
+pub mod choices;
+pub mod spacecraft;
+pub mod start_values;
+pub mod variables;
+
+use fmi_export::About;
+
+/// What every model says of itself alike.
+pub fn about() -> About {
+    About {
+        author: "the heliotorque authors".to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        license: "MIT OR Apache-2.0".to_owned(),
+        ..About::default()
+    }
+}
