@@ -9,8 +9,6 @@
 //! Reference: Boyd, Solving Transcendental Equations, 2014, ch. 3 (Chebyshev proxy); Shampine and Thompson, Event location
 //! for ordinary differential equations, Computers and Mathematics with Applications 39, 2000.
 
-use core::ops::ControlFlow;
-
 use nalgebra::{SVector, Vector1};
 
 use super::{
@@ -48,23 +46,8 @@ pub fn sign_changes<const R: usize>(
     mut function: impl FnMut(f64) -> f64,
 ) -> Result<Roots<R>, RootError> {
     let mut found = Roots::default();
-    visit_sign_changes(from, to, FIT, &mut function, |at, _| {
-        found.push(at);
-        ControlFlow::Continue(())
-    })?;
-    Ok(found)
-}
-
-/// Hands the roots of [`sign_changes`] to `visit`, rising, until it breaks off.
-fn visit_sign_changes<F: FnMut(f64) -> f64>(
-    from: f64,
-    to: f64,
-    fit: f64,
-    function: &mut F,
-    mut visit: impl FnMut(f64, &mut F) -> ControlFlow<()>,
-) -> Result<(), RootError> {
     if from.is_nan() || to.is_nan() || to <= from {
-        return Ok(());
+        return Ok(found);
     }
     // Depth first, left before right: at most one right half waits per level.
     let mut waiting = [(from, to, 0); DEPTH + 2];
@@ -91,7 +74,7 @@ fn visit_sign_changes<F: FnMut(f64) -> f64>(
         if c[0].abs() > swing + 4.0 * tail {
             continue;
         }
-        if tail > fit * c.amax() && depth < DEPTH && fits < MOST_FITS {
+        if tail > FIT * c.amax() && depth < DEPTH && fits < MOST_FITS {
             let middle = 0.5 * (start + end);
             waiting[height] = (middle, end, depth + 1);
             waiting[height + 1] = (start, middle, depth + 1);
@@ -99,12 +82,10 @@ fn visit_sign_changes<F: FnMut(f64) -> f64>(
             continue;
         }
         for at in segment.sign_changes(start, end).iter() {
-            if visit(at, function).is_break() {
-                return Ok(());
-            }
+            found.push(at);
         }
     }
-    Ok(())
+    Ok(found)
 }
 
 /// How much a fit through a few nodes may miss, in its last two coefficients.
@@ -115,9 +96,10 @@ const LOCATED: f64 = 1e-10;
 /// The first number in `(after, to)` at which any of `K` functions has changed its sign: an event, to the last bit.
 ///
 /// `samples` are the functions at the nodes of [`Segment::nodes`] of `from` and `to`, which usually are known already: where
-/// the polynomial through them stays away from zero by more than it can miss, nothing is evaluated. Elsewhere
-/// [`sign_changes`] looks for roots of the function itself, so that a dip between two nodes is not overlooked. A function
-/// that is not finite is not watched. `after` lies a little behind `from`, for an interval may begin at an event.
+/// the polynomial through them stays away from zero by more than it can miss, nothing is evaluated. The others are fitted
+/// together as in [`sign_changes`], from left to right up to the first event, so that a dip between two nodes is not
+/// overlooked. A function that is not finite is not watched. `after` lies a little behind `from`, for an interval may begin
+/// at an event.
 pub fn first_event<const K: usize, const N: usize>(
     after: f64,
     from: f64,
@@ -126,38 +108,75 @@ pub fn first_event<const K: usize, const N: usize>(
     mut values: impl FnMut(f64) -> SVector<f64, K>,
 ) -> Option<f64> {
     let fitted = Segment::<K, N>::from_samples(from, to, samples);
-    let mut first: Option<f64> = None;
-    for k in 0..K {
-        let terms = fitted.coefficients().row(k);
-        if !terms.iter().all(|term| term.is_finite()) {
+    let suspects: [bool; K] = core::array::from_fn(|k| zero_of_row(&fitted, k) != Zero::Excluded);
+    // Depth first, left before right: at most one right half waits per level.
+    let mut waiting = [(from, to, 0, suspects); DEPTH + 2];
+    let (mut height, mut fits) = (usize::from(suspects.contains(&true)), 0);
+    while height > 0 {
+        height -= 1;
+        fits += 1;
+        let (start, end, depth, suspects) = waiting[height];
+        let segment = Segment::<K, TERMS>::fit(start, end, &mut values);
+        let zeros: [Zero; K] = core::array::from_fn(|k| match suspects[k] {
+            true => zero_of_row(&segment, k),
+            false => Zero::Excluded,
+        });
+        let suspects = zeros.map(|zero| zero != Zero::Excluded);
+        if zeros.contains(&Zero::Unresolved) && depth < DEPTH && fits < MOST_FITS {
+            let middle = 0.5 * (start + end);
+            waiting[height] = (middle, end, depth + 1, suspects);
+            waiting[height + 1] = (start, middle, depth + 1, suspects);
+            height += 2;
             continue;
         }
-        let swing: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
-        let missed = MISSED * (terms[N - 1].abs() + terms[N - 2].abs());
-        if terms[0].abs() > swing + missed || stays_away(&fitted, k, missed) {
-            continue;
+        let mut first: Option<f64> = None;
+        for k in (0..K).filter(|&k| suspects[k]) {
+            let mut function = |at: f64| values(at)[k];
+            let roots = segment.row(k, 1.0, 0.0).sign_changes(start, end);
+            let limit = first.unwrap_or(to);
+            first = roots
+                .iter()
+                .filter(|&root| root > after && root < limit)
+                .find_map(|root| change_near(root, from.max(after), to, &mut function))
+                .filter(|&event| event < limit)
+                .or(first);
         }
-        let limit = first.unwrap_or(to);
-        let mut earlier = None;
-        let searched =
-            visit_sign_changes(from, limit, EVENT_FIT, &mut |at: f64| values(at)[k], |root, function| {
-                if root >= limit {
-                    return ControlFlow::Break(());
-                }
-                earlier = (root > after).then(|| change_near(root, from.max(after), to, function)).flatten();
-                if earlier.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            });
-        if searched.is_ok() {
-            first = earlier.or(first);
+        if first.is_some() {
+            return first;
         }
     }
-    first
+    None
 }
 
-/// Whether row `k` of a fit keeps its sign and stays away from zero by more than `missed`.
-fn stays_away<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize, missed: f64) -> bool {
-    let above = fitted.row(k, fitted.value(fitted.start())[k].signum(), -missed);
-    above.value(above.start())[0] > 0.0 && above.sign_changes(above.start(), above.end()).is_empty()
+/// What a fit tells of a function's zeros.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Zero {
+    /// There is none, or the function is not finite.
+    Excluded,
+    /// Those of the fit are the function's.
+    Resolved,
+    /// The fit is too coarse.
+    Unresolved,
+}
+
+/// What a fit tells of the zeros of its row `k`: what it misses is of the size of its last two coefficients.
+fn zero_of_row<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize) -> Zero {
+    let terms = fitted.coefficients().row(k);
+    if !terms.iter().all(|term| term.is_finite()) {
+        return Zero::Excluded;
+    }
+    let swing: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
+    let tail = terms[N - 1].abs() + terms[N - 2].abs();
+    if terms[0].abs() > swing + MISSED * tail {
+        return Zero::Excluded;
+    }
+    let sign = fitted.value(fitted.start())[k].signum();
+    let nearest = fitted.row(k, sign, -MISSED * tail);
+    let (start, end) = (fitted.start(), fitted.end());
+    if nearest.value(start)[0] > 0.0 && nearest.sign_changes(start, end).is_empty() {
+        return Zero::Excluded;
+    }
+    if tail > EVENT_FIT * terms.amax() { Zero::Unresolved } else { Zero::Resolved }
 }
 
 /// The number at which `function` has changed its sign next to a root located roughly; `None` where it touches zero only.
