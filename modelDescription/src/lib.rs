@@ -22,7 +22,11 @@ mod words;
 mod write;
 
 pub use base_type::BaseType;
-pub use description::*;
+pub use description::{
+    BaseUnit, Causality, CoSimulation, DefaultExperiment, DependencyKind, Description, DisplayUnit,
+    EnumerationItem, Initial, LogCategory, ModelExchange, ModelStructure, NamingConvention, RealAttributes,
+    ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown, Variability, VariableKind,
+};
 pub use finding::{Code, Finding, Lines, Severity};
 #[cfg(feature = "reader")]
 pub use reader::{Parsed, ReadError, parse};

@@ -10,7 +10,9 @@ use crate::sources::{is_for_tests, workspace};
 
 /// The crates whose files are held to it; `physics` has a test of its own.
 const CRATES: &[&str] = &[
+    "fmu-src/fmi-export",
     "fmu-src/models",
+    "modelDescription",
     "harness/files",
     "harness/terminal",
     "harness/loader",

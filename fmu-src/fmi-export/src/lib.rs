@@ -21,10 +21,10 @@ pub mod variables;
 
 pub use dependencies::{Dependencies, Knowns};
 pub use fmi_export_derive::{Enumeration, Variables};
-pub use fmi2::{Entry, Library, SetupValue, StartValue};
+pub use fmi2::{Entry, Library};
 pub use model::{
     About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Model, OutputRates,
-    SetupError, Source, Step, StepEnd,
+    SetupError, SetupValue, Source, StartValue, Step, StepEnd,
 };
 pub use model_description::{self, BaseType, Status};
 pub use variables::{

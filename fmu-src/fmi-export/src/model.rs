@@ -7,7 +7,6 @@
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::dependencies::Dependencies;
-use crate::fmi2::StartValue;
 use crate::variables::{Real, RealVector, Values, Variables};
 
 /// A co-simulation model.
@@ -298,6 +297,36 @@ pub struct About {
     pub version: String,
     /// Licence of the model in one line; empty: not stated.
     pub license: String,
+}
+
+/// A start value that a setup gives to a variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartValue {
+    /// The key as it stands in the setup, for messages.
+    pub key: String,
+    /// Line from 1, where it is known.
+    pub line: Option<usize>,
+    /// The only model that it is for.
+    pub model: Option<String>,
+    /// The variable, or the bare name of a vector or matrix.
+    pub name: String,
+    /// The value.
+    pub value: SetupValue,
+}
+
+/// A value as a setup gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SetupValue {
+    /// A number, in the variable's unit.
+    Number(f64),
+    /// A whole number.
+    Integer(i64),
+    /// True or false.
+    Boolean(bool),
+    /// A text: a number with its unit, the name of an item, or a String.
+    Text(String),
+    /// Of a vector the elements, of a matrix the rows.
+    List(Vec<Self>),
 }
 
 /// By what a quantity of a model is computed, or what a name of a source stands for.

@@ -6,17 +6,18 @@
 //! time grows linearly with size.
 
 mod definitions;
+mod error;
 mod fields;
 mod variables;
 mod xml;
-
-use core::fmt;
 
 use crate::finding::{Code, Finding, Lines};
 use crate::{Description, NamingConvention, validate};
 
 use fields::{Fields, words};
 use xml::{Start, Xml};
+
+pub use error::ReadError;
 
 /// What was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,45 +37,6 @@ impl Parsed {
         all.extend(validate::with_lines(&self.description, &self.lines));
         all.sort_by_key(|finding| finding.line);
         all
-    }
-}
-
-/// Why a file cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
-    /// Which rule is broken.
-    pub code: Code,
-    /// Line, 1-based.
-    pub line: u32,
-    /// The element, empty where there is none.
-    pub element: String,
-    /// What was found and what is allowed.
-    pub message: String,
-}
-
-impl ReadError {
-    fn new(code: Code, line: u32, element: &str, message: String) -> Self {
-        Self { code, line, element: element.to_owned(), message }
-    }
-}
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "line {}: ", self.line)?;
-        if !self.element.is_empty() {
-            write!(formatter, "<{}>: ", self.element)?;
-        }
-        formatter.write_str(&self.message)
-    }
-}
-
-impl core::error::Error for ReadError {}
-
-impl From<ReadError> for Finding {
-    fn from(error: ReadError) -> Self {
-        let subject =
-            if error.element.is_empty() { "file".to_owned() } else { format!("<{}>", error.element) };
-        Self { code: error.code, subject, line: Some(error.line), message: error.message }
     }
 }
 

@@ -9,10 +9,9 @@ use model_description::{
 use uuid::Uuid;
 
 use super::access::AccessTable;
-use super::library::Entry;
 use super::logger::Category;
 use super::references;
-use super::start::{self, Readers};
+use super::start::{self, OtherReaders, Readers};
 use super::structure::structure;
 use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
@@ -48,7 +47,7 @@ pub enum DescribeError {
 
 /// The description of a model with this setup, GUID included.
 pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Description, DescribeError> {
-    prepare::<M>(file, setup_text, &[]).map(|prepared| prepared.description)
+    prepare::<M>(file, setup_text, &Vec::new).map(|prepared| prepared.description)
 }
 
 /// A description, and all that an instance is made from.
@@ -68,11 +67,11 @@ pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTre
     Some(start::settable_names(&scalar_variables(&declare.finish())))
 }
 
-/// Describes a model; `library` holds the models that the setup may serve beside it.
+/// Describes a model; `others` are the models that the setup may serve beside it.
 pub(crate) fn prepare<M: Model>(
     file: &str,
     setup_text: &str,
-    library: &[Entry],
+    others: OtherReaders<'_>,
 ) -> Result<Prepared, DescribeError> {
     let setup = M::parse_setup(file, setup_text)?;
     let mut declare = Declare::new();
@@ -105,7 +104,7 @@ pub(crate) fn prepare<M: Model>(
         ..Description::default()
     };
     description.units = units_of(&description);
-    let readers = Readers::new(M::NAME, library, file, setup_text);
+    let readers = Readers::new(M::NAME, file, others);
     start::apply(&M::start_values(&setup), &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
     let digest = digest_of::<M>(&interface.canonical(&dependencies), &about, &setup)?;

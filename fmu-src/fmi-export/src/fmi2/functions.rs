@@ -21,7 +21,8 @@ use model_description::functions::{
 
 use super::arguments::{flag, place, slice, slice_mut, text};
 use super::boundary::{self, ImporterLogger, call, saved, state_handle_of};
-use super::instance::{Instance, StatusKind};
+use super::instance::Instance;
+use super::instance::stepping::StatusKind;
 use super::library::Library;
 use super::logger::{Category, Logger};
 use super::problem::{ArgumentError, Problem};

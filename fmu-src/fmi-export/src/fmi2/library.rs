@@ -1,10 +1,10 @@
 //! The models of one shared library, and how an importer's GUID finds its model.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
 use crate::fmi2::location::{self, Resources};
+use crate::fmi2::start::{OtherReaders, Reader};
 use crate::model::{Model, Source};
 use crate::panics::contain;
 
@@ -15,7 +15,7 @@ pub struct Entry {
     setup_file: Option<&'static str>,
     default_setup: &'static str,
     sources: &'static [Source],
-    prepare: fn(&str, &str, &[Self]) -> Result<Prepared, DescribeError>,
+    prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
     start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
 }
 
@@ -63,7 +63,7 @@ impl Entry {
     }
 
     /// The names that start values in this setup text may have for this model; `None` if it cannot take the text.
-    pub(crate) fn start_names(&self, file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
+    fn start_names(&self, file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
         self.setup_file?;
         (self.start_names)(file, setup_text)
     }
@@ -75,9 +75,14 @@ impl Entry {
         library: &[Self],
     ) -> Result<Prepared, DescribeError> {
         let file = file.or(self.setup_file).unwrap_or("the built-in setup");
+        let text = setup_text.unwrap_or(self.default_setup);
+        let reader = |other: &Self| {
+            let names = contain(|| other.start_names(file, text)).ok().flatten()?;
+            Some(Reader { model: other.name, names })
+        };
+        let others = || library.iter().filter(|other| other.name != self.name).filter_map(reader).collect();
         // One model that panics here must not hide the others of the library.
-        contain(|| (self.prepare)(file, setup_text.unwrap_or(self.default_setup), library))
-            .unwrap_or_else(|text| Err(DescribeError::Panic(text)))
+        contain(|| (self.prepare)(file, text, &others)).unwrap_or_else(|text| Err(DescribeError::Panic(text)))
     }
 }
 
@@ -215,9 +220,4 @@ fn changed(guid: &str, it: &Tried) -> String {
 
 fn joined(texts: BTreeSet<String>, separator: &str) -> String {
     texts.into_iter().collect::<Vec<_>>().join(separator)
-}
-
-/// Joins for messages.
-pub(crate) fn shown(path: &Path) -> String {
-    path.display().to_string()
 }

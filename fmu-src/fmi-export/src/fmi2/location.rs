@@ -10,8 +10,6 @@ use std::path::{Path, PathBuf};
 
 use percent_encoding::percent_decode;
 
-use crate::fmi2::library::shown;
-
 /// No setup file is larger than this.
 const MAX_SETUP_BYTES: u64 = 64 << 20;
 
@@ -35,7 +33,7 @@ pub(crate) fn resolve(location: &[u8]) -> Result<Resources, String> {
         None => Err(format!(
             "the resource location `{}` means the folder `{}`, which does not exist",
             String::from_utf8_lossy(location),
-            candidates.first().map(|path| shown(path)).unwrap_or_default()
+            candidates.first().map(|path| path.display().to_string()).unwrap_or_default()
         )),
     }
 }
@@ -45,17 +43,17 @@ pub(crate) fn read_setup(folder: &Path, file: &str) -> Result<String, String> {
     let path = folder.join(file);
     // Opening a pipe waits until somebody writes to it.
     if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
-        return Err(format!("`{}` is no regular file", shown(&path)));
+        return Err(format!("`{}` is no regular file", path.display()));
     }
     let mut text = String::new();
     let read =
         File::open(&path).and_then(|opened| opened.take(MAX_SETUP_BYTES + 1).read_to_string(&mut text));
     match read {
         Ok(bytes) if bytes as u64 > MAX_SETUP_BYTES => {
-            Err(format!("`{}` is larger than {MAX_SETUP_BYTES} bytes", shown(&path)))
+            Err(format!("`{}` is larger than {MAX_SETUP_BYTES} bytes", path.display()))
         }
         Ok(_) => Ok(text),
-        Err(error) => Err(format!("cannot read `{}`: {error}", shown(&path))),
+        Err(error) => Err(format!("cannot read `{}`: {error}", path.display())),
     }
 }
 

@@ -29,13 +29,13 @@ mod start;
 mod state_bytes;
 mod structure;
 
+pub use crate::model::{SetupValue, StartValue};
 pub use describe::describe;
 pub use description::{DescribeError, description_of, scalar_variables};
 pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;
 pub use library::{Entry, Library};
 pub use problem::StateMismatch;
-pub use start::{SetupValue, StartValue};
 
 /// For a shared library: its panics, which are all contained, write nothing to standard error.
 pub fn silence_panics() {

@@ -12,39 +12,8 @@ use model_description::{
     value::{self, Misfit, Value},
 };
 
-use crate::fmi2::library::Entry;
-use crate::panics::contain;
+use crate::model::{SetupValue, StartValue};
 use crate::variables::Values;
-
-/// A start value that a setup gives to a variable.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StartValue {
-    /// The key as it stands in the setup, for messages.
-    pub key: String,
-    /// Line from 1, where it is known.
-    pub line: Option<usize>,
-    /// The only model that it is for.
-    pub model: Option<String>,
-    /// The variable, or the bare name of a vector or matrix.
-    pub name: String,
-    /// The value.
-    pub value: SetupValue,
-}
-
-/// A value as a setup gives it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SetupValue {
-    /// A number, in the variable's unit.
-    Number(f64),
-    /// A whole number.
-    Integer(i64),
-    /// True or false.
-    Boolean(bool),
-    /// A text: a number with its unit, the name of an item, or a String.
-    Text(String),
-    /// Of a vector the elements, of a matrix the rows.
-    List(Vec<Self>),
-}
 
 impl SetupValue {
     fn shown(&self) -> String {
@@ -72,34 +41,28 @@ impl SetupValue {
 pub(crate) struct Readers<'a> {
     /// The model whose description is made.
     pub own: &'static str,
-    /// Every model of the library.
-    pub entries: &'a [Entry],
     pub file: &'a str,
-    pub text: &'a str,
+    read_others: OtherReaders<'a>,
     others: OnceCell<Vec<Reader>>,
 }
 
 /// Another model that takes the text.
-struct Reader {
-    model: &'static str,
-    names: BTreeSet<String>,
+pub(crate) struct Reader {
+    pub model: &'static str,
+    pub names: BTreeSet<String>,
 }
 
+/// The other models of the library that take the text; each of them reads it anew.
+pub(crate) type OtherReaders<'a> = &'a dyn Fn() -> Vec<Reader>;
+
 impl<'a> Readers<'a> {
-    pub(crate) fn new(own: &'static str, entries: &'a [Entry], file: &'a str, text: &'a str) -> Self {
-        Self { own, entries, file, text, others: OnceCell::new() }
+    pub(crate) fn new(own: &'static str, file: &'a str, read_others: OtherReaders<'a>) -> Self {
+        Self { own, file, read_others, others: OnceCell::new() }
     }
 
-    /// Asked only when a name is not the model's own: each of them reads the text anew.
+    /// Asked only when a name is not the model's own.
     fn others(&self) -> &[Reader] {
-        self.others.get_or_init(|| {
-            let others = self.entries.iter().filter(|entry| entry.name() != self.own);
-            let read = |entry: &Entry| {
-                let names = contain(|| entry.start_names(self.file, self.text)).ok().flatten()?;
-                Some(Reader { model: entry.name(), names })
-            };
-            others.filter_map(read).collect()
-        })
+        self.others.get_or_init(self.read_others)
     }
 
     fn models(&self) -> Vec<&'static str> {

@@ -6,7 +6,7 @@
 mod derivatives;
 mod lifecycle;
 pub(crate) mod state;
-mod stepping;
+pub(crate) mod stepping;
 mod values;
 
 use crate::fmi2::access::AccessTable;
@@ -23,7 +23,6 @@ use state::copy_values;
 
 pub use state::MAX_INPUT_DERIVATIVE_ORDER;
 pub(crate) use state::{InstanceState, content};
-pub(crate) use stepping::StatusKind;
 
 /// Messages that are logged once per instance, as bits.
 mod once {
