@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use fmi_export::fmi2::description_of;
 use fmi_export::model::Log;
-use fmi_export::model_description::{
-    Causality, Description, Initial, SimpleTypeKind, Unknown, Variability, VariableKind, rules,
-};
+use fmi_export::model_description::{Description, Unknown};
 use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
 
 use super::super::named_model::Tables;
+use super::random::RandomNumbers;
+use super::variable::{Base, Variable, natural, variables};
 
 /// Lengths of the two steps from which the limit of a step without length is taken, in s.
 const STEPS_S: [f64; 2] = [1e-3, 1e-6];
@@ -23,32 +23,6 @@ const HALVINGS: u32 = 34;
 /// Values a known is changed to, of those there are.
 const CHANGES: usize = 2;
 
-/// Numbers in [0, 1) that are the same every time.
-#[derive(Clone)]
-pub struct RandomNumbers(pub u64);
-
-impl RandomNumbers {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    /// A whole number from `low` to `high`.
-    pub fn whole(&mut self, low: i32, high: i32) -> f64 {
-        (f64::from(low) + (f64::from(high - low + 1) * self.next()).floor()).min(f64::from(high))
-    }
-
-    pub fn direction(&mut self) -> [f64; 3] {
-        let (azimuth, z) = (core::f64::consts::TAU * self.next(), 2.0 * self.next() - 1.0);
-        let rho = (1.0 - z * z).sqrt();
-        [rho * azimuth.cos(), rho * azimuth.sin(), z]
-    }
-}
-
 struct Silent;
 
 impl Log for Silent {
@@ -57,33 +31,6 @@ impl Log for Silent {
     }
     fn event(&self, _time_s: f64, _message: &str) {}
     fn warning(&self, _message: &str) {}
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Base {
-    Real,
-    Integer,
-    Boolean,
-    Text,
-}
-
-struct Variable {
-    name: String,
-    base: Base,
-    /// Place in the table of its base type.
-    slot: usize,
-    input: bool,
-    /// An input or tunable parameter.
-    settable: bool,
-    exact: bool,
-    unit: String,
-    nominal: f64,
-    min: f64,
-    max: f64,
-    /// Items of an enumeration.
-    items: Vec<i32>,
-    /// All elements of its vector or matrix.
-    group: Vec<usize>,
 }
 
 /// A pair (unknown, known), by places among the variables.
@@ -130,14 +77,14 @@ pub struct Bench<M: Model> {
 }
 
 /// A flight at a communication point.
-pub struct TorqueModel<M: Model> {
+pub struct Simulation<M: Model> {
     pub values: Tables,
     pub state: M::State,
     pub time_s: f64,
     pub changed: bool,
 }
 
-impl<M: Model> Clone for TorqueModel<M> {
+impl<M: Model> Clone for Simulation<M> {
     fn clone(&self) -> Self {
         Self {
             values: self.values.clone(),
@@ -256,10 +203,10 @@ impl<M: Model> Bench<M> {
         }
     }
 
-    pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<TorqueModel<M>> {
+    pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Simulation<M>> {
         let mut values = tables.back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
-        Some(TorqueModel { values: Tables::of(&values), state, time_s: start_s, changed: false })
+        Some(Simulation { values: Tables::of(&values), state, time_s: start_s, changed: false })
     }
 
     /// Why a start is refused.
@@ -269,7 +216,7 @@ impl<M: Model> Bench<M> {
             .map_or_else(String::new, |e| e.to_string())
     }
 
-    pub fn step(&self, flight: &mut TorqueModel<M>, length_s: f64) -> Option<()> {
+    pub fn step(&self, flight: &mut Simulation<M>, length_s: f64) -> Option<()> {
         let end_s = flight.time_s + length_s;
         let step =
             Step { start_s: flight.time_s, end_s, changed: flight.changed, inputs: InputsOverTime::held() };
@@ -396,21 +343,21 @@ impl<M: Model> Bench<M> {
     }
 
     /// Changes every input at the flight's communication point and records which outputs follow at once.
-    pub fn look_at_step(&mut self, flight: &TorqueModel<M>) {
+    pub fn look_at_step(&mut self, flight: &Simulation<M>) {
         self.step_looks(flight, false);
     }
 
     /// The same where a flag is about to change.
-    pub fn look_at_step_edge(&mut self, flight: &TorqueModel<M>) {
+    pub fn look_at_step_edge(&mut self, flight: &Simulation<M>) {
         self.step_looks(flight, true);
     }
 
-    fn step_looks(&mut self, flight: &TorqueModel<M>, edge: bool) {
+    fn step_looks(&mut self, flight: &Simulation<M>, edge: bool) {
         self.look += 1;
         let outputs = indices(&self.description.structure.outputs);
         let after = |bench: &Self, values: &Tables| {
             let ended = |length_s: f64| {
-                let mut flight = TorqueModel { values: values.clone(), changed: true, ..flight.clone() };
+                let mut flight = Simulation { values: values.clone(), changed: true, ..flight.clone() };
                 bench.step(&mut flight, length_s)?;
                 Some(flight.values)
             };
@@ -450,8 +397,8 @@ impl<M: Model> Bench<M> {
     }
 
     /// The same for a flight at its communication point, between its inputs and tunable parameters and others.
-    pub fn edges_at_step(&self, flight: &TorqueModel<M>, others: &[Tables]) -> Vec<TorqueModel<M>> {
-        let with = |tables: Tables| TorqueModel { values: tables, changed: true, ..flight.clone() };
+    pub fn edges_at_step(&self, flight: &Simulation<M>, others: &[Tables]) -> Vec<Simulation<M>> {
+        let with = |tables: Tables| Simulation { values: tables, changed: true, ..flight.clone() };
         let value = |tables: &Tables| {
             let mut flight = with(tables.clone());
             self.step(&mut flight, STEPS_S[1])?;
@@ -650,82 +597,4 @@ fn declared(unknowns: &[Unknown]) -> Pairs {
 
 fn indices(unknowns: &[Unknown]) -> Vec<usize> {
     unknowns.iter().map(|unknown| unknown.index as usize - 1).collect()
-}
-
-/// A change of a Real that matters, by its unit.
-fn natural(unit: &str) -> f64 {
-    match unit {
-        "rad" => 0.7,
-        "rad/s" => 1e-3,
-        "s" => 1e4,
-        "m" => 0.3,
-        "m/s" => 2500.0,
-        "kg" | "K" => 30.0,
-        "kg.m2" => 5.0,
-        "N" | "N.m" => 1e-3,
-        "N.m.s" => 3.0,
-        _ => 0.1,
-    }
-}
-
-fn variables(description: &Description) -> Vec<Variable> {
-    let mut counts = [0; 4];
-    let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    let group_of = |name: &str| match name.strip_suffix(']').and_then(|name| name.rsplit_once('[')) {
-        Some((vector, _)) => vector.to_owned(),
-        None => name.to_owned(),
-    };
-    for (at, variable) in description.variables.iter().enumerate() {
-        groups.entry(group_of(&variable.name)).or_default().push(at);
-    }
-    let mut found = Vec::new();
-    for variable in &description.variables {
-        let (base, unit, nominal, min, max) = match &variable.kind {
-            VariableKind::Real { attributes, .. } => (
-                Base::Real,
-                attributes.unit.clone().unwrap_or_default(),
-                attributes.nominal.unwrap_or(1.0),
-                attributes.min,
-                attributes.max,
-            ),
-            VariableKind::Integer { min, max, .. } => {
-                (Base::Integer, String::new(), 1.0, min.map(f64::from), max.map(f64::from))
-            }
-            VariableKind::Enumeration { .. } => (Base::Integer, String::new(), 1.0, None, None),
-            VariableKind::Boolean { .. } => (Base::Boolean, String::new(), 1.0, None, None),
-            VariableKind::String { .. } => (Base::Text, String::new(), 1.0, None, None),
-        };
-        let items = match &variable.kind {
-            VariableKind::Enumeration { declared_type, .. } => items_of(description, declared_type),
-            _ => Vec::new(),
-        };
-        let count = &mut counts[base as usize];
-        found.push(Variable {
-            base,
-            slot: *count,
-            input: variable.causality == Causality::Input,
-            settable: variable.causality == Causality::Input
-                || variable.causality == Causality::Parameter && variable.variability == Variability::Tunable,
-            exact: variable.causality == Causality::Input
-                || variable.causality == Causality::Parameter
-                    && rules::effective_initial(variable) == Some(Initial::Exact),
-            unit,
-            nominal,
-            min: min.unwrap_or(f64::NEG_INFINITY),
-            max: max.unwrap_or(f64::INFINITY),
-            items,
-            group: groups[&group_of(&variable.name)].clone(),
-            name: variable.name.clone(),
-        });
-        *count += 1;
-    }
-    found
-}
-
-fn items_of(description: &Description, name: &str) -> Vec<i32> {
-    let found = description.types.iter().find(|known| known.name == name);
-    match found.map(|known| &known.kind) {
-        Some(SimpleTypeKind::Enumeration { items, .. }) => items.iter().map(|item| item.value).collect(),
-        _ => Vec::new(),
-    }
 }

@@ -2,7 +2,8 @@
 
 use models::DisturbanceTorque;
 
-use super::bench::{Bench, RandomNumbers};
+use super::bench::Bench;
+use super::random::RandomNumbers;
 use super::spacecraft::{ALL, RADIATING};
 
 const KINDS: [&str; 2] = ["planetLight.method", "eclipse.method"];

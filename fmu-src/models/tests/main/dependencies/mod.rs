@@ -4,5 +4,7 @@
 mod bench;
 mod disturbance;
 mod plant;
+mod random;
 mod spacecraft;
 mod spin;
+mod variable;

@@ -4,7 +4,8 @@ use fmi_export::Model;
 use models::MomentumPlant;
 
 use super::super::named_model::Tables;
-use super::bench::{Bench, RandomNumbers};
+use super::bench::Bench;
+use super::random::RandomNumbers;
 use super::spacecraft::{ALL, RADIATING};
 
 type Plant = Bench<MomentumPlant>;

@@ -4,7 +4,8 @@ use fmi_export::Model;
 use models::SpinPlant;
 
 use super::super::named_model::Tables;
-use super::bench::{Bench, RandomNumbers};
+use super::bench::Bench;
+use super::random::RandomNumbers;
 
 type Spin = Bench<SpinPlant>;
 
