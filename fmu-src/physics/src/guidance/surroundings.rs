@@ -1,0 +1,116 @@
+//! What the pointing options look at: spacecraft, Sun, Earth and bodies about the target planet, with their motion.
+
+use nalgebra::Vector3;
+
+use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rotation_about};
+use crate::bodies::{Body, BodyData};
+use crate::environment::CartesianState;
+
+/// Shape, pole and rotation of the planet that is observed (paper 001: triaxial ellipsoid, fixed pole).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TargetPlanet {
+    /// Radii of the ellipsoid along the planet's x, y and z, in m.
+    pub radii_m: Vector3<f64>,
+    /// Right ascension of its north pole, in rad.
+    pub pole_right_ascension_rad: f64,
+    /// Declination of its north pole, in rad.
+    pub pole_declination_rad: f64,
+    /// Prime meridian at J2000, in rad.
+    pub prime_meridian_rad: f64,
+    /// Rotation rate, in rad/s.
+    pub rotation_rate_rad_s: f64,
+    /// Gravitational parameter, in m3/s2: the spacecraft's acceleration, which the rate of a frame tied to its velocity needs.
+    pub gm_m3_s2: f64,
+}
+
+impl TargetPlanet {
+    /// A sphere of the mean radius, and the rotation of the IAU at J2000.
+    pub fn of(data: &BodyData) -> Self {
+        Self {
+            radii_m: Vector3::repeat(data.radius_m),
+            pole_right_ascension_rad: data.pole_right_ascension_rad,
+            pole_declination_rad: data.pole_declination_rad,
+            prime_meridian_rad: data.prime_meridian_rad,
+            rotation_rate_rad_s: data.rotation_rate_rad_s,
+            gm_m3_s2: data.gm_m3_s2,
+        }
+    }
+
+    /// From components in EME2000 to components along the planet's axes at `epoch_s` past J2000 TDB:
+    /// Rz(W) Rx(90 deg - dec) Rz(90 deg + ra), frame rotations.
+    pub fn planet_from_inertial(&self, epoch_s: f64) -> MovingMatrix {
+        use core::f64::consts::{FRAC_PI_2, TAU};
+        let turned_rad = (self.prime_meridian_rad + self.rotation_rate_rad_s * epoch_s) % TAU;
+        let about = |axis, angle_rad: Moving| rotation_about(axis, -angle_rad);
+        about(2, Moving::new(turned_rad, self.rotation_rate_rad_s))
+            * about(0, Moving::from_re(FRAC_PI_2 - self.pole_declination_rad))
+            * about(2, Moving::from_re(FRAC_PI_2 + self.pole_right_ascension_rad))
+    }
+}
+
+/// Everything an option may look at, in EME2000 from the target planet's centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surroundings {
+    /// Time, in s past J2000 TDB.
+    pub epoch_s: f64,
+    /// The planet at the origin.
+    pub planet: TargetPlanet,
+    /// The spacecraft, in m.
+    pub position: MovingVector,
+    /// Its velocity in m/s, with its acceleration by the planet's gravity.
+    pub velocity: MovingVector,
+    /// The Sun, in m.
+    pub sun: MovingVector,
+    /// The Earth, in m.
+    pub earth: MovingVector,
+    /// Other bodies by [`Body`], in m, where a command looks at them.
+    pub bodies: [Option<MovingVector>; Body::ALL.len()],
+}
+
+impl Surroundings {
+    /// Of a spacecraft, the Sun and the Earth about the planet.
+    pub fn new(
+        epoch_s: f64,
+        planet: TargetPlanet,
+        spacecraft: &CartesianState,
+        sun: &CartesianState,
+        earth: &CartesianState,
+    ) -> Self {
+        let distance_m = spacecraft.position_m.norm();
+        let acceleration_m_s2 = if distance_m > 0.0 {
+            spacecraft.position_m * (-planet.gm_m3_s2 / (distance_m * distance_m * distance_m))
+        } else {
+            Vector3::zeros()
+        };
+        let of = |state: &CartesianState| moving(state.position_m, state.velocity_m_s);
+        Self {
+            epoch_s,
+            planet,
+            position: of(spacecraft),
+            velocity: moving(spacecraft.velocity_m_s, acceleration_m_s2),
+            sun: of(sun),
+            earth: of(earth),
+            bodies: [None; Body::ALL.len()],
+        }
+    }
+
+    /// From the spacecraft to the planet's centre, in m.
+    pub fn to_planet(&self) -> MovingVector {
+        -self.position
+    }
+
+    /// From the spacecraft to the Sun, in m.
+    pub fn to_sun(&self) -> MovingVector {
+        self.sun - self.position
+    }
+
+    /// From the spacecraft to the Earth, in m.
+    pub fn to_earth(&self) -> MovingVector {
+        self.earth - self.position
+    }
+
+    /// From the spacecraft to a body, in m; zero where its place is not known.
+    pub fn to_body(&self, body: Body) -> MovingVector {
+        self.bodies[body as usize].map_or(fixed(Vector3::zeros()), |place| place - self.position)
+    }
+}
