@@ -151,7 +151,7 @@ mod tests {
             let skew = matrix(t).transpose() * slope;
             let expected = Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)]);
             let found = vectors(t).pointing().unwrap().frame().rate_body_rad_s;
-            assert_relative_eq!(found, expected, epsilon = 1e-9);
+            assert_relative_eq!(found, expected, epsilon = 1e-9, max_relative = 1e-9);
         }
     }
 

@@ -2,6 +2,7 @@
 //! of paper 001 with its pointing options.
 
 mod attitudes;
+pub mod command;
 mod guided;
 pub mod law;
 pub mod moving;

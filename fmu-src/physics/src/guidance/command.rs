@@ -1,0 +1,270 @@
+//! What can be commanded: options of the four vectors (paper 001, Tables 1 to 4), scenarios (Table 5), limb and scan.
+//!
+//! A command holds every number any option reads; an option reads its own and no other. Options and scenarios that are
+//! `None` are not commanded. Angles in rad, lengths in m, body-frame angles as in [`crate::attitude::SunAngles`].
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::bodies::Body;
+
+/// Sets of vectors under one name (Table 5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Scenario {
+    /// All four vectors by their options.
+    Generic,
+    /// An instrument at the aimpoint, the Sun on -Y's side.
+    PlusZ,
+    /// An instrument at the target planet's centre.
+    Nadir,
+    /// The MDIS camera, at its angle, at the aimpoint.
+    Mdis,
+    /// An instrument at the aimpoint, the MDIS camera as near to the second one as its range allows.
+    DoubleTarget,
+    /// A phased-array antenna at the Earth.
+    Downlink,
+    /// An instrument at the limb, on the terminator.
+    LimbTerminator,
+    /// An instrument at the limb, at an azimuth about the nadir.
+    LimbGeneric,
+}
+
+/// How the boresight is given (Table 1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BoresightOption {
+    /// Body-frame vector.
+    Vector,
+    /// Azimuth and elevation in the body frame.
+    AzimuthElevation,
+    /// Angle from +Z in the camera's plane, positive sunward.
+    Mdis,
+    /// Azimuth in the antennas' plane.
+    PhasedArray,
+}
+
+/// What the boresight aims at (Table 2), and any body of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum AimpointOption {
+    /// EME2000 vector.
+    Vector,
+    /// Right ascension and declination in EME2000.
+    RightAscensionDeclination,
+    /// Position from the Earth, EME2000.
+    EarthCentered,
+    /// Position from the Sun, EME2000.
+    SunCentered,
+    /// Position from the target planet, EME2000.
+    PlanetCentered,
+    /// Position from the target planet, along its own rotating axes.
+    PlanetFixed,
+    /// Planetocentric latitude and longitude (east positive), height along the radius.
+    LatitudeLongitude,
+    /// Azimuth and elevation in the local frame, azimuth from the downtrack direction.
+    LvlhDowntrack,
+    /// The same, azimuth from the direction of the Sun.
+    LvlhSun,
+    /// The Sun.
+    Sun,
+    /// The Earth.
+    Earth,
+    /// The target planet's centre.
+    Nadir,
+    /// The subsolar point of the target planet.
+    Subsolar,
+    /// The surface point of greatest cos(emission) cos(incidence) (eqs 17 to 19).
+    OptimalLighting,
+    /// A body of the table.
+    Body,
+}
+
+/// How the body roll vector is given (Table 3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BodyRollOption {
+    /// Body-frame vector.
+    Vector,
+    /// Azimuth and elevation in the body frame.
+    AzimuthElevation,
+}
+
+/// How the external roll reference is given (Table 4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ExternalRollOption {
+    /// EME2000 vector.
+    Vector,
+    /// Right ascension and declination in EME2000.
+    RightAscensionDeclination,
+    /// The Sun.
+    Sun,
+    /// The Earth.
+    Earth,
+    /// The target planet.
+    Planet,
+}
+
+/// From which horizontal direction an azimuth about the local vertical counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum AzimuthReference {
+    /// The horizontal part of the velocity.
+    #[default]
+    Downtrack,
+    /// The horizontal part of the direction from the planet to the Sun.
+    Sun,
+}
+
+/// Frame of a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ScanFrame {
+    /// The boresight turns about the body axes.
+    Body,
+    /// The aim turns about the axes of EME2000.
+    InertialRotation,
+    /// The aimpoint moves along the axes of EME2000.
+    InertialTranslation,
+    /// The aimpoint moves along the target planet's rotating axes.
+    PlanetTranslation,
+    /// The aim turns about the axes of the local frame: reference, up x reference, up.
+    LvlhRotation,
+}
+
+/// The boresight, body frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BoresightCommand {
+    /// How it is given.
+    pub option: Option<BoresightOption>,
+    /// Components, of any length.
+    pub vector: Vector3<f64>,
+    /// Azimuth; also of the antenna.
+    pub azimuth_rad: f64,
+    /// Elevation.
+    pub elevation_rad: f64,
+    /// MDIS angle.
+    pub angle_rad: f64,
+    /// Instrument of a scenario: 0 is +Z, then the rows of the instrument table from 1.
+    pub instrument: u32,
+}
+
+/// An aimpoint.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AimpointCommand {
+    /// What it is.
+    pub option: Option<AimpointOption>,
+    /// EME2000 direction, of any length.
+    pub vector: Vector3<f64>,
+    /// Position of options centred on a body.
+    pub position_m: Vector3<f64>,
+    /// Right ascension.
+    pub right_ascension_rad: f64,
+    /// Declination.
+    pub declination_rad: f64,
+    /// Planetocentric latitude.
+    pub latitude_rad: f64,
+    /// East longitude.
+    pub longitude_rad: f64,
+    /// Height above the ellipsoid along the radius.
+    pub height_m: f64,
+    /// Azimuth in the local frame, right-handed about up.
+    pub azimuth_rad: f64,
+    /// Elevation in the local frame, toward up.
+    pub elevation_rad: f64,
+    /// The body.
+    pub body: Body,
+}
+
+impl Default for AimpointCommand {
+    fn default() -> Self {
+        Self {
+            option: None,
+            vector: Vector3::zeros(),
+            position_m: Vector3::zeros(),
+            right_ascension_rad: 0.0,
+            declination_rad: 0.0,
+            latitude_rad: 0.0,
+            longitude_rad: 0.0,
+            height_m: 0.0,
+            azimuth_rad: 0.0,
+            elevation_rad: 0.0,
+            body: Body::Sun,
+        }
+    }
+}
+
+/// The body roll vector.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyRollCommand {
+    /// How it is given.
+    pub option: Option<BodyRollOption>,
+    /// Components, body frame, of any length.
+    pub vector: Vector3<f64>,
+    /// Azimuth.
+    pub azimuth_rad: f64,
+    /// Elevation.
+    pub elevation_rad: f64,
+}
+
+/// The external roll reference.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ExternalRollCommand {
+    /// How it is given.
+    pub option: Option<ExternalRollOption>,
+    /// EME2000 direction, of any length.
+    pub vector: Vector3<f64>,
+    /// Right ascension.
+    pub right_ascension_rad: f64,
+    /// Declination.
+    pub declination_rad: f64,
+}
+
+/// Where at the limb, and how it is scanned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LimbCommand {
+    /// Azimuth about the local vertical, right-handed about up.
+    pub azimuth_rad: f64,
+    /// From where it counts.
+    pub reference: AzimuthReference,
+    /// Height along the radius of the limb point, when the scenario starts.
+    pub height_m: f64,
+    /// How it grows, in m/s.
+    pub height_rate_m_s: f64,
+}
+
+/// A scan pattern: on each axis a motion at constant rate, a pause, and again, possibly back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ScanCommand {
+    /// Its frame.
+    pub frame: Option<ScanFrame>,
+    /// From where the local frame's azimuth counts.
+    pub reference: AzimuthReference,
+    /// Rates of rotations about x, y, z, in rad/s.
+    pub rate_rad_s: [f64; 3],
+    /// Speeds of translations along x, y, z, in m/s.
+    pub speed_m_s: [f64; 3],
+    /// How long an axis moves, in s.
+    pub duration_s: [f64; 3],
+    /// How long it holds after a motion, in s.
+    pub pause_s: [f64; 3],
+    /// How often it moves; 0 without end.
+    pub segments: [u32; 3],
+    /// Whether every second motion goes back.
+    pub reverse: [bool; 3],
+}
+
+/// Everything that says where to point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointingCommand {
+    /// What is done.
+    pub scenario: Option<Scenario>,
+    /// Boresight.
+    pub boresight: BoresightCommand,
+    /// Aimpoint.
+    pub aimpoint: AimpointCommand,
+    /// The MDIS camera's aimpoint in [`Scenario::DoubleTarget`].
+    pub second_aimpoint: AimpointCommand,
+    /// Body roll vector.
+    pub body_roll: BodyRollCommand,
+    /// External roll reference.
+    pub external_roll: ExternalRollCommand,
+    /// Limb.
+    pub limb: LimbCommand,
+    /// Scan pattern.
+    pub scan: ScanCommand,
+}
