@@ -6,6 +6,7 @@ pub mod command;
 mod guided;
 pub mod law;
 pub mod moving;
+pub mod orbit_phase;
 mod schedule;
 pub mod surroundings;
 
