@@ -94,6 +94,19 @@ impl Surroundings {
         }
     }
 
+    /// Says where a body is.
+    pub fn place_body(&mut self, body: Body, place: &CartesianState) {
+        self.bodies[body as usize] = Some(moving(place.position_m, place.velocity_m_s));
+    }
+
+    /// Whether spacecraft, Sun and Earth are somewhere else than the centre, where only `center` may be.
+    pub fn is_connected(&self, center: Body) -> bool {
+        let away = |vector: &MovingVector| value(vector) != Vector3::zeros();
+        away(&self.position)
+            && (center == Body::Sun || away(&self.sun))
+            && (center == Body::Earth || away(&self.earth))
+    }
+
     /// At another epoch with the spacecraft in `spacecraft`; Sun and Earth moved evenly.
     pub fn moved_to(&self, epoch_s: f64, spacecraft: &CartesianState) -> Self {
         let evenly = |vector: &MovingVector| CartesianState {
