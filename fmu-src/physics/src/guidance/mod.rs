@@ -3,11 +3,19 @@
 
 mod attitudes;
 pub mod command;
+pub mod constraints;
+pub mod downlink;
 mod guided;
+pub mod hot_pole;
+pub mod keep_in;
 pub mod law;
+pub mod modes;
+pub mod monitor;
 pub mod moving;
 mod schedule;
 pub mod surroundings;
+#[cfg(test)]
+mod test_geometry;
 
 pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, science, sun_pointing};
 pub use guided::{Guided, GuidedAttitude};
