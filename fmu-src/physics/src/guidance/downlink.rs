@@ -12,27 +12,13 @@
 
 use nalgebra::ComplexField;
 
+use super::antenna::{Antenna, AntennaAzimuth, BOUND_RAD};
 use super::keep_in::direction;
 use super::law::{Pointing, PointingVectors};
 use super::moving::{Moving, MovingVector, PARALLEL_RAD, fixed, unit, value};
 use super::surroundings::Surroundings;
 use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
 use crate::numerics::scalar::Scalar;
-
-/// An azimuth this little outside a quadrant counts as inside, in rad.
-const BOUND_RAD: f64 = 1e-12;
-
-/// A phased-array antenna.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Antenna {
-    /// None points at the Earth.
-    #[default]
-    None,
-    /// On the sunshade: azimuth -90 to 0 deg.
-    Sunshade,
-    /// On the back: azimuth 90 to 180 deg.
-    Back,
-}
 
 /// What a downlink attitude is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -69,37 +55,6 @@ pub struct EarthAzimuths {
     pub cosine: f64,
 }
 
-impl Antenna {
-    /// Both antennas.
-    pub const ALL: [Self; 2] = [Self::Sunshade, Self::Back];
-
-    /// Middle of the quadrant; `None` for no antenna.
-    fn middle_rad(self) -> Option<f64> {
-        use core::f64::consts::FRAC_PI_4;
-        match self {
-            Self::None => None,
-            Self::Sunshade => Some(-FRAC_PI_4),
-            Self::Back => Some(3.0 * FRAC_PI_4),
-        }
-    }
-
-    /// The azimuth of the quadrant nearest to `azimuth_rad`, and how far outside that one is, both in rad.
-    fn nearest(self, azimuth_rad: f64) -> Option<(f64, f64)> {
-        use core::f64::consts::{FRAC_PI_4, PI, TAU};
-        let middle_rad = self.middle_rad()?;
-        let off_rad = (azimuth_rad - middle_rad + PI).rem_euclid(TAU) - PI;
-        let outside_rad = off_rad.abs() - FRAC_PI_4;
-        Some((middle_rad + off_rad.clamp(-FRAC_PI_4, FRAC_PI_4), outside_rad.max(0.0)))
-    }
-}
-
-/// The antenna nearest to an azimuth, its own nearest azimuth, and the distance of both in rad.
-fn nearest_antenna(azimuth_rad: f64) -> (Antenna, f64, f64) {
-    let of = |antenna: Antenna| antenna.nearest(azimuth_rad).map(|(at, outside)| (antenna, at, outside));
-    let none = (Antenna::None, azimuth_rad, f64::INFINITY);
-    Antenna::ALL.into_iter().filter_map(of).fold(none, |best, next| if next.2 < best.2 { next } else { best })
-}
-
 /// The attitude that points an antenna at the Earth; `None` where Sun or Earth has no direction.
 pub fn downlink(
     to_sun: &MovingVector,
@@ -114,7 +69,8 @@ pub fn downlink(
         }
         None => (solutions.preferred(), solutions.sun_body, solutions.clamped),
     };
-    let (antenna, antenna_azimuth_rad, outside_rad) = nearest_antenna(azimuth.re);
+    let AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad } =
+        AntennaAzimuth::of(azimuth.re);
     let at_bound = outside_rad > BOUND_RAD;
     let boresight_azimuth = if at_bound { Moving::constant(antenna_azimuth_rad) } else { azimuth };
     Some(Downlink {
@@ -166,8 +122,8 @@ impl EarthAzimuths {
     fn preferred(&self) -> Moving {
         let [minus, plus] = self.azimuths;
         let outside_rad = |azimuth: Moving| {
-            let (_, _, outside_rad) = nearest_antenna(azimuth.re);
-            if outside_rad <= BOUND_RAD { 0.0 } else { outside_rad }
+            let nearest = AntennaAzimuth::of(azimuth.re);
+            if nearest.is_in_range() { 0.0 } else { nearest.outside_rad }
         };
         let (default, other) = if self.cosine > 0.0 { (minus, plus) } else { (plus, minus) };
         if outside_rad(other) < outside_rad(default) { other } else { default }
@@ -206,10 +162,9 @@ pub fn link(
     let earth_body = SunAngles::of(&value(&pointing.to_body(&earth)));
     let coverage_rad = limits.coverage_rad + BOUND_RAD;
     let covered = earth_body.elevation_rad.abs() <= coverage_rad
-        && antenna.nearest(earth_body.azimuth_rad).is_some_and(|(_, outside)| outside <= coverage_rad);
-    let available = covered
-        && sun_separation_rad > limits.sun_separation_rad
-        && !behind_planet(surroundings, &earth);
+        && antenna.nearest(earth_body.azimuth_rad).is_some_and(|nearest| nearest.outside_rad <= coverage_rad);
+    let available =
+        covered && sun_separation_rad > limits.sun_separation_rad && !behind_planet(surroundings, &earth);
     Some(Link { sun_separation_rad, available })
 }
 
@@ -309,8 +264,11 @@ mod tests {
             let [to_sun, to_earth] = random_lines(&mut random);
             let found = downlink(&to_sun, &to_earth, &DownlinkRequest::default()).unwrap();
             let theta_rad = angle_between_rad(&value(&to_sun), &value(&to_earth));
-            let (antenna, azimuth_rad) =
-                if theta_rad < FRAC_PI_2 { (Antenna::Sunshade, -theta_rad) } else { (Antenna::Back, theta_rad) };
+            let (antenna, azimuth_rad) = if theta_rad < FRAC_PI_2 {
+                (Antenna::Sunshade, -theta_rad)
+            } else {
+                (Antenna::Back, theta_rad)
+            };
             assert_eq!(found.antenna, antenna);
             assert!((found.antenna_azimuth_rad - azimuth_rad).abs() < 1e-12 && !found.clamped);
             let sun = value(&found.vectors.pointing().unwrap().to_body(&unit(&to_sun).unwrap()));
@@ -363,7 +321,10 @@ mod tests {
                 d if d <= 45.0 => (Antenna::Sunshade, 0.0),
                 _ => (Antenna::Back, 90.0),
             };
-            assert_eq!((found.antenna, found.clamped), (antenna, degrees != expected_deg && (degrees - expected_deg).abs() > 1e-9));
+            assert_eq!(
+                (found.antenna, found.clamped),
+                (antenna, degrees != expected_deg && (degrees - expected_deg).abs() > 1e-9)
+            );
             assert!((found.antenna_azimuth_rad.to_degrees() - expected_deg).abs() < 1e-10);
             let pointing = found.vectors.pointing().unwrap();
             let earth = value(&pointing.to_body(&unit(&to_earth).unwrap()));
@@ -410,7 +371,9 @@ mod tests {
                 let request = DownlinkRequest { antenna_azimuth_rad: None, sun_body };
                 let found = downlink(&sun, &earth, &request).unwrap();
                 let pointing = found.vectors.pointing().unwrap();
-                assert!(pointing.degenerate && pointing.frame().rate_body_rad_s.iter().all(|x| x.is_finite()));
+                assert!(
+                    pointing.degenerate && pointing.frame().rate_body_rad_s.iter().all(|x| x.is_finite())
+                );
             }
         }
         assert!(downlink(&MovingVector::zeros(), &sun, &DownlinkRequest::default()).is_none());
@@ -428,7 +391,10 @@ mod tests {
             planet,
             position: fixed(position * radius_m),
             velocity: fixed(Vector3::x()),
-            sun: fixed(position * radius_m + Vector3::new(degrees(theta_deg).cos(), degrees(theta_deg).sin(), 0.0) * 5e10),
+            sun: fixed(
+                position * radius_m
+                    + Vector3::new(degrees(theta_deg).cos(), degrees(theta_deg).sin(), 0.0) * 5e10,
+            ),
             earth: fixed(position * radius_m + Vector3::x() * 1e11),
             bodies: [None; Body::ALL.len()],
         };

@@ -94,8 +94,7 @@ impl KeepIn {
         let (x, y) = (sun.x * azimuth_sign, sun.y);
         // Zero is added so that it has no sign, which would show on the far side.
         let up = -sun.z * elevation_sign + 0.0;
-        let [azimuth_limit, elevation_limit] =
-            [self.azimuth_rad, self.elevation_rad].map(Moving::constant);
+        let [azimuth_limit, elevation_limit] = [self.azimuth_rad, self.elevation_rad].map(Moving::constant);
         let beyond_azimuth = now.azimuth_rad.abs() > self.azimuth_rad;
         let at_pole = x.re == 0.0 && y.re == 0.0;
         let azimuth = if beyond_azimuth {
@@ -246,14 +245,20 @@ mod tests {
             for step in -steps..=steps {
                 let share = f64::from(step) / f64::from(steps);
                 let (a, e) = (zone.azimuth_rad, zone.elevation_rad);
-                for (azimuth_rad, elevation_rad) in [(a, share * e), (-a, share * e), (share * a, e), (share * a, -e)] {
+                for (azimuth_rad, elevation_rad) in
+                    [(a, share * e), (-a, share * e), (share * a, e), (share * a, -e)]
+                {
                     let other = to_body * direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
                     let other_rad = angle_between_rad(&other, &sun_body);
-                    assert!(offered_rad <= other_rad + 1e-13, "{zone:?} {sun_body} {offered_rad} {other_rad}");
+                    assert!(
+                        offered_rad <= other_rad + 1e-13,
+                        "{zone:?} {sun_body} {offered_rad} {other_rad}"
+                    );
                 }
             }
             let at = zone.angles(&value(&point)).unwrap();
-            let on_meridian = (at.azimuth_rad.abs() - zone.azimuth_rad).abs() * at.elevation_rad.cos() < 1e-14;
+            let on_meridian =
+                (at.azimuth_rad.abs() - zone.azimuth_rad).abs() * at.elevation_rad.cos() < 1e-14;
             let on_parallel = (at.elevation_rad.abs() - zone.elevation_rad).abs() < 1e-14;
             assert!(on_meridian || on_parallel);
             edges[usize::from(on_parallel) + usize::from(on_meridian && on_parallel)] += 1;
@@ -280,9 +285,9 @@ mod tests {
 
     #[test]
     fn the_zones_frame_is_a_rotation_of_the_body_to_the_axis() {
-        let near = [1e-3, 1e-8, 1e-12, 1e-17].into_iter().flat_map(|d| {
-            [Vector3::new(d, 1.0, -d), Vector3::new(d, -1.0, -d), Vector3::new(0.0, 1.0, d)]
-        });
+        let near = [1e-3, 1e-8, 1e-12, 1e-17]
+            .into_iter()
+            .flat_map(|d| [Vector3::new(d, 1.0, -d), Vector3::new(d, -1.0, -d), Vector3::new(0.0, 1.0, d)]);
         for axis_body in cube_directions().chain(near) {
             let zone = KeepIn { axis_body, azimuth_rad: 0.1, elevation_rad: 0.1, method: METHODS[0] };
             let matrix = zone.body_from_zone().unwrap();

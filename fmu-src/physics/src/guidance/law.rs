@@ -52,6 +52,23 @@ impl PointingVectors {
 }
 
 impl Pointing {
+    /// Of a body frame in motion.
+    pub fn of(frame: &MovingFrame) -> Self {
+        let axes = frame.inertial_from_body.matrix();
+        let rates = axes * frame.rate_body_rad_s.cross_matrix();
+        Self { inertial_from_body: axes.zip_map(&rates, Moving::new), degenerate: false }
+    }
+
+    /// Vectors that give this attitude: +Z at where it looks, -Y rolled to where it is.
+    pub fn vectors(&self) -> PointingVectors {
+        PointingVectors {
+            boresight_body: fixed(Vector3::z()),
+            aimpoint: self.inertial_from_body.column(2).into_owned(),
+            body_roll: fixed(-Vector3::y()),
+            external_roll: -self.inertial_from_body.column(1),
+        }
+    }
+
     /// Body frame and rate.
     pub fn frame(&self) -> MovingFrame {
         MovingFrame {

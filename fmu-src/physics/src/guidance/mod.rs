@@ -2,6 +2,7 @@
 //! attitude law with its pointing options, constraints and modes.
 
 pub mod aimpoint;
+pub mod antenna;
 mod attitudes;
 pub mod boresight;
 pub mod command;
@@ -26,6 +27,7 @@ pub mod scenario;
 mod scenario_tests;
 mod schedule;
 pub mod surroundings;
+pub mod system;
 #[cfg(test)]
 mod test_geometry;
 #[cfg(test)]
