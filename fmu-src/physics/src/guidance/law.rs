@@ -83,6 +83,8 @@ fn prime_axes(
     let x = unit(primary)?;
     let given = unit_normal(primary, secondary);
     let z = given.or_else(|| fallbacks.iter().find_map(|other| unit_normal(primary, &fixed(*other))))?;
+    // The less both vectors differ, the less their normal is perpendicular to x.
+    let z = unit(&(z - x * x.dot(&z)))?;
     Some((MovingMatrix::from_columns(&[x, z.cross(&x), z]), given.is_none()))
 }
 
