@@ -149,7 +149,8 @@ mod tests {
     use nalgebra::Vector3;
 
     fn above(distance: f64, alpha_rad: f64) -> Surroundings {
-        let mut surroundings = TestOrbit::new(12.0).surroundings(0.0);
+        static SOME: std::sync::OnceLock<Surroundings> = std::sync::OnceLock::new();
+        let mut surroundings = *SOME.get_or_init(|| TestOrbit::new(12.0).surroundings(0.0));
         surroundings.planet.radii_m = Vector3::repeat(2.44e6);
         surroundings.position = fixed(Vector3::new(0.6, -0.48, 0.64) * (2.44e6 * distance));
         let side = Vector3::new(0.8, 0.36, -0.48);

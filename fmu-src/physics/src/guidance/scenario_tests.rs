@@ -146,7 +146,7 @@ fn worst(command: &PointingCommand, scan_s: Option<f64>, orbit: &TestOrbit) -> f
             compared += 1;
         }
     }
-    assert!(compared >= 6);
+    assert!(compared >= 40);
     worst
 }
 

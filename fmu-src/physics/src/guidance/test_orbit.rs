@@ -65,10 +65,12 @@ impl TestOrbit {
         surroundings
     }
 
-    /// Times over one orbit, dense about periapsis, in s.
-    pub fn times_s(&self) -> [f64; 8] {
-        let period_s = self.orbit.period_s();
-        [0.0, 0.004, 0.02, 0.1, 0.3, 0.5, 0.8, 0.97].map(|part| (part * period_s).round() + 11.0)
+    /// 1 Hz instants over one orbit, densest about periapsis, in s.
+    pub fn times_s(&self) -> [f64; 48] {
+        core::array::from_fn(|at| {
+            let part = (at as f64 - 24.0) / 24.0;
+            (0.5 * self.orbit.period_s() * part * part.abs()).round()
+        })
     }
 }
 
