@@ -57,12 +57,7 @@ impl Constraints {
 
     /// By how much the directions of Sun and planet in the body frame exceed the constraints, the greatest in rad;
     /// negative where all are kept, minus infinity where nothing is watched. `in_region`: whether the hot pole counts.
-    pub fn excess_rad(
-        &self,
-        sun_body: &Vector3<f64>,
-        planet_body: &Vector3<f64>,
-        in_region: bool,
-    ) -> f64 {
+    pub fn excess_rad(&self, sun_body: &Vector3<f64>, planet_body: &Vector3<f64>, in_region: bool) -> f64 {
         let sun_rad = self.keep_in.as_ref().and_then(|zone| zone.excess_rad(sun_body));
         let planet_rad =
             self.hot_pole.as_ref().filter(|_| in_region).map(|cone| cone.excess_rad(planet_body));

@@ -120,7 +120,8 @@ pub struct ModeState {
 impl ModeState {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        self.search_since_s.is_none_or(|since_s| since_s.abs() <= GREATEST_IN_STATE) && self.monitor.is_sound()
+        self.search_since_s.is_none_or(|since_s| since_s.abs() <= GREATEST_IN_STATE)
+            && self.monitor.is_sound()
     }
 
     /// Takes a sample: changes the mode, and says how to steer in it. `None` where no boresight has a direction.
@@ -148,12 +149,7 @@ impl ModeState {
         })
     }
 
-    fn change_mode(
-        &mut self,
-        settings: &ModeSettings,
-        sensed: &Sensed,
-        surroundings: Option<&Surroundings>,
-    ) {
+    fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, surroundings: Option<&Surroundings>) {
         let requested = sensed.request.filter(|_| sensed.request != self.last_request);
         self.last_request = sensed.request;
         if let Some(mode) = requested {
@@ -225,14 +221,14 @@ pub fn error_quaternion(boresight_body: &Vector3<f64>, sun_body: &Vector3<f64>) 
     };
     // Perpendicular to S - B, where rounding would have it otherwise near S = -B.
     let length = difference.norm();
-    let across = if length > 0.0 { axis - difference * (axis.dot(&difference) / (length * length)) } else { axis };
+    let across =
+        if length > 0.0 { axis - difference * (axis.dot(&difference) / (length * length)) } else { axis };
     let size = across.norm();
     let unit_axis = if size > 0.0 { across / size } else { Vector3::zeros() };
     let vector = unit_axis * length;
     let norm = (vector.norm_squared() + sum.norm_squared()).sqrt();
-    (norm.is_finite() && norm > 0.0).then(|| {
-        Quaternion([vector.x / norm, vector.y / norm, vector.z / norm, sum.norm() / norm])
-    })
+    (norm.is_finite() && norm > 0.0)
+        .then(|| Quaternion([vector.x / norm, vector.y / norm, vector.z / norm, sum.norm() / norm]))
 }
 
 #[cfg(test)]

@@ -55,8 +55,7 @@ impl Monitor {
             state.violation = None;
             return false;
         }
-        let violation =
-            state.violation.get_or_insert(Violation { since_s: time_s, least_excess_rad: None });
+        let violation = state.violation.get_or_insert(Violation { since_s: time_s, least_excess_rad: None });
         if let Some(least_rad) = &mut violation.least_excess_rad
             && excess_rad < *least_rad
         {
@@ -159,14 +158,18 @@ mod tests {
         };
         let sun_only = Constraints { keep_in: Some(zone), hot_pole: None };
         let both = Constraints { keep_in: Some(zone), hot_pole: Some(cone) };
-        let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        let close =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         close(excess(sun_only, Vector3::z(), 0.0, 1e5), -0.2);
         close(excess(sun_only, Vector3::z(), 0.5, 1e5), 0.2);
         close(excess(sun_only, Vector3::x(), -0.5, 1e5), 0.3);
         // -Z is a right angle from the planet (at -x), less by the turn that raises the Sun's elevation away.
         close(excess(both, Vector3::x(), 0.0, 1e5), -0.2);
         let toward = std::f64::consts::FRAC_PI_2 - 1.3;
-        close(excess(Constraints { keep_in: None, ..both }, Vector3::x(), 1.3, 1e5).max(1.0 - toward), 1.0 - toward);
+        close(
+            excess(Constraints { keep_in: None, ..both }, Vector3::x(), 1.3, 1e5).max(1.0 - toward),
+            1.0 - toward,
+        );
         assert!(excess(Constraints { keep_in: None, ..both }, Vector3::x(), 1.3, 2e6) == f64::NEG_INFINITY);
         assert!(excess(Constraints::default(), Vector3::x(), 1.3, 1e5) == f64::NEG_INFINITY);
     }

@@ -69,7 +69,7 @@ pub fn difference_rad_s(at: impl Fn(f64) -> Option<Pointing>, step_s: f64) -> Op
 
 /// The 26 directions from the centre of a cube to its faces, edges and corners.
 pub fn cube_directions() -> impl Iterator<Item = Vector3<f64>> {
-    (0..27).filter(|k| *k != 13).map(|k| {
-        Vector3::new(f64::from(k % 3) - 1.0, f64::from(k / 3 % 3) - 1.0, f64::from(k / 9) - 1.0)
-    })
+    (0..27)
+        .filter(|k| *k != 13)
+        .map(|k| Vector3::new(f64::from(k % 3) - 1.0, f64::from(k / 3 % 3) - 1.0, f64::from(k / 9) - 1.0))
 }
