@@ -193,7 +193,7 @@ mod tests {
             };
             let Some(kept) = at(0.0) else { continue };
             let found = kept.pointing.frame().rate_body_rad_s;
-            let step_s = (3e-4 / found.norm()).min(1.0);
+            let step_s = (3e-4 / found.norm()).min(0.1);
             let same =
                 |t: f64| at(t).filter(|other| other.reached == kept.reached).map(|other| other.pointing);
             let jump = |t: f64| {

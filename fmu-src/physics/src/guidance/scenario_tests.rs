@@ -234,7 +234,11 @@ fn at(command: &PointingCommand, time_s: f64, progress: &PointingProgress) -> (S
 fn scenarios_set_the_vectors_of_table_5() {
     let still = PointingProgress::default();
     for scenario in SCENARIOS {
-        let (s, aimed) = at(&command(scenario), 3000.0, &still);
+        let mut command = command(scenario);
+        if scenario == Scenario::Downlink {
+            command.boresight.option = Some(BoresightOption::PhasedArray);
+        }
+        let (s, aimed) = at(&command, 3000.0, &still);
         let aimed = aimed.unwrap();
         if scenario == Scenario::Generic {
             continue;
