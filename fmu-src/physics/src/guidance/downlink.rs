@@ -17,6 +17,7 @@ use super::law::{Pointing, PointingVectors};
 use super::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
 use super::surroundings::Surroundings;
 use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
+use crate::constants::DEG_RAD;
 use crate::numerics::scalar::Scalar;
 
 /// What a downlink attitude is asked for.
@@ -128,6 +129,12 @@ impl EarthAzimuths {
         if outside_rad(other) < outside_rad(default) { other } else { default }
     }
 }
+
+/// Least angle between Sun and Earth for a link, assumed: no paper names it.
+pub const SOLAR_EXCLUSION_RAD: f64 = 3.0 * DEG_RAD;
+
+/// Half the width of an antenna's fan across its plane (paper 001: 15 by 4 deg).
+pub const BEAM_HALF_WIDTH_RAD: f64 = 2.0 * DEG_RAD;
 
 /// What a link needs; the widths are assumptions where the papers differ.
 #[derive(Clone, Copy, Debug, PartialEq)]

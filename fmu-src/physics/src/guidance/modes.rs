@@ -56,6 +56,12 @@ impl Mode {
     }
 }
 
+/// Rate of Earth Acquisition, assumed: a turn in three hours. Paper 001 says slow.
+pub const EARTH_ACQUISITION_RATE_RAD_S: f64 = core::f64::consts::TAU / 10_800.0;
+
+/// Rate of the Sun search, assumed: half a degree a second. Paper 001 says slow.
+pub const SUN_SEARCH_RATE_RAD_S: f64 = 0.5 * crate::constants::DEG_RAD;
+
 /// Parameters of the modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeSettings {
