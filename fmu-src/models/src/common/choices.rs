@@ -1,6 +1,7 @@
 //! Choices among the variants of a type of physics, which declares them: what their items are called and mean to a master.
 
-use physics::bodies::surface;
+use fmi_export::Enumeration;
+use physics::bodies::{Body, surface};
 use physics::environment::eclipse::ShadowModel;
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
@@ -40,6 +41,53 @@ macro_rules! enumeration_of {
     };
 }
 pub(crate) use enumeration_of;
+
+/// The same for an input, where 0 is none of the variants: what masters send before the first exchange.
+macro_rules! optional_enumeration_of {
+    ($(#[doc = $about:literal])+ $name:ident($type:ty) {
+        $(#[doc = $none:literal])+ none = 0,
+        $($(#[doc = $meaning:literal])+ $item:ident = $value:literal => $variant:ident,)+
+    }) => {
+        $(#[doc = $about])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct $name(pub Option<$type>);
+
+        impl ::fmi_export::Enumeration for $name {
+            const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
+                name: stringify!($name),
+                description: concat!($($about),+).trim_ascii(),
+                items: &[
+                    ::fmi_export::variables::Item {
+                        name: "none",
+                        value: 0,
+                        description: concat!($($none),+).trim_ascii(),
+                    },
+                    $(::fmi_export::variables::Item {
+                        name: stringify!($item),
+                        value: $value,
+                        description: concat!($($meaning),+).trim_ascii(),
+                    }),+
+                ],
+            };
+
+            fn from_value(value: i32) -> Option<Self> {
+                match value {
+                    0 => Some(Self(None)),
+                    $($value => Some(Self(Some(<$type>::$variant))),)+
+                    _ => None,
+                }
+            }
+
+            fn value(self) -> i32 {
+                match self.0 {
+                    None => 0,
+                    $(Some(<$type>::$variant) => $value,)+
+                }
+            }
+        }
+    };
+}
+pub(crate) use optional_enumeration_of;
 
 enumeration_of! {
     /// How the day side's temperature is distributed.
@@ -82,4 +130,60 @@ impl SunshadeShape {
     pub fn of(spacecraft: &Spacecraft) -> Self {
         Self(spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model))
     }
+}
+
+/// What a command gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum CommandKind {
+    /// No command yet: the attitude is held.
+    None = 0,
+    /// Attitude command.q and rate command.rate.
+    Attitude = 1,
+    /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
+    /// command.rate.
+    ErrorQuaternion = 2,
+    /// The attitude held turns on with command.rate.
+    RateOnly = 3,
+}
+
+/// Pitch during science.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum ScienceRule {
+    /// Sun elevation is a fraction of (Sun-nadir angle - 90 deg), within the keep-in zone.
+    Scaled = 1,
+    /// Z points to nadir as far as the keep-in zone allows.
+    Nadir = 2,
+    /// Fixed to the Sun line: -Y from the planet to the Sun, -Z to the north of the planet's orbit, as in paper 004; no
+    /// keep-in zone.
+    FixedToSunLine = 3,
+}
+
+enumeration_of! {
+    /// Central body.
+    OrbitCenter(Body) {
+        /// Mercury.
+        mercury = 1 => Mercury,
+        /// The Sun.
+        sun = 2 => Sun,
+        /// Venus.
+        venus = 3 => Venus,
+        /// The Earth.
+        earth = 4 => Earth,
+        /// Mars.
+        mars = 6 => Mars,
+        /// Jupiter.
+        jupiter = 7 => Jupiter,
+    }
+}
+
+/// Origin of the Sun's and the planets' positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum EphemerisSource {
+    /// The analytic theory VSOP87.
+    Vsop87 = 1,
+    /// The planet on an ellipse about the Sun by ephemeris.semiMajorAxis and so on, as paper 004 prints it; the Earth by
+    /// VSOP87.
+    Kepler = 2,
+    /// The inputs sun.position and earth.position.
+    Inputs = 3,
 }

@@ -1,10 +1,14 @@
 //! Groups of variables that several models have.
 
 use fmi_export::{Choice, Failure, Integer, Real, Values, Variables};
+use physics::bodies::Body;
 use physics::bodies::surface::{self, MERCURY, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
+use physics::environment::orbit::Elements;
+use physics::environment::paper004::MERCURY_AS_PRINTED;
+use physics::guidance::{self, Guided, Schedule};
 
-use super::choices::{DayTemperature, EclipseMethod};
+use super::choices::{DayTemperature, EclipseMethod, EphemerisSource, ScienceRule};
 
 /// What a planet's surface does with sunlight; the defaults are Mercury's as they fit paper 004, which prints none.
 #[derive(Variables)]
@@ -71,5 +75,129 @@ impl WorkLimit {
     /// The units.
     pub fn units(&self, values: &Values) -> u32 {
         values.integer(self.work_limit).unsigned_abs()
+    }
+}
+
+/// Science and downlink in turn, as a Mercury orbiter flies them.
+#[derive(Variables)]
+pub struct GuidedVariables {
+    /// How the spacecraft stands while it observes.
+    #[parameter(start = ScienceRule::Scaled)]
+    pub science_rule: Choice<ScienceRule>,
+    /// Sun elevation per (Sun-nadir angle - 90 deg) under the scaled rule; 0.25 is fitted to paper 000's Table 2.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.25)]
+    pub science_gain: Real,
+    /// Begin of downlink after periapsis.
+    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 7_200.0)]
+    pub downlink_start: Real,
+    /// End of downlink after periapsis.
+    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 36_000.0)]
+    pub downlink_end: Real,
+    /// A downlink after every how many periapses; 0 = never.
+    #[parameter(min = 0, max = 1_000, start = 2)]
+    pub downlink_every: Integer,
+    /// Turn rate between science and downlink attitudes; 0 = at once, as in paper 000.
+    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = 0.0)]
+    pub slew_rate: Real,
+}
+
+/// Positions of the Sun, the orbit's centre and the Earth.
+#[derive(Variables)]
+pub struct EphemerisVariables {
+    /// Where the positions of Sun and Earth come from.
+    #[parameter(start = EphemerisSource::Vsop87)]
+    pub source: Choice<EphemerisSource>,
+    /// Semi-major axis of the planet's orbit about the Sun when source is kepler; elements are in the ecliptic and
+    /// equinox of J2000, paper 004's Table 4 (whose axis is printed a digit short).
+    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = MERCURY_AS_PRINTED.semi_major_axis_m)]
+    pub semi_major_axis: Real,
+    /// Its eccentricity.
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = MERCURY_AS_PRINTED.eccentricity)]
+    pub eccentricity: Real,
+    /// Its inclination.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = MERCURY_AS_PRINTED.inclination_rad)]
+    pub inclination: Real,
+    /// Longitude of its ascending node.
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY_AS_PRINTED.ascending_node_rad)]
+    pub ascending_node: Real,
+    /// Its argument of perihelion; paper 004 uses Mercury's longitude of perihelion, 77.46 deg, in its place.
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY_AS_PRINTED.periapsis_argument_rad)]
+    pub periapsis_argument: Real,
+    /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY_AS_PRINTED.true_anomaly_rad)]
+    pub true_anomaly: Real,
+}
+
+/// The value of a parameter about a body, or the body's own where it was left at `default`, which is Mercury's.
+pub fn followed(values: &Values, body: Body, parameter: Real, default: f64, own: f64) -> f64 {
+    let value = values.real(parameter);
+    if body != Body::Mercury && value == default { own } else { value }
+}
+
+impl GuidedVariables {
+    /// The guidance law of an orbit with this periapsis and period, in s.
+    ///
+    /// # Errors
+    /// A downlink that ends before it begins.
+    pub fn read(
+        &self,
+        values: &Values,
+        periapsis_s: f64,
+        period_s: f64,
+        elevation_limit_rad: f64,
+    ) -> Result<Guided, Failure> {
+        let [start_s, end_s] = [self.downlink_start, self.downlink_end].map(|time| values.real(time));
+        if values.integer(self.downlink_every) != 0 && start_s > end_s {
+            return Err(Failure::new(format!(
+                "guided.downlinkStart, guided.downlinkEnd: found {start_s:?} s and {end_s:?} s, allowed: a start not \
+                 after the end; guided.downlinkEvery = 0 for no downlink"
+            )));
+        }
+        Ok(Guided {
+            schedule: Schedule {
+                periapsis_s,
+                period_s,
+                downlink_start_s: start_s,
+                downlink_end_s: end_s,
+                every: values.integer(self.downlink_every).unsigned_abs(),
+            },
+            science: match values.choice(self.science_rule) {
+                Some(ScienceRule::Nadir) => guidance::ScienceRule::Nadir,
+                Some(ScienceRule::FixedToSunLine) => guidance::ScienceRule::PlanetOrbit,
+                Some(ScienceRule::Scaled) | None => {
+                    guidance::ScienceRule::Scaled { gain: values.real(self.science_gain) }
+                }
+            },
+            elevation_limit_rad,
+            slew_rate_rad_s: values.real(self.slew_rate),
+        })
+    }
+}
+
+impl EphemerisVariables {
+    /// Elements of a body's own ellipse about the Sun, in the ecliptic of J2000.
+    pub fn ellipse(&self, values: &Values, body: Body) -> Elements {
+        let (default, own) = (MERCURY_AS_PRINTED, Elements::mean_orbit_of(body.data()));
+        let followed = |parameter, default, own| followed(values, body, parameter, default, own);
+        Elements {
+            semi_major_axis_m: followed(
+                self.semi_major_axis,
+                default.semi_major_axis_m,
+                own.semi_major_axis_m,
+            ),
+            eccentricity: followed(self.eccentricity, default.eccentricity, own.eccentricity),
+            inclination_rad: followed(self.inclination, default.inclination_rad, own.inclination_rad),
+            ascending_node_rad: followed(
+                self.ascending_node,
+                default.ascending_node_rad,
+                own.ascending_node_rad,
+            ),
+            periapsis_argument_rad: followed(
+                self.periapsis_argument,
+                default.periapsis_argument_rad,
+                own.periapsis_argument_rad,
+            ),
+            true_anomaly_rad: values.real(self.true_anomaly),
+        }
     }
 }

@@ -87,7 +87,7 @@ pub const AIMPOINTS: [Aimpoint; 15] = {
         row(Option::Nadir, |_, s, _| Some(s.to_planet()), PlanetPoint),
         row(Option::Subsolar, |_, s, method| Some(s.to_planet() + subsolar_m(s, method)?), PlanetPoint),
         row(Option::OptimalLighting, |_, s, _| Some(s.to_planet() + optimal_lighting_m(s)?), PlanetPoint),
-        row(Option::Body, |c, s, _| Some(to_body(s, c.body)), Point),
+        row(Option::Body, |c, s, _| c.body.map(|body| to_body(s, body)), Point),
     ]
 };
 
@@ -156,7 +156,7 @@ mod tests {
             height_m: 2e3,
             azimuth_rad: 0.8,
             elevation_rad: -0.6,
-            body: Body::Venus,
+            body: Some(Body::Venus),
         }
     }
 
@@ -218,7 +218,7 @@ mod tests {
         none(AimpointCommand::default(), &s);
         none(AimpointCommand { option: Some(AimpointOption::Vector), ..AimpointCommand::default() }, &s);
         none(
-            AimpointCommand { body: Body::Mars, ..command(AimpointOption::Body) },
+            AimpointCommand { body: Some(Body::Mars), ..command(AimpointOption::Body) },
             &Surroundings { bodies: [None; 6], ..s },
         );
         none(AimpointCommand { vector: Vector3::repeat(f64::NAN), ..command(AimpointOption::Vector) }, &s);

@@ -1,37 +1,27 @@
 //! The boresight options of paper 001's Table 1 as one table: vectors, the MDIS camera, the phased-array antennas.
 
-use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use core::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::antenna::AntennaAzimuth;
 use super::command::{BoresightCommand, BoresightOption};
 use super::moving::{MovingVector, fixed};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::constants::DEG_RAD;
+use crate::spacecraft::Instrument;
 
-/// A fixed instrument.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Instrument {
-    /// Name.
-    pub name: String,
-    /// Unit boresight, body frame.
-    pub boresight: Vector3<f64>,
-}
-
-/// The instruments a scenario can point: number 0 is +Z, then the rows from 1.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Instruments(pub Vec<Instrument>);
-
-impl Instruments {
-    /// Boresight of an instrument; `None` past the last row.
-    pub fn boresight(&self, number: u32) -> Option<Vector3<f64>> {
-        match number {
-            0 => Some(Vector3::z()),
-            row => self.0.get(row as usize - 1).map(|instrument| instrument.boresight),
-        }
+/// Boresight of an instrument, body frame: number 0 is +Z, then the rows of the table from 1; `None` past the last row.
+pub fn instrument_boresight(instruments: &[Instrument], number: u32) -> Option<Vector3<f64>> {
+    match number {
+        0 => Some(Vector3::z()),
+        row => instruments.get(row as usize - 1).map(|instrument| instrument.boresight_body),
     }
 }
+
+/// Range of the camera: 50 deg away from the Sun, 40 deg toward it (paper 001, Figure 2).
+pub const MDIS_RANGE_RAD: [f64; 2] = [-50.0 * DEG_RAD, 40.0 * DEG_RAD];
 
 /// Range of the MDIS camera's angle: from +Z in the Y-Z plane, positive sunward, toward -Y.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,14 +33,14 @@ pub struct MdisRange {
 }
 
 impl Default for MdisRange {
-    /// 50 deg away from the Sun, 40 deg toward it (paper 001, Figure 2).
     fn default() -> Self {
-        Self { minimum_rad: -50.0 * DEG_RAD, maximum_rad: 40.0 * DEG_RAD }
+        let [minimum_rad, maximum_rad] = MDIS_RANGE_RAD;
+        Self { minimum_rad, maximum_rad }
     }
 }
 
 /// A device's angle after its range.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DeviceAngle {
     /// The angle it takes, in rad.
     pub angle_rad: f64,
@@ -82,25 +72,6 @@ pub fn mdis_boresight(angle_rad: f64) -> Vector3<f64> {
     Vector3::new(0.0, -sine, cosine)
 }
 
-/// Scan ranges of the phased-array antennas: azimuths in the X-Y plane (as [`SunAngles`]), sunshade and back.
-pub const ANTENNA_RANGES_RAD: [[f64; 2]; 2] = [[-FRAC_PI_2, 0.0], [FRAC_PI_2, PI]];
-
-/// The antenna azimuth in -pi..pi nearest to `azimuth_rad`; midway between two bounds the sunshade's is taken.
-pub fn antenna_azimuth(azimuth_rad: f64) -> DeviceAngle {
-    let azimuth_rad = wrapped_rad(azimuth_rad);
-    if ANTENNA_RANGES_RAD.iter().any(|[low, high]| azimuth_rad >= *low && azimuth_rad <= *high) {
-        return DeviceAngle { angle_rad: azimuth_rad, in_range: true };
-    }
-    let off = |bound_rad: f64| wrapped_rad(azimuth_rad - bound_rad).abs();
-    let mut nearest_rad = -FRAC_PI_2;
-    for bound_rad in ANTENNA_RANGES_RAD.into_iter().flatten() {
-        if off(bound_rad) < off(nearest_rad) {
-            nearest_rad = bound_rad;
-        }
-    }
-    DeviceAngle { angle_rad: nearest_rad, in_range: azimuth_rad == -PI }
-}
-
 /// The angle in -pi..pi.
 fn wrapped_rad(angle_rad: f64) -> f64 {
     if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
@@ -114,7 +85,7 @@ pub struct Boresight {
     /// The camera's angle, where it is the boresight.
     pub mdis: Option<DeviceAngle>,
     /// The antenna's azimuth, where it is the boresight.
-    pub antenna: Option<DeviceAngle>,
+    pub antenna: Option<AntennaAzimuth>,
 }
 
 impl Boresight {
@@ -131,9 +102,9 @@ impl Boresight {
 
     /// The phased-array antenna at the azimuth nearest to `azimuth_rad`.
     pub fn antenna(azimuth_rad: f64) -> Self {
-        let angle = antenna_azimuth(azimuth_rad);
-        let angles = SunAngles { azimuth_rad: angle.angle_rad, elevation_rad: 0.0 };
-        Self { antenna: Some(angle), ..Self::of(direction_from_angles(angles)) }
+        let antenna = AntennaAzimuth::of(azimuth_rad);
+        let angles = SunAngles { azimuth_rad: antenna.azimuth_rad, elevation_rad: 0.0 };
+        Self { antenna: Some(antenna), ..Self::of(direction_from_angles(angles)) }
     }
 }
 
@@ -236,7 +207,8 @@ mod tests {
             (240.0, -90.0, false),
             (-180.0, 180.0, true),
         ] {
-            let angle = antenna(asked).antenna.unwrap();
+            let antenna = antenna(asked).antenna.unwrap();
+            let angle = DeviceAngle { angle_rad: antenna.azimuth_rad, in_range: antenna.is_in_range() };
             assert_eq!(angle.in_range, in_range, "{asked}");
             assert_relative_eq!(angle.angle_rad, taken * DEG_RAD, epsilon = 1e-14);
         }
@@ -245,9 +217,9 @@ mod tests {
     #[test]
     fn instrument_0_is_plus_z_and_the_rows_follow() {
         let tilted = Vector3::new(0.0, 0.6, 0.8);
-        let table = Instruments(vec![Instrument { name: "tilted".into(), boresight: tilted }]);
-        assert_eq!(table.boresight(0), Some(Vector3::z()));
-        assert_eq!(table.boresight(1), Some(tilted));
-        assert_eq!(table.boresight(2), None);
+        let table = [Instrument { name: "tilted".into(), boresight_body: tilted }];
+        assert_eq!(instrument_boresight(&table, 0), Some(Vector3::z()));
+        assert_eq!(instrument_boresight(&table, 1), Some(tilted));
+        assert_eq!(instrument_boresight(&table, 2), None);
     }
 }

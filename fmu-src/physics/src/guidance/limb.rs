@@ -26,7 +26,7 @@ pub struct LimbPoint {
 
 /// The limb point at the azimuth of the command, `elapsed_s` into its scan; `None` where the azimuth has no reference.
 pub fn generic_limb(surroundings: &Surroundings, command: &LimbCommand, elapsed_s: f64) -> Option<LimbPoint> {
-    let side = lvlh_direction(surroundings, command.reference, command.azimuth_rad, 0.0)?;
+    let side = lvlh_direction(surroundings, command.reference.unwrap_or_default(), command.azimuth_rad, 0.0)?;
     let normal = unit_normal(&surroundings.position, &side)?;
     let solutions = limb_points(surroundings, &normal);
     let chosen = solutions.map(|[a, b]| if value(&(a - b)).dot(&value(&side)) >= 0.0 { a } else { b });
@@ -103,7 +103,7 @@ mod tests {
     }
 
     fn without_height(azimuth_rad: f64, reference: AzimuthReference) -> LimbCommand {
-        LimbCommand { azimuth_rad, reference, ..LimbCommand::default() }
+        LimbCommand { azimuth_rad, reference: Some(reference), ..LimbCommand::default() }
     }
 
     #[test]

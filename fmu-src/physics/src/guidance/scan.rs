@@ -75,7 +75,7 @@ pub const SCANS: [(ScanFrame, ScanLaw); 5] = [
         Some(Scanned { toward: basic.toward + offset, ..*basic })
     }),
     (ScanFrame::LvlhRotation, |basic, command, surroundings, elapsed_s| {
-        let inertial_from_lvlh = lvlh_axes(surroundings, command.reference)?;
+        let inertial_from_lvlh = lvlh_axes(surroundings, command.reference.unwrap_or_default())?;
         let turned = rotation(command, elapsed_s) * inertial_from_lvlh.tr_mul(&basic.toward);
         Some(Scanned { toward: inertial_from_lvlh * turned, ..*basic })
     }),
@@ -257,7 +257,7 @@ mod tests {
         surroundings: &Surroundings,
     ) -> Option<Scanned> {
         let mut command = ScanCommand { frame: Some(frame), ..pattern(1.0, 0.0, 1, false) };
-        command.reference = AzimuthReference::Sun;
+        command.reference = Some(AzimuthReference::Sun);
         command.rate_rad_s[axis] = amount;
         command.speed_m_s[axis] = amount;
         let compatibility = ScanCompatibility::default();

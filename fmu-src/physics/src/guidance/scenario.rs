@@ -5,8 +5,10 @@
 use nalgebra::Vector3;
 
 use super::aimpoint::{Aim, AimKind, aimpoint};
-use super::boresight::{Boresight, DeviceAngle, Instruments, MdisRange, boresight};
-use super::command::{PointingCommand, Scenario};
+use super::antenna::AntennaAzimuth;
+use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
+use super::command::{BoresightOption, PointingCommand, Scenario};
+use super::downlink::{Downlink, DownlinkRequest, downlink};
 use super::law::PointingVectors;
 use super::lighting::SubsolarMethod;
 use super::limb::{LimbPoint, generic_limb, terminator_limb};
@@ -15,12 +17,13 @@ use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, scanned};
 use super::surroundings::Surroundings;
 use crate::attitude::SunAngles;
+use crate::spacecraft::Instrument;
 
 /// What the spacecraft has, and how the options are read.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct GuidanceHardware {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuidanceHardware<'a> {
     /// Fixed instruments.
-    pub instruments: Instruments,
+    pub instruments: &'a [Instrument],
     /// Range of the camera.
     pub mdis: MdisRange,
     /// What the subsolar point is.
@@ -48,9 +51,11 @@ pub struct Aimed {
     /// The camera's angle, where the command sets it; out of range it is the nearest bound.
     pub mdis: Option<DeviceAngle>,
     /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
-    pub antenna: Option<DeviceAngle>,
+    pub antenna: Option<AntennaAzimuth>,
     /// Whether the boresight is on the aimpoint that was asked for.
     pub reachable: bool,
+    /// Whether an angle that was asked for is out of its range.
+    pub clamped: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
 }
@@ -58,7 +63,7 @@ pub struct Aimed {
 /// What a scenario reads.
 struct Reading<'a> {
     command: &'a PointingCommand,
-    hardware: &'a GuidanceHardware,
+    hardware: &'a GuidanceHardware<'a>,
     surroundings: &'a Surroundings,
     progress: &'a PointingProgress,
 }
@@ -93,7 +98,7 @@ const SCENARIOS: [(Scenario, ScenarioLaw); 8] = [
         });
         Some(Aimed { mdis: camera, ..aimed })
     }),
-    (Scenario::Downlink, downlink),
+    (Scenario::Downlink, antenna_at_the_earth),
     (Scenario::LimbTerminator, |r| {
         let limb = terminator_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
         Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
@@ -108,7 +113,7 @@ const SCENARIOS: [(Scenario, ScenarioLaw); 8] = [
 /// last command stays.
 pub fn aim(
     command: &PointingCommand,
-    hardware: &GuidanceHardware,
+    hardware: &GuidanceHardware<'_>,
     surroundings: &Surroundings,
     progress: &PointingProgress,
 ) -> Option<Aimed> {
@@ -121,7 +126,7 @@ pub fn aim(
 
 impl Reading<'_> {
     fn instrument(&self) -> Option<Boresight> {
-        self.hardware.instruments.boresight(self.command.boresight.instrument).map(Boresight::of)
+        instrument_boresight(self.hardware.instruments, self.command.boresight.instrument).map(Boresight::of)
     }
 
     fn aimpoint(&self) -> Option<Aim> {
@@ -149,15 +154,30 @@ impl Reading<'_> {
             mdis: boresight.mdis,
             antenna: boresight.antenna,
             reachable: aim.reachable,
+            clamped: boresight.mdis.is_some_and(|camera| !camera.in_range)
+                || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
         }
     }
 }
 
-/// The phased-array antenna at the Earth. Placeholder until the law of the Sun- and Earth-side geometry stands.
-fn downlink(r: &Reading<'_>) -> Option<Aimed> {
-    let antenna = Boresight::antenna(r.command.boresight.azimuth_rad);
-    let earth = Aim::new(r.surroundings.to_earth(), AimKind::Point)?;
-    let still = PointingProgress { scan_elapsed_s: None, ..*r.progress };
-    Some(Reading { progress: &still, ..*r }.sunward(antenna, earth))
+/// A phased-array antenna at the Earth: at the commanded azimuth where the boresight is an antenna, otherwise where it puts
+/// the Sun in its place. No scan moves it.
+fn antenna_at_the_earth(r: &Reading<'_>) -> Option<Aimed> {
+    let boresight = &r.command.boresight;
+    let commanded = boresight.option == Some(BoresightOption::PhasedArray);
+    let request = DownlinkRequest {
+        antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
+        sun_body: r.progress.downlink_sun_body,
+    };
+    let Downlink { vectors, antenna, antenna_azimuth_rad, clamped } =
+        downlink(&r.surroundings.to_sun(), &r.surroundings.to_earth(), &request)?;
+    Some(Aimed {
+        vectors,
+        mdis: None,
+        antenna: Some(AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad: 0.0 }),
+        reachable: true,
+        clamped,
+        scan_active: false,
+    })
 }

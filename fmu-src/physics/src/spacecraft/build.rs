@@ -10,11 +10,12 @@ use super::build_thermal::{
 };
 use super::checker::Checker;
 use super::description::{
-    CylinderDescription, Description, MassDescription, OpticsDescription, PanelDescription,
-    PlanetMapDescription, PlateDescription, SunshadeDescription, WheelDescription,
+    CylinderDescription, Description, InstrumentDescription, MassDescription, OpticsDescription,
+    PanelDescription, PlanetMapDescription, PlateDescription, SunshadeDescription, WheelDescription,
 };
 use super::document::Document;
 use super::error::SpacecraftError;
+use super::instruments::Instrument;
 use super::mass::{MassProperties, check_inertia};
 use super::optics::Optics;
 use super::panel::{Panel, PanelControl};
@@ -43,6 +44,8 @@ pub struct Spacecraft {
     pub panels: Vec<Panel>,
     /// Reaction wheels.
     pub wheels: Vec<Wheel>,
+    /// Instruments that are pointed.
+    pub instruments: Vec<Instrument>,
     /// Magnitude of each body component of the momentum at which thrusters dump it, in N m s.
     pub dump_threshold_n_m_s: Option<Vector3<f64>>,
     /// Directions the Sun may have.
@@ -63,6 +66,17 @@ pub struct SunKeepIn {
     pub azimuth_rad: f64,
     /// Greatest magnitude of the elevation, in rad.
     pub elevation_rad: f64,
+}
+
+impl SunKeepIn {
+    /// The smaller of both limits.
+    #[must_use]
+    pub fn within(&self, other: &Self) -> Self {
+        Self {
+            azimuth_rad: self.azimuth_rad.min(other.azimuth_rad),
+            elevation_rad: self.elevation_rad.min(other.elevation_rad),
+        }
+    }
 }
 
 impl Spacecraft {
@@ -125,6 +139,11 @@ impl Builder<'_> {
             sunshade: description.sunshade.as_ref().map(|s| self.sunshade(&root.key("sunshade"), s)),
             panels: self.list(&root.key("panels"), description.panels.as_deref(), Self::panel),
             wheels: self.list(&root.key("wheels"), description.wheels.as_deref(), Self::wheel),
+            instruments: self.list(
+                &root.key("instruments"),
+                description.instruments.as_deref(),
+                Self::instrument,
+            ),
             dump_threshold_n_m_s: description.momentum.as_ref().map(|momentum| {
                 let mut axis = 0;
                 Vector3::from(momentum.dump_threshold_n_m_s.map(|value| {
@@ -150,7 +169,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Two plates, the shade's among them, two panels or two wheels with one name could not be told apart.
+    /// Two plates, the shade's among them, two panels, wheels or instruments with one name could not be told apart.
     fn distinct_names(&mut self, description: &Description) {
         let root = Place::root();
         let plate = |plate: &PlateDescription| plate.name.clone();
@@ -167,7 +186,11 @@ impl Builder<'_> {
             named(&root.key("panels"), description.panels.as_deref(), "panel", |panel| panel.name.clone());
         let wheels =
             named(&root.key("wheels"), description.wheels.as_deref(), "wheel", |wheel| wheel.name.clone());
-        for list in [plates, panels, wheels] {
+        let instruments =
+            named(&root.key("instruments"), description.instruments.as_deref(), "instrument", |instrument| {
+                Some(instrument.name.clone())
+            });
+        for list in [plates, panels, wheels, instruments] {
             let mut known: BTreeMap<String, (Place, bool)> = BTreeMap::new();
             for (at, name, is_given) in list {
                 match known.get(&name) {
@@ -390,6 +413,13 @@ impl Builder<'_> {
             name: name_or_number(description.name.as_deref(), "wheel", index),
             axis_body: self.check.unit_vector(&at.key("axis"), description.axis),
             capacity_n_m_s: self.check.positive(&at.key("capacity_n_m_s"), description.capacity_n_m_s),
+        }
+    }
+
+    fn instrument(&mut self, at: &Place, _: usize, description: &InstrumentDescription) -> Instrument {
+        Instrument {
+            name: description.name.clone(),
+            boresight_body: self.check.unit_vector(&at.key("boresight"), description.boresight),
         }
     }
 }

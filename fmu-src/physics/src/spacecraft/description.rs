@@ -31,6 +31,9 @@ pub(crate) struct Description {
     /// Reaction wheels.
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub wheels: Option<Vec<WheelDescription>>,
+    /// Instruments fixed in the body frame, which Guidance points by their number from 1.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub instruments: Option<Vec<InstrumentDescription>>,
     pub momentum: Option<MomentumDescription>,
     pub sun_keep_in: Option<SunKeepInDescription>,
     pub planet_map: Option<PlanetMapDescription>,
@@ -262,6 +265,17 @@ pub(crate) struct WheelDescription {
     /// Greatest momentum of the rotor, in N m s.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub capacity_n_m_s: f64,
+}
+
+/// An instrument.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct InstrumentDescription {
+    /// Name for messages and the manual.
+    pub name: String,
+    /// Unit vector of its boresight, body frame.
+    pub boresight: [f64; 3],
 }
 
 /// Limits of the stored momentum; left out, they are what the wheels guarantee on all body axes at once.

@@ -6,6 +6,7 @@ use physics::bodies::{Body, BodyData};
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements;
 
+use crate::common::variables::followed;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::defaults;
 
@@ -26,8 +27,7 @@ impl<'a> Center<'a> {
 
     /// The value of a parameter, or the centre's own where it was left at `default`.
     fn followed(&self, parameter: Real, default: f64, own: f64) -> f64 {
-        let value = self.values.real(parameter);
-        if self.body != Body::Mercury && value == default { own } else { value }
+        followed(self.values, self.body, parameter, default, own)
     }
 
     /// The centre's data.
@@ -116,31 +116,6 @@ impl<'a> Center<'a> {
 
     /// Elements of the centre's own ellipse about the Sun, in the ecliptic of J2000.
     pub fn ellipse(&self) -> Elements {
-        let ephemeris = &self.variables.ephemeris;
-        let (default, own) = (defaults::PRINTED, Elements::mean_orbit_of(self.body.data()));
-        Elements {
-            semi_major_axis_m: self.followed(
-                ephemeris.semi_major_axis,
-                default.semi_major_axis_m,
-                own.semi_major_axis_m,
-            ),
-            eccentricity: self.followed(ephemeris.eccentricity, default.eccentricity, own.eccentricity),
-            inclination_rad: self.followed(
-                ephemeris.inclination,
-                default.inclination_rad,
-                own.inclination_rad,
-            ),
-            ascending_node_rad: self.followed(
-                ephemeris.ascending_node,
-                default.ascending_node_rad,
-                own.ascending_node_rad,
-            ),
-            periapsis_argument_rad: self.followed(
-                ephemeris.periapsis_argument,
-                default.periapsis_argument_rad,
-                own.periapsis_argument_rad,
-            ),
-            true_anomaly_rad: self.values.real(ephemeris.true_anomaly),
-        }
+        self.variables.ephemeris.ellipse(self.values, self.body)
     }
 }

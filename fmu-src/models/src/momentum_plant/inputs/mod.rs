@@ -13,7 +13,6 @@ use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::paper004::KeplerPlanet;
 use physics::environment::time;
-use physics::guidance::{self, Guided, Schedule};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
     self, Configuration, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
@@ -24,9 +23,8 @@ use self::center::Center;
 use self::state::PlantState;
 use super::setup::Plan;
 use super::variables::PlantVariables;
-use super::variables::choices::{
-    AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource, PanelTilt, ScienceRule,
-};
+use super::variables::choices::{AttitudeSource, DumpReinitTo, OrbitDynamics, OrbitSource, PanelTilt};
+use crate::common::choices::EphemerisSource;
 use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
@@ -237,33 +235,12 @@ fn attitude(
     match values.choice(variables.attitude.source) {
         Some(AttitudeSource::Commanded) => Ok(plant::AttitudeSource::Commanded(state.command)),
         Some(AttitudeSource::Guided) | None => {
-            let guided = &variables.guided;
-            let planet = center.is_planet();
-            let [start_s, end_s] = [guided.downlink_start, guided.downlink_end].map(|time| values.real(time));
-            if values.integer(guided.downlink_every) != 0 && start_s > end_s {
-                return Err(Failure::new(format!(
-                    "guided.downlinkStart, guided.downlinkEnd: found {start_s:?} s and {end_s:?} s, allowed: a start not \
-                     after the end; guided.downlinkEvery = 0 for no downlink"
-                )));
-            }
-            Ok(plant::AttitudeSource::Guided(Guided {
-                schedule: Schedule {
-                    periapsis_s: orbit.periapsis_epoch_s(0),
-                    period_s: if planet { orbit.period_s() } else { f64::INFINITY },
-                    downlink_start_s: start_s,
-                    downlink_end_s: end_s,
-                    every: values.integer(guided.downlink_every).unsigned_abs(),
-                },
-                science: match values.choice(guided.science_rule) {
-                    Some(ScienceRule::Nadir) => guidance::ScienceRule::Nadir,
-                    Some(ScienceRule::FixedToSunLine) => guidance::ScienceRule::PlanetOrbit,
-                    Some(ScienceRule::Scaled) | None => {
-                        guidance::ScienceRule::Scaled { gain: values.real(guided.science_gain) }
-                    }
-                },
-                elevation_limit_rad: values.real(variables.keep_in.elevation),
-                slew_rate_rad_s: values.real(guided.slew_rate),
-            }))
+            let period_s = if center.is_planet() { orbit.period_s() } else { f64::INFINITY };
+            let elevation_limit_rad = values.real(variables.keep_in.elevation);
+            variables
+                .guided
+                .read(values, orbit.periapsis_epoch_s(0), period_s, elevation_limit_rad)
+                .map(plant::AttitudeSource::Guided)
         }
         Some(AttitudeSource::Controlled) => Err(refused("controlled")),
         Some(AttitudeSource::Free) => Err(refused("free")),

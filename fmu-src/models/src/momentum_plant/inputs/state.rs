@@ -9,10 +9,9 @@ use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
 use serde::{Deserialize, Serialize};
 
+use crate::common::choices::{CommandKind, EphemerisSource, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
-use crate::momentum_plant::variables::choices::{
-    AttitudeSource, CommandKind, EphemerisSource, OrbitCenter, OrbitSource,
-};
+use crate::momentum_plant::variables::choices::{AttitudeSource, OrbitSource};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -1,7 +1,6 @@
 //! The plant's choices.
 
 use fmi_export::Enumeration;
-use physics::bodies::Body;
 use physics::environment::frames::Frame;
 use physics::momentum::Convention;
 use physics::spacecraft;
@@ -19,50 +18,6 @@ pub enum AttitudeSource {
     Controlled = 3,
     /// Rigid body and wheels driven by wheel-torque inputs; not in this version.
     Free = 4,
-}
-
-/// What a command gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum CommandKind {
-    /// No command yet: the attitude is held.
-    None = 0,
-    /// Attitude command.q and rate command.rate.
-    Attitude = 1,
-    /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
-    /// command.rate.
-    ErrorQuaternion = 2,
-    /// The attitude held turns on with command.rate.
-    RateOnly = 3,
-}
-
-/// Pitch during science.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum ScienceRule {
-    /// Sun elevation is a fraction of (Sun-nadir angle - 90 deg), within the keep-in zone.
-    Scaled = 1,
-    /// Z points to nadir as far as the keep-in zone allows.
-    Nadir = 2,
-    /// Fixed to the Sun line: -Y from the planet to the Sun, -Z to the north of the planet's orbit, as in paper 004; no
-    /// keep-in zone.
-    FixedToSunLine = 3,
-}
-
-enumeration_of! {
-    /// Central body.
-    OrbitCenter(Body) {
-        /// Mercury.
-        mercury = 1 => Mercury,
-        /// The Sun.
-        sun = 2 => Sun,
-        /// Venus.
-        venus = 3 => Venus,
-        /// The Earth.
-        earth = 4 => Earth,
-        /// Mars.
-        mars = 6 => Mars,
-        /// Jupiter.
-        jupiter = 7 => Jupiter,
-    }
 }
 
 /// Origin of the orbit.
@@ -95,18 +50,6 @@ enumeration_of! {
         /// Ecliptic and equinox of J2000.
         ecliptic = 4 => Ecliptic,
     }
-}
-
-/// Origin of the Sun's and the planets' positions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum EphemerisSource {
-    /// The analytic theory VSOP87.
-    Vsop87 = 1,
-    /// The planet on an ellipse about the Sun by ephemeris.semiMajorAxis and so on, as paper 004 prints it; the Earth by
-    /// VSOP87.
-    Kepler = 2,
-    /// The inputs sun.position and earth.position.
-    Inputs = 3,
 }
 
 enumeration_of! {

@@ -1,11 +1,7 @@
 //! Start values that are computed or come from the spacecraft.
 
 use physics::bodies::{Body, BodyData};
-use physics::environment::{
-    ephemeris,
-    orbit::{self, Elements},
-    paper004, sun, time,
-};
+use physics::environment::{ephemeris, orbit, paper004, sun, time};
 use physics::spacecraft::{self, SunKeepIn};
 
 use super::choices::PanelTilt;
@@ -23,8 +19,6 @@ pub const ECCENTRICITY: f64 = paper004::MESSENGER_AS_PRINTED.eccentricity;
 pub const INCLINATION_RAD: f64 = paper004::MESSENGER_AS_PRINTED.inclination_rad;
 pub const ASCENDING_NODE_RAD: f64 = paper004::MESSENGER_AS_PRINTED.ascending_node_rad;
 pub const PERIAPSIS_ARGUMENT_RAD: f64 = paper004::MESSENGER_AS_PRINTED.periapsis_argument_rad;
-/// Mercury's orbit as paper 004 prints it.
-pub const PRINTED: Elements = paper004::MERCURY_AS_PRINTED;
 
 /// The semi-major axis of a 12 h orbit about Mercury (Kepler's third law).
 pub fn semi_major_axis_m() -> f64 {

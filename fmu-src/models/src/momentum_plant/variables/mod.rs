@@ -16,13 +16,11 @@ use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
-use motion::{AttitudeVariables, CommandVariables, GuidedVariables, OrbitVariables, StartVariables};
-use surroundings::{
-    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables,
-};
+use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
+use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
 
 use super::setup::PlantSetup;
-use crate::common::variables::EclipseVariables;
+use crate::common::variables::{EclipseVariables, EphemerisVariables, GuidedVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]

@@ -1,15 +1,14 @@
 //! Attitude and orbit: where they come from and what they are.
 
-use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
 use physics::bodies::Body;
 use physics::environment::frames::Frame;
 
-use super::choices::{
-    AttitudeSource, CommandKind, OrbitCenter, OrbitDynamics, OrbitFrame, OrbitSource, ScienceRule,
-};
+use super::choices::{AttitudeSource, OrbitDynamics, OrbitFrame, OrbitSource};
 use super::defaults;
+use crate::common::choices::{CommandKind, OrbitCenter};
 
 /// Attitude: where it comes from, and what it is.
 #[derive(Variables)]
@@ -44,30 +43,6 @@ pub struct CommandVariables {
     /// the sensed Sun (paper 001, eq 25). It is turned out once, when command.kind becomes errorQuaternion.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub error: RealVector<4>,
-}
-
-/// The guidance law when attitude.source is guided.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct GuidedVariables {
-    /// How the spacecraft stands while it observes.
-    #[parameter(start = ScienceRule::Scaled)]
-    pub science_rule: Choice<ScienceRule>,
-    /// Sun elevation per (Sun-nadir angle - 90 deg) under the scaled rule; 0.25 is fitted to paper 000's Table 2.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.25)]
-    pub science_gain: Real,
-    /// Begin of downlink after periapsis.
-    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 7_200.0)]
-    pub downlink_start: Real,
-    /// End of downlink after periapsis.
-    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 36_000.0)]
-    pub downlink_end: Real,
-    /// A downlink after every how many periapses; 0 = never.
-    #[parameter(min = 0, max = 1_000, start = 2)]
-    pub downlink_every: Integer,
-    /// Turn rate between science and downlink attitudes; 0 = at once, as in paper 000.
-    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = 0.0)]
-    pub slew_rate: Real,
 }
 
 /// Where the flight starts.

@@ -1,9 +1,8 @@
 //! Planet, Sun and Earth.
 
-use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use fmi_export::{Boolean, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
-use super::choices::EphemerisSource;
 use super::defaults;
 use crate::common::variables::SurfaceVariables;
 
@@ -35,34 +34,6 @@ pub struct PlanetVariables {
     /// From the spacecraft to the planet's centre, body frame; 0 without a planet, that is with orbit.center sun.
     #[output(unit = "m", display = "km", nominal = 1e7)]
     pub position_body: RealVector<3>,
-}
-
-/// Positions of the Sun, the orbit's centre and the Earth.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct EphemerisVariables {
-    /// Where the positions of Sun and Earth come from.
-    #[parameter(start = EphemerisSource::Vsop87)]
-    pub source: Choice<EphemerisSource>,
-    /// Semi-major axis of the planet's orbit about the Sun when source is kepler; elements are in the ecliptic and
-    /// equinox of J2000, paper 004's Table 4 (whose axis is printed a digit short).
-    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = defaults::PRINTED.semi_major_axis_m)]
-    pub semi_major_axis: Real,
-    /// Its eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = defaults::PRINTED.eccentricity)]
-    pub eccentricity: Real,
-    /// Its inclination.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::PRINTED.inclination_rad)]
-    pub inclination: Real,
-    /// Longitude of its ascending node.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PRINTED.ascending_node_rad)]
-    pub ascending_node: Real,
-    /// Its argument of perihelion; paper 004 uses Mercury's longitude of perihelion, 77.46 deg, in its place.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PRINTED.periapsis_argument_rad)]
-    pub periapsis_argument: Real,
-    /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PRINTED.true_anomaly_rad)]
-    pub true_anomaly: Real,
 }
 
 /// Sunlight.

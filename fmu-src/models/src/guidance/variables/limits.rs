@@ -1,0 +1,143 @@
+//! Constraints, modes and hardware limits.
+
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::guidance::{boresight, downlink, keep_in, modes};
+
+use super::super::setup::GuidanceSetup;
+use super::choices::{AntennaSelect, KeepInMethod};
+
+/// Sun keep-in zone. The timeline can switch and resize it.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct KeepInVariables {
+    /// Whether commands keep the Sun inside the zone.
+    #[parameter(tunable, start = setup.spacecraft.sun_keep_in.is_some())]
+    pub enabled: Boolean,
+    /// Largest Sun azimuth either way, in the zone's frame.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.keep_in().azimuth_rad)]
+    pub azimuth: Real,
+    /// Largest Sun elevation either way, in the zone's frame.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.keep_in().elevation_rad)]
+    pub elevation: Real,
+    /// Centre of the zone, body frame, of any length: the zone's frame is the body's, turned by the smallest rotation that
+    /// takes -Y to it. Also the boresight of Earth Acquisition.
+    #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
+    pub axis: RealVector<3>,
+    /// Where a Sun outside is put.
+    #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]
+    pub method: Choice<KeepInMethod>,
+}
+
+/// The zone of Safe Hold.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct SafeHoldZoneVariables {
+    /// Largest Sun azimuth either way in Safe Hold.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.keep_in().azimuth_rad)]
+    pub azimuth: Real,
+    /// Largest Sun elevation either way in Safe Hold.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.keep_in().elevation_rad)]
+    pub elevation: Real,
+}
+
+/// Safe Hold.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct SafeHoldVariables {
+    #[group]
+    pub keep_in: SafeHoldZoneVariables,
+}
+
+/// Hot-pole keep-out. Paper 001 prints no numbers: all three are assumed.
+#[derive(Variables)]
+pub struct HotPoleVariables {
+    /// Whether -Z is kept away from the planet over the subsolar region.
+    #[parameter(tunable, start = true)]
+    pub enabled: Boolean,
+    /// Below this height over planet.radii[1] it can be in force (assumed).
+    #[parameter(tunable, unit = "m", display = "km", min = 0.0, max = 1e10, start = 2.0e6)]
+    pub altitude: Real,
+    /// Within this angle from the subsolar point it can be in force (assumed).
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = PI / 6.0)]
+    pub angle: Real,
+    /// While it is in force -Z stays at least so far from the direction to the planet's centre (assumed).
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = FRAC_PI_2)]
+    pub cone: Real,
+}
+
+/// The constraint monitor.
+#[derive(Variables)]
+pub struct MonitorVariables {
+    /// Whether a violation that lasts demotes the mode.
+    #[parameter(tunable, start = true)]
+    pub enabled: Boolean,
+    /// How long the estimated attitude may violate a constraint (assumed; paper 001: some short period).
+    #[parameter(tunable, unit = "s", min = 0.0, max = 1e9, start = 10.0)]
+    pub persistence: Real,
+    /// How far beyond the boundary counts as a violation (assumed; paper 001: not triggered by overshoot).
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = PI / 180.0)]
+    pub margin: Real,
+}
+
+/// The MDIS camera on its scan platform about X.
+#[derive(Variables)]
+pub struct MdisVariables {
+    /// Smallest angle from +Z: away from the Sun.
+    #[parameter(unit = "rad", display = "deg", min = -PI, max = PI, start = boresight::MDIS_RANGE_RAD[0])]
+    pub minimum: Real,
+    /// Greatest angle from +Z: sunward.
+    #[parameter(unit = "rad", display = "deg", min = -PI, max = PI, start = boresight::MDIS_RANGE_RAD[1])]
+    pub maximum: Real,
+    /// Angle of the camera in the scenarios mdis and doubleTarget and with the boresight option mdis; else 0.
+    #[output(discrete, unit = "rad", display = "deg")]
+    pub angle: Real,
+    /// Whether that is what was asked for; false: clamped to the nearest bound.
+    #[output]
+    pub in_range: Boolean,
+}
+
+/// The phased-array antennas.
+#[derive(Variables)]
+pub struct AntennaVariables {
+    /// The antenna in use.
+    #[output]
+    pub select: Choice<AntennaSelect>,
+    /// Its beam's azimuth in the body frame, from -Y toward +X.
+    #[output(discrete, unit = "rad", display = "deg")]
+    pub azimuth: Real,
+}
+
+/// The radio link with the Earth.
+#[derive(Variables)]
+pub struct LinkVariables {
+    /// The Sun's neighbourhood in the sky, where there is no link (assumed; paper 001 names no angle).
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = downlink::SOLAR_EXCLUSION_RAD)]
+    pub sun_exclusion: Real,
+    /// Half width of an antenna's beam across its plane (paper 001: 15 by 4 deg).
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = downlink::BEAM_HALF_WIDTH_RAD)]
+    pub beam: Real,
+    /// Whether an antenna covers the Earth, neither behind the planet nor near the Sun.
+    #[output]
+    pub available: Boolean,
+}
+
+/// Earth Acquisition.
+#[derive(Variables)]
+pub struct EarthAcquisitionVariables {
+    /// Rate about the boresight keepIn.axis (assumed; paper 001: slow).
+    #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = modes::EARTH_ACQUISITION_RATE_RAD_S)]
+    pub rate: Real,
+}
+
+/// Search for the Sun.
+#[derive(Variables)]
+pub struct SunSearchVariables {
+    /// Rate about X, Y and Z in turn (assumed; paper 001: slow).
+    #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = modes::SUN_SEARCH_RATE_RAD_S)]
+    pub rate: Real,
+    /// How long about each (assumed): the default is a whole turn.
+    #[parameter(tunable, unit = "s", min = 1.0, max = 1e9, start = TAU / modes::SUN_SEARCH_RATE_RAD_S)]
+    pub duration: Real,
+}

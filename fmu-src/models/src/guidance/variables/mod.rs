@@ -1,0 +1,102 @@
+//! Guidance's variables at its public face.
+
+pub mod choices;
+pub mod commands;
+pub mod limits;
+pub mod outputs;
+pub mod surroundings;
+
+use fmi_export::{Real, RealVector, Variables};
+
+use super::setup::GuidanceSetup;
+use crate::common::variables::{EphemerisVariables, GuidedVariables, WorkLimit};
+use commands::{
+    AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
+    ModeVariables, PointingVariables, ScanVariables,
+};
+use limits::{
+    AntennaVariables, EarthAcquisitionVariables, HotPoleVariables, KeepInVariables, LinkVariables,
+    MdisVariables, MonitorVariables, SafeHoldVariables, SunSearchVariables,
+};
+use outputs::{CommandVariables, ConstraintVariables, GeometryVariables};
+use surroundings::{
+    EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SubsolarVariables, SunVariables,
+    TargetVariables,
+};
+
+/// Every variable of guidance, in the order of the XML.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct GuidanceVariables {
+    #[group]
+    pub command: CommandVariables,
+    #[group]
+    pub mode: ModeVariables,
+    #[group]
+    pub start: StartVariables,
+    #[group]
+    pub target: TargetVariables,
+    #[group]
+    pub planet: PlanetVariables,
+    #[group]
+    pub ephemeris: EphemerisVariables,
+    #[group]
+    pub subsolar: SubsolarVariables,
+    #[group]
+    pub keep_in: KeepInVariables,
+    #[group]
+    pub safe_hold: SafeHoldVariables,
+    #[group]
+    pub hot_pole: HotPoleVariables,
+    #[group]
+    pub monitor: MonitorVariables,
+    #[group]
+    pub mdis: MdisVariables,
+    #[group]
+    pub antenna: AntennaVariables,
+    #[group]
+    pub link: LinkVariables,
+    #[group]
+    pub earth_acquisition: EarthAcquisitionVariables,
+    #[group]
+    pub sun_search: SunSearchVariables,
+    #[group]
+    pub guided: GuidedVariables,
+    #[group]
+    pub pointing: PointingVariables,
+    #[group]
+    pub boresight: BoresightVariables,
+    #[group]
+    pub aimpoint: AimpointVariables,
+    #[group]
+    pub second_aimpoint: AimpointVariables,
+    #[group]
+    pub body_roll: BodyRollVariables,
+    #[group]
+    pub external_roll: ExternalRollVariables,
+    #[group]
+    pub limb: LimbVariables,
+    #[group]
+    pub scan: ScanVariables,
+    #[group]
+    pub sun: SunVariables,
+    #[group]
+    pub earth: EarthVariables,
+    #[group]
+    pub estimate: EstimateVariables,
+    #[group]
+    pub geometry: GeometryVariables,
+    #[group]
+    pub constraint: ConstraintVariables,
+    #[group]
+    pub solver: WorkLimit,
+    /// Position of the spacecraft about the target planet in EME2000; zero: not connected yet.
+    #[input(unit = "m", display = "km", start = [0.0; 3])]
+    pub position: RealVector<3>,
+    /// Its velocity.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
+    /// Time, in seconds past J2000 TDB.
+    #[output(unit = "s", display = "d", nominal = 1e8)]
+    pub epoch: Real,
+}

@@ -1,0 +1,119 @@
+//! Where everything is, and what is known of the spacecraft.
+
+use core::f64::consts::PI;
+
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::bodies::{Body, BodyData};
+use physics::environment::{ephemeris, time};
+use physics::guidance::lighting;
+
+use super::choices::SubsolarMethod;
+use crate::common::choices::OrbitCenter;
+
+const MERCURY: &BodyData = Body::Mercury.data();
+
+/// Where the flight starts.
+#[derive(Variables)]
+pub struct StartVariables {
+    /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
+    #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
+    pub epoch: Real,
+    /// Attitude quaternion, scalar last, from EME2000 to body, held until there is a command.
+    #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    pub q: RealVector<4>,
+}
+
+/// What is observed.
+#[derive(Variables)]
+pub struct TargetVariables {
+    /// The planet that is observed, from whose centre positions count.
+    #[parameter(start = OrbitCenter(Body::Mercury))]
+    pub planet: Choice<OrbitCenter>,
+    /// Whether the boresight is on the aimpoint; false: clamped, constrained, or there is no such point.
+    #[output]
+    pub reachable: Boolean,
+}
+
+/// Shape, pole and rotation of the target planet.
+#[derive(Variables)]
+pub struct PlanetVariables {
+    /// Radii of the ellipsoid along the planet's x, y and z. This and all that follows of the planet is Mercury's by
+    /// default; with another target.planet what is left at that default is that body's own.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = [MERCURY.radius_m; 3])]
+    pub radii: RealVector<3>,
+    /// Right ascension of its north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY.pole_right_ascension_rad)]
+    pub pole_right_ascension: Real,
+    /// Declination of its north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY.pole_declination_rad)]
+    pub pole_declination: Real,
+    /// Prime meridian at J2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY.prime_meridian_rad)]
+    pub prime_meridian: Real,
+    /// Rotation rate.
+    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = MERCURY.rotation_rate_rad_s)]
+    pub rotation_rate: Real,
+    /// Gravitational parameter: by the acceleration it gives, the rate of a frame that follows the velocity.
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = MERCURY.gm_m3_s2)]
+    pub gravitational_parameter: Real,
+}
+
+/// The subsolar point.
+#[derive(Variables)]
+pub struct SubsolarVariables {
+    /// Which point of the ellipsoid it is.
+    #[parameter(start = SubsolarMethod(lighting::SubsolarMethod::Normal))]
+    pub method: Choice<SubsolarMethod>,
+}
+
+/// The Sun.
+#[derive(Variables)]
+pub struct SunVariables {
+    /// Sun's position from the target planet in EME2000 when ephemeris.source is inputs; zero: not connected yet.
+    #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    pub position: RealVector<3>,
+    /// Its velocity.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
+    /// Direction of the Sun as its sensors see it, body frame, of any length.
+    #[input(unit = "1", start = [0.0; 3])]
+    pub sensed: RealVector<3>,
+    /// Whether they see it.
+    #[input(start = false)]
+    pub sensed_valid: Boolean,
+    /// Azimuth of the Sun in the commanded body frame, from -Y toward +X.
+    #[output(unit = "rad", display = "deg")]
+    pub azimuth: Real,
+    /// Elevation of the Sun in the commanded body frame, positive toward -Z.
+    #[output(unit = "rad", display = "deg")]
+    pub elevation: Real,
+}
+
+/// The Earth.
+#[derive(Variables)]
+pub struct EarthVariables {
+    /// Earth's position from the target planet in EME2000 when ephemeris.source is inputs; zero: not connected yet.
+    #[input(unit = "m", display = "AU", start = [0.0; 3])]
+    pub position: RealVector<3>,
+    /// Its velocity.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
+    /// Angle between Sun and Earth as seen from the spacecraft.
+    #[output(discrete, unit = "rad", display = "deg")]
+    pub sun_separation: Real,
+}
+
+/// The attitude as star tracker and gyros give it.
+#[derive(Variables)]
+pub struct EstimateVariables {
+    /// Attitude quaternion, scalar last, from EME2000 to body; what the monitor watches. 0: not connected yet, it watches
+    /// nothing.
+    #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
+    pub q: RealVector<4>,
+    /// Body rate.
+    #[input(unit = "rad/s", display = "deg/s", min = -PI, max = PI, start = [0.0; 3])]
+    pub rate: RealVector<3>,
+    /// Whether the attitude is known.
+    #[input(start = true)]
+    pub valid: Boolean,
+}
