@@ -1,6 +1,7 @@
 //! Everything that a model declares, free of any version of FMI, and its digest.
 
 use core::fmt::{Display, Write};
+use std::collections::BTreeMap;
 
 use super::Values;
 use super::variable::{Element, EnumerationType, Item, Kind, Variable};
@@ -21,7 +22,7 @@ impl Interface {
     /// A text that changes exactly when a declaration, a start value or a dependency changes. Every entry carries its length,
     /// so no two interfaces share a text.
     pub(crate) fn canonical(&self, dependencies: &Dependencies) -> String {
-        let mut out = Canonical("interface 1\n".to_owned());
+        let mut out = Canonical { text: "interface 1\n".to_owned(), value: String::new() };
         for EnumerationType { name, description, items } in &self.enumerations {
             out.entry("enumeration", name);
             out.entry("description", description);
@@ -47,9 +48,10 @@ impl Interface {
                 self.start(&mut out, element);
             }
         }
-        out.rows("step", dependencies.at_steps());
-        out.rows("start", dependencies.at_start());
-        out.0
+        let mut lines = KnownLines::default();
+        out.rows("step", dependencies.at_steps(), &mut lines);
+        out.rows("start", dependencies.at_start(), &mut lines);
+        out.text
     }
 
     fn start(&self, out: &mut Canonical, element: Element) {
@@ -63,13 +65,20 @@ impl Interface {
     }
 }
 
-struct Canonical(String);
+struct Canonical {
+    text: String,
+    /// Spare memory for one value.
+    value: String,
+}
 
 impl Canonical {
     fn entry(&mut self, what: &str, value: impl Display) {
-        let value = value.to_string();
+        self.value.clear();
         // Writing to a String cannot fail.
-        let _ = writeln!(self.0, "{what} {}:{value}", value.len());
+        let _ = write!(self.value, "{value}");
+        let _ = write!(self.text, "{what} {}:", self.value.len());
+        self.text.push_str(&self.value);
+        self.text.push('\n');
     }
 
     fn option(&mut self, what: &str, value: Option<impl Display>) {
@@ -106,13 +115,39 @@ impl Canonical {
         }
     }
 
-    fn rows<'a>(&mut self, when: &str, rows: impl Iterator<Item = (&'a Element, &'a Knowns)>) {
+    fn rows(&mut self, when: &str, rows: &BTreeMap<Element, Knowns>, lines: &mut KnownLines) {
+        // Elements of one array often depend on the same.
+        let mut previous = None;
         for (unknown, knowns) in rows {
             self.element(when, *unknown);
-            for known in knowns.elements() {
-                self.element("known", known);
+            let begin = self.text.len();
+            match previous.take() {
+                Some((same, span)) if same == knowns => self.text.extend_from_within(span),
+                _ => knowns.elements().for_each(|known| self.text.push_str(lines.of(known))),
             }
+            previous = Some((knowns, begin..self.text.len()));
         }
+    }
+}
+
+/// What a row says of each of its knowns, by table and place: the same elements come again in most rows.
+#[derive(Default)]
+struct KnownLines([Vec<String>; Element::TABLES]);
+
+impl KnownLines {
+    fn of(&mut self, known: Element) -> &str {
+        let lines = &mut self.0[known.table()];
+        let at = known.place() as usize;
+        if lines.len() <= at {
+            lines.resize(at + 1, String::new());
+        }
+        let line = &mut lines[at];
+        if line.is_empty() {
+            let mut out = Canonical { text: String::new(), value: String::new() };
+            out.element("known", known);
+            *line = out.text;
+        }
+        line
     }
 }
 
