@@ -19,10 +19,11 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// A text that changes exactly when a declaration, a start value or a dependency changes. Every entry carries its length,
+    /// Appends a text that changes exactly when a declaration, a start value or a dependency changes. Every entry carries its length,
     /// so no two interfaces share a text.
-    pub(crate) fn canonical(&self, dependencies: &Dependencies) -> String {
-        let mut out = Canonical { text: "interface 1\n".to_owned(), value: String::new() };
+    pub(crate) fn canonical(&self, dependencies: &Dependencies, text: &mut String) {
+        text.push_str("interface 1\n");
+        let mut out = Canonical { text, value: String::new() };
         for EnumerationType { name, description, items } in &self.enumerations {
             out.entry("enumeration", name);
             out.entry("description", description);
@@ -51,10 +52,9 @@ impl Interface {
         let mut lines = KnownLines::default();
         out.rows("step", dependencies.at_steps(), &mut lines);
         out.rows("start", dependencies.at_start(), &mut lines);
-        out.text
     }
 
-    fn start(&self, out: &mut Canonical, element: Element) {
+    fn start(&self, out: &mut Canonical<'_>, element: Element) {
         let at = element.place() as usize;
         match element {
             Element::Real(_) => out.option("start", self.start.reals.get(at).map(|value| value.to_bits())),
@@ -65,13 +65,13 @@ impl Interface {
     }
 }
 
-struct Canonical {
-    text: String,
+struct Canonical<'a> {
+    text: &'a mut String,
     /// Spare memory for one value.
     value: String,
 }
 
-impl Canonical {
+impl Canonical<'_> {
     fn entry(&mut self, what: &str, value: impl Display) {
         self.value.clear();
         // Writing to a String cannot fail.
@@ -143,9 +143,7 @@ impl KnownLines {
         }
         let line = &mut lines[at];
         if line.is_empty() {
-            let mut out = Canonical { text: String::new(), value: String::new() };
-            out.element("known", known);
-            *line = out.text;
+            Canonical { text: line, value: String::new() }.element("known", known);
         }
         line
     }
@@ -193,6 +191,12 @@ mod tests {
         (scope.finish(), dependencies, handles)
     }
 
+    fn canonical(interface: &Interface, dependencies: &Dependencies) -> String {
+        let mut text = String::new();
+        interface.canonical(dependencies, &mut text);
+        text
+    }
+
     #[test]
     fn every_fact_enters() {
         type Change = (&'static str, fn(&mut Interface, &mut Dependencies, &Handles));
@@ -229,11 +233,11 @@ mod tests {
             ("dependency at the start", |_, table, h| table.output(h.output, knowns![], h.count)),
         ];
         let (base, table, _) = declared();
-        let base = base.canonical(&table);
+        let base = canonical(&base, &table);
         for (what, change) in changes {
             let (mut interface, mut table, handles) = declared();
             change(&mut interface, &mut table, &handles);
-            assert_ne!(interface.canonical(&table), base, "{what}");
+            assert_ne!(canonical(&interface, &table), base, "{what}");
         }
     }
 
@@ -243,6 +247,6 @@ mod tests {
         one.variables[0].description = "x\ncausality 5:input".to_owned();
         let (mut two, _, _) = declared();
         two.variables[0].description = "x".to_owned();
-        assert_ne!(one.canonical(&table), two.canonical(&table));
+        assert_ne!(canonical(&one, &table), canonical(&two, &table));
     }
 }
