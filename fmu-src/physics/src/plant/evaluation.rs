@@ -7,6 +7,7 @@ use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel};
+use crate::numerics::spacing::spacing;
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
 use crate::spacecraft::Panel;
 
@@ -188,6 +189,10 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
     fn events(&mut self, time_s: f64) -> EventValues {
         self.searched_units = self.searched_units.saturating_add(1);
         self.instant(time_s).events
+    }
+
+    fn time_rounding_s(&self, time_s: f64) -> f64 {
+        spacing(time_s).max(spacing(time_s + self.configuration.epoch_minus_time_s))
     }
 
     fn spend(&mut self, effort: Effort, time_s: f64) -> Result<(), PlantError> {

@@ -6,7 +6,7 @@
 
 use crate::attitude::MovingFrame;
 use crate::guidance::Activity;
-use crate::momentum::{EventValues, after_event_s};
+use crate::momentum::{EventValues, TorqueModel, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::first_change_s;
@@ -141,10 +141,11 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         let first = self.instant(after_s);
         let limit_s = self.attitude_until_s(after_s, &first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
+        let rounding_s = self.time_rounding_s(limit_s);
         let events = |at_s: f64| {
             self.searched_units = self.searched_units.saturating_add(1);
             self.instant(at_s).events
         };
-        first_event(after_s, start_s, limit_s, &samples, events).unwrap_or(limit_s)
+        first_event(after_s, start_s, limit_s, rounding_s, &samples, events).unwrap_or(limit_s)
     }
 }
