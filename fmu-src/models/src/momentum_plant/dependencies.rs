@@ -38,6 +38,8 @@ struct Start {
     elements: Knowns,
     /// The right ascension of the pole turns the orbit about EME2000's Z axis.
     turned_about_z: Knowns,
+    /// Where Sun and planets are.
+    ephemeris: Knowns,
     /// Where the Sun is from the spacecraft.
     sun: Knowns,
     /// The same along Z of EME2000.
@@ -95,6 +97,7 @@ impl Start {
             awaited,
             elements,
             turned_about_z,
+            ephemeris,
             sun,
             sun_z,
             attitude,
@@ -136,6 +139,16 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
             knowns![&start.rate, rate],
         );
     }
+    let orbit_given = &knowns![orbit.position, orbit.velocity];
+    let sources = &knowns![orbit.source, orbit.center, v.ephemeris.source, orbit_given, &start.ephemeris];
+    for axis in 0..3 {
+        let [sun, earth] = [v.sun.position, v.earth.position].map(|it| it.element(axis));
+        table.output(v.sun.position_inertial.element(axis), knowns![orbit_given, sun], knowns![sources, sun]);
+        let seen = knowns![orbit_given, v.sun.position, earth];
+        table.output(v.earth.position_inertial.element(axis), &seen, knowns![sources, &seen]);
+    }
+    table.output(v.sun.velocity_inertial, orbit_given, sources);
+    table.output(v.earth.velocity_inertial, orbit_given, sources);
     let shape = knowns![orbit.semi_major_axis, orbit.eccentricity, orbit.true_anomaly];
     table.output(orbit.time_since_periapsis, &inputs.places, knowns![&start.begun, shape, gm]);
     table.output(v.sun.distance, &inputs.places, &start.sun);
