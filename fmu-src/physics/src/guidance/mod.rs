@@ -8,6 +8,7 @@ pub mod law;
 pub mod moving;
 mod schedule;
 pub mod surroundings;
+pub mod timeline;
 
 pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, science, sun_pointing};
 pub use guided::{Guided, GuidedAttitude};
