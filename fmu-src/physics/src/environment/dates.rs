@@ -93,6 +93,18 @@ pub fn epoch_s(text: &str) -> Result<f64, DateError> {
     Ok(before.to_tdb_seconds() + 1.0)
 }
 
+/// The UTC date of an epoch after 1972, to the millisecond, as [`epoch_s`] reads it.
+pub fn utc(epoch_s: f64) -> String {
+    // Half a millisecond more, for what follows is cut off.
+    let epoch = Epoch::from_tdb_seconds(epoch_s + 5e-4);
+    let (year, month, day, hour, minute, second, nanoseconds) = epoch.to_gregorian(TimeScale::UTC);
+    let milliseconds = match nanoseconds / 1_000_000 {
+        0 => String::new(),
+        milliseconds => format!(".{milliseconds:03}"),
+    };
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}{milliseconds} UTC")
+}
+
 /// Numbers of so many digits between separators.
 fn numbers<const N: usize>(text: &str, separator: char, digits: [usize; N]) -> Option<[u32; N]> {
     let mut parts = text.split(separator);
@@ -181,6 +193,19 @@ mod tests {
         );
         // A midnight without one.
         assert_abs_diff_eq!(s("2018-01-01T00:00:00 UTC") - s("2017-12-31T23:59:59 UTC"), 1.0, epsilon = 1e-6);
+    }
+
+    #[test]
+    fn a_date_is_written_as_it_was_read() {
+        for date in [
+            "1972-01-01T00:00:00 UTC",
+            "2008-03-19T19:30:00 UTC",
+            "2016-12-31T23:59:59.250 UTC",
+            "2017-01-01T00:00:00 UTC",
+            "2099-12-31T23:59:59.999 UTC",
+        ] {
+            assert_eq!(utc(epoch_s(date).unwrap()), date);
+        }
     }
 
     #[test]

@@ -161,7 +161,8 @@ fn instant(check: &mut Checker<'_>, at: &Place, quantity: &Quantity) -> Option<I
     }
     let time_s = quantity.si(&TIME);
     if time_s.is_none() {
-        let allowed = format!("{ALLOWED_DATE}, or FMI time: {TIME}");
+        let allowed =
+            format!("{ALLOWED_DATE}; or FMI time: a number in s or a string with a unit (\"90 min\")");
         check.report(at, quantity, allowed);
     }
     let time_s = check.finite(at, time_s?);
