@@ -2,10 +2,12 @@
 
 mod common;
 mod disturbance_torque;
+mod guidance;
 mod momentum_plant;
 mod sources;
 mod spin_plant;
 
 pub use disturbance_torque::{DisturbanceSetup, DisturbanceTorque};
+pub use guidance::Guidance;
 pub use momentum_plant::{MomentumPlant, PlantSetup};
 pub use spin_plant::SpinPlant;

@@ -197,3 +197,76 @@ pub const DISTURBANCE_TORQUE: &[Source] = &[
     source("input derivatives", "any order for every input, all taken where the step ends"),
     source("outputs", "those of the inputs at the end of the last step: set inputs, step, read"),
 ];
+
+/// Of `Guidance`.
+pub const GUIDANCE: &[Source] = &[
+    PAPER_001,
+    PAPER_000,
+    source(
+        "attitude and rate",
+        "paper 001 eqs 1 to 16 with the rates of eqs 8 to 13 along the prime axes, rotated to the body by C_B/P; every vector \
+         carries its time derivative, so that the rate is exact for every law",
+    ),
+    source(
+        "roll vectors that give no roll",
+        "geometry.degenerate: an external roll reference along the aimpoint gives way to the north of EME2000, then to the \
+         equinox; a body roll vector along the boresight to -Y, then to +Z. Without a direction of boresight or aimpoint the \
+         last command stays",
+    ),
+    source(
+        "samples",
+        "at whole seconds of time and at the start. A sample belongs to the step that begins at it and reads that step's inputs; \
+         outputs are those of the last sample, command.q and the Sun's angles propagated by command.rate",
+    ),
+    source(
+        "inputs that are 0",
+        "count as not given: the timeline's stand in their place. A zero position, sun.position or earth.position (where \
+         ephemeris.source asks for them) is not connected yet: the last command stays and nothing is judged. A zero estimate.q, \
+         or one that still has its start value, is not connected: the monitor takes the command as flown",
+    ),
+    source(
+        "local frames",
+        "up from the planet to the spacecraft; azimuth right-handed about up from the horizontal part of the velocity \
+         (downtrack) or of the direction from the planet to the Sun; elevation toward up (paper 001, Figure 4, which does not say \
+         the sense of azimuth)",
+    ),
+    source(
+        "optimal lighting",
+        "the greatest cos E cos I on a sphere of planet.radii[1] (eqs 17 to 19, r and alpha at the planet's centre), between nadir \
+         and subsolar point: golden section, then Newton's method on the derivative",
+    ),
+    source(
+        "limb",
+        "eqs 20 to 22 on the triaxial ellipsoid; on the terminator the solution nearer to downtrack, and without one the planet's \
+         centre with target.reachable false",
+    ),
+    source(
+        "scans",
+        "each axis moves for its duration, holds for its pause and moves again, back if it reverses, as often as it has segments; \
+         rotations x, y, z in turn about fixed axes. Which frames go with which aimpoints is an assumption: body and inertial \
+         rotations with all, translations with points, along the planet's axes with points of the planet, rotations in the local \
+         frame with its own directions and the planet. What does not go together is not scanned",
+    ),
+    source(
+        "Sun keep-in",
+        "Table 6: the Sun on the zone's boundary, the boresight as near to the aimpoint as that allows; at the nearest boundary \
+         point, or with keepIn.method clamp at the paper's",
+    ),
+    source(
+        "hot pole",
+        "while the spacecraft is low over the subsolar region -Z stays away from the planet, by the smallest turn about the Sun \
+         line, so that the Sun's place is kept first; its numbers are assumed",
+    ),
+    source(
+        "downlink",
+        "the antenna's azimuth that puts the Sun on -Y: minus the Sun-Earth angle below 90 deg, the angle beyond (paper 000 eqs 18 \
+         to 20); with boresight.option phasedArray the commanded azimuth, -Y rolled toward the Sun",
+    ),
+    source(
+        "modes",
+        "demotion by itself, one mode at a time by the monitor, promotion by mode.request alone, where it changes. Safe Hold flies \
+         downlink whatever is commanded; Earth Acquisition gives eqs 25 and 26 (command to actual) and a turn about the boresight, \
+         keepIn.axis, with the Sun by its sensors or by ephemeris and estimate; without either a rate about X, Y and Z in turn",
+    ),
+    source("input derivatives", "any order for every Real input, taken at each sample"),
+];

@@ -96,13 +96,21 @@ pub fn epoch_s(text: &str) -> Result<f64, DateError> {
 /// The UTC date of an epoch after 1972, to the millisecond, as [`epoch_s`] reads it.
 pub fn utc(epoch_s: f64) -> String {
     // Half a millisecond more, for what follows is cut off.
-    let epoch = Epoch::from_tdb_seconds(epoch_s + 5e-4);
-    let (year, month, day, hour, minute, second, nanoseconds) = epoch.to_gregorian(TimeScale::UTC);
-    let milliseconds = match nanoseconds / 1_000_000 {
-        0 => String::new(),
-        milliseconds => format!(".{milliseconds:03}"),
+    let gregorian =
+        |later_s: f64| Epoch::from_tdb_seconds(epoch_s + later_s + 5e-4).to_gregorian(TimeScale::UTC);
+    let written = |(year, month, day, hour, minute, second, nanoseconds): (i32, u8, u8, u8, u8, u8, u32)| {
+        let fraction = match nanoseconds / 1_000_000 {
+            0 => String::new(),
+            milliseconds => format!(".{milliseconds:03}"),
+        };
+        format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}{fraction} UTC")
     };
-    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}{milliseconds} UTC")
+    let is_right = |date: &String| self::epoch_s(date).is_ok_and(|read_s| (read_s - epoch_s).abs() < 0.5);
+    let found = gregorian(0.0);
+    // Two seconds too early the new offset is taken; the leap second itself has no number there.
+    let leap = (found.0, found.1, found.2, found.3, found.4, found.5 + 1, found.6);
+    let dates = [written(found), written(gregorian(1.0)), written(leap)];
+    dates.iter().find(|date| is_right(date)).unwrap_or(&dates[0]).clone()
 }
 
 /// Numbers of so many digits between separators.
@@ -200,7 +208,9 @@ mod tests {
         for date in [
             "1972-01-01T00:00:00 UTC",
             "2008-03-19T19:30:00 UTC",
+            "2016-12-31T23:59:58 UTC",
             "2016-12-31T23:59:59.250 UTC",
+            "2016-12-31T23:59:60.500 UTC",
             "2017-01-01T00:00:00 UTC",
             "2099-12-31T23:59:59.999 UTC",
         ] {

@@ -1,5 +1,6 @@
 //! Where everything is and what light falls there: time, ephemerides, orbits, eclipse.
 
+pub mod bodies_from_center;
 pub mod dates;
 pub mod eclipse;
 pub mod ephemeris;

@@ -9,6 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
 
+/// Greatest azimuth, longitude or right ascension either way, in rad.
+pub const FULL_TURN_RAD: f64 = core::f64::consts::TAU;
+/// Greatest elevation, latitude or declination either way, in rad.
+pub const RIGHT_ANGLE_RAD: f64 = core::f64::consts::FRAC_PI_2;
+
 /// Sets of vectors under one name (Table 5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -30,6 +35,8 @@ pub enum Scenario {
     LimbTerminator,
     /// An instrument at the limb, at an azimuth about the nadir.
     LimbGeneric,
+    /// Science and downlink in turn, by the windows of the orbit.
+    OrbitPhase,
 }
 
 /// How the boresight is given (Table 1).
@@ -164,7 +171,7 @@ pub struct BoresightCommand {
 }
 
 /// An aimpoint.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AimpointCommand {
     /// What it is.
     pub option: Option<AimpointOption>,
@@ -187,25 +194,7 @@ pub struct AimpointCommand {
     /// Elevation in the local frame, toward up.
     pub elevation_rad: f64,
     /// The body.
-    pub body: Body,
-}
-
-impl Default for AimpointCommand {
-    fn default() -> Self {
-        Self {
-            option: None,
-            vector: Vector3::zeros(),
-            position_m: Vector3::zeros(),
-            right_ascension_rad: 0.0,
-            declination_rad: 0.0,
-            latitude_rad: 0.0,
-            longitude_rad: 0.0,
-            height_m: 0.0,
-            azimuth_rad: 0.0,
-            elevation_rad: 0.0,
-            body: Body::Sun,
-        }
-    }
+    pub body: Option<Body>,
 }
 
 /// The body roll vector.
@@ -239,8 +228,8 @@ pub struct ExternalRollCommand {
 pub struct LimbCommand {
     /// Azimuth about the local vertical, right-handed about up.
     pub azimuth_rad: f64,
-    /// From where it counts.
-    pub reference: AzimuthReference,
+    /// From where it counts; downtrack unless given.
+    pub reference: Option<AzimuthReference>,
     /// Height along the radius of the limb point, when the scenario starts.
     pub height_m: f64,
     /// How it grows, in m/s.
@@ -252,8 +241,8 @@ pub struct LimbCommand {
 pub struct ScanCommand {
     /// Its frame.
     pub frame: Option<ScanFrame>,
-    /// From where the local frame's azimuth counts.
-    pub reference: AzimuthReference,
+    /// From where the local frame's azimuth counts; downtrack unless given.
+    pub reference: Option<AzimuthReference>,
     /// Rates of rotations about x, y, z, in rad/s.
     pub rate_rad_s: [f64; 3],
     /// Speeds of translations along x, y, z, in m/s.
@@ -287,4 +276,63 @@ pub struct PointingCommand {
     pub limb: LimbCommand,
     /// Scan pattern.
     pub scan: ScanCommand,
+}
+
+/// Commands set together field by field.
+macro_rules! field_by_field {
+    ($type:ident { $($field:ident),+ $(,)? }) => {
+        impl $type {
+            /// Field by field: this one where it is not zero or nothing, otherwise the planned one.
+            #[must_use]
+            pub fn over(&self, planned: &Self) -> Self {
+                let nothing = Self::default();
+                Self { $($field: if self.$field == nothing.$field { planned.$field } else { self.$field }),+ }
+            }
+        }
+    };
+}
+
+field_by_field!(BoresightCommand { option, vector, azimuth_rad, elevation_rad, angle_rad, instrument });
+field_by_field!(AimpointCommand {
+    option,
+    vector,
+    position_m,
+    right_ascension_rad,
+    declination_rad,
+    latitude_rad,
+    longitude_rad,
+    height_m,
+    azimuth_rad,
+    elevation_rad,
+    body,
+});
+field_by_field!(BodyRollCommand { option, vector, azimuth_rad, elevation_rad });
+field_by_field!(ExternalRollCommand { option, vector, right_ascension_rad, declination_rad });
+field_by_field!(LimbCommand { azimuth_rad, reference, height_m, height_rate_m_s });
+field_by_field!(ScanCommand {
+    frame,
+    reference,
+    rate_rad_s,
+    speed_m_s,
+    duration_s,
+    pause_s,
+    segments,
+    reverse,
+});
+
+impl PointingCommand {
+    /// Field by field: this one where it is not zero or nothing, otherwise the planned one.
+    #[must_use]
+    pub fn over(&self, planned: &Self) -> Self {
+        Self {
+            scenario: self.scenario.or(planned.scenario),
+            boresight: self.boresight.over(&planned.boresight),
+            aimpoint: self.aimpoint.over(&planned.aimpoint),
+            second_aimpoint: self.second_aimpoint.over(&planned.second_aimpoint),
+            body_roll: self.body_roll.over(&planned.body_roll),
+            external_roll: self.external_roll.over(&planned.external_roll),
+            limb: self.limb.over(&planned.limb),
+            scan: self.scan.over(&planned.scan),
+        }
+    }
 }

@@ -52,6 +52,23 @@ impl PointingVectors {
 }
 
 impl Pointing {
+    /// Of a body frame in motion.
+    pub fn of(frame: &MovingFrame) -> Self {
+        let axes = frame.inertial_from_body.matrix();
+        let rates = axes * frame.rate_body_rad_s.cross_matrix();
+        Self { inertial_from_body: axes.zip_map(&rates, Moving::new), degenerate: false }
+    }
+
+    /// Vectors that give this attitude: +Z at where it looks, -Y rolled to where it is.
+    pub fn vectors(&self) -> PointingVectors {
+        PointingVectors {
+            boresight_body: fixed(Vector3::z()),
+            aimpoint: self.inertial_from_body.column(2).into_owned(),
+            body_roll: fixed(-Vector3::y()),
+            external_roll: -self.inertial_from_body.column(1),
+        }
+    }
+
     /// Body frame and rate.
     pub fn frame(&self) -> MovingFrame {
         MovingFrame {
@@ -83,6 +100,8 @@ fn prime_axes(
     let x = unit(primary)?;
     let given = unit_normal(primary, secondary);
     let z = given.or_else(|| fallbacks.iter().find_map(|other| unit_normal(primary, &fixed(*other))))?;
+    // The less both vectors differ, the less their normal is perpendicular to x.
+    let z = unit(&(z - x * x.dot(&z)))?;
     Some((MovingMatrix::from_columns(&[x, z.cross(&x), z]), given.is_none()))
 }
 

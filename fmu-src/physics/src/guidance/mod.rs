@@ -1,16 +1,40 @@
-//! The commanded attitude: lines of sight, science and downlink attitudes, the orbit's schedule of both; the attitude law
-//! of paper 001 with its pointing options.
+//! The commanded attitude: lines of sight, science and downlink attitudes, the orbit's schedule of both; paper 001's
+//! attitude law with its pointing options, constraints and modes.
 
+pub mod aimpoint;
+pub mod antenna;
 mod attitudes;
+pub mod boresight;
 pub mod command;
+pub mod constraints;
+pub mod downlink;
 mod guided;
+pub mod hot_pole;
+pub mod keep_in;
 pub mod law;
+pub mod lighting;
+pub mod limb;
+pub mod lvlh;
+pub mod modes;
+pub mod monitor;
 pub mod moving;
+pub mod orbit_phase;
+pub mod planet_point;
+pub mod roll;
+pub mod scan;
+pub mod scenario;
+#[cfg(test)]
+mod scenario_tests;
 mod schedule;
 pub mod surroundings;
+pub mod system;
+#[cfg(test)]
+mod test_geometry;
+#[cfg(test)]
+mod test_orbit;
 pub mod timeline;
 
-pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, science, sun_pointing};
+pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, science, sun_pointing};
 pub use guided::{Guided, GuidedAttitude};
 pub use law::{Pointing, PointingVectors};
 pub use schedule::{Activity, Schedule, Window};

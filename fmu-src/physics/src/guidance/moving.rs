@@ -61,6 +61,13 @@ pub fn unit_normal(a: &MovingVector, b: &MovingVector) -> Option<MovingVector> {
     (value(&normal).norm() > PARALLEL_RAD).then(|| unit(&normal)).flatten()
 }
 
+/// Body-frame unit vector of azimuth and elevation in rad, as [`crate::attitude::direction_from_angles`].
+pub fn direction(azimuth: Moving, elevation: Moving) -> MovingVector {
+    let (sin_a, cos_a) = azimuth.sin_cos();
+    let (sin_e, cos_e) = elevation.sin_cos();
+    MovingVector::new(cos_e * sin_a, -cos_e * cos_a, -sin_e)
+}
+
 /// Rotation by `angle_rad` about the axis `0` x, `1` y or `2` z, right-handed.
 pub fn rotation_about(axis: usize, angle_rad: Moving) -> MovingMatrix {
     let (sine, cosine) = angle_rad.sin_cos();

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rotation_about};
+use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rate, rotation_about, value};
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
 
@@ -92,6 +92,28 @@ impl Surroundings {
             earth: of(earth),
             bodies: [None; Body::ALL.len()],
         }
+    }
+
+    /// Says where a body is.
+    pub fn place_body(&mut self, body: Body, place: &CartesianState) {
+        self.bodies[body as usize] = Some(moving(place.position_m, place.velocity_m_s));
+    }
+
+    /// Whether spacecraft, Sun and Earth are somewhere else than the centre, where only `center` may be.
+    pub fn is_connected(&self, center: Body) -> bool {
+        let away = |vector: &MovingVector| value(vector) != Vector3::zeros();
+        away(&self.position)
+            && (center == Body::Sun || away(&self.sun))
+            && (center == Body::Earth || away(&self.earth))
+    }
+
+    /// At another epoch with the spacecraft in `spacecraft`; Sun and Earth moved evenly.
+    pub fn moved_to(&self, epoch_s: f64, spacecraft: &CartesianState) -> Self {
+        let evenly = |vector: &MovingVector| CartesianState {
+            position_m: value(vector) + rate(vector) * (epoch_s - self.epoch_s),
+            velocity_m_s: rate(vector),
+        };
+        Self::new(epoch_s, self.planet, spacecraft, &evenly(&self.sun), &evenly(&self.earth))
     }
 
     /// From the spacecraft to the planet's centre, in m.

@@ -68,6 +68,17 @@ pub struct SunKeepIn {
     pub elevation_rad: f64,
 }
 
+impl SunKeepIn {
+    /// The smaller of both limits.
+    #[must_use]
+    pub fn within(&self, other: &Self) -> Self {
+        Self {
+            azimuth_rad: self.azimuth_rad.min(other.azimuth_rad),
+            elevation_rad: self.elevation_rad.min(other.elevation_rad),
+        }
+    }
+}
+
 impl Spacecraft {
     /// Reads a spacecraft from TOML text; `file_name` only names it in errors.
     ///

@@ -9,7 +9,7 @@ pub mod surroundings;
 use fmi_export::{Real, RealVector, Variables};
 
 use super::setup::GuidanceSetup;
-use crate::common::variables::{EphemerisVariables, GuidedVariables};
+use crate::common::variables::{EphemerisVariables, GuidedVariables, WorkLimit};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
     ModeVariables, PointingVariables, ScanVariables,
@@ -88,6 +88,8 @@ pub struct GuidanceVariables {
     pub geometry: GeometryVariables,
     #[group]
     pub constraint: ConstraintVariables,
+    #[group]
+    pub solver: WorkLimit,
     /// Position of the spacecraft about the target planet in EME2000; zero: not connected yet.
     #[input(unit = "m", display = "km", start = [0.0; 3])]
     pub position: RealVector<3>,

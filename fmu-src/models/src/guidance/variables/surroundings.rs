@@ -51,7 +51,7 @@ pub struct PlanetVariables {
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY.prime_meridian_rad)]
     pub prime_meridian: Real,
     /// Rotation rate.
-    #[parameter(unit = "rad/s", display = "deg/d", min = -1.0, max = 1.0, start = MERCURY.rotation_rate_rad_s)]
+    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = MERCURY.rotation_rate_rad_s)]
     pub rotation_rate: Real,
     /// Gravitational parameter: by the acceleration it gives, the rate of a frame that follows the velocity.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = MERCURY.gm_m3_s2)]

@@ -1,24 +1,22 @@
 //! One command of a timeline: its tables are what its scenario reads, their numbers what their options read.
 
-use core::f64::consts::{FRAC_PI_2, TAU};
-
 use nalgebra::Vector3;
 
 use super::description::{
     AimpointDescription, BodyRollDescription, BoresightDescription, CommandDescription,
     ExternalRollDescription, KeepInDescription, LimbDescription,
 };
-use super::entry::{KeepInOverride, TimelineMode};
+use super::entry::KeepInOverride;
 use super::quantity::{ANGLE, Kind, LENGTH, Quantity, SPEED};
 use super::reads::{
     AimpointUse, BoresightUse, Keys, Reads, aimpoint_keys, body_roll_keys, boresight_keys,
     external_roll_keys, reads,
 };
-use crate::bodies::Body;
 use crate::guidance::command::{
-    AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, LimbCommand,
-    PointingCommand, Scenario,
+    AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, FULL_TURN_RAD,
+    LimbCommand, PointingCommand, RIGHT_ANGLE_RAD, Scenario,
 };
+use crate::guidance::modes::Mode;
 use crate::spacecraft::{Checker, Instrument, Place, nearest};
 
 /// Whether each key of a table is given.
@@ -59,7 +57,7 @@ impl Commands<'_, '_> {
         }
         if let Some(mode) = given.mode.filter(|mode| !follows(*mode, scenario)) {
             let allowed = match mode {
-                TimelineMode::SafeHold => "downlink, which alone Safe Hold follows, or no scenario",
+                Mode::SafeHold => "downlink, which alone Safe Hold follows, or no scenario",
                 _ => "no scenario: Earth Acquisition follows none",
             };
             self.check.report(&scenario_place, "a scenario that `mode` does not follow", allowed);
@@ -107,7 +105,7 @@ impl Commands<'_, '_> {
         let mut angle = |key: &str, quantity: &Option<Quantity>| {
             let quantity = quantity.as_ref()?;
             let allowed = "an angle from 0 to 90 deg";
-            Some(self.between(&place.key(key), quantity, &ANGLE, 0.0, FRAC_PI_2, allowed))
+            Some(self.between(&place.key(key), quantity, &ANGLE, 0.0, RIGHT_ANGLE_RAD, allowed))
         };
         KeepInOverride {
             enabled: given.enabled,
@@ -122,13 +120,13 @@ impl Commands<'_, '_> {
         let mut read = Vec::new();
         if matches!(reads.boresight, BoresightUse::Option | BoresightUse::MdisAngle) {
             needed.push("boresight");
-        } else {
+        } else if reads.boresight != BoresightUse::Nothing {
             read.push("boresight");
         }
         match reads.aimpoint {
             AimpointUse::Option => needed.push("aimpoint"),
             AimpointUse::Fixed(_) => read.push("aimpoint"),
-            AimpointUse::Limb => {}
+            AimpointUse::Nothing => {}
         }
         if reads.second_aimpoint {
             needed.push("secondAimpoint");
@@ -179,6 +177,7 @@ impl Commands<'_, '_> {
         let place = at.key("option");
         let option = given.option.filter(|_| !self.check.is_stand_in(&place));
         match (used, option) {
+            (BoresightUse::Nothing, _) => return BoresightCommand::default(),
             (BoresightUse::Instrument, _) => self.judge(at, &keys, &[], &["instrument"], "this scenario"),
             (BoresightUse::Option, Some(option)) => {
                 let Keys { needed, .. } = boresight_keys(option);
@@ -255,7 +254,7 @@ impl Commands<'_, '_> {
         ];
         let place = at.key("option");
         match used {
-            AimpointUse::Limb => return AimpointCommand::default(),
+            AimpointUse::Nothing => return AimpointCommand::default(),
             AimpointUse::Fixed(option) if given.option != option => {
                 let allowed = "the one that this scenario always has, or no aimpoint";
                 self.check.report(&place, "another aimpoint than this scenario's", allowed);
@@ -279,7 +278,7 @@ impl Commands<'_, '_> {
             height_m: self.or_zero(&at.key("height"), given.height.as_ref(), &LENGTH),
             azimuth_rad: self.turn(&at.key("azimuth"), given.azimuth.as_ref()),
             elevation_rad: self.elevation(&at.key("elevation"), given.elevation.as_ref()),
-            body: given.body.unwrap_or(Body::Sun),
+            body: given.body,
         }
     }
 
@@ -329,7 +328,7 @@ impl Commands<'_, '_> {
         self.judge(at, &keys, read.needed, read.optional, "this scenario");
         LimbCommand {
             azimuth_rad: self.turn(&at.key("azimuth"), given.azimuth.as_ref()),
-            reference: given.reference.unwrap_or_default(),
+            reference: given.reference,
             height_m: self.or_zero(&at.key("height"), given.height.as_ref(), &LENGTH),
             height_rate_m_s: self.or_zero(&at.key("heightRate"), given.height_rate.as_ref(), &SPEED),
         }
@@ -378,13 +377,17 @@ impl Commands<'_, '_> {
     /// An angle of at most a turn, 0 unless given.
     fn turn(&mut self, at: &Place, given: Option<&Quantity>) -> f64 {
         let allowed = "an angle from -360 to 360 deg";
-        given.map_or(0.0, |quantity| self.between(at, quantity, &ANGLE, -TAU, TAU, allowed))
+        given.map_or(0.0, |quantity| {
+            self.between(at, quantity, &ANGLE, -FULL_TURN_RAD, FULL_TURN_RAD, allowed)
+        })
     }
 
     /// An angle of at most a right angle, 0 unless given.
     fn elevation(&mut self, at: &Place, given: Option<&Quantity>) -> f64 {
         let allowed = "an angle from -90 to 90 deg";
-        given.map_or(0.0, |quantity| self.between(at, quantity, &ANGLE, -FRAC_PI_2, FRAC_PI_2, allowed))
+        given.map_or(0.0, |quantity| {
+            self.between(at, quantity, &ANGLE, -RIGHT_ANGLE_RAD, RIGHT_ANGLE_RAD, allowed)
+        })
     }
 
     /// A vector that has a direction, if one is given.
@@ -399,10 +402,10 @@ impl Commands<'_, '_> {
 }
 
 /// Whether a mode follows a scenario.
-fn follows(mode: TimelineMode, scenario: Scenario) -> bool {
+fn follows(mode: Mode, scenario: Scenario) -> bool {
     match mode {
-        TimelineMode::Operational => true,
-        TimelineMode::SafeHold => scenario == Scenario::Downlink,
-        TimelineMode::EarthAcquisition => false,
+        Mode::Operational => true,
+        Mode::SafeHold => scenario == Scenario::Downlink,
+        Mode::EarthAcquisition => false,
     }
 }

@@ -8,7 +8,7 @@ use crate::guidance::command::{
     AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
     Scenario,
 };
-use crate::guidance::timeline::entry::TimelineMode;
+use crate::guidance::modes::Mode;
 
 /// Commands of Guidance over time.
 #[derive(Debug, Deserialize)]
@@ -42,7 +42,7 @@ pub(super) struct CommandDescription {
     pub scan: Option<ScanDescription>,
     pub keep_in: Option<KeepInDescription>,
     /// A mode asked for when the command begins; Safe Hold follows downlink alone.
-    pub mode: Option<TimelineMode>,
+    pub mode: Option<Mode>,
 }
 
 /// The boresight.

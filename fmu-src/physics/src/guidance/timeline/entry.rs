@@ -1,8 +1,7 @@
 //! A command of a timeline: when, where to point, what else it changes.
 
-use serde::{Deserialize, Serialize};
-
 use crate::guidance::command::PointingCommand;
+use crate::guidance::modes::Mode;
 
 /// By which clock a timeline counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +26,7 @@ pub struct TimelineEntry {
     /// Changes of the Sun keep-in zone while it lasts.
     pub keep_in: KeepInOverride,
     /// A mode asked for when it begins.
-    pub mode: Option<TimelineMode>,
+    pub mode: Option<Mode>,
 }
 
 /// What takes the place of the Sun keep-in zone's parameters; `None` leaves them.
@@ -39,17 +38,4 @@ pub struct KeepInOverride {
     pub azimuth_rad: Option<f64>,
     /// Greatest magnitude of its elevation, in rad.
     pub elevation_rad: Option<f64>,
-}
-
-/// A mode that a timeline asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum TimelineMode {
-    /// Every command is followed.
-    Operational,
-    /// Downlink only.
-    SafeHold,
-    /// A slow turn about the Sun line.
-    EarthAcquisition,
 }

@@ -17,6 +17,6 @@ mod schema;
 mod tests;
 
 pub use build::Timeline;
-pub use entry::{KeepInOverride, TimelineClock, TimelineEntry, TimelineMode};
+pub use entry::{KeepInOverride, TimelineClock, TimelineEntry};
 #[cfg(feature = "schema")]
 pub use schema::schema;

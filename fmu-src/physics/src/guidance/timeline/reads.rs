@@ -46,6 +46,8 @@ pub(super) enum BoresightUse {
     MdisAngle,
     /// An antenna's azimuth, or nothing.
     Antenna,
+    /// Nothing.
+    Nothing,
 }
 
 /// What a scenario reads of the aimpoint.
@@ -56,7 +58,7 @@ pub(super) enum AimpointUse {
     /// Nothing: it always aims at what this option stands for, which may be written.
     Fixed(AimpointOption),
     /// Nothing.
-    Limb,
+    Nothing,
 }
 
 /// What a scenario reads.
@@ -69,7 +71,7 @@ pub(super) fn reads(scenario: Scenario) -> Reads {
         limb: None,
         scan: true,
     };
-    let of_limb = |keys| Reads { aimpoint: AimpointUse::Limb, limb: Some(keys), ..of_instrument };
+    let of_limb = |keys| Reads { aimpoint: AimpointUse::Nothing, limb: Some(keys), ..of_instrument };
     match scenario {
         Scenario::Generic => Reads { boresight: BoresightUse::Option, rolls: true, ..of_instrument },
         Scenario::PlusZ => of_instrument,
@@ -79,6 +81,12 @@ pub(super) fn reads(scenario: Scenario) -> Reads {
         Scenario::Downlink => Reads {
             boresight: BoresightUse::Antenna,
             aimpoint: AimpointUse::Fixed(AimpointOption::Earth),
+            scan: false,
+            ..of_instrument
+        },
+        Scenario::OrbitPhase => Reads {
+            boresight: BoresightUse::Nothing,
+            aimpoint: AimpointUse::Nothing,
             scan: false,
             ..of_instrument
         },

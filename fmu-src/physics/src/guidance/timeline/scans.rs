@@ -4,7 +4,9 @@ use super::commands::Commands;
 use super::description::{CommandDescription, ScanDescription};
 use super::quantity::{RATE, SPEED, TIME};
 use super::reads::{Keys, reads, scan_keys};
-use crate::guidance::command::{AimpointOption, PointingCommand, ScanCommand, ScanFrame, Scenario};
+use crate::guidance::aimpoint::{AIMPOINTS, AimKind};
+use crate::guidance::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
+use crate::guidance::scan::ScanCompatibility;
 use crate::spacecraft::Place;
 
 /// Greatest number of segments.
@@ -23,7 +25,7 @@ pub(super) fn scan(
     if !commands.check.is_stand_in(&at.key("frame")) {
         judge_frame(commands, &at, given);
         let aim = aim_kind(scenario, command.aimpoint.option);
-        if aim.is_some_and(|aim| !goes_with(given.frame, aim)) {
+        if aim.is_some_and(|aim| !ScanCompatibility::default().allows(given.frame, aim)) {
             let allowed = "body, inertialRotation, or a frame that goes with this aimpoint";
             commands.check.report(&at.key("frame"), "a frame that does not go with this aimpoint", allowed);
         }
@@ -33,7 +35,7 @@ pub(super) fn scan(
     };
     let scan = ScanCommand {
         frame: Some(given.frame),
-        reference: given.reference.unwrap_or_default(),
+        reference: given.reference,
         rate_rad_s: three("rate", &given.rate, &RATE),
         speed_m_s: three("speed", &given.speed, &SPEED),
         duration_s: three("duration", &given.duration, &TIME),
@@ -91,47 +93,13 @@ fn judge_motions(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescri
     }
 }
 
-/// What an aim is, which decides how it can be scanned.
-#[derive(Clone, Copy)]
-enum AimKind {
-    Direction,
-    LocalDirection,
-    Point,
-    PlanetPoint,
-}
-
 /// What a scenario aims at; `None` where no aimpoint is given.
 fn aim_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimKind> {
     match scenario {
         Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimKind::PlanetPoint),
-        Scenario::Downlink => Some(AimKind::Point),
+        Scenario::Downlink | Scenario::OrbitPhase => None,
         Scenario::Generic | Scenario::PlusZ | Scenario::Mdis | Scenario::DoubleTarget => {
-            Some(match aimpoint? {
-                AimpointOption::Vector | AimpointOption::RightAscensionDeclination => AimKind::Direction,
-                AimpointOption::LvlhDowntrack | AimpointOption::LvlhSun => AimKind::LocalDirection,
-                AimpointOption::EarthCentered
-                | AimpointOption::SunCentered
-                | AimpointOption::Sun
-                | AimpointOption::Earth
-                | AimpointOption::Body => AimKind::Point,
-                AimpointOption::PlanetCentered
-                | AimpointOption::PlanetFixed
-                | AimpointOption::LatitudeLongitude
-                | AimpointOption::Nadir
-                | AimpointOption::Subsolar
-                | AimpointOption::OptimalLighting => AimKind::PlanetPoint,
-            })
+            AIMPOINTS.iter().find(|row| Some(row.option) == aimpoint).map(|row| row.kind)
         }
-    }
-}
-
-/// Whether a scan in this frame goes with this kind of aim: body scans and inertial rotations go with everything, a
-/// translation needs a point, along the planet's axes one of the planet's, a rotation in the local frame what stands in it.
-fn goes_with(frame: ScanFrame, aim: AimKind) -> bool {
-    match frame {
-        ScanFrame::Body | ScanFrame::InertialRotation => true,
-        ScanFrame::InertialTranslation => matches!(aim, AimKind::Point | AimKind::PlanetPoint),
-        ScanFrame::PlanetTranslation => matches!(aim, AimKind::PlanetPoint),
-        ScanFrame::LvlhRotation => matches!(aim, AimKind::LocalDirection | AimKind::PlanetPoint),
     }
 }

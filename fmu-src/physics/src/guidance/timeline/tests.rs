@@ -9,6 +9,7 @@ use super::*;
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::guidance::command::*;
+use crate::guidance::modes::Mode;
 use crate::spacecraft::{Instrument, MESSENGER_TOML, Spacecraft};
 
 const EXAMPLE: &str = include_str!("../../../../resources/examples/timeline.toml");
@@ -135,7 +136,7 @@ fn every_aimpoint_is_read_for_both_keys() {
         |option| AimpointCommand { option: Some(option), azimuth_rad: 6.0, elevation_rad: -1.5, ..none };
     let alone = |option| AimpointCommand { option: Some(option), ..none };
     let (p, l) = (", position = [\"1 km\", 2, \"-1 AU\"]", ", azimuth = 6, elevation = -1.5");
-    let body = |body| AimpointCommand { option: Some(Option::Body), body, ..none };
+    let body = |body| AimpointCommand { option: Some(Option::Body), body: Some(body), ..none };
     for (text, wanted) in [
         (
             "vector\", vector = [0, 3, 0]".to_owned(),
@@ -208,7 +209,7 @@ fn every_scenario_takes_what_it_reads() {
                 heightRate = \"-0.3 km/s\" }";
     let wanted = LimbCommand {
         azimuth_rad: PI / 2.0,
-        reference: AzimuthReference::Sun,
+        reference: Some(AzimuthReference::Sun),
         height_m: 25e3,
         height_rate_m_s: -300.0,
     };
@@ -241,7 +242,7 @@ fn every_scan_is_read() {
         (format!("\"planetTranslation\", {speeds}"), moved(ScanFrame::PlanetTranslation)),
         (
             format!("\"lvlhRotation\", reference = \"sun\", {rates}"),
-            ScanCommand { reference: AzimuthReference::Sun, ..turned(ScanFrame::LvlhRotation) },
+            ScanCommand { reference: Some(AzimuthReference::Sun), ..turned(ScanFrame::LvlhRotation) },
         ),
     ] {
         let found = command(&format!("scenario = \"nadir\"\nscan = {{ frame = {text}, {rest} }}"));
@@ -252,12 +253,9 @@ fn every_scan_is_read() {
 #[test]
 fn modes_and_zones_stand_alone() {
     let entry = command("mode = \"earthAcquisition\"");
-    assert_eq!(
-        (entry.mode, entry.command),
-        (Some(TimelineMode::EarthAcquisition), PointingCommand::default())
-    );
-    assert_eq!(command("mode = \"operational\"").mode, Some(TimelineMode::Operational));
-    assert_eq!(command("mode = \"safeHold\"").mode, Some(TimelineMode::SafeHold));
+    assert_eq!((entry.mode, entry.command), (Some(Mode::EarthAcquisition), PointingCommand::default()));
+    assert_eq!(command("mode = \"operational\"").mode, Some(Mode::Operational));
+    assert_eq!(command("mode = \"safeHold\"").mode, Some(Mode::SafeHold));
     let zone = command("keepIn = { enabled = false, azimuth = \"90 deg\", elevation = 0 }").keep_in;
     let wanted =
         KeepInOverride { enabled: Some(false), azimuth_rad: Some(PI / 2.0), elevation_rad: Some(0.0) };

@@ -1,0 +1,301 @@
+//! From parameters, inputs and the timeline to what a sample reads.
+
+use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector, Values};
+use nalgebra::Vector3;
+use physics::attitude::Attitude;
+use physics::bodies::Body;
+use physics::environment::CartesianState;
+use physics::environment::bodies_from_center::BodiesFromCenter;
+use physics::environment::ephemeris::{Ephemeris, VALID_EPOCH_S};
+use physics::environment::paper004::KeplerPlanet;
+use physics::guidance::boresight::MdisRange;
+use physics::guidance::command::{
+    AimpointCommand, BodyRollCommand, BoresightCommand, ExternalRollCommand, LimbCommand, PointingCommand,
+    ScanCommand,
+};
+use physics::guidance::constraints::Constraints;
+use physics::guidance::downlink::LinkLimits;
+use physics::guidance::hot_pole::HotPole;
+use physics::guidance::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::lighting::SubsolarMethod;
+use physics::guidance::modes::{ModeSettings, Sensed};
+use physics::guidance::monitor::Monitor;
+use physics::guidance::scan::ScanCompatibility;
+use physics::guidance::scenario::GuidanceHardware;
+use physics::guidance::system::GuidanceSettings;
+use physics::guidance::{Surroundings, TargetPlanet};
+
+use super::setup::Plan;
+use super::variables::commands::AimpointVariables;
+use crate::common::choices::EphemerisSource;
+use crate::common::variables::followed;
+
+/// What parameters fix for a whole flight.
+#[derive(Clone, Debug)]
+pub struct Fixed {
+    planet: TargetPlanet,
+    /// Absent where Sun and Earth are inputs.
+    computed: bool,
+    bodies: BodiesFromCenter,
+}
+
+impl Fixed {
+    /// From the parameters.
+    pub fn read(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
+        let v = context.variables;
+        let body = values.choice(v.target.planet).map_or(Body::Mercury, |it| it.0);
+        let (default, own) = (TargetPlanet::of(Body::Mercury.data()), TargetPlanet::of(body.data()));
+        let follow = |parameter, default, own| followed(values, body, parameter, default, own);
+        let radius_m = |i: usize| follow(v.planet.radii.element(i), default.radii_m[i], own.radii_m[i]);
+        let planet = TargetPlanet {
+            radii_m: Vector3::from([0, 1, 2].map(radius_m)),
+            pole_right_ascension_rad: follow(
+                v.planet.pole_right_ascension,
+                default.pole_right_ascension_rad,
+                own.pole_right_ascension_rad,
+            ),
+            pole_declination_rad: follow(
+                v.planet.pole_declination,
+                default.pole_declination_rad,
+                own.pole_declination_rad,
+            ),
+            prime_meridian_rad: follow(
+                v.planet.prime_meridian,
+                default.prime_meridian_rad,
+                own.prime_meridian_rad,
+            ),
+            rotation_rate_rad_s: follow(
+                v.planet.rotation_rate,
+                default.rotation_rate_rad_s,
+                own.rotation_rate_rad_s,
+            ),
+            gm_m3_s2: follow(v.planet.gravitational_parameter, default.gm_m3_s2, own.gm_m3_s2),
+        };
+        let epoch_s = values.real(v.start.epoch);
+        let source = values.choice(v.ephemeris.source);
+        let computed = source != Some(EphemerisSource::Inputs);
+        if computed && epoch_s.abs() > VALID_EPOCH_S {
+            return Err(Failure::new(format!(
+                "start.epoch: found {epoch_s:?} s, allowed: within {VALID_EPOCH_S:e} s (4000 years) of J2000, for which \
+                 VSOP87 is made"
+            )));
+        }
+        let ellipse = if source == Some(EphemerisSource::Kepler) {
+            let planet = KeplerPlanet::new(v.ephemeris.ellipse(values, body), epoch_s)
+                .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))?;
+            Some(planet)
+        } else {
+            None
+        };
+        Ok(Self { planet, computed, bodies: BodiesFromCenter { center: body, ellipse } })
+    }
+}
+
+/// The start value of `estimate.q`.
+const NOT_CONNECTED: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+/// Parameters, as a sample uses them. The timeline may override the keep-in zone.
+pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSettings<'a>, Failure> {
+    let v = context.variables;
+    let real = |handle| values.real(handle);
+    let method = values.choice(v.keep_in.method).map_or(KeepInMethod::Nearest, |it| it.0);
+    let axis_body = Vector3::from(values.vector(v.keep_in.axis));
+    if axis_body == Vector3::from([0.0; 3]) {
+        return Err(Failure::new("keepIn.axis: found (0, 0, 0), allowed: a vector of any length but zero"));
+    }
+    let zone = |azimuth, elevation| KeepIn {
+        axis_body,
+        azimuth_rad: real(azimuth),
+        elevation_rad: real(elevation),
+        method,
+    };
+    let hot_pole = values.boolean(v.hot_pole.enabled).then(|| HotPole {
+        altitude_m: real(v.hot_pole.altitude),
+        angle_rad: real(v.hot_pole.angle),
+        cone_rad: real(v.hot_pole.cone),
+    });
+    let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
+    Ok(GuidanceSettings {
+        hardware: GuidanceHardware {
+            instruments: &context.setup.spacecraft.instruments,
+            mdis: MdisRange { minimum_rad: real(v.mdis.minimum), maximum_rad: real(v.mdis.maximum) },
+            subsolar: values.choice(v.subsolar.method).map_or(SubsolarMethod::Normal, |it| it.0),
+            scans: ScanCompatibility::default(),
+        },
+        modes: ModeSettings {
+            operational: Constraints {
+                keep_in: values.boolean(v.keep_in.enabled).then_some(keep_in),
+                hot_pole,
+            },
+            safe_hold: Constraints {
+                keep_in: Some(zone(v.safe_hold.keep_in.azimuth, v.safe_hold.keep_in.elevation)),
+                hot_pole,
+            },
+            monitor: values.boolean(v.monitor.enabled).then(|| Monitor {
+                margin_rad: real(v.monitor.margin),
+                persistence_s: real(v.monitor.persistence),
+            }),
+            boresight_body: axis_body,
+            earth_acquisition_rate_rad_s: real(v.earth_acquisition.rate),
+            sun_search_rate_rad_s: real(v.sun_search.rate),
+            sun_search_duration_s: real(v.sun_search.duration),
+        },
+        link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
+        orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, keep_in.elevation_rad)?,
+    })
+}
+
+/// The attitude to start from.
+pub fn start_attitude(context: &Plan<'_>, values: &Values) -> Result<Attitude, Failure> {
+    let q = values.vector(context.variables.start.q);
+    Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))
+}
+
+/// Reads variables at the time of a sample.
+#[derive(Clone, Copy)]
+pub struct Reader<'a> {
+    context: &'a Plan<'a>,
+    values: &'a Values,
+    inputs: InputsOverTime<'a>,
+    time_s: f64,
+}
+
+impl<'a> Reader<'a> {
+    /// At `time_s`, where `inputs` moved since they were set.
+    pub fn new(context: &'a Plan<'a>, values: &'a Values, inputs: InputsOverTime<'a>, time_s: f64) -> Self {
+        Self { context, values, inputs, time_s }
+    }
+
+    fn real(&self, handle: Real) -> f64 {
+        self.inputs.real(self.values, handle, self.time_s)
+    }
+
+    fn vector(&self, handle: RealVector<3>) -> Vector3<f64> {
+        Vector3::from(self.inputs.vector(self.values, handle, self.time_s))
+    }
+
+    fn count(&self, handle: Integer) -> u32 {
+        self.values.integer(handle).unsigned_abs()
+    }
+
+    fn flag(&self, handle: Boolean) -> bool {
+        self.values.boolean(handle)
+    }
+
+    /// The item of an input; none where nothing is chosen.
+    fn item<E: Enumeration, T>(&self, handle: Choice<E>, inner: impl Fn(E) -> Option<T>) -> Option<T> {
+        self.values.choice(handle).and_then(inner)
+    }
+
+    /// What the inputs command.
+    pub fn command(&self) -> PointingCommand {
+        let v = self.context.variables;
+        let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
+        let (limb, scan) = (&v.limb, &v.scan);
+        PointingCommand {
+            scenario: self.item(v.pointing.scenario, |it| it.0),
+            boresight: BoresightCommand {
+                option: self.item(boresight.option, |it| it.0),
+                vector: self.vector(boresight.vector),
+                azimuth_rad: self.real(boresight.azimuth),
+                elevation_rad: self.real(boresight.elevation),
+                angle_rad: self.real(boresight.angle),
+                instrument: self.count(boresight.instrument),
+            },
+            aimpoint: self.aimpoint(&v.aimpoint),
+            second_aimpoint: self.aimpoint(&v.second_aimpoint),
+            body_roll: BodyRollCommand {
+                option: self.item(body_roll.option, |it| it.0),
+                vector: self.vector(body_roll.vector),
+                azimuth_rad: self.real(body_roll.azimuth),
+                elevation_rad: self.real(body_roll.elevation),
+            },
+            external_roll: ExternalRollCommand {
+                option: self.item(external_roll.option, |it| it.0),
+                vector: self.vector(external_roll.vector),
+                right_ascension_rad: self.real(external_roll.right_ascension),
+                declination_rad: self.real(external_roll.declination),
+            },
+            limb: LimbCommand {
+                azimuth_rad: self.real(limb.azimuth),
+                reference: self.item(limb.reference, |it| it.0),
+                height_m: self.real(limb.height),
+                height_rate_m_s: self.real(limb.height_rate),
+            },
+            scan: ScanCommand {
+                frame: self.item(scan.frame, |it| it.0),
+                reference: self.item(scan.reference, |it| it.0),
+                rate_rad_s: self.vector(scan.rate).into(),
+                speed_m_s: self.vector(scan.speed).into(),
+                duration_s: self.vector(scan.duration).into(),
+                pause_s: self.vector(scan.pause).into(),
+                segments: [scan.segments_x, scan.segments_y, scan.segments_z].map(|it| self.count(it)),
+                reverse: [scan.reverse_x, scan.reverse_y, scan.reverse_z].map(|it| self.flag(it)),
+            },
+        }
+    }
+
+    /// Where everything is at `epoch_s`; `None` while position, Sun or Earth is not connected.
+    pub fn surroundings(
+        &self,
+        fixed: &Fixed,
+        command: &PointingCommand,
+        ephemeris: &mut Ephemeris,
+        epoch_s: f64,
+    ) -> Option<Surroundings> {
+        let v = self.context.variables;
+        let state = |position, velocity| CartesianState {
+            position_m: self.vector(position),
+            velocity_m_s: self.vector(velocity),
+        };
+        let (sun, earth) = if fixed.computed {
+            fixed.bodies.sun_and_earth(ephemeris, epoch_s)
+        } else {
+            (state(v.sun.position, v.sun.velocity), state(v.earth.position, v.earth.velocity))
+        };
+        let spacecraft = state(v.position, v.velocity);
+        let mut surroundings = Surroundings::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
+        for body in [command.aimpoint.body, command.second_aimpoint.body].into_iter().flatten() {
+            surroundings.place_body(body, &fixed.bodies.body(body, ephemeris, epoch_s));
+        }
+        surroundings.is_connected(fixed.bodies.center).then_some(surroundings)
+    }
+
+    /// Mode request, estimate and Sun sensors. `commanded` is the attitude commanded now: it stands in for an estimate that
+    /// is not connected.
+    pub fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<Sensed, Failure> {
+        let v = self.context.variables;
+        let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
+        let valid = self.flag(v.estimate.valid);
+        let estimate = if q == [0.0; 4] && (valid || !is_placed) || valid && q == NOT_CONNECTED {
+            Some(commanded)
+        } else if valid {
+            let attitude = Attitude::along_quaternion(q);
+            Some(attitude.map_err(|error| Failure::new(format!("estimate.q: {error}")))?)
+        } else {
+            None
+        };
+        Ok(Sensed {
+            time_s: self.time_s,
+            request: self.item(v.mode.request, |it| it.0),
+            estimate,
+            sun_body: self.flag(v.sun.sensed_valid).then(|| self.vector(v.sun.sensed)),
+        })
+    }
+
+    fn aimpoint(&self, aimpoint: &AimpointVariables) -> AimpointCommand {
+        AimpointCommand {
+            option: self.item(aimpoint.option, |it| it.0),
+            vector: self.vector(aimpoint.vector),
+            position_m: self.vector(aimpoint.position),
+            right_ascension_rad: self.real(aimpoint.right_ascension),
+            declination_rad: self.real(aimpoint.declination),
+            latitude_rad: self.real(aimpoint.latitude),
+            longitude_rad: self.real(aimpoint.longitude),
+            height_m: self.real(aimpoint.height),
+            azimuth_rad: self.real(aimpoint.azimuth),
+            elevation_rad: self.real(aimpoint.elevation),
+            body: self.item(aimpoint.body, |it| it.0),
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! `Guidance`: commanded attitude and rate by the pointing options of paper 001, with scans, constraints and safe modes.
+
+mod dependencies;
+mod inputs;
+mod outputs;
+mod setup;
+mod variables;
+
+use fmi_export::{
+    About, Dependencies, Extensions, Failure, InputsOverTime, Model, OutputRates, Real, SetupError, Source,
+    StartValue, Step, StepEnd, Values,
+};
+use physics::environment::ephemeris::Ephemeris;
+use physics::environment::time;
+use physics::guidance::system::{GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs};
+use serde::{Deserialize, Serialize};
+
+use inputs::{Fixed, Reader};
+pub use setup::Guidance;
+use setup::{GuidanceSetup, Plan};
+use variables::GuidanceVariables;
+
+/// What guidance remembers between steps.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct State {
+    system: GuidanceState,
+    /// The communication point reached, in s.
+    time_s: f64,
+    /// Epoch less time, in s.
+    epoch_minus_time_s: f64,
+    /// Whether the warning was given that places are not connected.
+    said_unconnected: bool,
+    /// Cache, not state: the same epoch gives the same bits.
+    #[serde(skip)]
+    ephemeris: Ephemeris,
+    /// Cache of what parameters fix.
+    #[serde(skip)]
+    fixed: Option<Fixed>,
+}
+
+impl Model for Guidance {
+    const NAME: &'static str = "Guidance";
+    const STATE_VERSION: u32 = 1;
+    const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
+    const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
+    const SOURCES: &'static [Source] = crate::sources::GUIDANCE;
+    const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
+
+    type Setup = GuidanceSetup;
+    type Variables = GuidanceVariables;
+    type State = State;
+
+    fn parse_setup(file: &str, text: &str) -> Result<GuidanceSetup, SetupError> {
+        GuidanceSetup::from_toml(file, text)
+    }
+
+    fn start_values(setup: &GuidanceSetup) -> Vec<StartValue> {
+        crate::common::start_values::start_values(&setup.spacecraft.start)
+    }
+
+    fn about(setup: &GuidanceSetup) -> About {
+        About {
+            description: format!(
+                "{}: commanded attitude and rate, once a second and propagated between: pointing options, scenarios, scans, \
+                 Sun keep-in and hot-pole constraints, downlink, safe modes",
+                setup.spacecraft.name
+            ),
+            start_time_s: 0.0,
+            stop_time_s: 86_400.0,
+            step_size_s: 1.0,
+            tolerance: 1e-12,
+            ..crate::common::about()
+        }
+    }
+
+    fn dependencies(_setup: &GuidanceSetup, variables: &GuidanceVariables) -> Dependencies {
+        dependencies::table(variables)
+    }
+
+    /// The sample at the start; the first step takes it again with its own inputs.
+    fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<State, Failure> {
+        let epoch_s = values.real(context.variables.start.epoch);
+        let mut state = State {
+            system: GuidanceState::new(inputs::start_attitude(context, values)?, start_s),
+            time_s: start_s,
+            epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
+            said_unconnected: false,
+            ephemeris: Ephemeris::default(),
+            fixed: Some(Fixed::read(context, values)?),
+        };
+        let mut shown = state.clone();
+        let settings = inputs::settings(context, values)?;
+        shown.sample(context, values, &settings, InputsOverTime::held())?;
+        state.ephemeris = shown.ephemeris.clone();
+        outputs::write(context, values, &shown.system, start_s, epoch_s);
+        Ok(state)
+    }
+
+    fn step(
+        context: &Plan<'_>,
+        values: &mut Values,
+        state: &mut State,
+        step: &Step<'_>,
+    ) -> Result<StepEnd, Failure> {
+        let settings = inputs::settings(context, values)?;
+        let limit = context.variables.solver.units(values);
+        let mut samples = 0;
+        while state.system.due_before(step.end_s).is_some() {
+            if samples >= limit / SAMPLE_WORK {
+                let reached_s = state.system.next_sample_s();
+                return Err(Failure::new(format!(
+                    "the step from {} to {} s reached {reached_s} s: its samples, one a second, take more than \
+                     solver.workLimit = {limit} units",
+                    step.start_s, step.end_s
+                )));
+            }
+            state.sample(context, values, &settings, step.inputs)?;
+            samples += 1;
+        }
+        let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
+        state.time_s = step.end_s;
+        outputs::write(context, values, &state.system, step.end_s, epoch_s);
+        Ok(StepEnd::at(step.end_s))
+    }
+
+    fn check_state(_setup: &GuidanceSetup, state: &State) -> Result<(), Failure> {
+        if state.system.is_sound() && state.epoch_minus_time_s.is_finite() && state.time_s.is_finite() {
+            return Ok(());
+        }
+        Err(Failure::new(
+            "the saved state holds numbers that no flight has (not finite, beyond 1e100, or no rotation)",
+        ))
+    }
+
+    fn check_time(state: &State, time_s: f64) -> Result<(), Failure> {
+        if state.time_s == time_s && state.system.covers(time_s) {
+            return Ok(());
+        }
+        Err(Failure::new(format!("the next sample is due elsewhere than after {time_s:?} s")))
+    }
+}
+
+impl OutputRates for Guidance {
+    fn output_rate(context: &Plan<'_>, _values: &Values, state: &State, output: Real) -> Option<f64> {
+        outputs::derivative(context, &state.system, state.time_s, output)
+    }
+}
+
+impl State {
+    /// Takes the sample that is due.
+    fn sample(
+        &mut self,
+        context: &Plan<'_>,
+        values: &Values,
+        settings: &GuidanceSettings<'_>,
+        inputs: InputsOverTime<'_>,
+    ) -> Result<(), Failure> {
+        let time_s = self.system.next_sample_s();
+        let epoch_s = time::epoch_at_s(time_s, self.epoch_minus_time_s);
+        let fixed = match &self.fixed {
+            Some(fixed) => fixed,
+            None => self.fixed.insert(Fixed::read(context, values)?),
+        };
+        let reader = Reader::new(context, values, inputs, time_s);
+        let command = reader.command();
+        let surroundings = reader.surroundings(fixed, &command, &mut self.ephemeris, epoch_s);
+        if surroundings.is_none() && !self.said_unconnected {
+            self.said_unconnected = true;
+            context.log.warning(
+                "position, or with ephemeris.source inputs sun.position or earth.position, is all zero and counts as not \
+                 connected yet: the last command stays until then",
+            );
+        }
+        let commanded = self.system.command().attitude_at(time_s);
+        let sensed = reader.sensed(commanded, surroundings.is_some())?;
+        self.system.sample(settings, &SampleInputs { command, surroundings, sensed });
+        Ok(())
+    }
+}

@@ -1,0 +1,38 @@
+//! The model and its immutable setup: the spacecraft that is pointed.
+
+use fmi_export::{Context, SetupError};
+use physics::spacecraft::{Spacecraft, SunKeepIn};
+use serde::Serialize;
+
+/// Guidance.
+pub struct Guidance;
+
+/// What every call of the model is given.
+pub type Plan<'a> = Context<'a, Guidance>;
+
+/// The spacecraft of an instance.
+#[derive(Clone, Debug, Serialize)]
+pub struct GuidanceSetup {
+    /// As read from the file.
+    pub spacecraft: Spacecraft,
+}
+
+impl GuidanceSetup {
+    /// From TOML text.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
+        let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
+        Ok(Self { spacecraft })
+    }
+
+    /// The keep-in zone; without one in the file the half of the sky on the axis's side.
+    pub fn keep_in(&self) -> SunKeepIn {
+        use core::f64::consts::FRAC_PI_2;
+        let half = SunKeepIn { azimuth_rad: FRAC_PI_2, elevation_rad: FRAC_PI_2 };
+        self.spacecraft.sun_keep_in.map_or(half, |zone| zone.within(&half))
+    }
+
+    /// The greatest number of an instrument.
+    pub fn last_instrument(&self) -> i32 {
+        i32::try_from(self.spacecraft.instruments.len()).unwrap_or(i32::MAX)
+    }
+}

@@ -1,0 +1,55 @@
+//! Sun, Earth and planets as seen from the centre of a flight.
+
+use nalgebra::Vector3;
+
+use super::CartesianState;
+use super::ephemeris::Ephemeris;
+use super::paper004::KeplerPlanet;
+use crate::bodies::Body;
+
+/// Bodies from a centre: VSOP87, the centre itself possibly on an ellipse instead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodiesFromCenter {
+    /// The body in the centre.
+    pub center: Body,
+    /// Its ellipse about the Sun, if it moves on one.
+    pub ellipse: Option<KeplerPlanet>,
+}
+
+impl BodiesFromCenter {
+    /// Sun and Earth at `epoch_s` past J2000 TDB, from the centre, in EME2000.
+    pub fn sun_and_earth(&self, ephemeris: &mut Ephemeris, epoch_s: f64) -> (CartesianState, CartesianState) {
+        let earth = ephemeris.state(Body::Earth, epoch_s);
+        if self.center == Body::Sun {
+            return (CartesianState::default(), earth);
+        }
+        let center = self.center_state(ephemeris, epoch_s);
+        // About the Earth there is one Earth, on whatever orbit.
+        let earth = if self.center == Body::Earth { center } else { earth };
+        (difference(&CartesianState::default(), &center), difference(&earth, &center))
+    }
+
+    /// Any body at `epoch_s`, from the centre, in EME2000.
+    pub fn body(&self, body: Body, ephemeris: &mut Ephemeris, epoch_s: f64) -> CartesianState {
+        if body == self.center {
+            return CartesianState::default();
+        }
+        difference(&ephemeris.state(body, epoch_s), &self.center_state(ephemeris, epoch_s))
+    }
+
+    fn center_state(&self, ephemeris: &mut Ephemeris, epoch_s: f64) -> CartesianState {
+        match self.ellipse {
+            Some(planet) => planet.state(epoch_s),
+            None => ephemeris.state(self.center, epoch_s),
+        }
+    }
+}
+
+fn difference(a: &CartesianState, b: &CartesianState) -> CartesianState {
+    CartesianState { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
+}
+
+/// A body that stays where it is, in m.
+pub fn fixed(position_m: Vector3<f64>) -> CartesianState {
+    CartesianState { position_m, velocity_m_s: Vector3::zeros() }
+}

@@ -1,0 +1,250 @@
+//! Hot-pole keep-out: low above the subsolar point the top deck (-Z) looks away from the planet (paper 001).
+//!
+//! The attitude is turned about the Sun line, which leaves the Sun where the keep-in zone has it. With s the Sun, n the
+//! planet's centre and v = -Z, unit vectors in the body frame, a turn by phi has
+//! cos(v, n) = (s.v)(s.n) + a cos phi + b sin phi, a = v.n - (s.v)(s.n), b = (s x v).n,
+//! so that the boundary lies at phi = atan2(b, a) +- acos(c / m), c = cos(cone) - (s.v)(s.n), m = hypot(a, b); of both the
+//! smaller turn is taken. Where c < -m none reaches the boundary and the best is atan2(b, a) +- pi.
+
+use nalgebra::{ComplexField, Vector3};
+
+use super::law::Pointing;
+use super::moving::{Moving, PARALLEL_RAD, fixed, unit, value};
+use super::surroundings::Surroundings;
+use crate::attitude::angle_between_rad;
+use crate::numerics::scalar::Scalar;
+
+/// The axis that must not look at the planet, body frame.
+const TOP_DECK_BODY: Vector3<f64> = Vector3::new(0.0, 0.0, -1.0);
+
+/// When and how far the top deck looks away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HotPole {
+    /// Below this height above the ellipsoid along the radius, in m.
+    pub altitude_m: f64,
+    /// Nearer than this to the subsolar direction, seen from the planet's centre, in rad.
+    pub angle_rad: f64,
+    /// Least angle between -Z and the direction to the planet's centre, 0 to pi, in rad.
+    pub cone_rad: f64,
+}
+
+/// An attitude that keeps the cone, or comes as near to it as turning about the Sun line allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KeptOut {
+    /// The attitude.
+    pub pointing: Pointing,
+    /// Whether the cone would have been violated.
+    pub in_force: bool,
+    /// Whether the cone is kept.
+    pub reached: bool,
+}
+
+impl HotPole {
+    /// Whether the spacecraft is where the constraint counts.
+    pub fn in_region(&self, surroundings: &Surroundings) -> bool {
+        let position_m = value(&surroundings.position);
+        let distance_m = position_m.norm();
+        let planet = &surroundings.planet;
+        let along_axes =
+            value(&(planet.planet_from_inertial(surroundings.epoch_s) * surroundings.position)) / distance_m;
+        let surface_m = along_axes.component_div(&planet.radii_m).norm().recip();
+        distance_m - surface_m < self.altitude_m
+            && angle_between_rad(&position_m, &value(&surroundings.sun)) < self.angle_rad
+    }
+
+    /// By how much -Z is inside the cone about `planet_body`, in rad; negative outside.
+    pub fn excess_rad(&self, planet_body: &Vector3<f64>) -> f64 {
+        self.cone_rad - angle_between_rad(&TOP_DECK_BODY, planet_body)
+    }
+
+    /// `pointing` turned about the Sun line until the cone is kept; unchanged where it is, outside the region, and where
+    /// planet or Sun has no direction.
+    pub fn constrained(&self, pointing: &Pointing, surroundings: &Surroundings) -> KeptOut {
+        let free = KeptOut { pointing: *pointing, in_force: false, reached: true };
+        if !self.in_region(surroundings) {
+            return free;
+        }
+        let (Some(to_sun), Some(to_planet)) = (unit(&surroundings.to_sun()), unit(&surroundings.to_planet()))
+        else {
+            return free;
+        };
+        let planet_body = pointing.to_body(&to_planet);
+        if self.excess_rad(&value(&planet_body)) <= 0.0 {
+            return free;
+        }
+        let sun_body = pointing.to_body(&to_sun);
+        let deck = fixed(TOP_DECK_BODY);
+        let along = sun_body.dot(&deck) * sun_body.dot(&planet_body);
+        let (a, b) = (deck.dot(&planet_body) - along, sun_body.cross(&deck).dot(&planet_body));
+        let c = Moving::constant(self.cone_rad.cos()) - along;
+        if a.re.hypot(b.re) < PARALLEL_RAD {
+            // Planet or deck on the Sun line: no turn changes the angle.
+            return KeptOut { in_force: true, reached: false, ..free };
+        }
+        let m = (a * a + b * b).sqrt();
+        let farthest = Moving::polar_angle(b, a);
+        let squared = (m - c) * (m + c);
+        let reached = c.re > -m.re;
+        let opening = if squared.re > 0.0 {
+            Moving::polar_angle(squared.sqrt(), c)
+        } else {
+            Moving::constant(if reached { 0.0 } else { core::f64::consts::PI })
+        };
+        let turn = if farthest.re < 0.0 { farthest + opening } else { farthest - opening };
+        KeptOut { pointing: pointing.turned(&sun_body, turn), in_force: true, reached }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Against trial turns about the Sun line and differences of the attitude.
+    use std::f64::consts::PI;
+
+    use super::super::law::PointingVectors;
+    use super::super::moving::{MovingVector, moving};
+    use super::super::surroundings::TargetPlanet;
+    use super::super::test_geometry::{Motion, Random, difference_rad_s};
+    use super::*;
+    use crate::bodies::Body;
+
+    fn surroundings(position: MovingVector, sun: MovingVector) -> Surroundings {
+        let far = Moving::constant(1e7);
+        Surroundings {
+            epoch_s: 0.0,
+            planet: TargetPlanet::of(Body::Mercury.data()),
+            position: position * far,
+            velocity: fixed(Vector3::x()),
+            sun: sun * far * Moving::constant(1e4),
+            earth: fixed(Vector3::y()),
+            bodies: [None; Body::ALL.len()],
+        }
+    }
+
+    const EVERYWHERE: HotPole = HotPole { altitude_m: 1e12, angle_rad: 4.0, cone_rad: 0.0 };
+
+    #[test]
+    fn the_cone_is_kept_or_the_best_turn_flagged() {
+        let mut random = Random(11);
+        let mut seen = [0; 3];
+        let worst = [(); 2].map(|()| core::cell::Cell::new(0.0_f64));
+        for _ in 0..200_000 {
+            let mut vector = || moving(random.direction(), random.direction() * 1e-4);
+            let vectors = PointingVectors {
+                boresight_body: vector(),
+                aimpoint: vector(),
+                body_roll: vector(),
+                external_roll: vector(),
+            };
+            let around = surroundings(vector(), vector());
+            let cone = HotPole { cone_rad: random.within(0.1, 3.0), ..EVERYWHERE };
+            let free = vectors.pointing().unwrap();
+            let kept = cone.constrained(&free, &around);
+            let body = |pointing: &Pointing, v: MovingVector| value(&pointing.to_body(&unit(&v).unwrap()));
+            let shift = body(&kept.pointing, around.to_sun()) - body(&free, around.to_sun());
+            worst[0].set(worst[0].get().max(shift.norm()));
+            let off_rad =
+                |pointing: &Pointing| angle_between_rad(&-Vector3::z(), &body(pointing, around.to_planet()));
+            if !kept.in_force {
+                assert!(off_rad(&free) >= cone.cone_rad && kept.pointing == free && kept.reached);
+                seen[0] += 1;
+                continue;
+            }
+            assert!(off_rad(&free) < cone.cone_rad);
+            // The turn that was made, and shorter ones either way.
+            let made_rad = {
+                let from = free.frame().inertial_from_body;
+                (from.inverse() * kept.pointing.frame().inertial_from_body).angle()
+            };
+            let sun_body = unit(&free.to_body(&around.to_sun())).unwrap();
+            let trials = (-20..=20).map(|k| f64::from(k) / 20.0);
+            let turned = |angle_rad: f64| free.turned(&sun_body, Moving::constant(angle_rad));
+            if kept.reached {
+                worst[1].set(worst[1].get().max((off_rad(&kept.pointing) - cone.cone_rad).abs()));
+                for share in trials.filter(|share| share.abs() < 0.99) {
+                    assert!(off_rad(&turned(share * made_rad)) < cone.cone_rad + 1e-12);
+                }
+                seen[1] += 1;
+            } else {
+                let best_rad = off_rad(&kept.pointing);
+                assert!(best_rad < cone.cone_rad);
+                assert!(
+                    trials.map(|share| off_rad(&turned(share * PI))).all(|other| other <= best_rad + 1e-12)
+                );
+                seen[2] += 1;
+            }
+        }
+        assert!(worst[0].get() < 1e-14 && worst[1].get() < 1e-12, "{worst:?}");
+        assert!(seen.iter().all(|count| *count > 10_000), "{seen:?}");
+    }
+
+    #[test]
+    fn the_rate_is_the_difference_of_the_attitude() {
+        let mut random = Random(12);
+        let (mut compared, mut switching) = (0, 0);
+        for _ in 0..5000 {
+            let cone = HotPole { cone_rad: random.within(0.1, 3.0), ..EVERYWHERE };
+            let motions = [(); 6].map(|()| Motion::random(&mut random));
+            let at = |time_s: f64| {
+                let [boresight_body, aimpoint, body_roll, external_roll, position, sun] =
+                    motions.map(|motion| motion.at(time_s));
+                let vectors = PointingVectors { boresight_body, aimpoint, body_roll, external_roll };
+                let kept = cone.constrained(&vectors.pointing()?, &surroundings(position, sun));
+                kept.in_force.then_some(kept)
+            };
+            let Some(kept) = at(0.0) else { continue };
+            let found = kept.pointing.frame().rate_body_rad_s;
+            let step_s = (3e-4 / found.norm()).min(0.1);
+            let same =
+                |t: f64| at(t).filter(|other| other.reached == kept.reached).map(|other| other.pointing);
+            let jump = |t: f64| {
+                same(t).is_none_or(|other| {
+                    let rate = other.frame().rate_body_rad_s;
+                    (rate - found).norm() > 5e-3 * found.norm().max(1e-5)
+                })
+            };
+            // Left out: switching, and where the boundary is met at a tangent and the rate grows without bound.
+            if jump(2.0 * step_s) || jump(-2.0 * step_s) {
+                switching += 1;
+                continue;
+            }
+            let Some(expected) = difference_rad_s(same, step_s) else { continue };
+            let error = (found - expected).norm() / expected.norm().max(1e-5);
+            assert!(error < 1e-7, "{error:e} {cone:?} {kept:?}");
+            compared += 1;
+        }
+        assert!(compared > 1500 && switching < 200, "{compared} {switching}");
+    }
+
+    #[test]
+    fn it_ends_with_its_condition() {
+        let sun = fixed(Vector3::x());
+        let around = |height_m: f64, angle_rad: f64| {
+            let radius_m = Body::Mercury.data().radius_m + height_m;
+            let position = Vector3::new(angle_rad.cos(), angle_rad.sin(), 0.0) * radius_m;
+            Surroundings { position: fixed(position), ..surroundings(sun, sun) }
+        };
+        let cone = HotPole { altitude_m: 1e6, angle_rad: 0.5, cone_rad: 1.0 };
+        // -Z at the planet, -Y toward the Sun as far as possible.
+        let pointing = |around: &Surroundings| {
+            PointingVectors {
+                boresight_body: fixed(-Vector3::z()),
+                aimpoint: around.to_planet(),
+                body_roll: fixed(-Vector3::y()),
+                external_roll: around.to_sun(),
+            }
+            .pointing()
+            .unwrap()
+        };
+        for (height_m, angle_rad, expected) in [
+            (0.99e6, 0.49, true),
+            (1.01e6, 0.49, false),
+            (0.99e6, 0.51, false),
+            (0.5e6, -0.2, true),
+            (0.5e6, 3.0, false),
+        ] {
+            let around = around(height_m, angle_rad);
+            assert_eq!(cone.in_region(&around), expected);
+            assert_eq!(cone.constrained(&pointing(&around), &around).in_force, expected);
+        }
+    }
+}

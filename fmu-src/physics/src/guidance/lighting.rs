@@ -1,0 +1,285 @@
+//! Surface points by their lighting: the subsolar point, and the one of best lighting and viewing (eqs 17 to 19).
+//!
+//! Optimal lighting maximises F = cos(incidence) cos(emission) on a sphere of `radii[0]`. The point lies in the plane of
+//! nadir and subsolar point, at the angle beta from nadir; alpha is the angle between both at the planet's centre, r the
+//! spacecraft's distance and q = R/r: F = cos(alpha - beta) (cos beta - q) / sqrt(1 + q^2 - 2 q cos beta). The search keeps to
+//! the arc that is seen and lit, max(0, alpha - 90 deg) to min(alpha, acos q), where F has one maximum (beyond it the printed
+//! eqs have a spurious one). Golden section brackets it, Newton on F' finishes, kept inside the bracket by bisection. Where
+//! no seen point is lit the best is the limb, F = 0.
+//!
+//! The rate of beta follows from F'(beta, alpha, r) = 0 by one Newton step in moving numbers.
+
+use nalgebra::ComplexField;
+use serde::{Deserialize, Serialize};
+
+use super::moving::{Moving, MovingVector, unit, unit_normal};
+use super::planet_point::radius_m;
+use super::surroundings::Surroundings;
+use crate::numerics::scalar::Scalar;
+
+/// What the subsolar point of an ellipsoid is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SubsolarMethod {
+    /// The surface point on the line from the planet's centre to the Sun.
+    #[default]
+    Line,
+    /// The surface point whose normal is parallel to that line: incidence zero.
+    Normal,
+}
+
+/// Subsolar point from the planet's centre, EME2000, in m.
+pub fn subsolar_m(surroundings: &Surroundings, method: SubsolarMethod) -> Option<MovingVector> {
+    let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
+    let radii_m = &surroundings.planet.radii_m;
+    let sun = unit(&(planet_from_inertial * surroundings.sun))?;
+    let point = match method {
+        SubsolarMethod::Line => sun * radius_m(radii_m, &sun),
+        SubsolarMethod::Normal => {
+            let scaled = sun.zip_map(radii_m, |component, radius_m| component * radius_m);
+            unit(&scaled)?.zip_map(radii_m, |component, radius_m| component * radius_m)
+        }
+    };
+    Some(planet_from_inertial.tr_mul(&point))
+}
+
+/// Surface point of optimal lighting from the planet's centre, EME2000, in m; `None` inside the planet.
+pub fn optimal_lighting_m(surroundings: &Surroundings) -> Option<MovingVector> {
+    let sphere_m = surroundings.planet.radii_m.x;
+    let (up, sun) = (unit(&surroundings.position)?, unit(&surroundings.sun)?);
+    let distance_m = surroundings.position.dot(&up);
+    if !(sphere_m > 0.0 && sphere_m < distance_m.re) {
+        return None;
+    }
+    let ratio = Moving::from_re(sphere_m) / distance_m;
+    // The horizontal direction of the Sun, and the Sun's angle from nadir; in line with both the nadir is as good as any.
+    let Some(toward_sun) = unit_normal(&up, &sun).map(|normal| normal.cross(&up)) else {
+        return Some(up * Moving::from_re(sphere_m));
+    };
+    let alpha_rad = Moving::polar_angle(sun.dot(&toward_sun), sun.dot(&up));
+    let beta_rad = nadir_angle_rad(alpha_rad, ratio);
+    let (sine, cosine) = beta_rad.sin_cos();
+    Some((up * cosine + toward_sun * sine) * Moving::from_re(sphere_m))
+}
+
+/// Angle at the planet's centre from nadir to the best point.
+fn nadir_angle_rad(alpha_rad: Moving, ratio: Moving) -> Moving {
+    let limb_rad = Moving::polar_angle((Moving::from_re(1.0) - ratio * ratio).sqrt(), ratio);
+    let low_rad = (alpha_rad.re - core::f64::consts::FRAC_PI_2).max(0.0);
+    let high_rad = alpha_rad.re.min(limb_rad.re);
+    if low_rad >= limb_rad.re {
+        return limb_rad;
+    }
+    let beta_rad = solve(low_rad, high_rad, alpha_rad.re, ratio.re);
+    let beta = Moving::from_re(beta_rad);
+    let (_, curvature) = slope_and_curvature(beta_rad, alpha_rad.re, ratio.re);
+    if curvature < 0.0 { beta - slope(beta, alpha_rad, ratio) / curvature } else { beta }
+}
+
+/// The maximum of F within a bracket on which F' falls from positive to negative.
+fn solve(mut low_rad: f64, mut high_rad: f64, alpha_rad: f64, ratio: f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    // The bracket shrinks to 2 %; from there Newton converges quadratically.
+    const GOLDEN_STEPS: usize = 8;
+    const NEWTON_STEPS: usize = 60;
+    let f = |beta_rad| value(beta_rad, alpha_rad, ratio);
+    let (mut left_rad, mut right_rad) =
+        (high_rad - GOLDEN * (high_rad - low_rad), low_rad + GOLDEN * (high_rad - low_rad));
+    let (mut left, mut right) = (f(left_rad), f(right_rad));
+    for _ in 0..GOLDEN_STEPS {
+        if left < right {
+            (low_rad, left_rad, left) = (left_rad, right_rad, right);
+            right_rad = low_rad + GOLDEN * (high_rad - low_rad);
+            right = f(right_rad);
+        } else {
+            (high_rad, right_rad, right) = (right_rad, left_rad, left);
+            left_rad = high_rad - GOLDEN * (high_rad - low_rad);
+            left = f(left_rad);
+        }
+    }
+    let mut beta_rad = 0.5 * (low_rad + high_rad);
+    for _ in 0..NEWTON_STEPS {
+        let (slope, curvature) = slope_and_curvature(beta_rad, alpha_rad, ratio);
+        if slope > 0.0 {
+            low_rad = beta_rad;
+        } else {
+            high_rad = beta_rad;
+        }
+        let newton_rad = beta_rad - slope / curvature;
+        let inside = curvature < 0.0 && newton_rad >= low_rad && newton_rad <= high_rad;
+        let next_rad = if inside { newton_rad } else { 0.5 * (low_rad + high_rad) };
+        let step_rad = (next_rad - beta_rad).abs();
+        beta_rad = next_rad;
+        if step_rad <= 4.0 * f64::EPSILON * beta_rad.abs() {
+            break;
+        }
+    }
+    beta_rad
+}
+
+/// F (eq 17).
+fn value(beta_rad: f64, alpha_rad: f64, ratio: f64) -> f64 {
+    let cosine = beta_rad.cos();
+    (alpha_rad - beta_rad).cos() * (cosine - ratio) / (1.0 + ratio * (ratio - 2.0 * cosine)).sqrt()
+}
+
+/// F' by beta, times d^3 with d the distance to the point over r: it has the same roots, and F' its sign.
+fn slope<T: Scalar>(beta_rad: T, alpha_rad: T, ratio: T) -> T {
+    let one = T::constant(1.0);
+    let (sine, cosine) = beta_rad.sin_cos();
+    let (sin_i, cos_i) = (alpha_rad - beta_rad).sin_cos();
+    let squared = one + ratio * (ratio - cosine * 2.0);
+    sin_i * (cosine - ratio) * squared - cos_i * sine * (one - ratio * cosine)
+}
+
+/// [`slope`] and its derivative by beta.
+fn slope_and_curvature(beta_rad: f64, alpha_rad: f64, ratio: f64) -> (f64, f64) {
+    let dual = slope(Moving::new(beta_rad, 1.0), Moving::from_re(alpha_rad), Moving::from_re(ratio));
+    (dual.re, dual.eps)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Against a search over the whole sphere, the incidence, and differences over time.
+    use super::super::moving::{fixed, rate, value as now};
+    use super::super::test_orbit::TestOrbit;
+    use super::*;
+    use crate::attitude::angle_between_rad;
+    use approx::assert_relative_eq;
+    use core::f64::consts::{FRAC_PI_2, PI};
+    use nalgebra::Vector3;
+
+    fn above(distance: f64, alpha_rad: f64) -> Surroundings {
+        static SOME: std::sync::OnceLock<Surroundings> = std::sync::OnceLock::new();
+        let mut surroundings = *SOME.get_or_init(|| TestOrbit::new(12.0).surroundings(0.0));
+        surroundings.planet.radii_m = Vector3::repeat(2.44e6);
+        surroundings.position = fixed(Vector3::new(0.6, -0.48, 0.64) * (2.44e6 * distance));
+        let side = Vector3::new(0.8, 0.36, -0.48);
+        let up = now(&surroundings.position).normalize();
+        surroundings.sun = fixed((up * alpha_rad.cos() + side * alpha_rad.sin()) * 5e10);
+        surroundings
+    }
+
+    /// F of a point by its normal: cosines of incidence and emission by dot products, nothing hidden below the horizon.
+    fn lighting(surroundings: &Surroundings, normal: &Vector3<f64>) -> f64 {
+        let to_craft = now(&surroundings.position) - normal * surroundings.planet.radii_m.x;
+        let emission = normal.dot(&to_craft.normalize());
+        let incidence = normal.dot(&now(&surroundings.sun).normalize());
+        if emission < 0.0 || incidence < 0.0 { 0.0 } else { emission * incidence }
+    }
+
+    /// The best normal over the whole sphere: a grid in two angles, refined about its best point again and again.
+    fn search(surroundings: &Surroundings) -> Vector3<f64> {
+        let normal = |a: f64, b: f64| Vector3::new(a.cos() * b.cos(), a.sin() * b.cos(), b.sin());
+        let (mut centre, mut half) = ((0.0, 0.0), (PI, FRAC_PI_2));
+        for round in 0..40 {
+            let count = if round == 0 { 200 } else { 12 };
+            let mut best = (-1.0, centre);
+            for i in -count..=count {
+                for j in -count..=count {
+                    let part = |k: i32, half: f64| f64::from(k) / f64::from(count) * half;
+                    let at = (centre.0 + part(i, half.0), centre.1 + part(j, half.1));
+                    let lit = lighting(surroundings, &normal(at.0, at.1));
+                    if lit > best.0 {
+                        best = (lit, at);
+                    }
+                }
+            }
+            centre = best.1;
+            half = if round == 0 { (0.04, 0.04) } else { (half.0 * 0.6, half.1 * 0.6) };
+        }
+        normal(centre.0, centre.1)
+    }
+
+    #[test]
+    fn optimal_lighting_is_the_best_point_of_the_sphere() {
+        for distance in [1.05, 1.5, 3.0, 7.0] {
+            for alpha_rad in [0.05, 0.6, 1.2, 1.7] {
+                let limb_rad: f64 = (1.0_f64 / distance).acos();
+                if alpha_rad > FRAC_PI_2 + limb_rad - 0.1 {
+                    continue;
+                }
+                let surroundings = above(distance, alpha_rad);
+                let point = now(&optimal_lighting_m(&surroundings).unwrap());
+                assert_relative_eq!(point.norm(), 2.44e6, max_relative = 1e-14);
+                let found = point / point.norm();
+                let best = search(&surroundings);
+                assert!(lighting(&surroundings, &found) >= lighting(&surroundings, &best) - 1e-15);
+                // A maximum is found from values to the root of the rounding.
+                assert!(angle_between_rad(&found, &best) < 1e-6, "{distance} {alpha_rad}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_point_lies_between_nadir_and_subsolar_on_the_seen_and_lit_arc() {
+        for distance in [1.0001, 1.01, 1.2, 2.0, 6.0, 100.0] {
+            for step in 0..=300 {
+                let alpha_rad = PI * f64::from(step) / 300.0;
+                let surroundings = above(distance, alpha_rad);
+                let point = optimal_lighting_m(&surroundings).unwrap();
+                assert!(rate(&point).iter().all(|x| x.is_finite()), "{distance} {alpha_rad}");
+                let (point, up) = (now(&point), now(&surroundings.position));
+                let sun = now(&surroundings.sun);
+                let from_nadir_rad = angle_between_rad(&point, &up);
+                let limb_rad = (1.0_f64 / distance).acos();
+                assert!(from_nadir_rad <= limb_rad + 1e-9, "{distance} {alpha_rad}");
+                let sum = from_nadir_rad + angle_between_rad(&point, &sun);
+                if step < 300 {
+                    assert_relative_eq!(sum, alpha_rad, epsilon = 1e-7);
+                }
+                if alpha_rad > FRAC_PI_2 + limb_rad {
+                    let at_limb = step == 300 || (from_nadir_rad - limb_rad).abs() < 1e-9;
+                    assert!(at_limb, "dark: {distance} {alpha_rad}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_normal_at_the_subsolar_point_has_incidence_zero_and_the_line_meets_the_sun() {
+        let surroundings = TestOrbit::new(12.0).surroundings(500.0);
+        let to_planet = surroundings.planet.planet_from_inertial(surroundings.epoch_s).map(|x| x.re);
+        let sun = to_planet * now(&surroundings.sun);
+        let at = |method| to_planet * now(&subsolar_m(&surroundings, method).unwrap());
+        let radii_m = surroundings.planet.radii_m;
+        let (line, normal) = (at(SubsolarMethod::Line), at(SubsolarMethod::Normal));
+        for point in [line, normal] {
+            assert_relative_eq!(point.component_div(&radii_m).norm(), 1.0, epsilon = 1e-14);
+        }
+        let gradient = normal.component_div(&radii_m).component_div(&radii_m);
+        assert!(gradient.normalize().cross(&sun.normalize()).norm() < 1e-14);
+        assert!(gradient.dot(&sun) > 0.0);
+        assert!(line.normalize().cross(&sun.normalize()).norm() < 1e-14 && line.dot(&sun) > 0.0);
+        assert!((line - normal).norm() > 1.0, "the ellipsoid is triaxial enough to tell them apart");
+    }
+
+    #[test]
+    fn the_points_move_at_the_rate_of_their_differences() {
+        let orbit = TestOrbit::new(12.0);
+        type Law = fn(&Surroundings) -> Option<MovingVector>;
+        let laws: [Law; 3] = [
+            optimal_lighting_m,
+            |s| subsolar_m(s, SubsolarMethod::Line),
+            |s| subsolar_m(s, SubsolarMethod::Normal),
+        ];
+        for law in laws {
+            for time_s in orbit.times_s() {
+                let at = |t: f64| now(&law(&orbit.surroundings(time_s + t)).unwrap());
+                let slope = (at(-1.0) - at(1.0) + (at(0.5) - at(-0.5)) * 8.0) / 6.0;
+                let found = rate(&law(&orbit.surroundings(time_s)).unwrap());
+                // m/s; positions of 2.4e6 m round to 5e-10 m.
+                assert_relative_eq!(found, slope, epsilon = 2e-8, max_relative = 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn inside_the_planet_or_without_a_sun_there_is_no_point() {
+        assert!(optimal_lighting_m(&above(0.9, 1.0)).is_none());
+        assert!(
+            optimal_lighting_m(&Surroundings { sun: MovingVector::zeros(), ..above(2.0, 1.0) }).is_none()
+        );
+        let dark = Surroundings { sun: MovingVector::zeros(), ..above(2.0, 1.0) };
+        assert!(subsolar_m(&dark, SubsolarMethod::Line).is_none());
+    }
+}

@@ -1,0 +1,183 @@
+//! The scenarios of paper 001's Table 5 as one table: which vectors each sets, with limb and scan.
+//!
+//! All but the generic one roll -Y toward the Sun. A scan goes on top of any but downlink.
+
+use nalgebra::Vector3;
+
+use super::aimpoint::{Aim, AimKind, aimpoint};
+use super::antenna::AntennaAzimuth;
+use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
+use super::command::{BoresightOption, PointingCommand, Scenario};
+use super::downlink::{Downlink, DownlinkRequest, downlink};
+use super::law::PointingVectors;
+use super::lighting::SubsolarMethod;
+use super::limb::{LimbPoint, generic_limb, terminator_limb};
+use super::moving::{MovingVector, fixed, value};
+use super::roll::{body_roll, external_roll};
+use super::scan::{ScanCompatibility, scanned};
+use super::surroundings::Surroundings;
+use crate::attitude::SunAngles;
+use crate::spacecraft::Instrument;
+
+/// What the spacecraft has, and how the options are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuidanceHardware<'a> {
+    /// Fixed instruments.
+    pub instruments: &'a [Instrument],
+    /// Range of the camera.
+    pub mdis: MdisRange,
+    /// What the subsolar point is.
+    pub subsolar: SubsolarMethod,
+    /// Which scans go with which aims.
+    pub scans: ScanCompatibility,
+}
+
+/// What runs beside a command: clocks of its motions, and where downlink wants the Sun.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointingProgress {
+    /// Since the scan began, in s; `None` while there is none.
+    pub scan_elapsed_s: Option<f64>,
+    /// Since the limb scenario began, in s.
+    pub limb_elapsed_s: f64,
+    /// Where the Sun stands in the body frame in downlink.
+    pub downlink_sun_body: SunAngles,
+}
+
+/// The vectors of a command, and what is said about them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aimed {
+    /// For the attitude law.
+    pub vectors: PointingVectors,
+    /// The camera's angle, where the command sets it; out of range it is the nearest bound.
+    pub mdis: Option<DeviceAngle>,
+    /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
+    pub antenna: Option<AntennaAzimuth>,
+    /// Whether the boresight is on the aimpoint that was asked for.
+    pub reachable: bool,
+    /// Whether an angle that was asked for is out of its range.
+    pub clamped: bool,
+    /// Whether a scan moves boresight or aim.
+    pub scan_active: bool,
+}
+
+/// What a scenario reads.
+struct Reading<'a> {
+    command: &'a PointingCommand,
+    hardware: &'a GuidanceHardware<'a>,
+    surroundings: &'a Surroundings,
+    progress: &'a PointingProgress,
+}
+
+/// The vectors of a scenario; `None` where boresight or aim has no direction.
+type ScenarioLaw = fn(&Reading<'_>) -> Option<Aimed>;
+
+/// Every scenario and its law, in the order of [`Scenario`].
+const SCENARIOS: [(Scenario, ScenarioLaw); 8] = [
+    (Scenario::Generic, |r| {
+        let boresight = boresight(&r.command.boresight, &r.hardware.mdis)?;
+        let mut aimed = r.sunward(boresight, r.aimpoint()?);
+        aimed.vectors.body_roll = body_roll(&r.command.body_roll);
+        aimed.vectors.external_roll = external_roll(&r.command.external_roll, r.surroundings);
+        Some(aimed)
+    }),
+    (Scenario::PlusZ, |r| Some(r.sunward(r.instrument()?, r.aimpoint()?))),
+    (Scenario::Nadir, |r| {
+        let nadir = Aim::new(r.surroundings.to_planet(), AimKind::PlanetPoint)?;
+        Some(r.sunward(r.instrument()?, nadir))
+    }),
+    (Scenario::Mdis, |r| {
+        let camera = Boresight::mdis(r.command.boresight.angle_rad, &r.hardware.mdis);
+        Some(r.sunward(camera, r.aimpoint()?))
+    }),
+    (Scenario::DoubleTarget, |r| {
+        let aimed = r.sunward(r.instrument()?, r.aimpoint()?);
+        let second = aimpoint(&r.command.second_aimpoint, r.surroundings, r.hardware.subsolar);
+        let camera = second.and_then(|second| {
+            let body = aimed.vectors.pointing()?.to_body(&second.toward);
+            Some(r.hardware.mdis.toward(&value(&body)))
+        });
+        Some(Aimed { mdis: camera, ..aimed })
+    }),
+    (Scenario::Downlink, antenna_at_the_earth),
+    (Scenario::LimbTerminator, |r| {
+        let limb = terminator_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
+        Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
+    }),
+    (Scenario::LimbGeneric, |r| {
+        let limb = generic_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
+        Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
+    }),
+];
+
+/// The vectors of a command, its scan included; `None` where it has no scenario, or boresight or aim no direction: then the
+/// last command stays.
+pub fn aim(
+    command: &PointingCommand,
+    hardware: &GuidanceHardware<'_>,
+    surroundings: &Surroundings,
+    progress: &PointingProgress,
+) -> Option<Aimed> {
+    let (_, law) = SCENARIOS.iter().find(|(scenario, _)| Some(*scenario) == command.scenario)?;
+    let aimed = law(&Reading { command, hardware, surroundings, progress })?;
+    let directed =
+        |vector: &MovingVector| value(vector).amax() > 0.0 && vector.iter().all(|x| x.re.is_finite());
+    directed(&aimed.vectors.boresight_body).then_some(aimed)
+}
+
+impl Reading<'_> {
+    fn instrument(&self) -> Option<Boresight> {
+        instrument_boresight(self.hardware.instruments, self.command.boresight.instrument).map(Boresight::of)
+    }
+
+    fn aimpoint(&self) -> Option<Aim> {
+        aimpoint(&self.command.aimpoint, self.surroundings, self.hardware.subsolar)
+    }
+
+    fn limb_aim(&self, limb: &LimbPoint) -> Option<Aim> {
+        let aim = Aim::new(self.surroundings.to_planet() + limb.position, AimKind::PlanetPoint)?;
+        Some(Aim { reachable: limb.exists, ..aim })
+    }
+
+    /// The boresight at the aim with -Y rolled toward the Sun, and the scan on top.
+    fn sunward(&self, boresight: Boresight, aim: Aim) -> Aimed {
+        let scan = self.progress.scan_elapsed_s.and_then(|elapsed_s| {
+            let (scan, scans) = (&self.command.scan, &self.hardware.scans);
+            scanned(&boresight.body, &aim, scan, self.surroundings, scans, elapsed_s)
+        });
+        Aimed {
+            vectors: PointingVectors {
+                boresight_body: scan.map_or(boresight.body, |scan| scan.boresight_body),
+                aimpoint: scan.map_or(aim.toward, |scan| scan.toward),
+                body_roll: fixed(-Vector3::y()),
+                external_roll: self.surroundings.to_sun(),
+            },
+            mdis: boresight.mdis,
+            antenna: boresight.antenna,
+            reachable: aim.reachable,
+            clamped: boresight.mdis.is_some_and(|camera| !camera.in_range)
+                || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
+            scan_active: scan.is_some(),
+        }
+    }
+}
+
+/// A phased-array antenna at the Earth: at the commanded azimuth where the boresight is an antenna, otherwise where it puts
+/// the Sun in its place. No scan moves it.
+fn antenna_at_the_earth(r: &Reading<'_>) -> Option<Aimed> {
+    let boresight = &r.command.boresight;
+    let commanded = boresight.option == Some(BoresightOption::PhasedArray);
+    let request = DownlinkRequest {
+        antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
+        sun_body: r.progress.downlink_sun_body,
+    };
+    let Downlink { vectors, antenna, antenna_azimuth_rad, clamped } =
+        downlink(&r.surroundings.to_sun(), &r.surroundings.to_earth(), &request)?;
+    Some(Aimed {
+        vectors,
+        mdis: None,
+        antenna: Some(AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad: 0.0 }),
+        reachable: true,
+        clamped,
+        scan_active: false,
+    })
+}

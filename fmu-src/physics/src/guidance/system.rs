@@ -1,0 +1,421 @@
+//! Guidance as a sampled system (paper 001, "Guidance system architecture"): once a second a command is computed from what
+//! is known then; between samples it is propagated by its rate.
+//!
+//! A sample decides the mode, admits the command that the mode allows, aims, applies the constraints and judges the result.
+//! Samples lie at whole seconds of time, and at the start. Where the spacecraft, Sun or Earth is not known, or boresight or
+//! aimpoint has no direction, the last command stays.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::antenna::{Antenna, AntennaAzimuth};
+use super::boresight::DeviceAngle;
+use super::command::{PointingCommand, Scenario};
+use super::constraints::{ConstrainedPointing, Constraints};
+use super::downlink::{LinkLimits, link};
+use super::guided::Guided;
+use super::law::{Pointing, PointingVectors};
+use super::modes::{Mode, ModeSettings, ModeState, Sensed, Steering};
+use super::moving::{MovingVector, rate, value};
+use super::orbit_phase::PeriapsisCount;
+use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
+use super::schedule::Activity;
+use super::surroundings::Surroundings;
+use crate::attitude::{Attitude, SunAngles};
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::scalar::{Dual64, Scalar};
+use crate::numerics::spacing::spacing;
+
+/// Time between two samples, in s.
+pub const SAMPLE_INTERVAL_S: f64 = 1.0;
+
+/// Samples a step of this many microseconds of work can take: a sample costs about one, with optimal lighting a few.
+pub const SAMPLE_WORK: u32 = 4;
+
+/// Everything that parameters say.
+#[derive(Clone, Copy, Debug)]
+pub struct GuidanceSettings<'a> {
+    /// Instruments, camera, scans.
+    pub hardware: GuidanceHardware<'a>,
+    /// Modes and their constraints.
+    pub modes: ModeSettings,
+    /// The radio link.
+    pub link: LinkLimits,
+    /// The law of [`Scenario::OrbitPhase`]; its periapsis and period are computed.
+    pub orbit_phase: Guided,
+}
+
+/// Everything that a sample reads.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleInputs {
+    /// What is commanded.
+    pub command: PointingCommand,
+    /// Where everything is; `None` while it is not known.
+    pub surroundings: Option<Surroundings>,
+    /// Mode request, estimate and Sun sensors at the sample's time.
+    pub sensed: Sensed,
+}
+
+/// What a command gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CommandKind {
+    /// Nothing was commanded yet: the start attitude is held.
+    #[default]
+    None,
+    /// Attitude and rate.
+    Attitude,
+    /// Error quaternion and rate.
+    ErrorQuaternion,
+    /// Rate alone.
+    RateOnly,
+}
+
+/// A command, propagated by its rate from its sample on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GuidanceCommand {
+    /// What it gives.
+    pub kind: CommandKind,
+    /// When it was computed, in s.
+    pub since_s: f64,
+    /// Attitude then; without [`CommandKind::Attitude`] the one held before.
+    attitude: Attitude,
+    /// Its quaternion with continuous sign.
+    quaternion: [f64; 4],
+    /// Body rate, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// From the commanded to the actual body frame, scalar last (paper 001 eq 25).
+    pub error: [f64; 4],
+}
+
+/// What is said of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judgement {
+    /// The camera's angle, and whether it is the one asked for.
+    pub mdis: DeviceAngle,
+    /// The antenna in use.
+    pub antenna: Antenna,
+    /// Where it looks, in rad.
+    pub antenna_azimuth_rad: f64,
+    /// Angle between Sun and Earth, in rad.
+    pub sun_separation_rad: f64,
+    /// Whether there is a link with the Earth.
+    pub link_available: bool,
+    /// Whether the boresight is on the aimpoint.
+    pub reachable: bool,
+    /// Whether a fallback stands in for a roll vector, or there is no direction at all.
+    pub degenerate: bool,
+    /// Whether a scan moves boresight or aim.
+    pub scan_active: bool,
+    /// Whether the keep-in zone changed the attitude.
+    pub sun_keep_in: bool,
+    /// Whether the hot-pole keep-out did.
+    pub hot_pole: bool,
+    /// Whether something that was asked for was clamped.
+    pub clamped: bool,
+}
+
+/// State of the sampled system.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GuidanceState {
+    command: GuidanceCommand,
+    judgement: Judgement,
+    /// From the spacecraft to the Sun and its rate, EME2000, and when; zero while it is not known.
+    to_sun: [Vector3<f64>; 2],
+    to_sun_since_s: f64,
+    modes: ModeState,
+    periapses: PeriapsisCount,
+    scan_since_s: Option<f64>,
+    /// The limb scenario and since when it is commanded, in s.
+    limb: Option<(Scenario, f64)>,
+    next_sample_s: f64,
+}
+
+impl GuidanceState {
+    /// Before the first sample, which is due at `start_s`.
+    pub fn new(attitude: Attitude, start_s: f64) -> Self {
+        Self {
+            command: GuidanceCommand {
+                kind: CommandKind::None,
+                since_s: start_s,
+                attitude,
+                quaternion: attitude.quaternion(None),
+                rate_body_rad_s: Vector3::zeros(),
+                error: [0.0, 0.0, 0.0, 1.0],
+            },
+            judgement: Judgement::NOTHING,
+            to_sun: [Vector3::zeros(); 2],
+            to_sun_since_s: start_s,
+            modes: ModeState::default(),
+            periapses: PeriapsisCount::default(),
+            scan_since_s: None,
+            limb: None,
+            next_sample_s: start_s,
+        }
+    }
+
+    /// The command in force.
+    pub fn command(&self) -> &GuidanceCommand {
+        &self.command
+    }
+
+    /// What is said of it.
+    pub fn judgement(&self) -> &Judgement {
+        &self.judgement
+    }
+
+    /// The mode in force.
+    pub fn mode(&self) -> Mode {
+        self.modes.mode
+    }
+
+    /// When the next sample is due, in s.
+    pub fn next_sample_s(&self) -> f64 {
+        self.next_sample_s
+    }
+
+    /// The next sample that belongs to a step to `end_s`; one at its end belongs to the step after it.
+    pub fn due_before(&self, end_s: f64) -> Option<f64> {
+        let tolerance_s = 4.0 * spacing(end_s);
+        (self.next_sample_s < end_s - tolerance_s).then_some(self.next_sample_s)
+    }
+
+    /// Takes the sample that is due.
+    pub fn sample(&mut self, settings: &GuidanceSettings<'_>, inputs: &SampleInputs) {
+        let time_s = self.next_sample_s;
+        self.next_sample_s = next_whole_s(time_s);
+        let sensed = Sensed { time_s, ..inputs.sensed };
+        let surroundings = inputs.surroundings.as_ref();
+        if let Some(to_sun) = surroundings.map(Surroundings::to_sun) {
+            (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
+        }
+        match self.modes.sample(&settings.modes, &sensed, surroundings) {
+            Some(Steering::Pointing(constraints)) => {
+                let command = self.modes.mode.admitted(&inputs.command);
+                self.keep_clocks(&command, time_s);
+                if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
+                    self.point(settings, &command, &constraints, surroundings, time_s);
+                }
+            }
+            Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
+                self.steer(CommandKind::ErrorQuaternion, error.0, rate_body_rad_s, time_s);
+            }
+            Some(Steering::RateOnly(rate_body_rad_s)) => {
+                self.steer(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
+            }
+            None => self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING },
+        }
+    }
+
+    /// Azimuth and elevation of the Sun in the commanded frame at `time_s`; both 0 while it is not known.
+    pub fn sun_angles_at(&self, time_s: f64) -> SunAngles {
+        let [to_sun, _] = self.to_sun_at(time_s);
+        if to_sun == Vector3::zeros() {
+            return SunAngles::default();
+        }
+        SunAngles::of(&(self.command.attitude_at(time_s).inertial_from_body().inverse() * to_sun))
+    }
+
+    /// Their rates, in rad/s.
+    pub fn sun_angle_rates_at(&self, time_s: f64) -> [f64; 2] {
+        let [to_sun, sun_rate] = self.to_sun_at(time_s);
+        if to_sun == Vector3::zeros() {
+            return [0.0; 2];
+        }
+        let to_body = self.command.attitude_at(time_s).inertial_from_body().inverse();
+        let sun_body = to_body * to_sun;
+        let rate_body = to_body * sun_rate - self.command.rate_body_rad_s.cross(&sun_body);
+        let [x, y, z] = [0, 1, 2].map(|i| Dual64::new(sun_body[i], rate_body[i]));
+        let across = Dual64::constant(sun_body.x.hypot(sun_body.y));
+        let across = if across.re > 0.0 {
+            Dual64::new(across.re, (x * x.eps + y * y.eps).re / across.re)
+        } else {
+            across
+        };
+        [Dual64::polar_angle(x, -y).eps, Dual64::polar_angle(-z, across).eps]
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let GuidanceCommand { since_s, attitude, quaternion, rate_body_rad_s, error, .. } = &self.command;
+        let judged = &self.judgement;
+        let angles = [judged.mdis.angle_rad, judged.antenna_azimuth_rad, judged.sun_separation_rad];
+        let times = [*since_s, self.next_sample_s, self.to_sun_since_s];
+        let clocks = self.scan_since_s.into_iter().chain(self.limb.map(|(_, since_s)| since_s));
+        let mut numbers = quaternion.iter().chain(error).chain(rate_body_rad_s.iter()).chain(&angles);
+        attitude.is_rotation()
+            && numbers.all(sound)
+            && times.iter().all(sound)
+            && clocks.into_iter().all(|at_s| sound(&at_s))
+            && self.to_sun.iter().flatten().all(sound)
+            && self.modes.is_sound()
+            && self.periapses.is_sound()
+    }
+
+    /// Whether a step could begin at `time_s`.
+    pub fn covers(&self, time_s: f64) -> bool {
+        let tolerance_s = 4.0 * spacing(time_s);
+        (time_s - tolerance_s..=time_s + SAMPLE_INTERVAL_S + tolerance_s).contains(&self.next_sample_s)
+    }
+
+    fn to_sun_at(&self, time_s: f64) -> [Vector3<f64>; 2] {
+        let [to_sun, rate] = self.to_sun;
+        [to_sun + rate * (time_s - self.to_sun_since_s), rate]
+    }
+
+    /// A scan begins where its frame is first commanded, a limb scenario where it is.
+    fn keep_clocks(&mut self, command: &PointingCommand, time_s: f64) {
+        self.scan_since_s = command.scan.frame.map(|_| self.scan_since_s.unwrap_or(time_s));
+        let limb =
+            command.scenario.filter(|it| matches!(it, Scenario::LimbTerminator | Scenario::LimbGeneric));
+        self.limb = limb.map(|scenario| match self.limb {
+            Some((before, since_s)) if before == scenario => (scenario, since_s),
+            _ => (scenario, time_s),
+        });
+    }
+
+    /// Computes an attitude; without a direction the last command stays.
+    fn point(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        command: &PointingCommand,
+        constraints: &Constraints,
+        surroundings: &Surroundings,
+        time_s: f64,
+    ) {
+        let found = self.aimed(settings, command, surroundings, time_s).and_then(|aimed| {
+            let constrained = constraints.applied(&aimed.vectors, surroundings)?;
+            Some((aimed, constrained))
+        });
+        let Some((aimed, ConstrainedPointing { pointing, sun_keep_in, hot_pole, clamped })) = found else {
+            self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING };
+            return;
+        };
+        let frame = pointing.frame();
+        let attitude = Attitude::from_rotation(&frame.inertial_from_body);
+        let quaternion = attitude.quaternion(Some(self.command.quaternion_at(time_s)));
+        self.command = GuidanceCommand {
+            kind: CommandKind::Attitude,
+            since_s: time_s,
+            attitude,
+            quaternion,
+            rate_body_rad_s: frame.rate_body_rad_s,
+            error: [0.0, 0.0, 0.0, 1.0],
+        };
+        let (antenna, antenna_azimuth_rad) =
+            aimed.antenna.map_or((Antenna::None, 0.0), |it| (it.antenna, it.azimuth_rad));
+        let link = link(surroundings, &pointing, antenna, &settings.link);
+        let mdis = aimed.mdis.unwrap_or(Judgement::NOTHING.mdis);
+        self.judgement = Judgement {
+            mdis,
+            antenna,
+            antenna_azimuth_rad,
+            sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
+            link_available: link.is_some_and(|link| link.available),
+            reachable: aimed.reachable && is_on(&pointing, &aimed.vectors),
+            degenerate: pointing.degenerate,
+            scan_active: aimed.scan_active,
+            sun_keep_in,
+            hot_pole,
+            clamped: clamped || aimed.clamped || !mdis.in_range,
+        };
+    }
+
+    /// The vectors that the command asks for.
+    fn aimed(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        command: &PointingCommand,
+        surroundings: &Surroundings,
+        time_s: f64,
+    ) -> Option<Aimed> {
+        if command.scenario == Some(Scenario::OrbitPhase) {
+            return Some(self.orbit_phase(&settings.orbit_phase, surroundings));
+        }
+        let progress = PointingProgress {
+            scan_elapsed_s: self.scan_since_s.map(|since_s| time_s - since_s),
+            limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| time_s - since_s),
+            downlink_sun_body: SunAngles::default(),
+        };
+        aim(command, &settings.hardware, surroundings, &progress)
+    }
+
+    /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
+    fn orbit_phase(&mut self, law: &Guided, surroundings: &Surroundings) -> Aimed {
+        let attitude = self.periapses.attitude(law, surroundings);
+        let pointing = Pointing::of(&attitude.frame);
+        let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
+        let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
+        Aimed {
+            vectors: pointing.vectors(),
+            mdis: None,
+            antenna: is_downlink.then(|| AntennaAzimuth::toward(&earth_body())),
+            reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
+            clamped: false,
+            scan_active: false,
+        }
+    }
+
+    /// A command without an attitude of its own: the attitude reached is held by the rate.
+    fn steer(&mut self, kind: CommandKind, error: [f64; 4], rate_body_rad_s: Vector3<f64>, time_s: f64) {
+        let quaternion = self.command.quaternion_at(time_s);
+        let attitude = self.command.attitude_at(time_s);
+        self.command =
+            GuidanceCommand { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error };
+        self.judgement = Judgement::NOTHING;
+    }
+}
+
+impl GuidanceCommand {
+    /// Attitude at `time_s`.
+    pub fn attitude_at(&self, time_s: f64) -> Attitude {
+        self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
+    }
+
+    /// Its quaternion, scalar last, EME2000 to body; the sign goes on from sample to sample.
+    pub fn quaternion_at(&self, time_s: f64) -> [f64; 4] {
+        self.attitude_at(time_s).quaternion(Some(self.quaternion))
+    }
+
+    /// Its rate, in 1/s: half the product with the body rate.
+    pub fn quaternion_rate_at(&self, time_s: f64) -> [f64; 4] {
+        let [x, y, z, w] = self.quaternion_at(time_s);
+        let rate = self.rate_body_rad_s * 0.5;
+        let vector = rate * w + Vector3::new(x, y, z).cross(&rate);
+        [vector.x, vector.y, vector.z, -Vector3::new(x, y, z).dot(&rate)]
+    }
+}
+
+impl Judgement {
+    /// Of no attitude.
+    const NOTHING: Self = Self {
+        mdis: DeviceAngle { angle_rad: 0.0, in_range: true },
+        antenna: Antenna::None,
+        antenna_azimuth_rad: 0.0,
+        sun_separation_rad: 0.0,
+        link_available: false,
+        reachable: false,
+        degenerate: false,
+        scan_active: false,
+        sun_keep_in: false,
+        hot_pole: false,
+        clamped: false,
+    };
+}
+
+/// Whether the boresight is on the aimpoint, within what rounding leaves.
+fn is_on(pointing: &Pointing, vectors: &PointingVectors) -> bool {
+    const ROUNDING_RAD: f64 = 1e-9;
+    let toward = |vector: &MovingVector| value(vector).try_normalize(0.0);
+    let aim_body = toward(&pointing.to_body(&vectors.aimpoint));
+    let both = aim_body.zip(toward(&vectors.boresight_body));
+    both.is_some_and(|(aim, boresight)| {
+        aim.cross(&boresight).norm() < ROUNDING_RAD && aim.dot(&boresight) > 0.0
+    })
+}
+
+/// The next whole second after a sample at `time_s`; a time within rounding of a whole second counts as it.
+fn next_whole_s(time_s: f64) -> f64 {
+    let tolerance_s = 4.0 * spacing(time_s);
+    (time_s + tolerance_s).floor() + SAMPLE_INTERVAL_S
+}
