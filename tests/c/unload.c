@@ -117,6 +117,7 @@ int main(int count, char **arguments) {
     int simulations = count > 3 ? atoi(arguments[3]) : 1000;
     const struct { const char *library, *model; } rows[] = {
         {arguments[1], "MomentumPlant"}, {arguments[1], "SpinPlant"}, {arguments[1], "DisturbanceTorque"},
+        {arguments[1], "Guidance"},
         {arguments[2], "AllTypes"},      {arguments[2], "Panicking"},
     };
     for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {

@@ -53,7 +53,7 @@ def test_the_readmes_lines_for_fmpy_run(dist):
     assert 3.5 < momentum <= 4.0 + 1e-9 and dumps >= 2
 
 
-@pytest.mark.parametrize("name", ["MomentumPlant", "SpinPlant", "DisturbanceTorque"])
+@pytest.mark.parametrize("name", ["MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"])
 def test_a_manual_explains_what_it_cites(dist, name):
     with zipfile.ZipFile(dist / f"{name}.fmu") as archive:
         page = archive.read("documentation/index.html").decode()

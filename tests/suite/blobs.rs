@@ -64,7 +64,7 @@ fn genuine(model: &str) -> Vec<Vec<u8>> {
 
 #[test]
 fn the_seal_is_the_documented_one() {
-    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
+    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"] {
         for blob in genuine(model) {
             assert_eq!(seal(&blob, &blob[HEADER..]), blob, "{model}");
         }
@@ -261,7 +261,7 @@ fn every_truncation_and_every_flipped_bit_is_refused() {
 #[test]
 fn states_of_other_models_and_other_setups_are_refused() {
     let own = genuine("AllTypes").remove(2);
-    for other in ["Empty", "Panicking", "MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
+    for other in ["Empty", "Panicking", "MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"] {
         let foreign = fresh(other).state_bytes().1;
         let mut target = Target::new("AllTypes");
         target.offer(&foreign);

@@ -69,7 +69,7 @@ fn cycle(model: &str) {
 
 #[test]
 fn freeing_an_instance_gives_back_every_byte() {
-    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
+    for model in ["Empty", "AllTypes", "MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"] {
         cycle(model);
         let ((), count) = counted(|| (0..200).for_each(|_| cycle(model)));
         assert_eq!(count.live_bytes, 0, "{model}");
@@ -89,8 +89,13 @@ const CHILD: &str = "HELIOTORQUE_TEST_MEMORY";
 /// As many as take some seconds: a shipped model reads its spacecraft and describes itself every time, and the models
 /// before it in the library are compared first.
 #[cfg(target_os = "linux")]
-const CYCLES: [(&str, usize); 4] =
-    [("Empty", 100_000), ("MomentumPlant", 10_000), ("SpinPlant", 4_000), ("DisturbanceTorque", 4_000)];
+const CYCLES: [(&str, usize); 5] = [
+    ("Empty", 100_000),
+    ("MomentumPlant", 10_000),
+    ("SpinPlant", 4_000),
+    ("DisturbanceTorque", 4_000),
+    ("Guidance", 4_000),
+];
 /// The smallest blocks leaked in each of 4,000 cycles would be 125 kB, some of them in holes of the heap.
 #[cfg(target_os = "linux")]
 const SLACK_KB: u64 = 32;

@@ -25,5 +25,5 @@ fn every_model_has_the_same_files() {
         assert_eq!(found, FILES.map(str::to_owned).into(), "{}", folder.display());
         models += 1;
     }
-    assert_eq!(models, 3);
+    assert_eq!(models, 4);
 }

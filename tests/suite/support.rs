@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use client::{InProcess, Names};
 use fmi_export::{Entry, Library, Status};
 use model_description::{BaseType, Description};
-use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
+use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty, Panicking};
 
 /// Every model at hand.
@@ -21,6 +21,7 @@ pub static LIBRARY: Library = Library {
         Entry::of::<MomentumPlant>(),
         Entry::of::<SpinPlant>(),
         Entry::of::<DisturbanceTorque>(),
+        Entry::of::<Guidance>(),
     ],
 };
 
@@ -32,9 +33,11 @@ pub fn library(model: &str) -> &'static Library {
     static MOMENTUM_PLANT: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
     static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
     static DISTURBANCE_TORQUE: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
+    static GUIDANCE: Library = Library { entries: &[Entry::of::<Guidance>()] };
     match model {
         "SpinPlant" => &SPIN_PLANT,
         "DisturbanceTorque" => &DISTURBANCE_TORQUE,
+        "Guidance" => &GUIDANCE,
         "Empty" => &EMPTY,
         "AllTypes" => &ALL_TYPES,
         "Panicking" => &PANICKING,
@@ -44,7 +47,7 @@ pub fn library(model: &str) -> &'static Library {
 }
 
 /// The models that are packed into `dist/`.
-pub const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque"];
+pub const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"];
 
 /// The description of a model with its compiled-in setup.
 pub fn description(model: &str) -> Description {

@@ -9,6 +9,7 @@ const SHIPPED: &[(&str, &str)] = &[
     ("MomentumPlant", "messenger.toml"),
     ("SpinPlant", "ace.toml"),
     ("DisturbanceTorque", "messenger-thermal.toml"),
+    ("Guidance", "messenger.toml"),
 ];
 
 /// What a build leaves.

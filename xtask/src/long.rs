@@ -18,7 +18,7 @@ const SECONDS_VARIABLE: &str = "HELIOTORQUE_FUZZ_SECONDS";
 const PARTS_VARIABLE: &str = "HELIOTORQUE_LONG";
 /// Models, and the step in s, whose allocations fail.
 const FAILING: &[(&str, &str)] =
-    &[("MomentumPlant", "600"), ("SpinPlant", "0.5"), ("DisturbanceTorque", "60")];
+    &[("MomentumPlant", "600"), ("SpinPlant", "0.5"), ("DisturbanceTorque", "60"), ("Guidance", "1")];
 /// Allocations per model that fail in turn, evenly spread.
 const ALLOCATIONS: &str = "300";
 /// A command that still fails when its disk is full only after so many writes never ends well.

@@ -5,23 +5,26 @@ use std::cell::RefCell;
 use client::{InProcess, Names};
 use fmi_export::{Entry, Library, Status};
 use model_description::BaseType;
-use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
+use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty};
 
 /// The models of the targets, in the order of an input's first byte.
-pub const MODELS: [&str; 5] = ["MomentumPlant", "SpinPlant", "DisturbanceTorque", "AllTypes", "Empty"];
+pub const MODELS: [&str; 6] =
+    ["MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance", "AllTypes", "Empty"];
 
 /// A library of one model, so that instantiating it does not describe the others.
 pub fn library(model: &str) -> &'static Library {
     static MOMENTUM_PLANT: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
     static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
     static DISTURBANCE_TORQUE: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
+    static GUIDANCE: Library = Library { entries: &[Entry::of::<Guidance>()] };
     static ALL_TYPES: Library = Library { entries: &[Entry::of::<AllTypes>()] };
     static EMPTY: Library = Library { entries: &[Entry::of::<Empty>()] };
     match model {
         "MomentumPlant" => &MOMENTUM_PLANT,
         "SpinPlant" => &SPIN_PLANT,
         "DisturbanceTorque" => &DISTURBANCE_TORQUE,
+        "Guidance" => &GUIDANCE,
         "AllTypes" => &ALL_TYPES,
         "Empty" => &EMPTY,
         other => panic!("no library of {other}"),

@@ -124,6 +124,36 @@ mod tests {
     }
 
     #[test]
+    fn random_ellipsoids_seen_from_anywhere_have_two_points_or_none() {
+        let mut some = TestOrbit::new(12.0).surroundings(0.0);
+        // Fractions of multiples of irrational numbers fill the cube evenly.
+        let within = |k: u32, root: f64, low: f64, high: f64| {
+            low + (high - low) * (f64::from(k) * root.sqrt()).fract()
+        };
+        let mut none = 0;
+        for k in 1..100_000 {
+            some.planet.radii_m =
+                Vector3::new(within(k, 2.0, 1e6, 3e6), within(k, 3.0, 1e6, 3e6), within(k, 5.0, 1e6, 3e6));
+            let direction = |a: f64, b: f64| {
+                let (z, turn) = (within(k, a, -1.0, 1.0), within(k, b, 0.0, TAU));
+                let across = (1.0 - z * z).sqrt();
+                Vector3::new(across * turn.cos(), across * turn.sin(), z)
+            };
+            some.position = fixed(direction(7.0, 11.0) * within(k, 13.0, 3.01e6, 2e7));
+            let normal = direction(17.0, 19.0);
+            let Some(both) = limb_points(&some, &fixed(normal)) else {
+                none += 1;
+                continue;
+            };
+            for point in both {
+                let residuals = residuals(&some, &point, &normal);
+                assert!(residuals.iter().all(|x| x.abs() < 1e-12), "{residuals:?}");
+            }
+        }
+        assert!(none > 1000 && none < 50_000, "{none}");
+    }
+
+    #[test]
     fn on_a_sphere_the_limb_is_at_the_known_angle_from_nadir() {
         let mut s = TestOrbit::new(12.0).surroundings(3000.0);
         s.planet.radii_m = Vector3::repeat(2.44e6);

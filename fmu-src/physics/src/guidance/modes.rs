@@ -162,6 +162,8 @@ impl ModeState {
         self.last_request = sensed.request;
         if let Some(mode) = requested {
             self.mode = mode;
+            // A violation is judged anew, without the lenience toward a safing turn.
+            self.monitor = MonitorState::default();
         }
         let Some(estimate) = &sensed.estimate else {
             self.mode = Mode::EarthAcquisition;
