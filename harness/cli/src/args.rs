@@ -94,18 +94,18 @@ pub struct Check {
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of which kind of file
-    #[arg(value_enum, default_value_t)]
+    /// Of which kind of file: spacecraft, or timeline, which `pack --timeline` takes
+    #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
 
 /// A kind of file that has a schema.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum SchemaKind {
-    /// A spacecraft, for `check` and `pack --spacecraft`
+    /// A spacecraft.
     #[default]
     Spacecraft,
-    /// Commands over time, for `pack --timeline`
+    /// Commands over time.
     Timeline,
 }
 

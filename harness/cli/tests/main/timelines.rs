@@ -44,7 +44,7 @@ fn a_timeline_is_packed_and_leaves_the_guid() {
     let ran = |fmu| crate::heliotorque(&arguments(fmu).each_ref().map(String::as_str)).output().unwrap();
     assert!(ran(&plain).status.success());
     let text = crate::text(&ran(&fmu));
-    assert!(text.contains("end.time"), "{text}");
+    assert!(text.contains("ended by itself at 2 s"), "{text}");
 }
 
 #[test]
@@ -78,6 +78,6 @@ fn the_timeline_in_an_fmu_is_told_and_judged() {
     fs::write(resources.join("timeline.toml"), timeline.replace("\"MLA\"", "\"MAL\"")).unwrap();
     assert!(run(&["info", shown(&folder)], 0).contains("with 2 problems"));
     let text = run(&["check", shown(&folder), "--static"], 1);
-    assert!(text.contains("timeline.toml:11: command[1].boresight.instrument"), "{text}");
+    assert!(text.contains("timeline.toml:12: command[1].boresight.instrument"), "{text}");
     assert!(text.contains("did you mean \"MLA\"?"), "{text}");
 }
