@@ -1,6 +1,7 @@
 //! Everything that a model declares, free of any version of FMI, and its digest.
 
 use core::fmt::{Display, Write};
+use std::collections::BTreeMap;
 
 use super::Values;
 use super::variable::{Element, EnumerationType, Item, Kind, Variable};
@@ -18,10 +19,11 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// A text that changes exactly when a declaration, a start value or a dependency changes. Every entry carries its length,
+    /// Appends a text that changes exactly when a declaration, a start value or a dependency changes. Every entry carries its length,
     /// so no two interfaces share a text.
-    pub(crate) fn canonical(&self, dependencies: &Dependencies) -> String {
-        let mut out = Canonical("interface 1\n".to_owned());
+    pub(crate) fn canonical(&self, dependencies: &Dependencies, text: &mut String) {
+        text.push_str("interface 1\n");
+        let mut out = Canonical { text, value: String::new() };
         for EnumerationType { name, description, items } in &self.enumerations {
             out.entry("enumeration", name);
             out.entry("description", description);
@@ -47,12 +49,12 @@ impl Interface {
                 self.start(&mut out, element);
             }
         }
-        out.rows("step", dependencies.at_steps());
-        out.rows("start", dependencies.at_start());
-        out.0
+        let mut lines = KnownLines::default();
+        out.rows("step", dependencies.at_steps(), &mut lines);
+        out.rows("start", dependencies.at_start(), &mut lines);
     }
 
-    fn start(&self, out: &mut Canonical, element: Element) {
+    fn start(&self, out: &mut Canonical<'_>, element: Element) {
         let at = element.place() as usize;
         match element {
             Element::Real(_) => out.option("start", self.start.reals.get(at).map(|value| value.to_bits())),
@@ -63,13 +65,20 @@ impl Interface {
     }
 }
 
-struct Canonical(String);
+struct Canonical<'a> {
+    text: &'a mut String,
+    /// Spare memory for one value.
+    value: String,
+}
 
-impl Canonical {
+impl Canonical<'_> {
     fn entry(&mut self, what: &str, value: impl Display) {
-        let value = value.to_string();
+        self.value.clear();
         // Writing to a String cannot fail.
-        let _ = writeln!(self.0, "{what} {}:{value}", value.len());
+        let _ = write!(self.value, "{value}");
+        let _ = write!(self.text, "{what} {}:", self.value.len());
+        self.text.push_str(&self.value);
+        self.text.push('\n');
     }
 
     fn option(&mut self, what: &str, value: Option<impl Display>) {
@@ -106,13 +115,37 @@ impl Canonical {
         }
     }
 
-    fn rows<'a>(&mut self, when: &str, rows: impl Iterator<Item = (&'a Element, &'a Knowns)>) {
+    fn rows(&mut self, when: &str, rows: &BTreeMap<Element, Knowns>, lines: &mut KnownLines) {
+        // Elements of one array often depend on the same.
+        let mut previous = None;
         for (unknown, knowns) in rows {
             self.element(when, *unknown);
-            for known in knowns.elements() {
-                self.element("known", known);
+            let begin = self.text.len();
+            match previous.take() {
+                Some((same, span)) if same == knowns => self.text.extend_from_within(span),
+                _ => knowns.elements().for_each(|known| self.text.push_str(lines.of(known))),
             }
+            previous = Some((knowns, begin..self.text.len()));
         }
+    }
+}
+
+/// What a row says of each of its knowns, by table and place: the same elements come again in most rows.
+#[derive(Default)]
+struct KnownLines([Vec<String>; Element::TABLES]);
+
+impl KnownLines {
+    fn of(&mut self, known: Element) -> &str {
+        let lines = &mut self.0[known.table()];
+        let at = known.place() as usize;
+        if lines.len() <= at {
+            lines.resize(at + 1, String::new());
+        }
+        let line = &mut lines[at];
+        if line.is_empty() {
+            Canonical { text: line, value: String::new() }.element("known", known);
+        }
+        line
     }
 }
 
@@ -158,6 +191,12 @@ mod tests {
         (scope.finish(), dependencies, handles)
     }
 
+    fn canonical(interface: &Interface, dependencies: &Dependencies) -> String {
+        let mut text = String::new();
+        interface.canonical(dependencies, &mut text);
+        text
+    }
+
     #[test]
     fn every_fact_enters() {
         type Change = (&'static str, fn(&mut Interface, &mut Dependencies, &Handles));
@@ -194,11 +233,11 @@ mod tests {
             ("dependency at the start", |_, table, h| table.output(h.output, knowns![], h.count)),
         ];
         let (base, table, _) = declared();
-        let base = base.canonical(&table);
+        let base = canonical(&base, &table);
         for (what, change) in changes {
             let (mut interface, mut table, handles) = declared();
             change(&mut interface, &mut table, &handles);
-            assert_ne!(interface.canonical(&table), base, "{what}");
+            assert_ne!(canonical(&interface, &table), base, "{what}");
         }
     }
 
@@ -208,6 +247,6 @@ mod tests {
         one.variables[0].description = "x\ncausality 5:input".to_owned();
         let (mut two, _, _) = declared();
         two.variables[0].description = "x".to_owned();
-        assert_ne!(one.canonical(&table), two.canonical(&table));
+        assert_ne!(canonical(&one, &table), canonical(&two, &table));
     }
 }

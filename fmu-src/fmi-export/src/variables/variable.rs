@@ -1,5 +1,7 @@
 //! What is declared of a variable. An array is one variable; its elements are counted row by row.
 
+use core::fmt::Write;
+
 use model_description::{Causality, Initial, Variability};
 
 /// Causality, variability and initial of a declaration (FMI 2.0.5, 2.2.7; FMI 3.0, 2.4.7.4).
@@ -75,6 +77,30 @@ pub enum Element {
 }
 
 impl Element {
+    /// Number of tables of values.
+    pub(crate) const TABLES: usize = 4;
+
+    /// The table, in the order of the variants.
+    pub(crate) const fn table(self) -> usize {
+        match self {
+            Self::Real(_) => 0,
+            Self::Integer(_) => 1,
+            Self::Boolean(_) => 2,
+            Self::Text(_) => 3,
+        }
+    }
+
+    /// The element at a place of a table; `None` if there is no such table.
+    pub(crate) const fn of_table(table: usize, place: u32) -> Option<Self> {
+        match table {
+            0 => Some(Self::Real(place)),
+            1 => Some(Self::Integer(place)),
+            2 => Some(Self::Boolean(place)),
+            3 => Some(Self::Text(place)),
+            _ => None,
+        }
+    }
+
     /// The element `count` places on.
     #[must_use]
     pub const fn after(self, count: u32) -> Self {
@@ -105,15 +131,20 @@ impl Variable {
         (0..self.count()).map(|at| (self.element_name(at), self.first.after(at as u32)))
     }
 
-    fn element_name(&self, at: usize) -> String {
-        let mut indices = Vec::with_capacity(self.dimensions.len());
-        let mut rest = at;
-        for length in self.dimensions.iter().rev() {
-            indices.push((rest % length + 1).to_string());
-            rest /= length;
+    /// Of the element counted row by row.
+    pub(super) fn element_name(&self, at: usize) -> String {
+        let mut name = String::with_capacity(self.name.len() + 4 * self.dimensions.len());
+        name.push_str(&self.name);
+        let mut count = self.count();
+        for (position, length) in self.dimensions.iter().enumerate() {
+            count /= length;
+            // Writing to a String cannot fail.
+            let _ = write!(name, "{}{}", if position == 0 { '[' } else { ',' }, at / count % length + 1);
         }
-        indices.reverse();
-        if indices.is_empty() { self.name.clone() } else { format!("{}[{}]", self.name, indices.join(",")) }
+        if !self.dimensions.is_empty() {
+            name.push(']');
+        }
+        name
     }
 }
 

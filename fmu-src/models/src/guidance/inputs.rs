@@ -140,6 +140,7 @@ pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSe
             sun_search_rate_rad_s: real(v.sun_search.rate),
             sun_search_duration_s: real(v.sun_search.duration),
         },
+        keep_in_distance_m: real(v.keep_in.distance),
         link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
         orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, keep_in.elevation_rad)?,
     })

@@ -168,7 +168,8 @@ fn light_and_loads(
     let sunlight = &knowns![v.solar.flux, v.solar.fixed_pressure, v.solar.pressure];
     let eclipse = &knowns![planet.radius, v.eclipse.method];
     let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(spacecraft));
-    let shadows = &knowns![v.shadowing.enabled].only_if(can_shadow(spacecraft));
+    let is_shadowed = can_shadow(spacecraft);
+    let shadows = &knowns![v.shadowing.enabled].only_if(is_shadowed);
     let panels = &start.panels.iter().collect::<Knowns>();
     // Light and heat beyond plain sunlight are read from a polynomial over a stretch of flight; what else lies within its
     // tolerance is no dependence.
@@ -183,7 +184,7 @@ fn light_and_loads(
         surface.night_temperature,
         surface.day_temperature,
     ];
-    let past_shadows = fitted.clone().only_if(can_shadow(spacecraft));
+    let past_shadows = fitted.clone().only_if(is_shadowed);
     let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, past_shadows];
     let solar = &knowns![by_sun, shade];
     let albedo = &knowns![&start.attitude, reflected, shade, fitted];
@@ -315,10 +316,11 @@ fn craft(table: &mut Dependencies, setup: &PlantSetup, v: &PlantVariables, input
         inputs.attitude.clone().only_if(shaded),
         knowns![&start.attitude, &shape].only_if(shaded),
     );
+    let polynomials = setup.polynomials();
     for (row, column) in (0..27).map(|at| (at / 9, at % 9)) {
-        let moved = (0..3).filter(|&axis| setup.moves_coefficient(axis, row, column));
+        let moved = (0..3).filter(|&axis| polynomials.moves_coefficient(axis, row, column));
         let moved: Knowns = moved.map(|axis| center_of_mass.element(axis)).collect();
-        let shape = shape.clone().only_if(setup.shapes_differ(row, column));
+        let shape = shape.clone().only_if(polynomials.shapes_differ(row, column));
         table.calculated(v.sunshade.coefficient.element(row, column), knowns![moved, shape]);
     }
 }

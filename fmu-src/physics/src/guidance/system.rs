@@ -39,6 +39,8 @@ pub struct GuidanceSettings<'a> {
     pub hardware: GuidanceHardware<'a>,
     /// Modes and their constraints.
     pub modes: ModeSettings,
+    /// Greatest distance from the Sun at which the keep-in zone of Operational counts, in m.
+    pub keep_in_distance_m: f64,
     /// The radio link.
     pub link: LinkLimits,
     /// The law of [`Scenario::OrbitPhase`]; its periapsis and period are computed.
@@ -185,10 +187,15 @@ impl GuidanceState {
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
         let surroundings = inputs.surroundings.as_ref();
-        if let Some(to_sun) = surroundings.map(Surroundings::to_sun) {
+        let to_sun = surroundings.map(Surroundings::to_sun);
+        if let Some(to_sun) = to_sun {
             (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
         }
-        match self.modes.sample(&settings.modes, &sensed, surroundings) {
+        let mut modes = settings.modes;
+        if to_sun.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
+            modes.operational.keep_in = None;
+        }
+        match self.modes.sample(&modes, &sensed, surroundings) {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
                 self.keep_clocks(&command, time_s);
@@ -208,7 +215,7 @@ impl GuidanceState {
 
     /// Azimuth and elevation of the Sun in the commanded frame at `time_s`; both 0 while it is not known.
     pub fn sun_angles_at(&self, time_s: f64) -> SunAngles {
-        let [to_sun, _] = self.to_sun_at(time_s);
+        let [to_sun, _] = self.sun_line_at(time_s);
         if to_sun == Vector3::zeros() {
             return SunAngles::default();
         }
@@ -217,7 +224,7 @@ impl GuidanceState {
 
     /// Their rates, in rad/s.
     pub fn sun_angle_rates_at(&self, time_s: f64) -> [f64; 2] {
-        let [to_sun, sun_rate] = self.to_sun_at(time_s);
+        let [to_sun, sun_rate] = self.sun_line_at(time_s);
         if to_sun == Vector3::zeros() {
             return [0.0; 2];
         }
@@ -258,7 +265,7 @@ impl GuidanceState {
         (time_s - tolerance_s..=time_s + SAMPLE_INTERVAL_S + tolerance_s).contains(&self.next_sample_s)
     }
 
-    fn to_sun_at(&self, time_s: f64) -> [Vector3<f64>; 2] {
+    fn sun_line_at(&self, time_s: f64) -> [Vector3<f64>; 2] {
         let [to_sun, rate] = self.to_sun;
         [to_sun + rate * (time_s - self.to_sun_since_s), rate]
     }
