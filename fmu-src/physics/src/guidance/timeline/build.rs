@@ -27,7 +27,7 @@ impl Timeline {
     pub fn from_toml(file: &str, text: &str, instruments: &[Instrument]) -> Result<Self, SpacecraftError> {
         let document = Document::parse(file, text)?;
         let (description, findings) = document.read::<Description>()?;
-        let mut commands = Commands { check: Checker::new(&document, findings), instruments };
+        let mut commands = Commands::new(Checker::new(&document, findings), instruments);
         let place = Place::root().key("command");
         let list = &description.command;
         if list.is_empty() {

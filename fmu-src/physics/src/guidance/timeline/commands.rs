@@ -1,6 +1,7 @@
 //! One command of a timeline: its tables are what its scenario reads, their numbers what their options read.
 
 use nalgebra::Vector3;
+use serde::Serialize;
 
 use super::description::{
     AimpointDescription, BodyRollDescription, BoresightDescription, CommandDescription,
@@ -25,10 +26,17 @@ pub(super) type Given<'g> = &'g [(&'g str, bool)];
 /// Builds commands and gathers what is wrong with them.
 pub(super) struct Commands<'d, 'i> {
     pub check: Checker<'d>,
-    pub instruments: &'i [Instrument],
+    instruments: &'i [Instrument],
+    /// The scenario of the command at hand, for messages.
+    scenario: String,
 }
 
-impl Commands<'_, '_> {
+impl<'d, 'i> Commands<'d, 'i> {
+    /// For a spacecraft with these instruments.
+    pub fn new(check: Checker<'d>, instruments: &'i [Instrument]) -> Self {
+        Self { check, instruments, scenario: String::new() }
+    }
+
     /// Where a command points, without its scan.
     pub fn pointing(&mut self, at: &Place, given: &CommandDescription) -> PointingCommand {
         let tables = [
@@ -60,8 +68,9 @@ impl Commands<'_, '_> {
                 Mode::SafeHold => "downlink, which alone Safe Hold follows, or no scenario",
                 _ => "no scenario: Earth Acquisition follows none",
             };
-            self.check.report(&scenario_place, "a scenario that `mode` does not follow", allowed);
+            self.check.report(&scenario_place, named("the scenario", scenario), allowed);
         }
+        self.scenario = named("the scenario", scenario);
         let reads = reads(scenario);
         self.tables(at, &tables, &reads);
         let second_aimpoint = given.second_aimpoint.as_ref().filter(|_| reads.second_aimpoint);
@@ -142,7 +151,8 @@ impl Commands<'_, '_> {
         if reads.scan {
             read.push("scan");
         }
-        self.judge(at, given, &needed, &read, "this scenario");
+        let scenario = self.scenario.clone();
+        self.judge(at, given, &needed, &read, &scenario);
     }
 
     /// Reports keys that are given and not read, and keys that lack.
@@ -178,27 +188,36 @@ impl Commands<'_, '_> {
         let option = given.option.filter(|_| !self.check.is_stand_in(&place));
         match (used, option) {
             (BoresightUse::Nothing, _) => return BoresightCommand::default(),
-            (BoresightUse::Instrument, _) => self.judge(at, &keys, &[], &["instrument"], "this scenario"),
+            (BoresightUse::Instrument, _) => {
+                self.judge(at, &keys, &[], &["instrument"], &self.scenario.clone())
+            }
             (BoresightUse::Option, Some(option)) => {
                 let Keys { needed, .. } = boresight_keys(option);
-                self.judge(at, &keys, needed, &["option"], "this option");
+                self.judge(at, &keys, needed, &["option"], &named("the option", option));
             }
             (BoresightUse::Option, None) => {
-                self.judge(at, &[("option", given.option.is_some())], &["option"], &[], "this scenario");
+                self.judge(
+                    at,
+                    &[("option", given.option.is_some())],
+                    &["option"],
+                    &[],
+                    &self.scenario.clone(),
+                );
             }
             // That the scenario's own boresight is the boresight may be written.
             (BoresightUse::MdisAngle, None | Some(BoresightOption::Mdis)) => {
-                self.judge(at, &keys, &["angle"], &["option"], "this scenario");
+                self.judge(at, &keys, &["angle"], &["option"], &self.scenario.clone());
             }
             (BoresightUse::Antenna, None | Some(BoresightOption::PhasedArray)) => {
                 let needed: &[&str] = if keys[0].1 || keys[2].1 { &["option", "azimuth"] } else { &[] };
-                self.judge(at, &keys, needed, &[], "this scenario");
+                self.judge(at, &keys, needed, &[], &self.scenario.clone());
             }
-            (BoresightUse::MdisAngle, Some(_)) => {
-                self.check.report(&place, "another boresight than this scenario's", "mdis");
+            (BoresightUse::MdisAngle, Some(option)) => {
+                self.check.report(&place, named("the option", option), "mdis, this scenario's boresight");
             }
-            (BoresightUse::Antenna, Some(_)) => {
-                self.check.report(&place, "another boresight than this scenario's", "phasedArray");
+            (BoresightUse::Antenna, Some(option)) => {
+                let allowed = "phasedArray, this scenario's boresight, or no boresight";
+                self.check.report(&place, named("the option", option), allowed);
             }
         }
         let instrument = given.instrument.as_ref();
@@ -256,12 +275,12 @@ impl Commands<'_, '_> {
         match used {
             AimpointUse::Nothing => return AimpointCommand::default(),
             AimpointUse::Fixed(option) if given.option != option => {
-                let allowed = "the one that this scenario always has, or no aimpoint";
-                self.check.report(&place, "another aimpoint than this scenario's", allowed);
+                let allowed = named("no aimpoint, or this scenario's own:", option);
+                self.check.report(&place, named("the option", given.option), allowed);
             }
             _ if !self.check.is_stand_in(&place) => {
                 let Keys { needed, optional } = aimpoint_keys(given.option);
-                self.judge(at, &keys, needed, optional, "this option");
+                self.judge(at, &keys, needed, optional, &named("the option", given.option));
             }
             _ => {}
         }
@@ -290,7 +309,7 @@ impl Commands<'_, '_> {
         ];
         if !self.check.is_stand_in(&at.key("option")) {
             let Keys { needed, optional } = body_roll_keys(given.option);
-            self.judge(at, &keys, needed, optional, "this option");
+            self.judge(at, &keys, needed, optional, &named("the option", given.option));
         }
         BodyRollCommand {
             option: Some(given.option),
@@ -308,7 +327,7 @@ impl Commands<'_, '_> {
         ];
         if !self.check.is_stand_in(&at.key("option")) {
             let Keys { needed, optional } = external_roll_keys(given.option);
-            self.judge(at, &keys, needed, optional, "this option");
+            self.judge(at, &keys, needed, optional, &named("the option", given.option));
         }
         ExternalRollCommand {
             option: Some(given.option),
@@ -325,7 +344,7 @@ impl Commands<'_, '_> {
             ("height", given.height.is_some()),
             ("heightRate", given.height_rate.is_some()),
         ];
-        self.judge(at, &keys, read.needed, read.optional, "this scenario");
+        self.judge(at, &keys, read.needed, read.optional, &self.scenario.clone());
         LimbCommand {
             azimuth_rad: self.turn(&at.key("azimuth"), given.azimuth.as_ref()),
             reference: given.reference,
@@ -398,6 +417,14 @@ impl Commands<'_, '_> {
             self.check.report(at, "a zero vector", "a vector of any length but 0");
         }
         vector
+    }
+}
+
+/// A scenario, option or frame by its name in the file, behind what it is.
+pub(super) fn named(what: &str, item: impl Serialize) -> String {
+    match toml::Value::try_from(item) {
+        Ok(toml::Value::String(name)) => format!("{what} {name}"),
+        _ => what.to_owned(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The scan of a command: a scenario that has scans, numbers of its frame, motions that last, an aim that its frame goes with.
 
-use super::commands::Commands;
+use super::commands::{Commands, named};
 use super::description::{CommandDescription, ScanDescription};
 use super::quantity::{RATE, SPEED, TIME};
 use super::reads::{Keys, reads, scan_keys};
@@ -26,8 +26,8 @@ pub(super) fn scan(
         judge_frame(commands, &at, given);
         let aim = aim_kind(scenario, command.aimpoint.option);
         if aim.is_some_and(|aim| !ScanCompatibility::default().allows(given.frame, aim)) {
-            let allowed = "body, inertialRotation, or a frame that goes with this aimpoint";
-            commands.check.report(&at.key("frame"), "a frame that does not go with this aimpoint", allowed);
+            let found = named("the frame", given.frame) + ", which does not go with this aimpoint";
+            commands.check.report(&at.key("frame"), found, "a frame that does: body, inertialRotation ...");
         }
     }
     let mut three = |key: &str, given: &Option<_>, kind| {
@@ -58,7 +58,7 @@ fn judge_frame(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescript
         ("reverse", given.reverse.is_some()),
     ];
     let Keys { needed, optional } = scan_keys(given.frame);
-    commands.judge(at, &keys, needed, optional, "this frame");
+    commands.judge(at, &keys, needed, optional, &named("the frame", given.frame));
 }
 
 /// An axis moves, every axis that does for a time, and no time is negative.
