@@ -32,6 +32,7 @@ pub mod system;
 mod test_geometry;
 #[cfg(test)]
 mod test_orbit;
+pub mod timeline;
 
 pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, science, sun_pointing};
 pub use guided::{Guided, GuidedAttitude};
