@@ -91,6 +91,11 @@ fn modes(v: &GuidanceVariables) -> Knowns {
     knowns![v.mode.request, v.estimate.q, v.estimate.valid, v.sun.sensed, v.sun.sensed_valid]
 }
 
+/// With what a scan frame goes.
+fn scans(it: &super::variables::commands::ScanCompatibilityVariables) -> Knowns {
+    knowns![it.direction, it.local_direction, it.point, it.planet_point]
+}
+
 /// Parameters.
 fn parameters(v: &GuidanceVariables) -> Knowns {
     let (planet, ephemeris, guided) = (&v.planet, &v.ephemeris, &v.guided);
@@ -122,5 +127,6 @@ fn parameters(v: &GuidanceVariables) -> Knowns {
         guided.downlink_end,
         guided.downlink_every,
         guided.slew_rate,
+        v.scan_compatibility.iter().map(scans).collect::<Knowns>(),
     ]
 }

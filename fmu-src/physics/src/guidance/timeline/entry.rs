@@ -1,6 +1,7 @@
 //! A command of a timeline: when, where to point, what else it changes.
 
 use crate::guidance::command::PointingCommand;
+use crate::guidance::keep_in::KeepIn;
 use crate::guidance::modes::Mode;
 
 /// By which clock a timeline counts.
@@ -38,4 +39,15 @@ pub struct KeepInOverride {
     pub azimuth_rad: Option<f64>,
     /// Greatest magnitude of its elevation, in rad.
     pub elevation_rad: Option<f64>,
+}
+
+impl KeepInOverride {
+    /// The zone in force where `zone` is set, which without this is in force if `is_enabled`.
+    pub fn applied(&self, zone: &KeepIn, is_enabled: bool) -> Option<KeepIn> {
+        self.enabled.unwrap_or(is_enabled).then(|| KeepIn {
+            azimuth_rad: self.azimuth_rad.unwrap_or(zone.azimuth_rad),
+            elevation_rad: self.elevation_rad.unwrap_or(zone.elevation_rad),
+            ..*zone
+        })
+    }
 }
