@@ -257,6 +257,14 @@ impl<'a> InputsOverTime<'a> {
         sum
     }
 
+    /// How fast an input changes at `time_s`, per second.
+    #[inline]
+    pub fn rate(&self, input: Real, time_s: f64) -> f64 {
+        let dt_s = time_s - self.start_s;
+        let of_input = self.derivatives.iter().filter(|it| it.input == input);
+        of_input.map(|it| (1..it.order).fold(it.value, |term, k| term * dt_s / f64::from(k))).sum()
+    }
+
     /// A vector of inputs at `time_s`.
     pub fn vector<const N: usize>(&self, values: &Values, inputs: RealVector<N>, time_s: f64) -> [f64; N] {
         core::array::from_fn(|i| self.real(values, inputs.element(i), time_s))

@@ -186,6 +186,11 @@ impl<'a> Reader<'a> {
         Vector3::from(self.inputs.vector(self.values, handle, self.time_s))
     }
 
+    /// How a vector of inputs moves now, by their derivatives.
+    fn rate(&self, handle: RealVector<3>) -> Vector3<f64> {
+        Vector3::from([0, 1, 2].map(|i| self.inputs.rate(handle.element(i), self.time_s)))
+    }
+
     fn count(&self, handle: Integer) -> u32 {
         self.values.integer(handle).unsigned_abs()
     }
@@ -300,6 +305,7 @@ impl<'a> Reader<'a> {
             option: self.item(aimpoint.option, |it| it.0),
             vector: self.vector(aimpoint.vector),
             position_m: self.vector(aimpoint.position),
+            velocity_m_s: self.rate(aimpoint.position),
             right_ascension_rad: self.real(aimpoint.right_ascension),
             declination_rad: self.real(aimpoint.declination),
             latitude_rad: self.real(aimpoint.latitude),

@@ -179,6 +179,8 @@ pub struct AimpointCommand {
     pub vector: Vector3<f64>,
     /// Position of options centred on a body.
     pub position_m: Vector3<f64>,
+    /// How it moves, in m/s: with it, an ephemeris given from outside is tracked.
+    pub velocity_m_s: Vector3<f64>,
     /// Right ascension.
     pub right_ascension_rad: f64,
     /// Declination.
@@ -297,6 +299,7 @@ field_by_field!(AimpointCommand {
     option,
     vector,
     position_m,
+    velocity_m_s,
     right_ascension_rad,
     declination_rad,
     latitude_rad,

@@ -6,6 +6,8 @@ pub mod antenna;
 mod attitudes;
 pub mod boresight;
 pub mod command;
+#[cfg(test)]
+mod constraint_tests;
 pub mod constraints;
 pub mod downlink;
 mod guided;

@@ -53,7 +53,8 @@ pub struct AimpointVariables {
     /// Direction in EME2000, of any length.
     #[input(unit = "1", start = [0.0; 3])]
     pub vector: RealVector<3>,
-    /// Position for the options earthCentered, sunCentered, planetCentered and planetFixed.
+    /// Position for the options earthCentered, sunCentered, planetCentered and planetFixed; with its derivative as an input
+    /// derivative a given ephemeris is tracked.
     #[input(unit = "m", display = "km", start = [0.0; 3])]
     pub position: RealVector<3>,
     /// Right ascension.

@@ -290,6 +290,7 @@ impl<'d, 'i> Commands<'d, 'i> {
             position_m: given.position.as_ref().map_or_else(Vector3::zeros, |position| {
                 Vector3::from(self.three(&at.key("position"), position, &LENGTH))
             }),
+            velocity_m_s: Vector3::zeros(),
             right_ascension_rad: self.turn(&at.key("rightAscension"), given.right_ascension.as_ref()),
             declination_rad: self.elevation(&at.key("declination"), given.declination.as_ref()),
             latitude_rad: self.elevation(&at.key("latitude"), given.latitude.as_ref()),
