@@ -24,7 +24,7 @@ use crate::variables::{
 const NAME_SPACE: Uuid = Uuid::from_u128(0xcc931cc2_33f1_4b24_a08d_a93a9fb26fe9);
 
 /// Memory for what the digest is taken over; a larger interface takes more.
-const DIGESTED_BYTES: usize = 1 << 18;
+const DIGESTED_BYTES: usize = 1 << 16;
 
 /// Why a model cannot be described.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
