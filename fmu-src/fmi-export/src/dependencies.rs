@@ -9,11 +9,13 @@
 
 use std::collections::BTreeMap;
 
+use serde::Serialize;
+
 use crate::variables::{Boolean, Choice, Element, Integer, Real, RealMatrix, RealVector, Text};
 
 /// A set of scalar variables of any type: for each table of values one bit a place, in words up to the last that is not
 /// zero.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Knowns([Vec<u64>; Element::TABLES]);
 
 /// The union of any number of handles, vectors, matrices and sets as [`Knowns`].
@@ -121,7 +123,7 @@ impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Knowns {
 }
 
 /// The two lists of a model. Every output that is not constant has a row, and so has every calculated parameter.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Dependencies {
     at_steps: BTreeMap<Element, Knowns>,
     at_start: BTreeMap<Element, Knowns>,

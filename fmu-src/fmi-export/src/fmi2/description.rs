@@ -24,7 +24,7 @@ use crate::variables::{
 const NAME_SPACE: Uuid = Uuid::from_u128(0xcc931cc2_33f1_4b24_a08d_a93a9fb26fe9);
 
 /// Memory for what the digest is taken over; a larger interface takes more.
-const DIGESTED_BYTES: usize = 1 << 18;
+const DIGESTED_BYTES: usize = 1 << 16;
 
 /// Why a model cannot be described.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -236,31 +236,12 @@ fn digest_of<M: Model>(
     about: &About,
     setup: &M::Setup,
 ) -> Result<Uuid, DescribeError> {
-    let setup = postcard::to_allocvec(setup).map_err(|error| DescribeError::Digest(error.to_string()))?;
-    let extensions =
-        [M::EXTENSIONS.output_rate.is_some(), M::EXTENSIONS.jacobian_vector_product.is_some()].map(u8::from);
-    let parts: [&[u8]; 9] = [
-        about.description.as_bytes(),
-        about.author.as_bytes(),
-        about.version.as_bytes(),
-        about.license.as_bytes(),
-        &about.tolerance.to_le_bytes(),
-        &setup,
-        M::NAME.as_bytes(),
-        &M::STATE_VERSION.to_le_bytes(),
-        &extensions,
-    ];
-    // Each part with its length, so that no two sets of parts share their bytes; the interface's is known behind it.
-    const LENGTH: usize = size_of::<u64>();
-    let mut text = String::with_capacity(DIGESTED_BYTES);
-    text.extend(['\0'; LENGTH]);
-    interface.canonical(dependencies, &mut text);
-    let mut bytes = text.into_bytes();
-    let length = (bytes.len() - LENGTH) as u64;
-    bytes[..LENGTH].copy_from_slice(&length.to_le_bytes());
-    for part in parts {
-        bytes.extend_from_slice(&(part.len() as u64).to_le_bytes());
-        bytes.extend_from_slice(part);
-    }
+    let extensions = (M::EXTENSIONS.output_rate.is_some(), M::EXTENSIONS.jacobian_vector_product.is_some());
+    let model = (M::NAME, M::STATE_VERSION, extensions);
+    let about = (&about.description, &about.author, &about.version, &about.license, about.tolerance);
+    let digested = (model, about, interface, dependencies, setup);
+    // The same bytes on every platform, texts and lists with their lengths: no two sets of facts share them.
+    let bytes = postcard::to_extend(&digested, Vec::with_capacity(DIGESTED_BYTES))
+        .map_err(|error| DescribeError::Digest(error.to_string()))?;
     Ok(Uuid::new_v5(&NAME_SPACE, &bytes))
 }

@@ -3,6 +3,7 @@
 use core::fmt::Write;
 
 use model_description::{Causality, Initial, Variability};
+use serde::{Serialize, Serializer};
 
 /// Causality, variability and initial of a declaration (FMI 2.0.5, 2.2.7; FMI 3.0, 2.4.7.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,8 +16,16 @@ pub struct Role {
     pub initial: Option<Initial>,
 }
 
+/// By the standard's words.
+impl Serialize for Role {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { causality, variability, initial } = self;
+        (causality.as_str(), variability.as_str(), initial.map(Initial::as_str)).serialize(serializer)
+    }
+}
+
 /// A declared variable; its start values stand in [`Interface::start`](super::Interface::start).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Variable {
     /// Full structured name, of an array without indices.
     pub name: String,
@@ -33,7 +42,7 @@ pub struct Variable {
 }
 
 /// Type of a variable.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Kind {
     /// A floating-point number.
     Real {
@@ -64,7 +73,7 @@ pub enum Kind {
 }
 
 /// One scalar, by its place in the table of values of its type; Enumerations share the Integers' table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub enum Element {
     /// Of the Reals.
     Real(u32),
@@ -149,7 +158,7 @@ impl Variable {
 }
 
 /// An enumeration type.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct EnumerationType {
     /// Name of the type.
     pub name: &'static str,
@@ -160,7 +169,7 @@ pub struct EnumerationType {
 }
 
 /// An item of an enumeration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Item {
     /// Name.
     pub name: &'static str,
