@@ -10,8 +10,8 @@ use physics::environment::ephemeris::{Ephemeris, VALID_EPOCH_S};
 use physics::environment::paper004::KeplerPlanet;
 use physics::guidance::boresight::MdisRange;
 use physics::guidance::command::{
-    AimpointCommand, BodyRollCommand, BoresightCommand, ExternalRollCommand, LimbCommand, PointingCommand,
-    ScanCommand,
+    AimpointCommand, AimpointOption, BodyRollCommand, BoresightCommand, ExternalRollCommand, LimbCommand,
+    PointingCommand, ScanCommand,
 };
 use physics::guidance::constraints::Constraints;
 use physics::guidance::downlink::LinkLimits;
@@ -272,7 +272,9 @@ impl<'a> Reader<'a> {
         };
         let spacecraft = state(v.position, v.velocity);
         let mut surroundings = Surroundings::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
-        for body in [command.aimpoint.body, command.second_aimpoint.body].into_iter().flatten() {
+        let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
+        let bodies = aimpoints.filter(|it| it.option == Some(AimpointOption::Body)).filter_map(|it| it.body);
+        for body in bodies {
             surroundings.place_body(body, &fixed.bodies.body(body, ephemeris, epoch_s));
         }
         surroundings.is_connected(fixed.bodies.center).then_some(surroundings)

@@ -78,8 +78,8 @@ impl Model for Guidance {
         }
     }
 
-    fn dependencies(_setup: &GuidanceSetup, variables: &GuidanceVariables) -> Dependencies {
-        dependencies::table(variables)
+    fn dependencies(setup: &GuidanceSetup, variables: &GuidanceVariables) -> Dependencies {
+        dependencies::table(setup, variables)
     }
 
     /// The sample at the start; the first step takes it again with its own inputs.
