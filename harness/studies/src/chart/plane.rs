@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::style::*;
-use super::{ChartError, Panel, Series, draw_series, finished, legend, tick_step, tick_text};
+use super::{ChartError, Mark, Panel, Series, draw_series, finished, legend, tick_step, tick_text};
 
 /// Panels side by side; the legend is that of the first.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -93,6 +93,7 @@ impl PlaneChart {
 
     fn draw_panel(&self, area: &Area<'_>, panel: &PlanePanel) -> Drawn {
         let ((x, y), half) = (panel.centre, panel.half_width);
+        let window = Window { centre: panel.centre, half };
         let mut chart = ChartBuilder::on(area)
             .margin_top(PANEL_TITLE_HEIGHT)
             .margin_bottom(BOTTOM)
@@ -102,8 +103,10 @@ impl PlaneChart {
         let middle = pixel(Y_AXIS_WIDTH + self.side() / 2);
         let style = (FONT, 15 * FINE).into_font().color(&INK).pos(Pos::new(HPos::Center, VPos::Center));
         area.draw_text(&panel.title, &style, (middle, pixel(PANEL_TITLE_HEIGHT / 2)))?;
-        for polygon in panel.areas.iter().filter(|polygon| !polygon.is_empty()) {
-            chart.draw_series([Polygon::new(polygon.clone(), SHADE)])?;
+        for polygon in
+            panel.areas.iter().map(|polygon| window.polygon(polygon)).filter(|polygon| !polygon.is_empty())
+        {
+            chart.draw_series([Polygon::new(polygon, SHADE)])?;
         }
         let ticks = 6;
         let step = tick_step((-half, half), ticks);
@@ -126,7 +129,11 @@ impl PlaneChart {
             .y_desc(self.y_label.as_str())
             .draw()?;
         for (index, series) in panel.series.iter().enumerate() {
-            draw_series(&mut chart, index, series, <[(f64, f64)]>::to_vec)?;
+            let points = match series.mark {
+                Mark::Line | Mark::Dashed => window.line(&series.points),
+                Mark::Dots | Mark::Rings => window.dots(&series.points),
+            };
+            draw_series(&mut chart, index, &Series { points, ..series.clone() }, <[(f64, f64)]>::to_vec)?;
         }
         let style = (FONT, 12 * FINE).into_font().color(&INK).pos(Pos::new(HPos::Center, VPos::Center));
         chart
@@ -137,9 +144,75 @@ impl PlaneChart {
 
 const PANEL_TITLE_HEIGHT: u32 = 26 * FINE;
 
+/// What a panel shows. The drawing library moves points outside onto the border, so they are cut off before.
+struct Window {
+    centre: (f64, f64),
+    half: f64,
+}
+
+impl Window {
+    /// How far inside each of the four sides a point is.
+    fn inside(&self, (x, y): (f64, f64)) -> [f64; 4] {
+        let (x, y) = (x - self.centre.0, y - self.centre.1);
+        [self.half - x, self.half + x, self.half - y, self.half + y]
+    }
+
+    fn dots(&self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        points.iter().copied().filter(|point| self.inside(*point).iter().all(|side| *side >= 0.0)).collect()
+    }
+
+    /// The pieces of a line inside, with gaps between (Liang and Barsky).
+    fn line(&self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        let mut kept: Vec<(f64, f64)> = Vec::with_capacity(points.len());
+        for pair in points.windows(2) {
+            let (a, b) = (self.inside(pair[0]), self.inside(pair[1]));
+            let (mut from, mut to) = (0.0_f64, 1.0_f64);
+            for (a, b) in a.into_iter().zip(b) {
+                match (a >= 0.0, b >= 0.0) {
+                    (true, true) => {}
+                    (true, false) => to = to.min(a / (a - b)),
+                    (false, true) => from = from.max(a / (a - b)),
+                    // Also where a coordinate is not finite.
+                    (false, false) => to = -1.0,
+                }
+            }
+            if from > to {
+                continue;
+            }
+            let (first, last) = (between(pair[0], pair[1], from), between(pair[0], pair[1], to));
+            if kept.last() != Some(&first) {
+                kept.extend([(f64::NAN, f64::NAN), first]);
+            }
+            kept.push(last);
+        }
+        kept
+    }
+
+    /// The part of a polygon inside, side by side (Sutherland and Hodgman).
+    fn polygon(&self, corners: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        (0..4).fold(corners.to_vec(), |corners, side| {
+            let mut kept = Vec::with_capacity(corners.len());
+            for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                let (from, to) = (self.inside(*a)[side], self.inside(*b)[side]);
+                if from >= 0.0 {
+                    kept.push(*a);
+                }
+                if (from >= 0.0) != (to >= 0.0) {
+                    kept.push(between(*a, *b, from / (from - to)));
+                }
+            }
+            kept
+        })
+    }
+}
+
+fn between(a: (f64, f64), b: (f64, f64), part: f64) -> (f64, f64) {
+    if part == 1.0 { b } else { (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1)) }
+}
+
 #[cfg(test)]
 mod tests {
-    //! Both axes have one scale, and nothing to show is an error.
+    //! A panel is square, what lies outside is cut off at its border, and nothing to show is an error.
     use super::*;
 
     #[test]
@@ -149,5 +222,28 @@ mod tests {
         let svg = chart.to_svg().unwrap();
         assert!(svg.starts_with("<svg width=\"960\" ") && svg.matches("left").count() == 2);
         assert!(PlaneChart::default().to_svg().is_err());
+    }
+
+    #[test]
+    fn what_lies_outside_is_cut_off_at_the_border() {
+        let window = Window { centre: (1.0, 0.0), half: 1.0 };
+        let line = window.line(&[
+            (-1.0, 0.0),
+            (1.0, 0.0),
+            (1.0, 4.0),
+            (3.0, 4.0),
+            (f64::NAN, 0.0),
+            (0.5, 0.5),
+            (1.5, 0.5),
+        ]);
+        let finite: Vec<_> = line.iter().filter(|(x, _)| x.is_finite()).copied().collect();
+        assert_eq!(finite, [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.5, 0.5), (1.5, 0.5)]);
+        assert_eq!(line.len() - finite.len(), 2);
+        assert_eq!(window.dots(&[(1.0, 0.5), (1.0, 1.5)]), [(1.0, 0.5)]);
+        let quarter = window.polygon(&[(1.0, 0.0), (5.0, 0.0), (5.0, 5.0), (1.0, 5.0)]);
+        let twice_area: f64 =
+            quarter.iter().zip(quarter.iter().cycle().skip(1)).map(|(a, b)| a.0 * b.1 - a.1 * b.0).sum();
+        assert!((twice_area - 2.0).abs() < 1e-12, "{quarter:?}");
+        assert!(window.polygon(&[(5.0, 5.0), (6.0, 5.0), (6.0, 6.0)]).is_empty());
     }
 }

@@ -19,7 +19,7 @@ pub const X_LABEL: &str = "downtrack of nadir [deg]";
 /// Label of the axes.
 pub const Y_LABEL: &str = "left of the track [deg]";
 
-const POINTS: u32 = 360;
+const POINTS: u32 = 720;
 
 impl View {
     /// From where the spacecraft is.

@@ -80,10 +80,13 @@ impl Sample {
         turn_back(&self.q, body)
     }
 
-    /// Azimuth from -Y toward +X and elevation toward -Z of a direction in the body frame, in deg.
+    /// Azimuth from -Y toward +X and elevation toward -Z of a direction in the body frame, in deg; azimuths from -90 to
+    /// 270 deg, so that neither -Y nor +Y is at a jump.
     pub fn body_angles_deg(&self, inertial: &Vector) -> [f64; 2] {
         let [x, y, z] = turn(&self.q, inertial);
-        [x.atan2(-y).to_degrees(), (-z).atan2(x.hypot(y)).to_degrees()]
+        let azimuth_deg = x.atan2(-y).to_degrees();
+        let turns = if azimuth_deg < -90.0 { 360.0 } else { 0.0 };
+        [azimuth_deg + turns, (-z).atan2(x.hypot(y)).to_degrees()]
     }
 }
 

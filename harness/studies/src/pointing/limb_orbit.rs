@@ -226,10 +226,8 @@ fn panel(point: &Point<'_>, flown: &Flown) -> PlanePanel {
     let place = &point.sample.place;
     let view = View::at(place);
     let mut panel = view.disc("", &flown.planet.at(place.epoch_s), &place.sun_m());
-    panel.title = match point.solutions.len() {
-        0 => format!("{:.2} h after periapsis: none", place.time_s / 3600.0),
-        n => format!("{:.2} h after periapsis: {n}", place.time_s / 3600.0),
-    };
+    let found = if point.solutions.is_empty() { "none, the terminator is hidden" } else { "two" };
+    panel.title = format!("{:.2} h after periapsis: {found}", place.time_s / 3600.0);
     panel.series.push(Series::rings(
         "limb points on the terminator",
         point.solutions.iter().map(|x| view.point(x)).collect(),

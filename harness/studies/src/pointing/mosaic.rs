@@ -51,9 +51,10 @@ struct Case {
     /// Along the rows, and from row to row.
     fast: Motion,
     slow: Motion,
-    /// First frame and time between frames, in s.
-    first_s: usize,
-    every_s: usize,
+    /// Frames of each motion along a row: the first so long after it began, and time between them, in s.
+    first_s: f64,
+    every_s: f64,
+    per_motion: u32,
 }
 
 const CASES: [Case; 3] = [
@@ -66,8 +67,9 @@ const CASES: [Case; 3] = [
         mdis_deg: -19.0,
         fast: Motion { step: 2.0e6, duration_s: 60.0, pause_s: 40.0, segments: 6, reverse: true },
         slow: Motion { step: 1.4e6, duration_s: 60.0, pause_s: 140.0, segments: 3, reverse: false },
-        first_s: 90,
-        every_s: 100,
+        first_s: 90.0,
+        every_s: 0.0,
+        per_motion: 1,
     },
     Case {
         label: "body",
@@ -78,8 +80,9 @@ const CASES: [Case; 3] = [
         mdis_deg: 0.0,
         fast: Motion { step: 15.0, duration_s: 120.0, pause_s: 20.0, segments: 3, reverse: true },
         slow: Motion { step: 1.3, duration_s: 10.0, pause_s: 130.0, segments: 3, reverse: false },
-        first_s: 10,
-        every_s: 10,
+        first_s: 10.0,
+        every_s: 10.0,
+        per_motion: 12,
     },
     Case {
         label: "planet",
@@ -88,10 +91,11 @@ const CASES: [Case; 3] = [
         kind: Kind::PlanetFixed,
         day: 12.0,
         mdis_deg: -19.0,
-        fast: Motion { step: 4.0e5, duration_s: 40.0, pause_s: 20.0, segments: 10, reverse: true },
-        slow: Motion { step: 4.0e5, duration_s: 40.0, pause_s: 80.0, segments: 5, reverse: false },
-        first_s: 50,
-        every_s: 60,
+        fast: Motion { step: 3.7e5, duration_s: 40.0, pause_s: 20.0, segments: 10, reverse: true },
+        slow: Motion { step: 3.7e5, duration_s: 40.0, pause_s: 80.0, segments: 5, reverse: false },
+        first_s: 50.0,
+        every_s: 0.0,
+        per_motion: 1,
     },
 ];
 
@@ -213,19 +217,15 @@ impl Case {
         Ok(Mosaic { case: *self, numbers: Numbers::of(self, &flown), flown })
     }
 
-    /// Frames where the motion from row to row rests.
+    /// Its frames; none while the axis from row to row moves.
     fn frames<'a>(&self, flown: &'a Flown) -> Vec<Frame<'a>> {
-        flown
-            .samples
-            .iter()
-            .skip(self.first_s)
-            .step_by(self.every_s)
-            .filter(|sample| {
-                let t = sample.place.time_s;
-                t < self.fast.end_s()
-                    && (t % self.fast.cycle_s() <= self.fast.duration_s || self.every_s > 20)
-            })
-            .filter(|sample| sample.place.time_s % self.slow.cycle_s() >= self.slow.duration_s)
+        let cycle_s = self.fast.cycle_s();
+        let times_s = (0..self.fast.segments).flat_map(|motion| {
+            let begin_s = f64::from(motion) * cycle_s + self.first_s;
+            (0..self.per_motion).map(move |k| begin_s + f64::from(k) * self.every_s)
+        });
+        times_s
+            .filter_map(|time_s| flown.samples.get(time_s as usize))
             .map(|sample| self.camera.frame(sample, &flown.planet))
             .collect()
     }
@@ -242,6 +242,8 @@ struct Numbers {
     frames: usize,
     /// Share of the disc seen midway that some frame shows.
     coverage: f64,
+    /// Share of that in two frames or more.
+    twice: f64,
     /// Of neighbours in time: share of the surface in a frame that the next one shows too.
     overlaps: Vec<f64>,
     /// Greatest and at frames, in deg/s.
@@ -259,14 +261,17 @@ impl Numbers {
             surface.iter().filter(|x| pair[1].shows(x)).count() as f64 / surface.len().max(1) as f64
         };
         let disc = disc_lattice(flown);
-        let covered = disc.iter().filter(|x| frames.iter().any(|frame| frame.shows(x))).count();
+        let shown: Vec<usize> =
+            disc.iter().map(|x| frames.iter().filter(|frame| frame.shows(x)).count()).collect();
+        let at_least = |times: usize| shown.iter().filter(|n| **n >= times).count() as f64;
         let rate = |rate: &Vector| norm(rate).to_degrees();
         let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
         let sun =
             |i: usize| greatest(&mut flown.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]));
         Self {
             frames: frames.len(),
-            coverage: covered as f64 / disc.len().max(1) as f64,
+            coverage: at_least(1) / disc.len().max(1) as f64,
+            twice: at_least(2) / at_least(1),
             overlaps: frames.windows(2).map(overlap).collect(),
             rates_deg_s: [
                 greatest(&mut flown.samples.iter().map(|s| rate(&s.rate_rad_s))),
@@ -303,14 +308,14 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
     let header = [
         "scan",
         "camera",
-        "field",
         "frames",
-        "of the disc covered",
-        "overlap of neighbours",
+        "disc covered",
+        "of that twice",
+        "overlap with the next",
         "greatest rate",
-        "rate at frames",
-        "Sun azimuth / elevation up to",
-        "constrained or not scanning",
+        "at frames",
+        "Sun azimuth / elevation",
+        "constrained",
     ];
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let rows: Vec<Vec<String>> = mosaics
@@ -320,10 +325,10 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
                 .map(|pick| numbers.overlaps.iter().copied().reduce(pick).unwrap_or(f64::NAN));
             vec![
                 case.label.to_owned(),
-                case.camera.name.to_owned(),
-                format!("{} deg", case.camera.field_deg),
+                format!("{}, {} deg", case.camera.name, case.camera.field_deg),
                 numbers.frames.to_string(),
                 percent(numbers.coverage),
+                percent(numbers.twice),
                 format!("{} to {}", percent(least), percent(most)),
                 format!("{:.4} deg/s", numbers.rates_deg_s[0]),
                 format!("{:.4} deg/s", numbers.rates_deg_s[1]),
@@ -343,9 +348,10 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
 
 const REMARK: &str = "\
 Covered: of the disc as seen midway, by solid angle, what some frame shows. Overlap: of the surface in a frame what the
-next one shows too. Frames of the inertial and the planet-fixed scan are taken at rest, those of the body scan along the
-moving rows; all three scans begin to step both axes together, as the paper's axes have no delay of their own. The fields
-are those MDIS publishes; the one along +Z is assumed, and so is every rate, duration and pause.";
+next one in time shows too. Rates and the Sun's angles in the body frame: the greatest; constrained: seconds at which a
+constraint changed the command or no scan was active. Frames of the inertial and the planet-fixed scan are taken at rest,
+those of the body scan along the moving rows. Both axes of a scan begin together, as the paper gives an axis no delay.
+The fields are those published of MDIS; the one along +Z, rates, durations and pauses are assumed.";
 
 fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(), StudyError> {
     let header = [
@@ -413,11 +419,14 @@ impl Mosaic {
             format!("{} frames, {:.2} deg field, numbered in time", frames.len(), case.camera.field_deg);
         panel.series.push(Series::line("frames", outlines.collect()));
         panel.series.push(Series::dashed("middles in sequence", middles.clone()));
-        panel.texts = middles.iter().enumerate().map(|(k, at)| (*at, (k + 1).to_string())).collect();
         let reach = panel.series.iter().flat_map(|series| &series.points);
         let reach =
             reach.filter(|(x, _)| x.is_finite()).fold(0.0, |a: f64, (x, y)| a.max(x.abs()).max(y.abs()));
         panel.half_width = 1.08 * reach;
+        // Beside the line that joins the middles.
+        let number =
+            |(k, (x, y)): (usize, &(f64, f64))| ((*x, y + 0.03 * panel.half_width), (k + 1).to_string());
+        panel.texts = middles.iter().enumerate().map(number).collect();
         PlaneChart {
             title: case.title.to_owned(),
             x_label: X_LABEL.to_owned(),

@@ -4,7 +4,7 @@
 
 use loader::{Error, Instance};
 
-use crate::vector::{Vector, cross, difference, dot, norm, scaled, sum, unit};
+use crate::vector::{Vector, cross, dot, norm, scaled, sum, unit};
 
 /// Radii, pole and rotation.
 #[derive(Clone, Copy, Debug)]

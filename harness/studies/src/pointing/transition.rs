@@ -9,9 +9,9 @@ use crate::{Options, Report, StudyError};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
 /// Sun at azimuth and elevation 0. The paper prints no epoch.
-const EPOCH_S: f64 = DEFAULT_EPOCH_S + 3.1532 * 86_400.0;
-/// Assumed: some three hours past periapsis, where nadir is in the camera's range.
-const TRUE_ANOMALY_DEG: f64 = 150.0;
+const EPOCH_S: f64 = DEFAULT_EPOCH_S + 3.15 * 86_400.0;
+/// Assumed: ten hours past periapsis, the end of the paper's eight hours of downlink about apoapsis.
+const TRUE_ANOMALY_DEG: f64 = 215.0;
 /// "The commanded slew begins at 500 seconds".
 const SLEW_S: f64 = 500.0;
 const END_S: u32 = 1000;
@@ -110,10 +110,11 @@ pub fn transition(options: &Options) -> Result<Report, StudyError> {
 const REMARK: &str = "\
 Not reproduced: the paper prints neither the epoch nor the place on the orbit, and no numbers of the curves; so the
 quaternions of Figure 7 and the azimuth and elevation of Mercury in Figure 8 cannot be compared, and its slew angle is
-unspecified. Chosen: 2009-04-09 03:40 TDB, when the Earth is 33 deg from the Sun, and a true anomaly of 150 deg. The paper
-puts azimuth -33 deg into the +X,+Y quadrant; by its own Figure 1 it is in the -X,-Y quadrant. The estimated curves need
-a controller and are not drawn. Camera follows: its angle is commanded anew every second, so that the Sun stays on -Y;
-held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.";
+unspecified. Chosen: 2009-04-09 03:36 TDB, when the Earth is 33 deg from the Sun, and a true anomaly of 215 deg at the
+start, where the paper's eight hours of downlink about apoapsis end; elsewhere on this orbit the slew is anything up to
+180 deg. The paper puts azimuth -33 deg into the +X,+Y quadrant; by its own angles it is in the -X,-Y quadrant. The
+estimated curves need a controller and are not drawn. Camera follows: its angle is commanded anew every second, so that
+the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.";
 
 fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
     let at = |second: f64| flown.samples.iter().find(|sample| sample.place.time_s == second);
@@ -151,7 +152,7 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
         row(
             "Mercury azimuth / elevation after the slew",
             "not printed",
-            format!("{:.2} / {:.2} deg", planet[0], planet[1]),
+            format!("{:.2} / {:.2} deg", planet[0].abs(), planet[1]),
             "-",
         ),
         row(
