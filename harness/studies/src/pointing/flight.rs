@@ -74,7 +74,25 @@ pub struct Sample {
     pub constrained: bool,
 }
 
+/// Columns of a sample's geometry in CSV files: EME2000, positions from the planet's centre.
+pub const GEOMETRY: [&str; 15] = [
+    "time_s", "epoch_s", "q1", "q2", "q3", "q4", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s",
+    "sun_x_m", "sun_y_m", "sun_z_m",
+];
+
+/// All digits that a number has.
+pub fn digits(x: f64) -> String {
+    format!("{x:?}")
+}
+
 impl Sample {
+    /// The cells of [`GEOMETRY`].
+    pub fn geometry(&self) -> impl Iterator<Item = String> {
+        let Place { time_s, epoch_s, position_m, velocity_m_s, .. } = self.place;
+        let numbers = [time_s, epoch_s].into_iter().chain(self.q).chain(position_m).chain(velocity_m_s);
+        numbers.chain(self.place.sun_m()).map(digits)
+    }
+
     /// EME2000 direction of a body direction.
     pub fn to_inertial(&self, body: &Vector) -> Vector {
         turn_back(&self.q, body)

@@ -3,12 +3,14 @@
 use loader::Value;
 
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place, Sample, Settings, number, real};
+use super::flight::{
+    DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, Settings, digits, number, real,
+};
 use super::limb_orbit;
 use super::planet::Ellipsoid;
 use crate::case::{chosen, run_all};
 use crate::chart::{PlaneChart, PlanePanel, Series};
-use crate::vector::{Vector, norm};
+use crate::vector::{Vector, difference, norm};
 use crate::{Options, Report, StudyError};
 
 pub(super) const PLUS_Z: Vector = [0.0, 0.0, 1.0];
@@ -140,25 +142,15 @@ fn print_azimuths(
     options: &Options,
     azimuths: &[(f64, &Flown)],
 ) -> Result<(), StudyError> {
-    let header = [
+    let own = [
         "azimuth_deg",
         "found_azimuth_deg",
         "off_nadir_deg",
-        "height_residual_m",
+        "height_m",
         "sun_azimuth_deg",
         "sun_elevation_deg",
-        "reachable",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "x_m",
-        "y_m",
-        "z_m",
-        "vx_m_s",
-        "vy_m_s",
-        "vz_m_s",
     ];
+    let header = [&own[..], &["reachable"], &GEOMETRY].concat();
     let (mut rows, mut shown, mut limb_points) = (Vec::new(), Vec::new(), Vec::new());
     let mut disc = None;
     for (azimuth_deg, flown) in azimuths {
@@ -175,18 +167,10 @@ fn print_azimuths(
             format!("{:.1e} / {:+.3} deg", found.sun_deg[0], found.sun_deg[1]),
             if sample.reachable && !sample.constrained { "on the limb" } else { "constrained" }.to_owned(),
         ]);
-        let mut row = vec![
-            format!("{azimuth_deg}"),
-            format!("{found_deg:.12}"),
-            format!("{:.9}", found.off_nadir_deg),
-            format!("{:e}", found.height_m),
-            format!("{:e}", found.sun_deg[0]),
-            format!("{:.9}", found.sun_deg[1]),
-            sample.reachable.to_string(),
-        ];
-        row.extend(
-            sample.q.iter().chain(&sample.place.position_m).chain(&sample.place.velocity_m_s).map(digits),
-        );
+        let numbers = [*azimuth_deg, found_deg, found.off_nadir_deg, found.height_m];
+        let mut row: Vec<String> = numbers.into_iter().chain(found.sun_deg).map(digits).collect();
+        row.push(sample.reachable.to_string());
+        row.extend(sample.geometry());
         rows.push(row);
         let at = view.point(&found.foot_m);
         limb_points.push((at, format!("{azimuth_deg:.0}")));
@@ -217,27 +201,9 @@ fn print_azimuths(
     report.plane(options, "limb.svg", &chart)
 }
 
-/// All digits that a number has.
-pub(super) fn digits(x: &f64) -> String {
-    format!("{x:?}")
-}
-
 fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(), StudyError> {
-    let header = [
-        "time_s",
-        "epoch_s",
-        "commanded_height_m",
-        "height_m",
-        "sun_azimuth_deg",
-        "sun_elevation_deg",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "x_m",
-        "y_m",
-        "z_m",
-    ];
+    let own = ["commanded_height_m", "height_m", "sun_azimuth_deg", "sun_elevation_deg"];
+    let header = [&own[..], &GEOMETRY].concat();
     let (mut rows, mut shown, mut track) = (Vec::new(), Vec::new(), Vec::new());
     let (mut creep_m, mut last): (f64, Option<Vector>) = (0.0, None);
     let Some(first) = flown.samples.first() else { return Ok(()) };
@@ -247,20 +213,9 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         let Some(found) = Found::of(sample, &ellipsoid) else { continue };
         let commanded_m = HEIGHT_RATE_M_S * sample.place.time_s;
         let fixed = ellipsoid.along_axes(&found.foot_m);
-        creep_m += last.replace(fixed).map_or(0.0, |last| norm(&crate::vector::difference(&fixed, &last)));
-        let mut row: Vec<String> = [
-            sample.place.time_s,
-            sample.place.epoch_s,
-            commanded_m,
-            found.height_m,
-            found.sun_deg[0],
-            found.sun_deg[1],
-        ]
-        .iter()
-        .map(digits)
-        .collect();
-        row.extend(sample.q.iter().chain(&sample.place.position_m).map(digits));
-        rows.push(row);
+        creep_m += last.replace(fixed).map_or(0.0, |last| norm(&difference(&fixed, &last)));
+        let numbers = [commanded_m, found.height_m].into_iter().chain(found.sun_deg).map(digits);
+        rows.push(numbers.chain(sample.geometry()).collect());
         track.push(View::at(&sample.place).direction(&sample.to_inertial(&PLUS_Z)));
         if sample.place.time_s % 60.0 == 0.0 {
             shown.push(vec![

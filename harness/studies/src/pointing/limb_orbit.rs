@@ -1,10 +1,10 @@
 //! The limb point on the terminator once round an orbit over noon and midnight: how many there are, and which is taken.
 
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place, Sample, flag, number};
-use super::limb::{Found, PLUS_Z, digits, triaxial};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, digits, flag, number};
+use super::limb::{Found, PLUS_Z, triaxial};
 use crate::chart::{Chart, Panel, PlaneChart, PlanePanel, Series};
-use crate::vector::{Vector, angle_rad, difference, dot, norm, unit};
+use crate::vector::{Vector, across, angle_rad, difference, dot, norm, unit};
 use crate::{Options, Report, StudyError};
 
 /// 25 days in, the orbit passes over noon and midnight.
@@ -100,7 +100,7 @@ fn point<'a>(sample: &'a Sample, flown: &Flown) -> Point<'a> {
     let solutions = ellipsoid.terminator_limb_points(&place.position_m, &place.sun_m());
     let up = unit(&place.position_m);
     let along = |x: &Vector| {
-        let track = crate::vector::across(&place.velocity_m_s, &up);
+        let track = across(&place.velocity_m_s, &up);
         let to = difference(x, &place.position_m);
         dot(&to, &track) / norm(&to)
     };
@@ -122,44 +122,13 @@ impl Point<'_> {
 }
 
 fn write(report: &mut Report, options: &Options, points: &[Point<'_>]) -> Result<(), StudyError> {
-    let header = [
-        "time_s",
-        "epoch_s",
-        "solutions",
-        "reachable",
-        "azimuth_deg",
-        "height_m",
-        "sun_azimuth_deg",
-        "sun_elevation_deg",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "x_m",
-        "y_m",
-        "z_m",
-        "vx_m_s",
-        "vy_m_s",
-        "vz_m_s",
-        "sun_x_m",
-        "sun_y_m",
-        "sun_z_m",
-    ];
+    let own = ["solutions", "reachable", "azimuth_deg", "height_m", "sun_azimuth_deg", "sun_elevation_deg"];
+    let header = [&own[..], &GEOMETRY].concat();
     let rows = points.iter().map(|point| {
-        let (sample, place) = (point.sample, &point.sample.place);
-        let [azimuth, elevation] = point.sun_deg();
-        let mut row = vec![
-            digits(&place.time_s),
-            digits(&place.epoch_s),
-            point.solutions.len().to_string(),
-            sample.reachable.to_string(),
-            digits(&point.azimuth_deg()),
-            digits(&point.found.as_ref().map_or(f64::NAN, |found| found.height_m)),
-            digits(&azimuth),
-            digits(&elevation),
-        ];
-        let vectors = [&place.position_m, &place.velocity_m_s, &place.sun_m()];
-        row.extend(sample.q.iter().chain(vectors.into_iter().flatten()).map(digits));
+        let height_m = point.found.as_ref().map_or(f64::NAN, |found| found.height_m);
+        let mut row = vec![point.solutions.len().to_string(), point.sample.reachable.to_string()];
+        row.extend([point.azimuth_deg(), height_m].into_iter().chain(point.sun_deg()).map(digits));
+        row.extend(point.sample.geometry());
         row
     });
     report.csv(options, "limb-terminator.csv", &header, rows)

@@ -2,8 +2,10 @@
 
 use super::camera::{Camera, Frame};
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place, Settings, number, real, vector_setting};
-use super::limb::digits;
+use super::flight::{
+    DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Settings, digits, flag, number, real,
+    vector_setting,
+};
 use crate::case::{chosen, run_all};
 use crate::chart::{PlaneChart, Series};
 use crate::vector::{Vector, angle_rad, dot, norm, sum, unit};
@@ -121,7 +123,7 @@ impl Motion {
             real(&name("duration"), self.duration_s),
             real(&name("pause"), self.pause_s),
             number(&name("segments"), self.segments),
-            super::flight::flag(&name("reverse"), self.reverse),
+            flag(&name("reverse"), self.reverse),
         ]
     }
 }
@@ -354,46 +356,27 @@ those of the body scan along the moving rows. Both axes of a scan begin together
 The fields are those published of MDIS; the one along +Z, rates, durations and pauses are assumed.";
 
 fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(), StudyError> {
-    let header = [
-        "scan",
-        "frame",
-        "time_s",
-        "field_deg",
-        "mdis_angle_deg",
-        "latitude_deg",
-        "longitude_deg",
-        "on_disc",
-        "overlap_with_next",
-        "rate_deg_s",
-        "off_nadir_deg",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "x_m",
-        "y_m",
-        "z_m",
-        "epoch_s",
-    ];
+    let own = ["scan", "frame", "field_deg", "mdis_angle_deg", "latitude_deg", "longitude_deg", "on_disc"];
+    let header = [&own[..], &["overlap_with_next", "rate_deg_s", "off_nadir_deg"], &GEOMETRY].concat();
     let mut rows = Vec::new();
     for Mosaic { case, flown, numbers } in mosaics {
         for (index, frame) in case.frames(flown).iter().enumerate() {
             let (sample, place) = (frame.sample, &frame.sample.place);
             let [x, y, z] = frame.middle_m();
-            let mut row = vec![
-                case.label.to_owned(),
-                (index + 1).to_string(),
-                digits(&place.time_s),
-                digits(&case.camera.field_deg),
-                digits(&if case.camera.on_platform { sample.mdis_angle_rad.to_degrees() } else { 0.0 }),
-                format!("{:.6}", z.atan2(x.hypot(y)).to_degrees()),
-                format!("{:.6}", y.atan2(x).to_degrees()),
-                format!("{:.6}", frame.surface_m().1),
-                digits(&numbers.overlaps.get(index).copied().unwrap_or(f64::NAN)),
-                digits(&norm(&sample.rate_rad_s).to_degrees()),
-                format!("{:.9}", angle_rad(&frame.boresight(), &place.nadir_m()).to_degrees()),
+            let mdis_deg = if case.camera.on_platform { sample.mdis_angle_rad.to_degrees() } else { 0.0 };
+            let mut row = vec![case.label.to_owned(), (index + 1).to_string()];
+            let numbers = [
+                case.camera.field_deg,
+                mdis_deg,
+                z.atan2(x.hypot(y)).to_degrees(),
+                y.atan2(x).to_degrees(),
+                frame.surface_m().1,
+                numbers.overlaps.get(index).copied().unwrap_or(f64::NAN),
+                norm(&sample.rate_rad_s).to_degrees(),
+                angle_rad(&frame.boresight(), &place.nadir_m()).to_degrees(),
             ];
-            row.extend(sample.q.iter().chain(&place.position_m).chain([&place.epoch_s]).map(digits));
+            row.extend(numbers.map(digits));
+            row.extend(sample.geometry());
             rows.push(row);
         }
     }

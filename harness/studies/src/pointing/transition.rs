@@ -1,9 +1,10 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place, Sample, Settings, number, real};
-use super::limb::digits;
+use super::flight::{
+    DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, Settings, digits, number, real,
+};
 use crate::case::{chosen, run_all};
-use crate::chart::{Chart, Panel, Series};
+use crate::chart::{Chart, Mark, Panel, Series};
 use crate::vector::angle_rad;
 use crate::{Options, Report, StudyError};
 
@@ -166,35 +167,16 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
 }
 
 fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Result<(), StudyError> {
-    let header = [
-        "case",
-        "time_s",
-        "sun_azimuth_deg",
-        "sun_elevation_deg",
-        "earth_azimuth_deg",
-        "earth_elevation_deg",
-        "mercury_azimuth_deg",
-        "mercury_elevation_deg",
-        "mdis_angle_deg",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "x_m",
-        "y_m",
-        "z_m",
-        "to_sun_x_m",
-        "to_sun_y_m",
-        "to_sun_z_m",
-    ];
+    let sun = ["case", "sun_azimuth_deg", "sun_elevation_deg"];
+    let others = ["earth_azimuth_deg", "earth_elevation_deg", "mercury_azimuth_deg", "mercury_elevation_deg"];
+    let header = [&sun[..], &others, &["mdis_angle_deg"], &GEOMETRY].concat();
     let rows = flown.iter().flat_map(|(angle, flown)| {
         flown.samples.iter().map(|sample| {
             let Angles { sun, earth, planet } = Angles::of(sample);
             let mut row = vec![angle.label().to_owned()];
-            let numbers = [sample.place.time_s].into_iter().chain(sun).chain(earth).chain(planet);
-            row.extend(numbers.chain([sample.mdis_angle_rad.to_degrees()]).map(|x| digits(&x)));
-            let vectors = sample.place.position_m.iter().chain(&sample.place.to_sun_m);
-            row.extend(sample.q.iter().chain(vectors).map(digits));
+            let numbers = sun.into_iter().chain(earth).chain(planet);
+            row.extend(numbers.chain([sample.mdis_angle_rad.to_degrees()]).map(digits));
+            row.extend(sample.geometry());
             row
         })
     });
@@ -230,9 +212,10 @@ fn angle_chart(flown: &Flown) -> Chart {
     let panel = |name: &str, i: usize| Panel {
         y_label: format!("{name} [deg]"),
         series: vec![
-            over_time("Sun", flown, |sample| Angles::of(sample).sun[i]),
-            over_time("Earth", flown, |sample| Angles::of(sample).earth[i]),
             over_time("Mercury", flown, |sample| Angles::of(sample).planet[i]),
+            over_time("Earth", flown, |sample| Angles::of(sample).earth[i]),
+            // Dashed, as it lies on one of the others all the time.
+            Series { mark: Mark::Dashed, ..over_time("Sun", flown, |sample| Angles::of(sample).sun[i]) },
         ],
         ..Panel::default()
     };
