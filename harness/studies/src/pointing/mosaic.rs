@@ -391,7 +391,7 @@ impl Mosaic {
         let middle = flown.samples.len() / 2;
         let place = flown.samples[middle].place;
         let (view, ellipsoid) = (View::at(&place), flown.planet.at(place.epoch_s));
-        let seen = |fixed: &Vector| view.point(&ellipsoid.from_axes(fixed));
+        let seen = |fixed: &Vector| view.point(&ellipsoid.inertial(fixed));
         let mut panel = view.disc("", &ellipsoid, &place.sun_m());
         let outlines = frames.iter().flat_map(|frame| {
             let outline = frame.outline_m();
