@@ -53,7 +53,7 @@ impl Frame<'_> {
     fn direction(&self, x: f64, y: f64) -> Vector {
         let [boresight, right, sunward] = &self.axes;
         let side = sum(&scaled(right, self.half_tangent * x), &scaled(sunward, self.half_tangent * y));
-        self.sample.to_inertial(&sum(boresight, &side))
+        self.sample.inertial(&sum(boresight, &side))
     }
 
     /// Of the boresight, EME2000.
@@ -87,7 +87,7 @@ impl Frame<'_> {
     /// Whether the frame shows the surface point given along the planet's axes.
     pub fn shows(&self, surface_m: &Vector) -> bool {
         let ellipsoid = self.ellipsoid();
-        let point = ellipsoid.from_axes(surface_m);
+        let point = ellipsoid.inertial(surface_m);
         let from = &self.sample.place.position_m;
         let seen = turn(&self.sample.q, &difference(&point, from));
         let [depth, x, y] = self.axes.map(|axis| dot(&axis, &seen));

@@ -94,7 +94,7 @@ impl Sample {
     }
 
     /// EME2000 direction of a body direction.
-    pub fn to_inertial(&self, body: &Vector) -> Vector {
+    pub fn inertial(&self, body: &Vector) -> Vector {
         turn_back(&self.q, body)
     }
 

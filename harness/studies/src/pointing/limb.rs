@@ -88,7 +88,7 @@ pub(super) struct Found {
 
 impl Found {
     pub(super) fn of(sample: &Sample, ellipsoid: &Ellipsoid) -> Option<Self> {
-        let boresight = sample.to_inertial(&PLUS_Z);
+        let boresight = sample.inertial(&PLUS_Z);
         let view = View::at(&sample.place);
         let (foot_m, height_m) = ellipsoid.height_over_limb_m(&sample.place.position_m, &boresight)?;
         let (x, y) = view.direction(&boresight);
@@ -216,7 +216,7 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         creep_m += last.replace(fixed).map_or(0.0, |last| norm(&difference(&fixed, &last)));
         let numbers = [commanded_m, found.height_m].into_iter().chain(found.sun_deg).map(digits);
         rows.push(numbers.chain(sample.geometry()).collect());
-        track.push(View::at(&sample.place).direction(&sample.to_inertial(&PLUS_Z)));
+        track.push(View::at(&sample.place).direction(&sample.inertial(&PLUS_Z)));
         if sample.place.time_s % 60.0 == 0.0 {
             shown.push(vec![
                 format!("{:.0} s", sample.place.time_s),

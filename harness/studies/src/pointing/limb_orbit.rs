@@ -106,7 +106,7 @@ fn point<'a>(sample: &'a Sample, flown: &Flown) -> Point<'a> {
     };
     let nearer = solutions.iter().copied().max_by(|a, b| along(a).total_cmp(&along(b)));
     let found = nearer.and_then(|_| Found::of(sample, &ellipsoid));
-    Point { sample, solutions, nearer, boresight: sample.to_inertial(&PLUS_Z), found }
+    Point { sample, solutions, nearer, boresight: sample.inertial(&PLUS_Z), found }
 }
 
 impl Point<'_> {

@@ -9,6 +9,7 @@ mod limb;
 mod limb_orbit;
 mod mosaic;
 mod planet;
+mod scans;
 mod transition;
 
 pub use limb::limb;

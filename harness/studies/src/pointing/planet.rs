@@ -64,11 +64,11 @@ impl Ellipsoid {
 
     /// The other way.
     fn in_meters(&self, y: &Vector) -> Vector {
-        self.from_axes(&[0, 1, 2].map(|i| y[i] * self.radii_m[i]))
+        self.inertial(&[0, 1, 2].map(|i| y[i] * self.radii_m[i]))
     }
 
     /// EME2000 components of components along its axes.
-    pub fn from_axes(&self, v: &Vector) -> Vector {
+    pub fn inertial(&self, v: &Vector) -> Vector {
         [0, 1, 2].map(|i| (0..3).map(|axis| self.axes[axis][i] * v[axis]).sum())
     }
 
@@ -126,16 +126,7 @@ impl Ellipsoid {
 
     /// The points of the surface in the plane through the centre normal to `normal`, once round.
     pub fn great_ellipse(&self, normal: &Vector, count: u32) -> Vec<Vector> {
-        let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
-        let mut axis = [0.0; 3];
-        axis[least] = 1.0;
-        let u = unit(&cross(normal, &axis));
-        let v = unit(&cross(normal, &u));
-        let point = |k: u32| {
-            let (sine, cosine) = (core::f64::consts::TAU * f64::from(k) / f64::from(count)).sin_cos();
-            self.surface(&sum(&scaled(&u, cosine), &scaled(&v, sine)))
-        };
-        (0..count).map(point).collect()
+        circle(normal, count).map(|direction| self.surface(&direction)).collect()
     }
 
     /// The limb points on the terminator, the plane normal to the Sun's direction: changes of sign of eq 21 along it.
@@ -167,17 +158,20 @@ impl Ellipsoid {
         let rho = self.in_radii(from);
         let square = dot(&rho, &rho);
         let middle = scaled(&rho, 1.0 / square);
-        let least = (0..3).min_by(|a, b| rho[*a].abs().total_cmp(&rho[*b].abs())).unwrap_or(0);
-        let mut axis = [0.0; 3];
-        axis[least] = 1.0;
-        let u = unit(&cross(&rho, &axis));
-        let v = unit(&cross(&rho, &u));
         let radius = (1.0 - 1.0 / square).sqrt();
-        let point = |k: u32| {
-            let (sine, cosine) = (core::f64::consts::TAU * f64::from(k) / f64::from(count)).sin_cos();
-            let offset = sum(&scaled(&u, radius * cosine), &scaled(&v, radius * sine));
-            self.in_meters(&sum(&middle, &offset))
-        };
-        (0..count).map(point).collect()
+        circle(&rho, count).map(|side| self.in_meters(&sum(&middle, &scaled(&side, radius)))).collect()
     }
+}
+
+/// Unit vectors across `normal`, once round.
+fn circle(normal: &Vector, count: u32) -> impl Iterator<Item = Vector> {
+    let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
+    let mut axis = [0.0; 3];
+    axis[least] = 1.0;
+    let u = unit(&cross(normal, &axis));
+    let v = unit(&cross(normal, &u));
+    (0..count).map(move |k| {
+        let (sine, cosine) = (core::f64::consts::TAU * f64::from(k) / f64::from(count)).sin_cos();
+        sum(&scaled(&u, cosine), &scaled(&v, sine))
+    })
 }
