@@ -206,7 +206,7 @@ fn light_and_loads(
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
-    let forces = [(force.albedo, albedo), (force.infrared, infrared), (force.total, all)];
+    let forces = [(force.by_source.albedo, albedo), (force.by_source.infrared, infrared), (force.total, all)];
     for (force, at_start) in forces {
         table.output(force, lit, knowns![at_start, panels]);
     }
@@ -217,7 +217,7 @@ fn light_and_loads(
         let turned = (0..v.panel.len()).filter(turning).map(|k| &start.panels[k]).collect::<Knowns>();
         let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(spacecraft, axis));
         table.output(
-            force.thermal.element(axis),
+            force.by_source.thermal.element(axis),
             knowns![&inputs.attitude, angles],
             knowns![recoil, shape, &turned],
         );
@@ -225,13 +225,13 @@ fn light_and_loads(
         let lit_alike =
             v.panel.iter().map(|panel| knowns![panel.control, panel.sun_offset, panel.enabled, panel.angle]);
         let at_start = knowns![solar, lit_alike.collect::<Knowns>(), turned];
-        table.output(force.solar.element(axis), lit, at_start);
+        table.output(force.by_source.solar.element(axis), lit, at_start);
     }
     let torques = [
-        (torque.solar, knowns![solar]),
-        (torque.albedo, knowns![albedo]),
-        (torque.infrared, knowns![infrared]),
-        (torque.thermal, knowns![recoil, shade, storage]),
+        (torque.by_source.solar, knowns![solar]),
+        (torque.by_source.albedo, knowns![albedo]),
+        (torque.by_source.infrared, knowns![infrared]),
+        (torque.by_source.thermal, knowns![recoil, shade, storage]),
         (torque.total, knowns![all, storage]),
     ];
     for (torque, at_start) in torques {
@@ -244,7 +244,7 @@ fn light_and_loads(
         let inertia = inertia_about_others(v.spacecraft.inertia, axis);
         let gradient =
             &knowns![&start.attitude, v.gravity_gradient.enabled, planet.gravitational_parameter, inertia];
-        table.output(torque.gravity_gradient.element(axis), &inputs.attitude, gradient);
+        table.output(torque.by_source.gravity_gradient.element(axis), &inputs.attitude, gradient);
         let applied = &knowns![torque.applied.element(axis)];
         table.output(torque.total.element(axis), applied, knowns![applied, gradient]);
         let applied = &knowns![force.applied.element(axis)];

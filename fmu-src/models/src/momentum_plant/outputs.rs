@@ -28,10 +28,10 @@ pub fn write(
 
     let total = loads.total();
     for effect in Effect::ALL {
-        if let Some(torque) = variables.torque.of(effect) {
+        if let Some(torque) = variables.torque.by_source.of(effect) {
             values.set_vector(torque, loads[effect].torque_body_n_m.into());
         }
-        if let Some(force) = variables.force.of(effect) {
+        if let Some(force) = variables.force.by_source.of(effect) {
             values.set_vector(force, loads[effect].force_body_n.into());
         }
     }
