@@ -156,4 +156,5 @@ const EXPORTS: [&str; 35] = [
     "fmi2GetBooleanStatus",
     "fmi2GetStringStatus",
     "fmi_export_describe",
+    "fmi_export_check_schedule",
 ];

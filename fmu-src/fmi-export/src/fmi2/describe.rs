@@ -1,4 +1,4 @@
-//! The body of `fmi_export_describe`, see [`model_description::describe`].
+//! The bodies of `fmi_export_describe` and `fmi_export_check_schedule`, see [`model_description::describe`].
 
 use core::ffi::{c_char, c_int, c_void};
 
@@ -9,13 +9,86 @@ use super::description::DescribeError;
 use super::library::{Entry, Library};
 use crate::panics::contain;
 
+/// Sends texts to a caller.
+struct Sender {
+    context: *mut c_void,
+    receive: Receive,
+}
+
+impl Sender {
+    fn send(&self, kind: i32, text: &str) {
+        // SAFETY: the promise of whoever called the C function; the text is valid until `receive` returns.
+        unsafe { (self.receive)(self.context, kind, text.as_ptr().cast(), text.len()) }
+    }
+
+    fn introduce(&self, entry: &Entry) {
+        self.send(kind::MODEL, entry.name());
+        if let Some(file) = entry.setup_file() {
+            self.send(kind::SETUP_FILE, file);
+        }
+        if let Some(file) = entry.schedule_file() {
+            self.send(kind::SCHEDULE_FILE, file);
+        }
+        self.send(kind::SETUP_TEXT, entry.default_setup());
+        for source in entry.sources() {
+            self.send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
+        }
+    }
+
+    /// Runs `body`: 0, or 1 after its error or panic was sent.
+    fn run(&self, body: impl FnOnce() -> Result<(), String>) -> c_int {
+        let problem = match contain(body) {
+            Ok(Ok(())) => return 0,
+            Ok(Err(problem)) => problem,
+            Err(panic) => format!("panic: {panic}"),
+        };
+        let _ = contain(|| self.send(kind::ERROR, &problem));
+        1
+    }
+}
+
 /// `fmi_export_describe` over the models of a library.
 ///
 /// # Safety
 /// Every pointer is NULL or a NUL-terminated string that is valid during the call; `receive` may be called with
 /// `context`.
-#[allow(clippy::too_many_arguments, reason = "the signature of `Describe`")]
 pub unsafe fn describe(
+    library: &Library,
+    model: *const c_char,
+    setup_file: *const c_char,
+    setup_text: *const c_char,
+    context: *mut c_void,
+    receive: Option<Receive>,
+) -> c_int {
+    let Some(receive) = receive else { return 1 };
+    let sender = Sender { context, receive };
+    sender.run(|| {
+        if model.is_null() {
+            library.entries.iter().for_each(|entry| sender.introduce(entry));
+            return Ok(());
+        }
+        // SAFETY: the caller's promise.
+        let (model, file, setup) = unsafe {
+            (
+                optional(model, "model")?,
+                optional(setup_file, "setup_file")?,
+                optional(setup_text, "setup_text")?,
+            )
+        };
+        let entry = found(library, model.unwrap_or_default())?;
+        let description = library.describe(entry, file, setup).map_err(|error| said(entry.name(), &error))?;
+        sender.introduce(entry);
+        sender.send(kind::XML, &model_description::to_xml(&description));
+        Ok(())
+    })
+}
+
+/// `fmi_export_check_schedule` over the models of a library.
+///
+/// # Safety
+/// As [`describe`].
+#[allow(clippy::too_many_arguments, reason = "the signature of `CheckSchedule`")]
+pub unsafe fn check_schedule(
     library: &Library,
     model: *const c_char,
     setup_file: *const c_char,
@@ -26,28 +99,7 @@ pub unsafe fn describe(
     receive: Option<Receive>,
 ) -> c_int {
     let Some(receive) = receive else { return 1 };
-    let send = |kind: i32, text: &str| {
-        // SAFETY: the caller's promise; the text is valid until `receive` returns.
-        unsafe { receive(context, kind, text.as_ptr().cast(), text.len()) }
-    };
-    let introduce = |entry: &Entry| {
-        send(kind::MODEL, entry.name());
-        if let Some(file) = entry.setup_file() {
-            send(kind::SETUP_FILE, file);
-        }
-        if let Some(file) = entry.schedule_file() {
-            send(kind::SCHEDULE_FILE, file);
-        }
-        send(kind::SETUP_TEXT, entry.default_setup());
-        for source in entry.sources() {
-            send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
-        }
-    };
-    let done = contain(|| {
-        if model.is_null() {
-            library.entries.iter().for_each(introduce);
-            return Ok(());
-        }
+    Sender { context, receive }.run(|| {
         // SAFETY: the caller's promise.
         let (model, file, setup, schedule_file, schedule) = unsafe {
             (
@@ -58,29 +110,27 @@ pub unsafe fn describe(
                 optional(schedule_text, "schedule_text")?,
             )
         };
-        let schedule = schedule.map(|text| (schedule_file, text));
-        let model = model.unwrap_or_default();
-        let entry = library
-            .find(model)
-            .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))?;
-        let description =
-            library.describe_with_schedule(entry, file, setup, schedule).map_err(|error| match error {
-                // They name their file and line first, where editors expect them.
-                DescribeError::Setup(problem) => problem.to_string(),
-                DescribeError::Start(problems) => problems,
-                other => format!("{model}: {other}"),
-            })?;
-        introduce(entry);
-        send(kind::XML, &model_description::to_xml(&description));
-        Ok(())
-    });
-    let problem = match done {
-        Ok(Ok(())) => return 0,
-        Ok(Err(problem)) => problem,
-        Err(panic) => format!("panic: {panic}"),
-    };
-    let _ = contain(|| send(kind::ERROR, &problem));
-    1
+        let entry = found(library, model.unwrap_or_default())?;
+        let schedule = schedule.ok_or("argument schedule_text is NULL")?;
+        library
+            .check_schedule(entry, file, setup, schedule_file, schedule)
+            .map_err(|error| said(entry.name(), &error))
+    })
+}
+
+fn found(library: &Library, model: &str) -> Result<&'static Entry, String> {
+    library
+        .find(model)
+        .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))
+}
+
+fn said(model: &str, error: &DescribeError) -> String {
+    match error {
+        // They name their file and line first, where editors expect them.
+        DescribeError::Setup(problem) => problem.to_string(),
+        DescribeError::Start(problems) => problems.clone(),
+        other => format!("{model}: {other}"),
+    }
 }
 
 /// # Safety

@@ -137,26 +137,25 @@ impl Library {
         file: Option<&str>,
         setup_text: Option<&str>,
     ) -> Result<model_description::Description, DescribeError> {
-        self.describe_with_schedule(entry, file, setup_text, None)
+        Ok(entry.prepare(file, setup_text, self.entries)?.description)
     }
 
-    /// The same; a schedule, with the name that errors give it, is checked and changes nothing.
-    pub(crate) fn describe_with_schedule(
+    /// Whether a model takes a schedule with this setup.
+    pub(crate) fn check_schedule(
         &self,
         entry: &Entry,
         file: Option<&str>,
         setup_text: Option<&str>,
-        schedule: Option<(Option<&str>, &str)>,
-    ) -> Result<model_description::Description, DescribeError> {
-        let mut prepared = entry.prepare(file, setup_text, self.entries)?;
-        if let Some((file, text)) = schedule {
-            let file = file.or(entry.schedule_file).unwrap_or("the schedule");
-            if entry.schedule_file.is_none() {
-                return Err(SetupError(format!("{file}: {} takes no schedule", entry.name)).into());
-            }
-            Entry::take_schedule(&mut prepared, file, text)?;
+        schedule_file: Option<&str>,
+        schedule: &str,
+    ) -> Result<(), DescribeError> {
+        let schedule_file = schedule_file.or(entry.schedule_file).unwrap_or("the schedule");
+        if entry.schedule_file.is_none() {
+            return Err(SetupError(format!("{schedule_file}: {} takes no schedule", entry.name)).into());
         }
-        Ok(prepared.description)
+        let mut prepared = entry.prepare(file, setup_text, self.entries)?;
+        Entry::take_schedule(&mut prepared, schedule_file, schedule)?;
+        Ok(())
     }
 
     /// The names, for messages.

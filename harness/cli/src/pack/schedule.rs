@@ -18,6 +18,6 @@ pub fn checked(
         return Err(format!("--timeline: {model} takes none, allowed for: {allowed}"));
     };
     let setup = described.setup_file.as_ref().map(|_| setup);
-    binary.describe_with_schedule(model, setup_file, setup, Some((file, text)))?;
+    binary.check_schedule(model, setup_file, setup, (file, text))?;
     Ok(name.clone())
 }
