@@ -186,8 +186,8 @@ impl Mosaic {
             reach.filter(|(x, _)| x.is_finite()).fold(0.0, |a: f64, (x, y)| a.max(x.abs()).max(y.abs()));
         panel.half_width = 1.08 * reach;
         // Beside the line that joins the middles.
-        let number =
-            |(k, (x, y)): (usize, &(f64, f64))| ((*x, y + 0.03 * panel.half_width), (k + 1).to_string());
+        let aside = 0.025 * panel.half_width;
+        let number = |(k, (x, y)): (usize, &(f64, f64))| ((x + aside, y + aside), (k + 1).to_string());
         panel.texts = middles.iter().enumerate().map(number).collect();
         PlaneChart {
             title: case.title.to_owned(),
