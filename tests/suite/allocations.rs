@@ -57,7 +57,10 @@ impl Client {
 
 #[test]
 fn simulations_allocate_nothing() {
-    for scenario in Scenario::ALL.into_iter().filter(|scenario| *scenario != Scenario::Placed) {
+    for scenario in Scenario::ALL {
+        if scenario == Scenario::Placed || scenario.model() == "Guidance" {
+            continue;
+        }
         let mut simulation = Simulation::new(scenario);
         let mut client = Client::new(scenario, &simulation.names);
         let step_s = if scenario.model() == "MomentumPlant" { 600.0 } else { 0.7 };
@@ -84,6 +87,47 @@ fn happened(simulation: &mut Simulation) -> i32 {
     let mut count = [0];
     ok(simulation.instance.get_integer(&[simulation.names.of(BaseType::Integer, name)], &mut count));
     count[0]
+}
+
+/// Commands, scans, modes and windows of Guidance; every sample sets position and velocity.
+#[test]
+fn guidance_allocates_nothing() {
+    for scenario in Scenario::ALL.into_iter().filter(|scenario| scenario.model() == "Guidance") {
+        let mut simulation = Simulation::new(scenario);
+        let names = names("Guidance");
+        let references = [BaseType::Real, BaseType::Integer, BaseType::Boolean].map(|base| names.all(base));
+        let mut reals = vec![0.0; references[0].len()];
+        let [mut integers, mut booleans] = [1, 2].map(|base| vec![0; references[base].len()]);
+        let [position, velocity] = ["position", "velocity"].map(|name| names.vector::<3>(name));
+        let scenario_input = [names.of(BaseType::Integer, "pointing.scenario")];
+        let rate = names.vector::<3>("command.rate");
+        (0..200).for_each(|_| simulation.step());
+        let (instance, mut time_s) = (&mut simulation.instance, simulation.time_s);
+        // What the scenario's last step chose stays, but for these.
+        let (mut turned, mut last) = (0, [0.0; 3]);
+        let ((), count) = counted(|| {
+            for step in 0..4_000_u32 {
+                let (sine, cosine) = (f64::from(step) * 1e-3).sin_cos();
+                ok(instance.set_real(&position, &[4e6 * cosine, 3e5, 4e6 * sine]));
+                ok(instance.set_real(&velocity, &[-2.3e3 * sine, 40.0, 2.3e3 * cosine]));
+                ok(instance.set_input_derivatives(&position, &[1; 3], &[10.0, 20.0, -30.0]));
+                if scenario == Scenario::Pointed {
+                    ok(instance.set_integer(&scenario_input, &[1 + (step / 50 % 8) as i32]));
+                }
+                ok(instance.do_step(time_s, 0.7));
+                time_s += 0.7;
+                ok(instance.get_real(&references[0], &mut reals));
+                ok(instance.get_integer(&references[1], &mut integers));
+                ok(instance.get_boolean(&references[2], &mut booleans));
+                let mut now = [0.0; 3];
+                ok(instance.get_real(&rate, &mut now));
+                turned += i32::from(now != last);
+                last = now;
+            }
+        });
+        assert_eq!(count, Count::default(), "{scenario:?}");
+        assert!(turned > 0, "{scenario:?}: nothing turned");
+    }
 }
 
 /// Surfaces that store heat, through eclipses; shadows of one another are left out, they may allocate.

@@ -234,6 +234,11 @@ fn resealed_payloads_of_the_memoryless_model_are_refused_or_usable() {
 }
 
 #[test]
+fn torn_guidance_states_never_end_the_process() {
+    resealed("Guidance", 5_000);
+}
+
+#[test]
 fn raw_bytes_are_refused() {
     let target = std::cell::RefCell::new(Target::new("AllTypes"));
     run(10_000, prop::collection::vec(any::<u8>(), 0..200), |bytes| target.borrow_mut().offer(&bytes));

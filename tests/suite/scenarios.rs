@@ -20,11 +20,26 @@ pub enum Scenario {
     Fired,
     /// DisturbanceTorque with Sun, planet, panels and mass placed anew, with slopes, in and out of eclipses.
     Placed,
+    /// Guidance with scans over changing scenarios and options, on an orbit with slopes.
+    Pointed,
+    /// Guidance through its modes, with the monitor, the sensors and a Sun and an Earth from outside.
+    Safed,
+    /// Guidance through windows of science and downlink with slews.
+    Orbiting,
 }
 
 impl Scenario {
-    pub const ALL: [Self; 6] =
-        [Self::Guided, Self::Commanded, Self::Lit, Self::Burning, Self::Fired, Self::Placed];
+    pub const ALL: [Self; 9] = [
+        Self::Guided,
+        Self::Commanded,
+        Self::Lit,
+        Self::Burning,
+        Self::Fired,
+        Self::Placed,
+        Self::Pointed,
+        Self::Safed,
+        Self::Orbiting,
+    ];
 
     /// The model that runs so.
     pub fn model(self) -> &'static str {
@@ -32,6 +47,7 @@ impl Scenario {
             Self::Guided | Self::Commanded | Self::Lit => "MomentumPlant",
             Self::Burning | Self::Fired => "SpinPlant",
             Self::Placed => "DisturbanceTorque",
+            Self::Pointed | Self::Safed | Self::Orbiting => "Guidance",
         }
     }
 
@@ -41,6 +57,8 @@ impl Scenario {
             Self::Guided | Self::Commanded | Self::Lit => [60.0, 600.0, 97.3, 1_200.0],
             Self::Burning | Self::Fired => [0.5, 0.1, 1.3, 7.0],
             Self::Placed => [60.0, 1.0, 7.3, 0.02],
+            Self::Pointed | Self::Safed => [1.0, 0.1, 7.0, 0.3],
+            Self::Orbiting => [1.0, 0.1, 7.0, 60.0],
         }
     }
 
@@ -68,6 +86,100 @@ impl Scenario {
                 ok(instance.set_integer(&[names.of(BaseType::Integer, "burn.plan")], &[plan]));
             }
             Self::Placed => {}
+            Self::Pointed | Self::Safed | Self::Orbiting => self.prepare_guidance(instance, names),
+        }
+    }
+
+    fn prepare_guidance(self, instance: &mut InProcess, names: &Names) {
+        let choose = |instance: &mut InProcess, chosen: &[(&str, i32)]| {
+            for (name, item) in chosen {
+                ok(instance.set_integer(&[names.of(BaseType::Integer, name)], &[*item]));
+            }
+        };
+        let number = |instance: &mut InProcess, name: &str, value: f64| {
+            ok(instance.set_real(&[names.real(name)], &[value]));
+        };
+        match self {
+            Self::Pointed => choose(instance, &[("pointing.scenario", 2), ("aimpoint.option", 7)]),
+            Self::Safed => {
+                choose(instance, &[("pointing.scenario", 3), ("ephemeris.source", 3)]);
+                number(instance, "monitor.persistence", 3.0);
+                number(instance, "monitor.margin", 0.0);
+                number(instance, "sunSearch.duration", 5.0);
+                ok(instance.set_real(&names.vector::<3>("sun.position"), &[5e10, 1e10, -4e9]));
+                ok(instance.set_real(&names.vector::<3>("earth.position"), &[-1e11, 3e10, 2e9]));
+            }
+            _ => {
+                choose(instance, &[("pointing.scenario", 10), ("guided.downlinkEvery", 1)]);
+                number(instance, "guided.downlinkStart", 100.0);
+                number(instance, "guided.downlinkEnd", 4_000.0);
+                number(instance, "guided.slewRate", 2e-3);
+            }
+        }
+        self.place_spacecraft(instance, names, 0);
+    }
+
+    /// On a circle about the planet, the farther the higher the step's number.
+    fn place_spacecraft(self, instance: &mut InProcess, names: &Names, step_number: u64) {
+        let (sine, cosine) = (step_number as f64 * 2e-3).sin_cos();
+        let (radius_m, speed_m_s) = (4e6, 2.3e3);
+        let position = names.vector::<3>("position");
+        ok(instance.set_real(&position, &[radius_m * cosine, 3e5, radius_m * sine]));
+        let velocity = [-speed_m_s * sine, 40.0, speed_m_s * cosine];
+        ok(instance.set_real(&names.vector::<3>("velocity"), &velocity));
+        if self == Self::Pointed {
+            ok(instance.set_input_derivatives(&position, &[1; 3], &velocity));
+        }
+    }
+
+    fn set_guidance_inputs(
+        self,
+        instance: &mut InProcess,
+        names: &Names,
+        step_number: u64,
+        random: &mut RandomNumbers,
+    ) {
+        self.place_spacecraft(instance, names, step_number);
+        // Held for twelve steps, so that a scan or a mode lasts.
+        let mut held = RandomNumbers(2_000_000 + step_number / 12);
+        let mut choose = |name: &str, from: i32, to: i32| {
+            let item = from + i32::try_from(held.below((to - from + 1) as usize)).unwrap();
+            ok(instance.set_integer(&[names.of(BaseType::Integer, name)], &[item]));
+        };
+        match self {
+            Self::Pointed => {
+                choose("pointing.scenario", 1, 8);
+                choose("boresight.option", 1, 4);
+                choose("aimpoint.option", 5, 15);
+                choose("externalRoll.option", 3, 5);
+                choose("scan.frame", 0, 5);
+                choose("limb.reference", 0, 2);
+                let boresight = names.vector::<3>("boresight.vector");
+                ok(instance.set_real(&boresight, &[0.1, random.unit() - 0.5, 1.0]));
+                let rate = [1e-3, -2e-3 * random.unit(), 0.0];
+                ok(instance.set_real(&names.vector::<3>("scan.rate"), &rate));
+                ok(instance.set_real(&names.vector::<3>("scan.speed"), &[100.0, 0.0, -50.0]));
+                ok(instance.set_real(&names.vector::<3>("scan.duration"), &[5.0, 3.0, 2.0]));
+                ok(instance.set_real(&names.vector::<3>("scan.pause"), &[0.5, 0.0, 1.0]));
+                let reals = ["aimpoint.latitude", "aimpoint.longitude", "limb.azimuth", "limb.heightRate"];
+                let values = [0.3, random.unit(), 2.0, 10.0];
+                ok(instance.set_real(&reals.map(|name| names.real(name)), &values));
+            }
+            Self::Safed => {
+                choose("mode.request", 0, 3);
+                let valid = ["estimate.valid", "sun.sensedValid"];
+                let flags = [0, 1].map(|_| i32::from(held.below(5) > 0));
+                ok(instance.set_boolean(&valid.map(|name| names.of(BaseType::Boolean, name)), &flags));
+                let sine = held.unit().sin();
+                let q = [0.1 * sine, 0.2 * sine, 0.3, (0.91 - 0.05 * sine * sine).sqrt()];
+                ok(instance.set_real(&names.vector::<4>("estimate.q"), &q));
+                let sensed = [random.unit() - 0.5, -1.0, 0.2];
+                ok(instance.set_real(&names.vector::<3>("sun.sensed"), &sensed));
+                if random.below(20) == 0 {
+                    ok(instance.set_real(&[names.real("keepIn.elevation")], &[0.3 * random.unit()]));
+                }
+            }
+            _ => {}
         }
     }
 
@@ -90,6 +202,9 @@ impl Scenario {
         }
         match self {
             Self::Guided | Self::Lit | Self::Burning => {}
+            Self::Pointed | Self::Safed | Self::Orbiting => {
+                self.set_guidance_inputs(instance, names, step_number, random);
+            }
             Self::Commanded => {
                 if random.below(3) == 0 {
                     let sine = random.unit().sin();

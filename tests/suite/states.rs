@@ -140,6 +140,24 @@ fn a_memoryless_model_goes_on_from_any_saved_point() {
 }
 
 #[test]
+fn a_pointed_guidance_goes_on_from_any_saved_point() {
+    in_this_process_and_another(Scenario::Pointed, "states::a_pointed_guidance_goes_on_from_any_saved_point");
+}
+
+#[test]
+fn a_safed_guidance_goes_on_from_any_saved_point() {
+    in_this_process_and_another(Scenario::Safed, "states::a_safed_guidance_goes_on_from_any_saved_point");
+}
+
+#[test]
+fn an_orbiting_guidance_goes_on_from_any_saved_point() {
+    in_this_process_and_another(
+        Scenario::Orbiting,
+        "states::an_orbiting_guidance_goes_on_from_any_saved_point",
+    );
+}
+
+#[test]
 fn a_fired_spinner_goes_on_from_any_saved_point() {
     in_this_process_and_another(Scenario::Fired, "states::a_fired_spinner_goes_on_from_any_saved_point");
 }

@@ -27,6 +27,7 @@ fn main() {
     let small = model_description::to_xml(&small);
     seed("model_description", "AllTypes", small.as_bytes());
     seed("model_description", "DisturbanceTorque", &shipped("modelDescription/golden/DisturbanceTorque.xml"));
+    seed("model_description", "Guidance", &shipped("modelDescription/golden/Guidance.xml"));
     seed("model_description", "unguarded", &shipped("tests/c/unguarded.xml"));
     for (choice, model) in (0_u8..).zip(MODELS) {
         for (name, payload) in states(choice) {

@@ -14,11 +14,14 @@ use crate::panics::contain;
 /// # Safety
 /// Every pointer is NULL or a NUL-terminated string that is valid during the call; `receive` may be called with
 /// `context`.
+#[allow(clippy::too_many_arguments, reason = "the signature of `Describe`")]
 pub unsafe fn describe(
     library: &Library,
     model: *const c_char,
     setup_file: *const c_char,
     setup_text: *const c_char,
+    schedule_file: *const c_char,
+    schedule_text: *const c_char,
     context: *mut c_void,
     receive: Option<Receive>,
 ) -> c_int {
@@ -32,6 +35,9 @@ pub unsafe fn describe(
         if let Some(file) = entry.setup_file() {
             send(kind::SETUP_FILE, file);
         }
+        if let Some(file) = entry.schedule_file() {
+            send(kind::SCHEDULE_FILE, file);
+        }
         send(kind::SETUP_TEXT, entry.default_setup());
         for source in entry.sources() {
             send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
@@ -43,23 +49,27 @@ pub unsafe fn describe(
             return Ok(());
         }
         // SAFETY: the caller's promise.
-        let (model, file, setup) = unsafe {
+        let (model, file, setup, schedule_file, schedule) = unsafe {
             (
                 optional(model, "model")?,
                 optional(setup_file, "setup_file")?,
                 optional(setup_text, "setup_text")?,
+                optional(schedule_file, "schedule_file")?,
+                optional(schedule_text, "schedule_text")?,
             )
         };
+        let schedule = schedule.map(|text| (schedule_file, text));
         let model = model.unwrap_or_default();
         let entry = library
             .find(model)
             .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))?;
-        let description = library.describe(entry, file, setup).map_err(|error| match error {
-            // They name their file and line first, where editors expect them.
-            DescribeError::Setup(problem) => problem.to_string(),
-            DescribeError::Start(problems) => problems,
-            other => format!("{model}: {other}"),
-        })?;
+        let description =
+            library.describe_with_schedule(entry, file, setup, schedule).map_err(|error| match error {
+                // They name their file and line first, where editors expect them.
+                DescribeError::Setup(problem) => problem.to_string(),
+                DescribeError::Start(problems) => problems,
+                other => format!("{model}: {other}"),
+            })?;
         introduce(entry);
         send(kind::XML, &model_description::to_xml(&description));
         Ok(())

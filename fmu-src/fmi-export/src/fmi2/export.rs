@@ -17,7 +17,7 @@ macro_rules! export {
 
         #[allow(unsafe_code, reason = "symbols of the C interface, forwarded to fmi_export::fmi2")]
         #[allow(non_snake_case, reason = "the standard's names")]
-        #[allow(clippy::too_many_arguments, reason = "the standard's signature")]
+        #[allow(clippy::too_many_arguments, reason = "the signatures of the standard and of `Describe`")]
         mod __symbols {
             use ::core::ffi::{c_char, c_int, c_void};
             use $crate::model_description::{describe, functions::types};
@@ -50,13 +50,17 @@ macro_rules! export {
                 model: *const c_char,
                 setup_file: *const c_char,
                 setup_text: *const c_char,
+                schedule_file: *const c_char,
+                schedule_text: *const c_char,
                 context: *mut c_void,
                 receive: Option<describe::Receive>,
             ) -> c_int {
                 $crate::fmi2::silence_panics();
                 // SAFETY: the caller keeps the contract of `Describe`.
                 unsafe {
-                    $crate::fmi2::describe(&super::LIBRARY, model, setup_file, setup_text, context, receive)
+                    $crate::fmi2::describe(
+                        &super::LIBRARY, model, setup_file, setup_text, schedule_file, schedule_text, context, receive,
+                    )
                 }
             }
 

@@ -1,126 +1,255 @@
 //! What each output depends on.
+//!
+//! A sample decides the mode, then whether there is an attitude at all, then which: every output that is judged with an
+//! attitude depends on the first two. At the start no scan and no limb has moved yet; their rates move the command's.
 
 use fmi_export::{Dependencies, Knowns, knowns};
+use nalgebra::Vector3;
 
+use super::setup::GuidanceSetup;
 use super::variables::GuidanceVariables;
+use super::variables::commands::AimpointVariables;
+
+/// Inputs by what they act on.
+struct Inputs {
+    /// The mode, where the monitor judges by the places.
+    mode: Knowns,
+    /// Whether there is an attitude: whether all it needs has a direction.
+    existence: Knowns,
+    /// The Sun sensors, where there is no attitude.
+    sensed: Knowns,
+    /// What the attitude is made of, without velocities of Sun and Earth and without what scans and limbs did so far.
+    attitude: Knowns,
+    /// The instrument that is the boresight.
+    instrument: Knowns,
+    /// Which instrument lies along the body roll vector -Y.
+    instrument_along_roll: Knowns,
+    /// The bodies' velocities, by which slews are told from windows, and a science rule.
+    velocities: Knowns,
+    /// What a scan moves, once it has run for a while.
+    scanned: Knowns,
+    aimpoint: Knowns,
+    second_aimpoint: Knowns,
+    /// Body and external roll vectors.
+    rolls: Knowns,
+}
+
+impl Inputs {
+    fn of(setup: &GuidanceSetup, v: &GuidanceVariables) -> Self {
+        let (boresight, aim) = (&v.boresight, &v.aimpoint);
+        let (body_roll, external_roll) = (&v.body_roll, &v.external_roll);
+        let (limb, scan) = (&v.limb, &v.scan);
+        let places = knowns![v.position, v.sun.position, v.earth.position];
+        let mode = knowns![v.mode.request, v.estimate.q, v.estimate.valid, places];
+        let existence = knowns![
+            &mode,
+            v.pointing.scenario,
+            v.velocity,
+            boresight.option,
+            boresight.vector,
+            directions(aim),
+            limb.reference,
+        ];
+        let rolls = knowns![
+            body_roll.option,
+            body_roll.vector,
+            body_roll.azimuth,
+            body_roll.elevation,
+            external_roll.option,
+            external_roll.vector,
+            external_roll.right_ascension,
+            external_roll.declination,
+        ];
+        let aimpoint = aimpoint(aim);
+        let attitude = knowns![
+            &existence,
+            &aimpoint,
+            &rolls,
+            boresight.azimuth,
+            boresight.elevation,
+            boresight.angle,
+            limb.azimuth,
+            limb.height,
+        ];
+        let segments = knowns![scan.segments_x, scan.segments_y, scan.segments_z];
+        let reverse = knowns![scan.reverse_x, scan.reverse_y, scan.reverse_z];
+        let pattern = knowns![scan.rate, scan.speed, scan.duration, scan.pause, segments, reverse];
+        let instruments = &setup.spacecraft.instruments;
+        let instrument = |counts: fn(&Vector3<f64>) -> bool| {
+            let any = instruments.iter().any(|instrument| counts(&instrument.boresight_body));
+            knowns![boresight.instrument].only_if(any)
+        };
+        Self {
+            mode,
+            existence,
+            sensed: knowns![v.sun.sensed, v.sun.sensed_valid],
+            attitude,
+            instrument: instrument(|it| it.cross(&Vector3::z()) != Vector3::zeros() || it.z < 0.0),
+            instrument_along_roll: instrument(|it| it.cross(&Vector3::y()) == Vector3::zeros()),
+            velocities: knowns![v.sun.velocity, v.earth.velocity],
+            scanned: knowns![scan.frame, scan.reference, pattern],
+            aimpoint,
+            second_aimpoint: self::aimpoint(&v.second_aimpoint),
+            rolls,
+        }
+    }
+}
+
+/// Parameters by what they act on at the start.
+struct Parameters {
+    /// The mode, and where everything is.
+    mode: Knowns,
+    /// The boresight by its device, the aim by its method.
+    device: Knowns,
+    /// The law of the orbit phase, and the orbit.
+    guided: Knowns,
+}
+
+impl Parameters {
+    fn of(v: &GuidanceVariables) -> Self {
+        let (planet, ephemeris, guided, monitor) = (&v.planet, &v.ephemeris, &v.guided, &v.monitor);
+        let (keep_in, safe_hold, hot_pole) = (&v.keep_in, &v.safe_hold.keep_in, &v.hot_pole);
+        let body = knowns![
+            v.target.planet,
+            planet.radii,
+            planet.pole_right_ascension,
+            planet.pole_declination,
+            planet.prime_meridian,
+            planet.rotation_rate,
+        ];
+        let places = knowns![
+            ephemeris.source,
+            ephemeris.semi_major_axis,
+            ephemeris.eccentricity,
+            ephemeris.inclination,
+            ephemeris.ascending_node,
+            ephemeris.periapsis_argument,
+            ephemeris.true_anomaly,
+        ];
+        let zones = knowns![
+            keep_in.enabled,
+            keep_in.azimuth,
+            keep_in.elevation,
+            keep_in.axis,
+            keep_in.distance,
+            safe_hold.azimuth,
+            safe_hold.elevation,
+            hot_pole.enabled,
+            hot_pole.altitude,
+            hot_pole.angle,
+            hot_pole.cone,
+        ];
+        let monitor = knowns![monitor.enabled, monitor.persistence, monitor.margin];
+        Self {
+            mode: knowns![v.start.epoch, v.start.q, body, places, zones, monitor],
+            device: knowns![v.mdis.minimum, v.mdis.maximum, v.subsolar.method],
+            guided: knowns![
+                guided.science_rule,
+                guided.science_gain,
+                guided.downlink_start,
+                guided.downlink_end,
+                guided.downlink_every,
+                guided.slew_rate,
+                planet.gravitational_parameter,
+            ],
+        }
+    }
+}
 
 /// One row an unknown.
-pub fn table(v: &GuidanceVariables) -> Dependencies {
+pub fn table(setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
     let mut table = Dependencies::new();
-    let nothing = &knowns![];
-    let (command, places, modes) = (&command(v), &places(v), &modes(v));
-    let parameters = &parameters(v);
-    let all = &knowns![command, places, modes];
-    let start = &knowns![all, parameters];
-    table.output(v.epoch, nothing, v.start.epoch);
-    for output in [
-        knowns![v.command.kind, v.command.q, v.command.rate, v.command.error, v.mode.active],
-        knowns![v.sun.azimuth, v.sun.elevation, v.mdis.angle, v.mdis.in_range],
-        knowns![v.antenna.select, v.antenna.azimuth, v.earth.sun_separation, v.link.available],
-        knowns![v.target.reachable, v.geometry.degenerate, v.scan.active],
-        knowns![v.constraint.sun_keep_in, v.constraint.hot_pole, v.constraint.clamped],
-    ] {
-        table.output(output, all, start);
-    }
+    table.output(v.epoch, knowns![], v.start.epoch);
+    let (i, p) = (&Inputs::of(setup, v), &Parameters::of(v));
+    command(&mut table, v, i, p);
+    judgement(&mut table, v, i, p);
+    devices(&mut table, v, i, p);
     table
 }
 
-/// The command inputs.
-fn command(v: &GuidanceVariables) -> Knowns {
-    let aimpoint = |it: &super::variables::commands::AimpointVariables| {
-        knowns![
-            it.option,
-            it.vector,
-            it.position,
-            it.right_ascension,
-            it.declination,
-            it.latitude,
-            it.longitude,
-            it.height,
-            it.azimuth,
-            it.elevation,
-            it.body,
-        ]
-    };
-    let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
-    let (limb, scan) = (&v.limb, &v.scan);
+/// The command, its mode, and the Sun in its frame.
+fn command(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Parameters) {
+    let (scan, method) = (&v.scan, v.keep_in.method);
+    table.output(v.mode.active, &i.mode, knowns![&i.mode, &p.mode]);
+    let kind = &knowns![&i.existence, &i.sensed];
+    for output in [knowns![v.command.kind], knowns![v.command.error]] {
+        table.output(output, kind, knowns![kind, &p.mode]);
+    }
+    let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
+    let later = &knowns![attitude, &i.scanned, v.limb.height_rate];
+    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, method];
+    for output in [knowns![v.command.q], knowns![v.sun.azimuth, v.sun.elevation]] {
+        table.output(output, later, start);
+    }
+    let beginning =
+        knowns![scan.frame, scan.reference, scan.rate, scan.speed, scan.duration, v.limb.height_rate];
+    let rates = knowns![v.earth_acquisition.rate, v.sun_search.rate];
+    table.output(v.command.rate, knowns![later, &i.sensed], knowns![start, &i.sensed, beginning, rates, compatibility(v)]);
+}
+
+/// What is said of the attitude.
+fn judgement(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Parameters) {
+    let (scan, method) = (&v.scan, v.keep_in.method);
+    let scan_frame = &knowns![scan.frame, scan.reference];
+    table.output(
+        v.scan.active,
+        knowns![&i.existence, scan_frame],
+        knowns![&i.existence, scan_frame, &p.mode, compatibility(v)],
+    );
+    table.output(v.earth.sun_separation, &i.existence, knowns![&i.existence, &p.mode]);
+    let moved = &knowns![&i.scanned, v.limb.height_rate];
+    let in_line = &knowns![&i.attitude, &i.instrument_along_roll];
+    table.output(v.geometry.degenerate, knowns![in_line, moved], knowns![in_line, &p.mode, &p.device]);
+    let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
+    let start = &knowns![attitude, &p.mode, &p.device, &p.guided];
+    for output in [knowns![v.target.reachable], knowns![v.constraint.sun_keep_in]] {
+        table.output(output, knowns![attitude, moved], start);
+    }
+    table.output(v.constraint.hot_pole, knowns![attitude, moved], knowns![start, method]);
+    table.output(
+        v.constraint.clamped,
+        knowns![attitude, moved, &i.second_aimpoint],
+        knowns![start, method, &i.second_aimpoint],
+    );
+}
+
+/// Camera, antennas and link.
+fn devices(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Parameters) {
+    let option = v.boresight.option;
+    let basic = &knowns![&i.mode, v.pointing.scenario, option, v.velocity];
+    let camera = &knowns![basic, v.boresight.angle, &i.instrument, &i.aimpoint, &i.second_aimpoint];
+    for output in [knowns![v.mdis.angle], knowns![v.mdis.in_range]] {
+        table.output(output, knowns![camera, &i.scanned], knowns![camera, &p.mode, &p.device]);
+    }
+    let antenna = &knowns![basic, v.boresight.azimuth, directions(&v.aimpoint), &i.velocities];
+    for output in [knowns![v.antenna.select], knowns![v.antenna.azimuth]] {
+        table.output(output, antenna, knowns![antenna, &p.mode, &p.guided]);
+    }
+    let link = &knowns![antenna, &i.aimpoint, &i.rolls];
+    let limits = knowns![v.link.sun_exclusion, v.link.beam, v.keep_in.method, v.subsolar.method];
+    table.output(v.link.available, knowns![link, &i.scanned], knowns![link, &p.mode, &p.guided, limits]);
+}
+
+/// Which scans go with which aimpoints.
+fn compatibility(v: &GuidanceVariables) -> Knowns {
+    let frames = v.scan_compatibility.iter();
+    frames.map(|it| knowns![it.direction, it.local_direction, it.point, it.planet_point]).collect()
+}
+
+/// What makes an aimpoint be, or have a direction.
+fn directions(aimpoint: &AimpointVariables) -> Knowns {
+    knowns![aimpoint.option, aimpoint.vector, aimpoint.position, aimpoint.body]
+}
+
+fn aimpoint(aimpoint: &AimpointVariables) -> Knowns {
     knowns![
-        v.pointing.scenario,
-        boresight.option,
-        boresight.vector,
-        boresight.azimuth,
-        boresight.elevation,
-        boresight.angle,
-        boresight.instrument,
-        aimpoint(&v.aimpoint),
-        aimpoint(&v.second_aimpoint),
-        body_roll.option,
-        body_roll.vector,
-        body_roll.azimuth,
-        body_roll.elevation,
-        external_roll.option,
-        external_roll.vector,
-        external_roll.right_ascension,
-        external_roll.declination,
-        limb.azimuth,
-        limb.reference,
-        limb.height,
-        limb.height_rate,
-        scan.frame,
-        scan.reference,
-        scan.rate,
-        scan.speed,
-        scan.duration,
-        scan.pause,
-        scan.segments_x,
-        scan.segments_y,
-        scan.segments_z,
-        scan.reverse_x,
-        scan.reverse_y,
-        scan.reverse_z,
-    ]
-}
-
-/// Where everything is.
-fn places(v: &GuidanceVariables) -> Knowns {
-    knowns![v.position, v.velocity, v.sun.position, v.sun.velocity, v.earth.position, v.earth.velocity,]
-}
-
-/// What decides the mode.
-fn modes(v: &GuidanceVariables) -> Knowns {
-    knowns![v.mode.request, v.estimate.q, v.estimate.valid, v.sun.sensed, v.sun.sensed_valid]
-}
-
-/// Parameters.
-fn parameters(v: &GuidanceVariables) -> Knowns {
-    let (planet, ephemeris, guided) = (&v.planet, &v.ephemeris, &v.guided);
-    knowns![
-        v.start.epoch,
-        v.start.q,
-        v.target.planet,
-        planet.radii,
-        planet.pole_right_ascension,
-        planet.pole_declination,
-        planet.prime_meridian,
-        planet.rotation_rate,
-        planet.gravitational_parameter,
-        ephemeris.source,
-        ephemeris.semi_major_axis,
-        ephemeris.eccentricity,
-        ephemeris.inclination,
-        ephemeris.ascending_node,
-        ephemeris.periapsis_argument,
-        ephemeris.true_anomaly,
-        v.subsolar.method,
-        v.keep_in.axis,
-        v.keep_in.method,
-        v.mdis.minimum,
-        v.mdis.maximum,
-        guided.science_rule,
-        guided.science_gain,
-        guided.downlink_start,
-        guided.downlink_end,
-        guided.downlink_every,
-        guided.slew_rate,
+        directions(aimpoint),
+        aimpoint.right_ascension,
+        aimpoint.declination,
+        aimpoint.latitude,
+        aimpoint.longitude,
+        aimpoint.height,
+        aimpoint.azimuth,
+        aimpoint.elevation,
     ]
 }

@@ -38,6 +38,8 @@ struct Start {
     elements: Knowns,
     /// The right ascension of the pole turns the orbit about EME2000's Z axis.
     turned_about_z: Knowns,
+    /// Where Sun and planets are.
+    ephemeris: Knowns,
     /// Where the Sun is from the spacecraft.
     sun: Knowns,
     /// The same along Z of EME2000.
@@ -95,6 +97,7 @@ impl Start {
             awaited,
             elements,
             turned_about_z,
+            ephemeris,
             sun,
             sun_z,
             attitude,
@@ -136,6 +139,16 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
             knowns![&start.rate, rate],
         );
     }
+    let orbit_given = &knowns![orbit.position, orbit.velocity];
+    let sources = &knowns![orbit.source, orbit.center, v.ephemeris.source, orbit_given, &start.ephemeris];
+    for axis in 0..3 {
+        let [sun, earth] = [v.sun.position, v.earth.position].map(|it| it.element(axis));
+        table.output(v.sun.position_inertial.element(axis), knowns![orbit_given, sun], knowns![sources, sun]);
+        let seen = knowns![orbit_given, v.sun.position, earth];
+        table.output(v.earth.position_inertial.element(axis), &seen, knowns![sources, &seen]);
+    }
+    table.output(v.sun.velocity_inertial, orbit_given, sources);
+    table.output(v.earth.velocity_inertial, orbit_given, sources);
     let shape = knowns![orbit.semi_major_axis, orbit.eccentricity, orbit.true_anomaly];
     table.output(orbit.time_since_periapsis, &inputs.places, knowns![&start.begun, shape, gm]);
     table.output(v.sun.distance, &inputs.places, &start.sun);
@@ -168,7 +181,8 @@ fn light_and_loads(
     let sunlight = &knowns![v.solar.flux, v.solar.fixed_pressure, v.solar.pressure];
     let eclipse = &knowns![planet.radius, v.eclipse.method];
     let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(spacecraft));
-    let shadows = &knowns![v.shadowing.enabled].only_if(can_shadow(spacecraft));
+    let is_shadowed = can_shadow(spacecraft);
+    let shadows = &knowns![v.shadowing.enabled].only_if(is_shadowed);
     let panels = &start.panels.iter().collect::<Knowns>();
     // Light and heat beyond plain sunlight are read from a polynomial over a stretch of flight; what else lies within its
     // tolerance is no dependence.
@@ -183,7 +197,7 @@ fn light_and_loads(
         surface.night_temperature,
         surface.day_temperature,
     ];
-    let past_shadows = fitted.clone().only_if(can_shadow(spacecraft));
+    let past_shadows = fitted.clone().only_if(is_shadowed);
     let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, past_shadows];
     let solar = &knowns![by_sun, shade];
     let albedo = &knowns![&start.attitude, reflected, shade, fitted];
@@ -315,10 +329,11 @@ fn craft(table: &mut Dependencies, setup: &PlantSetup, v: &PlantVariables, input
         inputs.attitude.clone().only_if(shaded),
         knowns![&start.attitude, &shape].only_if(shaded),
     );
+    let polynomials = setup.polynomials();
     for (row, column) in (0..27).map(|at| (at / 9, at % 9)) {
-        let moved = (0..3).filter(|&axis| setup.moves_coefficient(axis, row, column));
+        let moved = (0..3).filter(|&axis| polynomials.moves_coefficient(axis, row, column));
         let moved: Knowns = moved.map(|axis| center_of_mass.element(axis)).collect();
-        let shape = shape.clone().only_if(setup.shapes_differ(row, column));
+        let shape = shape.clone().only_if(polynomials.shapes_differ(row, column));
         table.calculated(v.sunshade.coefficient.element(row, column), knowns![moved, shape]);
     }
 }

@@ -15,7 +15,11 @@ use nalgebra::{ComplexField, Matrix3, Vector3};
 use super::law::{Pointing, PointingVectors};
 use super::moving::{Moving, MovingMatrix, MovingVector, direction, fixed, unit, value};
 use crate::attitude::SunAngles;
+use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::numerics::scalar::Scalar;
+
+/// Distance from the Sun, in m, inside which the spacecraft has to hide behind its sunshade in cruise: 0.85 AU.
+pub const DISTANCE_M: f64 = 0.85 * ASTRONOMICAL_UNIT_M;
 
 /// Which boundary point takes the place of a Sun outside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -25,6 +25,8 @@ const OPPOSITE: f64 = 1e-15;
 
 /// How much the guidance is trusted with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum Mode {
     /// Every command.
     #[default]
@@ -160,6 +162,8 @@ impl ModeState {
         self.last_request = sensed.request;
         if let Some(mode) = requested {
             self.mode = mode;
+            // A violation is judged anew, without the lenience toward a safing turn.
+            self.monitor = MonitorState::default();
         }
         let Some(estimate) = &sensed.estimate else {
             self.mode = Mode::EarthAcquisition;

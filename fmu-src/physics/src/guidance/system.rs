@@ -14,6 +14,7 @@ use super::command::{PointingCommand, Scenario};
 use super::constraints::{ConstrainedPointing, Constraints};
 use super::downlink::{LinkLimits, link};
 use super::guided::Guided;
+use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
 use super::modes::{Mode, ModeSettings, ModeState, Sensed, Steering};
 use super::moving::{MovingVector, rate, value};
@@ -39,6 +40,10 @@ pub struct GuidanceSettings<'a> {
     pub hardware: GuidanceHardware<'a>,
     /// Modes and their constraints.
     pub modes: ModeSettings,
+    /// The keep-in zone of Operational, in force or not.
+    pub keep_in: KeepIn,
+    /// Greatest distance from the Sun at which the keep-in zone of Operational counts, in m.
+    pub keep_in_distance_m: f64,
     /// The radio link.
     pub link: LinkLimits,
     /// The law of [`Scenario::OrbitPhase`]; its periapsis and period are computed.
@@ -50,6 +55,8 @@ pub struct GuidanceSettings<'a> {
 pub struct SampleInputs {
     /// What is commanded.
     pub command: PointingCommand,
+    /// The timeline's entry that is in force, whose scan and limb scan begin with it.
+    pub entry: Option<usize>,
     /// Where everything is; `None` while it is not known.
     pub surroundings: Option<Surroundings>,
     /// Mode request, estimate and Sun sensors at the sample's time.
@@ -125,6 +132,8 @@ pub struct GuidanceState {
     modes: ModeState,
     periapses: PeriapsisCount,
     scan_since_s: Option<f64>,
+    /// The timeline's entry at the last sample.
+    entry: Option<usize>,
     /// The limb scenario and since when it is commanded, in s.
     limb: Option<(Scenario, f64)>,
     next_sample_s: f64,
@@ -148,6 +157,7 @@ impl GuidanceState {
             modes: ModeState::default(),
             periapses: PeriapsisCount::default(),
             scan_since_s: None,
+            entry: None,
             limb: None,
             next_sample_s: start_s,
         }
@@ -185,12 +195,21 @@ impl GuidanceState {
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
         let surroundings = inputs.surroundings.as_ref();
-        if let Some(to_sun) = surroundings.map(Surroundings::to_sun) {
+        let to_sun = surroundings.map(Surroundings::to_sun);
+        if let Some(to_sun) = to_sun {
             (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
         }
-        match self.modes.sample(&settings.modes, &sensed, surroundings) {
+        let mut modes = settings.modes;
+        if to_sun.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
+            modes.operational.keep_in = None;
+        }
+        match self.modes.sample(&modes, &sensed, surroundings) {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
+                if inputs.entry != self.entry {
+                    (self.scan_since_s, self.limb) = (None, None);
+                    self.entry = inputs.entry;
+                }
                 self.keep_clocks(&command, time_s);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     self.point(settings, &command, &constraints, surroundings, time_s);
@@ -208,7 +227,7 @@ impl GuidanceState {
 
     /// Azimuth and elevation of the Sun in the commanded frame at `time_s`; both 0 while it is not known.
     pub fn sun_angles_at(&self, time_s: f64) -> SunAngles {
-        let [to_sun, _] = self.to_sun_at(time_s);
+        let [to_sun, _] = self.sun_line_at(time_s);
         if to_sun == Vector3::zeros() {
             return SunAngles::default();
         }
@@ -217,7 +236,7 @@ impl GuidanceState {
 
     /// Their rates, in rad/s.
     pub fn sun_angle_rates_at(&self, time_s: f64) -> [f64; 2] {
-        let [to_sun, sun_rate] = self.to_sun_at(time_s);
+        let [to_sun, sun_rate] = self.sun_line_at(time_s);
         if to_sun == Vector3::zeros() {
             return [0.0; 2];
         }
@@ -258,7 +277,7 @@ impl GuidanceState {
         (time_s - tolerance_s..=time_s + SAMPLE_INTERVAL_S + tolerance_s).contains(&self.next_sample_s)
     }
 
-    fn to_sun_at(&self, time_s: f64) -> [Vector3<f64>; 2] {
+    fn sun_line_at(&self, time_s: f64) -> [Vector3<f64>; 2] {
         let [to_sun, rate] = self.to_sun;
         [to_sun + rate * (time_s - self.to_sun_since_s), rate]
     }

@@ -16,6 +16,8 @@ pub struct Described {
     pub model: String,
     /// Name of its setup file under `resources/`, if it has one.
     pub setup_file: Option<String>,
+    /// Name of its schedule file under `resources/`, if it takes one.
+    pub schedule_file: Option<String>,
     /// The compiled-in setup text.
     pub default_setup: String,
     /// Quantities and by what they are computed; names of papers and what they stand for.
@@ -37,7 +39,7 @@ unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_c
 impl Binary {
     /// The models of a heliotorque library.
     pub fn models(&self) -> Result<Vec<Described>, String> {
-        self.call_describe(None, None, None)
+        self.call_describe(None, None, None, None)
     }
 
     /// The description of a model for a setup text (otherwise the compiled-in one); `file` names it in errors.
@@ -47,7 +49,18 @@ impl Binary {
         file: Option<&str>,
         setup: Option<&str>,
     ) -> Result<Described, String> {
-        let mut described = self.call_describe(Some(model), file, setup)?;
+        self.describe_with_schedule(model, file, setup, None)
+    }
+
+    /// The same once more with a schedule that is checked too: its name for errors and its text.
+    pub fn describe_with_schedule(
+        &self,
+        model: &str,
+        file: Option<&str>,
+        setup: Option<&str>,
+        schedule: Option<(&str, &str)>,
+    ) -> Result<Described, String> {
+        let mut described = self.call_describe(Some(model), file, setup, schedule)?;
         described
             .pop()
             .filter(|it| !it.xml.is_empty())
@@ -59,6 +72,7 @@ impl Binary {
         model: Option<&str>,
         file: Option<&str>,
         setup: Option<&str>,
+        schedule: Option<(&str, &str)>,
     ) -> Result<Vec<Described>, String> {
         // SAFETY: the symbol of this name has this type.
         let function = unsafe { self.library.get::<Describe>(SYMBOL.as_bytes()) }.map_err(|_| {
@@ -68,6 +82,8 @@ impl Binary {
             text.map(CString::new).transpose().map_err(|_| "a text contains a zero byte".to_owned())
         };
         let (model, file, setup) = (c_text(model)?, c_text(file)?, c_text(setup)?);
+        let (schedule_file, schedule) = schedule.unzip();
+        let (schedule_file, schedule) = (c_text(schedule_file)?, c_text(schedule)?);
         let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
         let mut received: Vec<(c_int, String)> = Vec::new();
         // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
@@ -76,6 +92,8 @@ impl Binary {
                 pointer(&model),
                 pointer(&file),
                 pointer(&setup),
+                pointer(&schedule_file),
+                pointer(&schedule),
                 (&raw mut received).cast(),
                 Some(receive),
             )
@@ -89,6 +107,7 @@ impl Binary {
                 (kind::SETUP_TEXT, Some(model)) => model.default_setup = text,
                 (kind::MODEL, _) => models.push(Described { model: text, ..Described::default() }),
                 (kind::SETUP_FILE, Some(model)) => model.setup_file = Some(text),
+                (kind::SCHEDULE_FILE, Some(model)) => model.schedule_file = Some(text),
                 (kind::SOURCE, Some(model)) => {
                     let pair = text.split_once('\t').map(|(what, by)| (what.to_owned(), by.to_owned()));
                     model.sources.extend(pair);

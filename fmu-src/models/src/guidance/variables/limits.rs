@@ -25,6 +25,10 @@ pub struct KeepInVariables {
     /// takes -Y to it. Also the boresight of Earth Acquisition.
     #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
     pub axis: RealVector<3>,
+    /// Greatest distance from the Sun at which the zone counts outside Safe Hold; 0.85 AU is where the sunshade has to face
+    /// the Sun in cruise.
+    #[parameter(tunable, unit = "m", display = "AU", min = 0.0, max = 1e13, start = keep_in::DISTANCE_M)]
+    pub distance: Real,
     /// Where a Sun outside is put.
     #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]
     pub method: Choice<KeepInMethod>,

@@ -3,6 +3,7 @@
 
 mod bench;
 mod disturbance;
+mod guidance;
 mod plant;
 mod random;
 mod spacecraft;

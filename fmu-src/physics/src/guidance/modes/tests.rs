@@ -122,6 +122,28 @@ fn without_ephemeris_or_monitor_nothing_is_judged() {
 }
 
 #[test]
+fn after_a_promotion_a_violation_counts_in_full() {
+    let mut settings = settings();
+    settings.monitor = Some(Monitor { margin_rad: 0.01, persistence_s: 2.0 });
+    let mut state = ModeState::default();
+    // The Sun comes nearer all the time: a safing turn that makes progress, until the promotion ends the lenience.
+    for (time_s, angle_rad, request, expected) in [
+        (0.0, 2.0, None, Operational),
+        (1.0, 1.9, None, Operational),
+        (2.0, 1.8, None, SafeHold),
+        (3.0, 1.7, None, SafeHold),
+        (5.0, 1.6, None, SafeHold),
+        (6.0, 1.5, Some(Operational), Operational),
+        (7.0, 1.4, Some(Operational), Operational),
+        (8.0, 1.3, Some(Operational), SafeHold),
+    ] {
+        let sensed = Sensed { time_s, ..sensed(request, Some(estimate(angle_rad))) };
+        state.sample(&settings, &sensed, Some(&surroundings())).unwrap();
+        assert_eq!(state.mode, expected, "{time_s}");
+    }
+}
+
+#[test]
 fn a_demoted_mode_commands_a_safe_attitude_at_once() {
     let surroundings = surroundings();
     let mut settings = settings();
