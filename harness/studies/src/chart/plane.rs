@@ -164,7 +164,8 @@ impl Window {
     /// The pieces of a line inside, with gaps between (Liang and Barsky).
     fn line(&self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
         let mut kept: Vec<(f64, f64)> = Vec::with_capacity(points.len());
-        for pair in points.windows(2) {
+        let is_finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
+        for pair in points.windows(2).filter(|pair| pair.iter().all(is_finite)) {
             let (a, b) = (self.inside(pair[0]), self.inside(pair[1]));
             let (mut from, mut to) = (0.0_f64, 1.0_f64);
             for (a, b) in a.into_iter().zip(b) {
@@ -172,7 +173,6 @@ impl Window {
                     (true, true) => {}
                     (true, false) => to = to.min(a / (a - b)),
                     (false, true) => from = from.max(a / (a - b)),
-                    // Also where a coordinate is not finite.
                     (false, false) => to = -1.0,
                 }
             }

@@ -185,9 +185,15 @@ impl Mosaic {
         let reach =
             reach.filter(|(x, _)| x.is_finite()).fold(0.0, |a: f64, (x, y)| a.max(x.abs()).max(y.abs()));
         panel.half_width = 1.08 * reach;
-        // Beside the line that joins the middles.
-        let number =
-            |(k, (x, y)): (usize, &(f64, f64))| ((*x, y + 0.03 * panel.half_width), (k + 1).to_string());
+        // Across the rows, up or to the right: beside the line that joins the middles.
+        let (x, y) = match middles[..] {
+            [a, b, ..] => (b.0 - a.0, b.1 - a.1),
+            _ => (1.0, 0.0),
+        };
+        let sign = if x.abs() >= y.abs() { x.signum() } else { -y.signum() };
+        let length = sign * 0.03 * panel.half_width / x.hypot(y);
+        let aside = (-length * y, length * x);
+        let number = |(k, (x, y)): (usize, &(f64, f64))| ((x + aside.0, y + aside.1), (k + 1).to_string());
         panel.texts = middles.iter().enumerate().map(number).collect();
         PlaneChart {
             title: case.title.to_owned(),

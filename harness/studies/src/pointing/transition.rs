@@ -127,7 +127,8 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
     let sun = [0, 1].map(|i| greatest(&mut all().map(|angles| angles.sun[i])));
     let elevation = greatest(&mut before_slew().map(|earth| earth[1]));
     let azimuth = Angles::of(before).earth[0];
-    let planet = Angles::of(after).planet;
+    // Adding zero takes the sign from a zero.
+    let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);
     let mdis_deg = after.mdis_angle_rad.to_degrees();
     let constrained = flown.samples.iter().filter(|sample| sample.constrained).count();
     let row = |quantity: &str, paper: &str, ours: String, verdict: &str| {
@@ -153,7 +154,7 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
         row(
             "Mercury azimuth / elevation after the slew",
             "not printed",
-            format!("{:.2} / {:.2} deg", planet[0].abs(), planet[1]),
+            format!("{:.2} / {:.2} deg", planet[0], planet[1]),
             "-",
         ),
         row(
