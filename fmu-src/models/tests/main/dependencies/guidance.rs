@@ -524,22 +524,31 @@ fn measure(text: &str, rounds: usize) {
         } else if turn % 3 == 2 {
             align(&bench, &mut random, &mut values);
         }
-        let mut other = values.clone();
-        redraw(&bench, &mut random, subject, &mut other);
-        let others = [other];
-        for edge in bench.edges_at_start(&values, &others, 0.0) {
-            bench.look_at_start_edge(&edge, 0.0);
+        let mut others = Vec::new();
+        if subject == Subject::Monitor {
+            // From where the monitor trips to where it does not.
+            for margin_rad in [0.0, 3.1] {
+                let mut other = values.clone();
+                bench.put(&mut other, "monitor.margin", margin_rad);
+                others.push(other);
+            }
+        } else {
+            others.push(values.clone());
+            redraw(&bench, &mut random, subject, &mut others[0]);
         }
         if bench.initialize(&values, 0.0).is_none() {
             continue;
         }
         flown += 1;
-        let mut at_start = values.clone();
-        if alone {
-            // Where nothing gives the roll, the rounding of a turn by nothing does.
-            bench.put(&mut at_start, "scan.frame", 0.0);
+        if turn % 3 == 2 {
+            // Where nothing gives the roll, the rounding of a scan's turn by nothing does.
+            bench.look_at_start_by(&values, 0.0, |name| !name.starts_with("scan."));
+        } else {
+            bench.look_at_start(&values, 0.0);
+            for edge in bench.edges_at_start(&values, &others, 0.0) {
+                bench.look_at_start_edge(&edge, 0.0);
+            }
         }
-        bench.look_at_start(&at_start, 0.0);
         let Some(mut flight) = bench.initialize(&values, 0.0) else { continue };
         if let Subject::Lost(_) = subject {
             bench.put(&mut flight.values, "mode.request", 3.0);
@@ -563,6 +572,7 @@ fn measure(text: &str, rounds: usize) {
             bench.look_at_step_edge(&edge);
         }
         if round > 2 * subjects.len() && round % 8 == 0 && bench.is_done() {
+            println!("done after {round}");
             break;
         }
     }
