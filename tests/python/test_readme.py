@@ -285,10 +285,13 @@ def test_every_figure_of_performance_is_a_line_of_bench():
             assert any(re.fullmatch(pattern, name) for pattern in patterns), f"{row}: nothing prints `bench {name}`"
 
 
-MODELS = ("MomentumPlant", "SpinPlant", "DisturbanceTorque")
+MODELS = ("MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance")
 # Client as the README names it: the tests in which it works with every model.
 CLIENTS = {
-    "FMPy 0.3.32": ["python/test_momentum_plant.py", "python/test_spin_plant.py", "python/test_disturbance_torque.py"],
+    "FMPy 0.3.32": [
+        "python/test_momentum_plant.py", "python/test_spin_plant.py", "python/test_disturbance_torque.py",
+        "python/test_guidance.py",
+    ],
     "libcosim (libcosimpy 0.0.6)": ["python/test_libcosim.py"],
     "C against the FMI headers": ["c/client.c"],
     "`heliotorque run`, `check`": ["suite/conformance.rs", "suite/support.rs"],

@@ -10,6 +10,7 @@ from studies import study, table
 
 NAMES = [
     "momentum/table2", "momentum/table3", "momentum/figure4", "momentum/assumptions",
+    "pointing/limb", "pointing/mosaic", "pointing/transition",
     "spin/figure2", "spin/figure3", "spin/figure4", "spin/figure6", "spin/figure7", "spin/numbers",
     "thermal/table7", "thermal/table8", "thermal/figure12", "thermal/figure13",
 ]

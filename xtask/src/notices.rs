@@ -27,6 +27,9 @@ from the crates below. Where a crate offers a choice that includes the MIT licen
 The Rust standard library is linked in too: MIT OR Apache-2.0, by the Rust project's contributors, taken under the
 Apache licence; its text is given below.
 
+The crate hifitime is under the Mozilla Public License 2.0, given below; its source code is at
+https://crates.io/crates/hifitime.
+
 On Linux GCC's unwinder (libgcc_eh and libgcc) is linked in too: GPL-3.0-or-later WITH GCC-exception-3.1, by the Free
 Software Foundation; the exception lets it be passed on as part of this library under the licences of this folder.
 

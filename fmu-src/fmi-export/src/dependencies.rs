@@ -7,13 +7,16 @@
 //! table.output(v.attitude.q, &attitude, knowns![&attitude, v.start.q]);
 //! ```
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
+
+use serde::Serialize;
 
 use crate::variables::{Boolean, Choice, Element, Integer, Real, RealMatrix, RealVector, Text};
 
-/// A set of scalar variables of any type.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Knowns(BTreeSet<Element>);
+/// A set of scalar variables of any type: for each table of values one bit a place, in words up to the last that is not
+/// zero.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Knowns([Vec<u64>; Element::TABLES]);
 
 /// The union of any number of handles, vectors, matrices and sets as [`Knowns`].
 #[macro_export]
@@ -27,7 +30,7 @@ impl Knowns {
     /// With `other` as well.
     #[must_use]
     pub fn and(mut self, other: impl Into<Self>) -> Self {
-        self.0.extend(other.into().0);
+        self.extend(&other.into());
         self
     }
 
@@ -39,11 +42,41 @@ impl Knowns {
 
     /// The elements in ascending order.
     pub(crate) fn elements(&self) -> impl Iterator<Item = Element> + '_ {
-        self.0.iter().copied()
+        let bits = |word: u64| (0..u64::BITS).filter(move |bit| word >> bit & 1 == 1);
+        self.0.iter().enumerate().flat_map(move |(table, words)| {
+            let places =
+                (0..).zip(words).flat_map(move |(at, &word)| bits(word).map(move |bit| at * u64::BITS + bit));
+            places.filter_map(move |place| Element::of_table(table, place))
+        })
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.0.iter().flatten().map(|word| word.count_ones() as usize).sum()
+    }
+
+    fn extend(&mut self, other: &Self) {
+        for (words, others) in self.0.iter_mut().zip(&other.0) {
+            if words.len() < others.len() {
+                words.resize(others.len(), 0);
+            }
+            for (word, other) in words.iter_mut().zip(others) {
+                *word |= other;
+            }
+        }
     }
 
     fn span(first: Element, count: usize) -> Self {
-        Self((0..).take(count).map(|at| first.after(at)).collect())
+        let mut set = Self::default();
+        let words = &mut set.0[first.table()];
+        for place in (first.place()..).take(count) {
+            let at = (place / u64::BITS) as usize;
+            if words.len() <= at {
+                words.resize(at + 1, 0);
+            }
+            words[at] |= 1 << (place % u64::BITS);
+        }
+        set
     }
 }
 
@@ -79,18 +112,18 @@ impl<E> From<Choice<E>> for Knowns {
 
 impl<const N: usize> From<RealVector<N>> for Knowns {
     fn from(handle: RealVector<N>) -> Self {
-        (0..N).map(|at| handle.element(at)).collect()
+        Self::span(Element::Real(handle.0), N)
     }
 }
 
 impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Knowns {
     fn from(handle: RealMatrix<R, C>) -> Self {
-        (0..R * C).map(|at| handle.element(at / C, at % C)).collect()
+        Self::span(Element::Real(handle.0), R * C)
     }
 }
 
 /// The two lists of a model. Every output that is not constant has a row, and so has every calculated parameter.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Dependencies {
     at_steps: BTreeMap<Element, Knowns>,
     at_start: BTreeMap<Element, Knowns>,
@@ -113,29 +146,29 @@ impl Dependencies {
         at_start: impl Into<Knowns>,
     ) {
         let output = output.into();
-        insert(&mut self.at_steps, &output, at_steps.into());
-        insert(&mut self.at_start, &output, at_start.into());
+        insert(&mut self.at_steps, &output, &at_steps.into());
+        insert(&mut self.at_start, &output, &at_start.into());
     }
 
     /// A calculated parameter, every element of it alike; `at_start` as for an output.
     pub fn calculated(&mut self, parameter: impl Into<Knowns>, at_start: impl Into<Knowns>) {
-        insert(&mut self.at_start, &parameter.into(), at_start.into());
+        insert(&mut self.at_start, &parameter.into(), &at_start.into());
     }
 
     /// What each output depends on at the end of a step.
-    pub(crate) fn at_steps(&self) -> impl Iterator<Item = (&Element, &Knowns)> {
-        self.at_steps.iter()
+    pub(crate) fn at_steps(&self) -> &BTreeMap<Element, Knowns> {
+        &self.at_steps
     }
 
     /// What each output and calculated parameter depends on after initialization.
-    pub(crate) fn at_start(&self) -> impl Iterator<Item = (&Element, &Knowns)> {
-        self.at_start.iter()
+    pub(crate) fn at_start(&self) -> &BTreeMap<Element, Knowns> {
+        &self.at_start
     }
 }
 
 /// Rows given twice add up: an element may have more than its vector.
-fn insert(rows: &mut BTreeMap<Element, Knowns>, unknowns: &Knowns, knowns: Knowns) {
-    for unknown in &unknowns.0 {
-        rows.entry(*unknown).or_default().0.extend(&knowns.0);
+fn insert(rows: &mut BTreeMap<Element, Knowns>, unknowns: &Knowns, knowns: &Knowns) {
+    for unknown in unknowns.elements() {
+        rows.entry(unknown).or_default().extend(knowns);
     }
 }

@@ -11,7 +11,8 @@ use crate::variables::{Real, RealVector, Values, Variables};
 
 /// A co-simulation model.
 ///
-/// The order of calls in one instance: [`Model::parse_setup`] once, then [`Model::initialize`] whenever
+/// The order of calls in one instance: [`Model::parse_setup`] once, [`Model::parse_schedule`] once if there is a schedule,
+/// then [`Model::initialize`] whenever
 /// parameters changed before the first step (it is a pure function of its arguments and may run several
 /// times), then [`Model::step`] with strictly increasing times. Between two steps the state may be cloned,
 /// serialised, restored or thrown away. All a model knows is in `Setup` (immutable, shared), `Values` (what
@@ -24,6 +25,9 @@ pub trait Model: Sized + 'static {
     const STATE_VERSION: u32;
     /// File under `resources/` that holds the setup, or `None` for a model without resources.
     const SETUP_FILE: Option<&'static str>;
+    /// File under `resources/` that holds a schedule, which may be there beside the setup, or `None` for a model that takes
+    /// none. A schedule does not enter the GUID: one FMU flies many.
+    const SCHEDULE_FILE: Option<&'static str> = None;
     /// The compiled-in setup text, used when an importer gives no resource location.
     const DEFAULT_SETUP: &'static str;
     /// By what the model computes, for its manual.
@@ -40,6 +44,12 @@ pub trait Model: Sized + 'static {
 
     /// Parses and validates the setup text; `file` names it in errors.
     fn parse_setup(file: &str, text: &str) -> Result<Self::Setup, SetupError>;
+
+    /// Parses and validates a schedule and puts it into the setup, where it may not change what is declared; `file` names it
+    /// in errors. Called at most once, before the first instance call.
+    fn parse_schedule(_setup: &mut Self::Setup, file: &str, _text: &str) -> Result<(), SetupError> {
+        Err(SetupError(format!("{file}: {} takes no schedule", Self::NAME)))
+    }
 
     /// Start values that the setup gives to parameters and inputs, instead of the declared ones. What they are for
     /// is checked when the model is described.
@@ -245,6 +255,14 @@ impl<'a> InputsOverTime<'a> {
             }
         }
         sum
+    }
+
+    /// How fast an input changes at `time_s`, per second.
+    #[inline]
+    pub fn rate(&self, input: Real, time_s: f64) -> f64 {
+        let dt_s = time_s - self.start_s;
+        let of_input = self.derivatives.iter().filter(|it| it.input == input);
+        of_input.map(|it| (1..it.order).fold(it.value, |term, k| term * dt_s / f64::from(k))).sum()
     }
 
     /// A vector of inputs at `time_s`.

@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use crate::model::{Context, Failure, Log, Model, Step, StepEnd};
+use crate::model::{Context, Failure, Log, Model, SetupError, Step, StepEnd};
 use crate::variables::{Real, Values};
 
 /// A model's state, its type erased: an `Option<M::State>`, `None` before initialization.
@@ -10,6 +10,8 @@ pub(crate) type ErasedState = Box<dyn Any + Send>;
 
 /// One model instance; every method is one call of the [`Model`] trait.
 pub(crate) trait Runtime: Send {
+    /// Takes a schedule, before anything else is called.
+    fn take_schedule(&mut self, file: &str, text: &str) -> Result<(), SetupError>;
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure>;
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
     /// Whether the model knows how fast its outputs change.
@@ -61,6 +63,10 @@ impl<M: Model> Typed<M> {
 }
 
 impl<M: Model> Runtime for Typed<M> {
+    fn take_schedule(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+        M::parse_schedule(&mut self.setup, file, text)
+    }
+
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure> {
         self.state = Some(M::initialize(&self.context(log), values, start_s)?);
         Ok(())

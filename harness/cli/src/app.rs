@@ -5,14 +5,15 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::{
-    args::{Arguments, Command},
+    args::{Arguments, Command, SchemaKind},
     check, info, interrupt,
     outcome::Outcome,
     pack, plan, run as simulation, study,
 };
 
-/// JSON Schema of the spacecraft file, kept in step with its reader by a test of `physics`.
+// JSON Schemas, kept in step with their readers by tests of `physics`.
 const SPACECRAFT_SCHEMA: &str = include_str!("../../../fmu-src/resources/spacecraft.schema.json");
+const TIMELINE_SCHEMA: &str = include_str!("../../../fmu-src/resources/timeline.schema.json");
 
 /// Parses the arguments and runs the command.
 pub fn run() -> Outcome {
@@ -31,8 +32,12 @@ pub fn run() -> Outcome {
         Command::Run(arguments) => simulation::run(&arguments),
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
-        Command::Schema => {
-            terminal::print(SPACECRAFT_SCHEMA.trim_end())?;
+        Command::Schema(arguments) => {
+            let schema = match arguments.kind {
+                SchemaKind::Spacecraft => SPACECRAFT_SCHEMA,
+                SchemaKind::Timeline => TIMELINE_SCHEMA,
+            };
+            terminal::print(schema.trim_end())?;
             Ok(ExitCode::SUCCESS)
         }
         Command::Plan(arguments) => plan::run(&arguments),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// The FMU whose library reads and runs new spacecraft unless another is named.
 pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
@@ -33,8 +33,8 @@ pub enum Command {
     /// Make an FMU of your own spacecraft; nothing is compiled
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),
-    /// Print the JSON Schema of the spacecraft file, for editors that complete and check TOML
-    Schema,
+    /// Print the JSON Schema of a file, for editors that complete and check TOML
+    Schema(Schema),
     /// Run a study of the papers, or list them
     Study(Study),
     /// Find an optimal plan
@@ -89,6 +89,24 @@ pub struct Check {
     /// Show every check, not only the findings
     #[arg(long, short)]
     pub verbose: bool,
+}
+
+/// `heliotorque schema`.
+#[derive(Debug, Args)]
+pub struct Schema {
+    /// Of which kind of file: spacecraft, or timeline, which `pack --timeline` takes
+    #[arg(value_enum, default_value_t, hide_possible_values = true)]
+    pub kind: SchemaKind,
+}
+
+/// A kind of file that has a schema.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum SchemaKind {
+    /// A spacecraft.
+    #[default]
+    Spacecraft,
+    /// Commands over time.
+    Timeline,
 }
 
 /// `heliotorque probe-in-child`.
@@ -167,6 +185,9 @@ pub struct Pack {
     /// the library
     #[arg(long, value_name = "TOML")]
     pub spacecraft: Option<PathBuf>,
+    /// Commands over time, a TOML file (see `heliotorque schema timeline`), for models that take one; the GUID stays
+    #[arg(long, value_name = "TOML")]
+    pub timeline: Option<PathBuf>,
     /// Add outputs of every plate: plate[k].temperature and plate[k].force[i], as with `per_plate_outputs = true` in the
     /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
     #[arg(long)]

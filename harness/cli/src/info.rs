@@ -7,7 +7,7 @@ use model_description::{
     Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind,
 };
 
-use crate::{args::Info, coefficients, outcome::Outcome};
+use crate::{args::Info, coefficients, outcome::Outcome, timeline};
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
@@ -74,6 +74,13 @@ fn summary(fmu: &Fmu) -> String {
         Err(error) => error.to_string(),
     };
     row("library", Some(platforms));
+    row(
+        "timeline",
+        timeline::of(fmu).map(|read| match read {
+            Ok(timeline) => timeline::summary(&timeline),
+            Err(problems) => format!("with {} problems: see `heliotorque check`", problems.lines().count()),
+        }),
+    );
     if description.model_exchange.is_some() {
         row("also", Some("model exchange, which is not used here".to_owned()));
     }

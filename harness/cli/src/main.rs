@@ -16,6 +16,7 @@ mod pack;
 mod plan;
 mod run;
 mod study;
+mod timeline;
 
 use std::process::ExitCode;
 

@@ -3,16 +3,19 @@
 //! Used by `heliotorque run --plot` and by the studies. The text is SVG text, so no font is needed to draw it.
 
 mod legend;
+mod plane;
 mod series;
 mod style;
 #[cfg(test)]
 mod tests;
 
 use plotters::{
+    coord::types::RangedCoordf64,
     prelude::*,
     style::text_anchor::{HPos, Pos, VPos},
 };
 
+pub use plane::{PlaneChart, PlanePanel};
 pub use series::{Mark, Panel, Series};
 pub use style::COLOURS;
 use style::*;
@@ -49,15 +52,8 @@ impl Chart {
     pub fn to_svg(&self) -> Result<String, ChartError> {
         let range = self.x_range().ok_or_else(|| ChartError::Empty(self.title.clone()))?;
         let mut svg = String::new();
-        let cannot = |reason: String| ChartError::Drawing { title: self.title.clone(), reason };
-        self.draw(&mut svg, range).map_err(|error| cannot(error.to_string()))?;
-        let size = |height: u32| format!("<svg width=\"{}\" height=\"{height}\" ", WIDTH / FINE);
-        let fine = format!("<svg width=\"{WIDTH}\" height=\"{}\" ", self.height());
-        let Some(rest) = svg.strip_prefix(&fine) else {
-            return Err(cannot(format!("its picture does not begin with {fine}")));
-        };
-        // The view box keeps the fine units.
-        Ok(size(self.height() / FINE) + rest)
+        let drawn = self.draw(&mut svg, range);
+        finished(&self.title, drawn, svg, self.height())
     }
 
     /// Horizontal range of the finite points of all panels.
@@ -142,31 +138,7 @@ impl Chart {
         }
         let columns = 2 * (WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT) / FINE;
         for (index, series) in panel.series.iter().enumerate() {
-            let colour = COLOURS[index % COLOURS.len()];
-            match series.mark {
-                Mark::Line => {
-                    for piece in pieces(&series.points) {
-                        let points = thinned(piece, x_range, columns);
-                        chart.draw_series(LineSeries::new(points, colour.stroke_width(2 * FINE)))?;
-                    }
-                }
-                Mark::Dots => {
-                    let finite = series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
-                    chart.draw_series(finite.map(|point| Circle::new(*point, 3 * FINE, colour.filled())))?;
-                }
-                Mark::Rings => {
-                    let finite = series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
-                    let ring = colour.stroke_width(FINE);
-                    chart.draw_series(finite.map(|point| Circle::new(*point, 5 * FINE, ring)))?;
-                }
-                Mark::Dashed => {
-                    for piece in pieces(&series.points) {
-                        let points = thinned(piece, x_range, columns);
-                        let pen = colour.stroke_width(2 * FINE);
-                        chart.draw_series(DashedLineSeries::new(points, 6 * FINE, 5 * FINE, pen))?;
-                    }
-                }
-            }
+            draw_series(&mut chart, index, series, |points| thinned(points, x_range, columns))?;
         }
         legend::draw(area, panel)
     }
@@ -191,6 +163,52 @@ impl Panel {
             None => (0.0, 1.0),
         }
     }
+}
+
+/// The SVG text of a picture `height` high, shown at its size in pixels.
+fn finished(title: &str, drawn: Drawn, svg: String, height: u32) -> Result<String, ChartError> {
+    let cannot = |reason: String| ChartError::Drawing { title: title.to_owned(), reason };
+    drawn.map_err(|error| cannot(error.to_string()))?;
+    let fine = format!("<svg width=\"{WIDTH}\" height=\"{height}\" ");
+    let Some(rest) = svg.strip_prefix(&fine) else {
+        return Err(cannot(format!("its picture does not begin with {fine}")));
+    };
+    // The view box keeps the fine units.
+    Ok(format!("<svg width=\"{}\" height=\"{}\" {rest}", WIDTH / FINE, height / FINE))
+}
+
+type Plot<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Draws a series in the colour of its place; `thin` leaves the points of a piece that are drawn.
+fn draw_series(
+    chart: &mut Plot<'_>,
+    index: usize,
+    series: &Series,
+    thin: impl Fn(&[(f64, f64)]) -> Vec<(f64, f64)>,
+) -> Drawn {
+    let colour = COLOURS[index % COLOURS.len()];
+    let finite = || series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
+    match series.mark {
+        Mark::Line => {
+            for piece in pieces(&series.points) {
+                chart.draw_series(LineSeries::new(thin(piece), colour.stroke_width(2 * FINE)))?;
+            }
+        }
+        Mark::Dots => {
+            chart.draw_series(finite().map(|point| Circle::new(*point, 3 * FINE, colour.filled())))?;
+        }
+        Mark::Rings => {
+            let ring = colour.stroke_width(FINE);
+            chart.draw_series(finite().map(|point| Circle::new(*point, 5 * FINE, ring)))?;
+        }
+        Mark::Dashed => {
+            for piece in pieces(&series.points) {
+                let pen = colour.stroke_width(2 * FINE);
+                chart.draw_series(DashedLineSeries::new(thin(piece), 6 * FINE, 5 * FINE, pen))?;
+            }
+        }
+    }
+    Ok(())
 }
 
 fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {

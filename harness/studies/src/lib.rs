@@ -7,9 +7,11 @@ mod case;
 pub mod chart;
 mod momentum;
 mod options;
+mod pointing;
 mod report;
 mod spin;
 mod thermal;
+mod vector;
 
 pub use options::{Options, StudyError};
 pub use report::Report;
@@ -51,6 +53,24 @@ pub const STUDIES: &[Study] = &[
         paper: "000",
         title: "how Table 2 moves with start date, orbit frame and panel tilts, which the paper leaves open",
         run: momentum::assumptions,
+    },
+    Study {
+        name: "pointing/limb",
+        paper: "001",
+        title: "limb points at azimuths and on the terminator, and a scan of the limb's height",
+        run: pointing::limb,
+    },
+    Study {
+        name: "pointing/mosaic",
+        paper: "001",
+        title: "footprints of inertial, body and planet-fixed scans on the planet's disc",
+        run: pointing::mosaic,
+    },
+    Study {
+        name: "pointing/transition",
+        paper: "001",
+        title: "from downlink to the camera at nadir: the commanded curves of Figures 7 and 8",
+        run: pointing::transition,
     },
     Study {
         name: "spin/figure2",

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use files::Destination;
 
-use crate::chart::Chart;
+use crate::chart::{Chart, ChartError, PlaneChart};
 use crate::{Options, StudyError};
 
 /// The outcome of a study.
@@ -55,7 +55,26 @@ impl Report {
 
     /// Writes a picture below the output folder.
     pub(crate) fn picture(&mut self, options: &Options, file: &str, chart: &Chart) -> Result<(), StudyError> {
-        let svg = chart.to_svg().map_err(|error| StudyError::Write(format!("{file}: {error}")))?;
+        self.svg(options, file, chart.to_svg())
+    }
+
+    /// Writes a picture of a plane below the output folder.
+    pub(crate) fn plane(
+        &mut self,
+        options: &Options,
+        file: &str,
+        chart: &PlaneChart,
+    ) -> Result<(), StudyError> {
+        self.svg(options, file, chart.to_svg())
+    }
+
+    fn svg(
+        &mut self,
+        options: &Options,
+        file: &str,
+        svg: Result<String, ChartError>,
+    ) -> Result<(), StudyError> {
+        let svg = svg.map_err(|error| StudyError::Write(format!("{file}: {error}")))?;
         self.write(options, file, svg.as_bytes())
     }
 

@@ -1,9 +1,10 @@
-//! Any text is a spacecraft or spinner, or refused with what is wrong; what is accepted describes a lawful FMU.
+//! Any text is a spacecraft, spinner or timeline, or refused with what is wrong; what is accepted describes a lawful FMU.
 #![no_main]
 
 use heliotorque_fuzz::library;
 use libfuzzer_sys::fuzz_target;
 use model_description::{Severity, validate};
+use physics::guidance::timeline::Timeline;
 use physics::spacecraft::{Spacecraft, SpacecraftError};
 use physics::spin::spinner::Spinner;
 
@@ -16,6 +17,7 @@ fn read<T>(outcome: Result<T, SpacecraftError>) -> bool {
 }
 
 fuzz_target!(|text: &str| {
+    read(Timeline::from_toml("any.toml", text, &[]));
     let models = [
         ("MomentumPlant", read(Spacecraft::from_toml("any.toml", text))),
         ("SpinPlant", read(Spinner::parse("any.toml", text))),

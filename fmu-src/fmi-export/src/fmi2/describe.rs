@@ -1,4 +1,4 @@
-//! The body of `fmi_export_describe`, see [`model_description::describe`].
+//! The bodies of `fmi_export_describe` and `fmi_export_check_schedule`, see [`model_description::describe`].
 
 use core::ffi::{c_char, c_int, c_void};
 
@@ -8,6 +8,44 @@ use super::arguments::text;
 use super::description::DescribeError;
 use super::library::{Entry, Library};
 use crate::panics::contain;
+
+/// Sends texts to a caller.
+struct Sender {
+    context: *mut c_void,
+    receive: Receive,
+}
+
+impl Sender {
+    fn send(&self, kind: i32, text: &str) {
+        // SAFETY: the promise of whoever called the C function; the text is valid until `receive` returns.
+        unsafe { (self.receive)(self.context, kind, text.as_ptr().cast(), text.len()) }
+    }
+
+    fn introduce(&self, entry: &Entry) {
+        self.send(kind::MODEL, entry.name());
+        if let Some(file) = entry.setup_file() {
+            self.send(kind::SETUP_FILE, file);
+        }
+        if let Some(file) = entry.schedule_file() {
+            self.send(kind::SCHEDULE_FILE, file);
+        }
+        self.send(kind::SETUP_TEXT, entry.default_setup());
+        for source in entry.sources() {
+            self.send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
+        }
+    }
+
+    /// Runs `body`: 0, or 1 after its error or panic was sent.
+    fn run(&self, body: impl FnOnce() -> Result<(), String>) -> c_int {
+        let problem = match contain(body) {
+            Ok(Ok(())) => return 0,
+            Ok(Err(problem)) => problem,
+            Err(panic) => format!("panic: {panic}"),
+        };
+        let _ = contain(|| self.send(kind::ERROR, &problem));
+        1
+    }
+}
 
 /// `fmi_export_describe` over the models of a library.
 ///
@@ -23,23 +61,10 @@ pub unsafe fn describe(
     receive: Option<Receive>,
 ) -> c_int {
     let Some(receive) = receive else { return 1 };
-    let send = |kind: i32, text: &str| {
-        // SAFETY: the caller's promise; the text is valid until `receive` returns.
-        unsafe { receive(context, kind, text.as_ptr().cast(), text.len()) }
-    };
-    let introduce = |entry: &Entry| {
-        send(kind::MODEL, entry.name());
-        if let Some(file) = entry.setup_file() {
-            send(kind::SETUP_FILE, file);
-        }
-        send(kind::SETUP_TEXT, entry.default_setup());
-        for source in entry.sources() {
-            send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
-        }
-    };
-    let done = contain(|| {
+    let sender = Sender { context, receive };
+    sender.run(|| {
         if model.is_null() {
-            library.entries.iter().for_each(introduce);
+            library.entries.iter().for_each(|entry| sender.introduce(entry));
             return Ok(());
         }
         // SAFETY: the caller's promise.
@@ -50,27 +75,62 @@ pub unsafe fn describe(
                 optional(setup_text, "setup_text")?,
             )
         };
-        let model = model.unwrap_or_default();
-        let entry = library
-            .find(model)
-            .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))?;
-        let description = library.describe(entry, file, setup).map_err(|error| match error {
-            // They name their file and line first, where editors expect them.
-            DescribeError::Setup(problem) => problem.to_string(),
-            DescribeError::Start(problems) => problems,
-            other => format!("{model}: {other}"),
-        })?;
-        introduce(entry);
-        send(kind::XML, &model_description::to_xml(&description));
+        let entry = found(library, model.unwrap_or_default())?;
+        let description = library.describe(entry, file, setup).map_err(|error| said(entry.name(), &error))?;
+        sender.introduce(entry);
+        sender.send(kind::XML, &model_description::to_xml(&description));
         Ok(())
-    });
-    let problem = match done {
-        Ok(Ok(())) => return 0,
-        Ok(Err(problem)) => problem,
-        Err(panic) => format!("panic: {panic}"),
-    };
-    let _ = contain(|| send(kind::ERROR, &problem));
-    1
+    })
+}
+
+/// `fmi_export_check_schedule` over the models of a library.
+///
+/// # Safety
+/// As [`describe`].
+#[allow(clippy::too_many_arguments, reason = "the signature of `CheckSchedule`")]
+pub unsafe fn check_schedule(
+    library: &Library,
+    model: *const c_char,
+    setup_file: *const c_char,
+    setup_text: *const c_char,
+    schedule_file: *const c_char,
+    schedule_text: *const c_char,
+    context: *mut c_void,
+    receive: Option<Receive>,
+) -> c_int {
+    let Some(receive) = receive else { return 1 };
+    Sender { context, receive }.run(|| {
+        // SAFETY: the caller's promise.
+        let (model, file, setup, schedule_file, schedule) = unsafe {
+            (
+                optional(model, "model")?,
+                optional(setup_file, "setup_file")?,
+                optional(setup_text, "setup_text")?,
+                optional(schedule_file, "schedule_file")?,
+                optional(schedule_text, "schedule_text")?,
+            )
+        };
+        let entry = found(library, model.unwrap_or_default())?;
+        let schedule = schedule.ok_or("argument schedule_text is NULL")?;
+        library
+            .check_schedule(entry, file, setup, schedule_file, schedule)
+            .map_err(|error| said(entry.name(), &error))
+    })
+}
+
+fn found(library: &Library, model: &str) -> Result<&'static Entry, String> {
+    library
+        .find(model)
+        .ok_or_else(|| format!("no model `{model}` in this library; it has {}", library.names()))
+}
+
+fn said(model: &str, error: &DescribeError) -> String {
+    match error {
+        // They name their file and line first, where editors expect them.
+        DescribeError::Setup(problem) => problem.to_string(),
+        DescribeError::Start(problems) => problems.clone(),
+        other => format!("{model}: {other}"),
+    }
 }
 
 /// # Safety

@@ -13,6 +13,7 @@ use super::logger::Category;
 use super::references;
 use super::start::{self, OtherReaders, Readers};
 use super::structure::structure;
+use crate::dependencies::Dependencies;
 use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
 use crate::variables::{
@@ -21,6 +22,9 @@ use crate::variables::{
 
 /// Name space of the GUIDs of this exporter.
 const NAME_SPACE: Uuid = Uuid::from_u128(0xcc931cc2_33f1_4b24_a08d_a93a9fb26fe9);
+
+/// Memory for what the digest is taken over; a larger interface takes more.
+const DIGESTED_BYTES: usize = 1 << 16;
 
 /// Why a model cannot be described.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -107,7 +111,7 @@ pub(crate) fn prepare<M: Model>(
     let readers = Readers::new(M::NAME, file, others);
     start::apply(&M::start_values(&setup), &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
-    let digest = digest_of::<M>(&interface.canonical(&dependencies), &about, &setup)?;
+    let digest = digest_of::<M>(&interface, &dependencies, &about, &setup)?;
     description.guid = format!("{{{digest}}}");
     let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
     let runtime = Box::new(Typed::<M> { setup, variables, state: None });
@@ -226,27 +230,18 @@ fn units_of(description: &Description) -> Vec<model_description::Unit> {
 
 /// UUIDv5 of what is declared, the model's `About`, the setup's content, the model's name and optional traits, and the
 /// version of its state. Default times do not enter.
-fn digest_of<M: Model>(interface: &str, about: &About, setup: &M::Setup) -> Result<Uuid, DescribeError> {
-    let setup = postcard::to_allocvec(setup).map_err(|error| DescribeError::Digest(error.to_string()))?;
-    let extensions =
-        [M::EXTENSIONS.output_rate.is_some(), M::EXTENSIONS.jacobian_vector_product.is_some()].map(u8::from);
-    let parts: [&[u8]; 10] = [
-        interface.as_bytes(),
-        about.description.as_bytes(),
-        about.author.as_bytes(),
-        about.version.as_bytes(),
-        about.license.as_bytes(),
-        &about.tolerance.to_le_bytes(),
-        &setup,
-        M::NAME.as_bytes(),
-        &M::STATE_VERSION.to_le_bytes(),
-        &extensions,
-    ];
-    let mut bytes = Vec::with_capacity(interface.len() + setup.len() + 256);
-    // Each part with its length, so that no two sets of parts share their bytes.
-    for part in parts {
-        bytes.extend_from_slice(&(part.len() as u64).to_le_bytes());
-        bytes.extend_from_slice(part);
-    }
+fn digest_of<M: Model>(
+    interface: &Interface,
+    dependencies: &Dependencies,
+    about: &About,
+    setup: &M::Setup,
+) -> Result<Uuid, DescribeError> {
+    let extensions = (M::EXTENSIONS.output_rate.is_some(), M::EXTENSIONS.jacobian_vector_product.is_some());
+    let model = (M::NAME, M::STATE_VERSION, extensions);
+    let about = (&about.description, &about.author, &about.version, &about.license, about.tolerance);
+    let digested = (model, about, interface, dependencies, setup);
+    // The same bytes on every platform, texts and lists with their lengths: no two sets of facts share them.
+    let bytes = postcard::to_extend(&digested, Vec::with_capacity(DIGESTED_BYTES))
+        .map_err(|error| DescribeError::Digest(error.to_string()))?;
     Ok(Uuid::new_v5(&NAME_SPACE, &bytes))
 }

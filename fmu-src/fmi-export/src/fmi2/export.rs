@@ -6,7 +6,7 @@
 /// fmi_export::export!(models::MomentumPlant, models::SpinPlant);
 /// ```
 ///
-/// Emits `LIBRARY`, a [`Library`](crate::Library) of the models, and the two C functions that need it; the others come with
+/// Emits `LIBRARY`, a [`Library`](crate::Library) of the models, and the three C functions that need it; the others come with
 /// this crate (see [`fmi2`](crate::fmi2)).
 #[macro_export]
 macro_rules! export {
@@ -17,7 +17,7 @@ macro_rules! export {
 
         #[allow(unsafe_code, reason = "symbols of the C interface, forwarded to fmi_export::fmi2")]
         #[allow(non_snake_case, reason = "the standard's names")]
-        #[allow(clippy::too_many_arguments, reason = "the standard's signature")]
+        #[allow(clippy::too_many_arguments, reason = "the signatures of the standard and of `CheckSchedule`")]
         mod __symbols {
             use ::core::ffi::{c_char, c_int, c_void};
             use $crate::model_description::{describe, functions::types};
@@ -61,6 +61,28 @@ macro_rules! export {
             }
 
             const _: describe::Describe = fmi_export_describe;
+
+            /// See [`CheckSchedule`](describe::CheckSchedule).
+            #[unsafe(no_mangle)]
+            unsafe extern "C" fn fmi_export_check_schedule(
+                model: *const c_char,
+                setup_file: *const c_char,
+                setup_text: *const c_char,
+                schedule_file: *const c_char,
+                schedule_text: *const c_char,
+                context: *mut c_void,
+                receive: Option<describe::Receive>,
+            ) -> c_int {
+                $crate::fmi2::silence_panics();
+                // SAFETY: the caller keeps the contract of `CheckSchedule`.
+                unsafe {
+                    $crate::fmi2::check_schedule(
+                        &super::LIBRARY, model, setup_file, setup_text, schedule_file, schedule_text, context, receive,
+                    )
+                }
+            }
+
+            const _: describe::CheckSchedule = fmi_export_check_schedule;
         }
     };
 }

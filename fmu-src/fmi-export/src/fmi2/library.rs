@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
 use crate::fmi2::location::{self, Resources};
 use crate::fmi2::start::{OtherReaders, Reader};
-use crate::model::{Model, Source};
+use crate::model::{Model, SetupError, Source};
 use crate::panics::contain;
 
 /// One model of a library, its type erased.
@@ -13,6 +13,7 @@ use crate::panics::contain;
 pub struct Entry {
     name: &'static str,
     setup_file: Option<&'static str>,
+    schedule_file: Option<&'static str>,
     default_setup: &'static str,
     sources: &'static [Source],
     prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
@@ -25,6 +26,7 @@ impl Entry {
         Self {
             name: M::NAME,
             setup_file: M::SETUP_FILE,
+            schedule_file: M::SCHEDULE_FILE,
             default_setup: M::DEFAULT_SETUP,
             sources: M::SOURCES,
             prepare: prepare::<M>,
@@ -40,6 +42,11 @@ impl Entry {
     /// The file under `resources/` that holds the setup.
     pub const fn setup_file(&self) -> Option<&'static str> {
         self.setup_file
+    }
+
+    /// The file under `resources/` that may hold a schedule.
+    pub const fn schedule_file(&self) -> Option<&'static str> {
+        self.schedule_file
     }
 
     /// The compiled-in setup text.
@@ -84,6 +91,29 @@ impl Entry {
         // One model that panics here must not hide the others of the library.
         contain(|| (self.prepare)(file, text, &others)).unwrap_or_else(|text| Err(DescribeError::Panic(text)))
     }
+
+    /// The prepared model with the schedule in its resources, if there is one.
+    fn with_schedule_at(
+        &self,
+        mut prepared: Prepared,
+        resources: &Result<Resources, String>,
+    ) -> Result<Prepared, String> {
+        let (Some(file), Ok(Resources::Folder(folder))) = (self.schedule_file, resources) else {
+            return Ok(prepared);
+        };
+        if let Some(text) = location::read_if_there(folder, file)? {
+            Self::take_schedule(&mut prepared, file, &text).map_err(|error| error.to_string())?;
+        }
+        Ok(prepared)
+    }
+
+    /// Has the prepared model take a schedule.
+    fn take_schedule(prepared: &mut Prepared, file: &str, text: &str) -> Result<(), DescribeError> {
+        match contain(|| prepared.runtime.take_schedule(file, text)) {
+            Ok(taken) => taken.map_err(DescribeError::Setup),
+            Err(panic) => Err(DescribeError::Panic(panic)),
+        }
+    }
 }
 
 /// Every model of one shared library.
@@ -107,7 +137,25 @@ impl Library {
         file: Option<&str>,
         setup_text: Option<&str>,
     ) -> Result<model_description::Description, DescribeError> {
-        entry.prepare(file, setup_text, self.entries).map(|prepared| prepared.description)
+        Ok(entry.prepare(file, setup_text, self.entries)?.description)
+    }
+
+    /// Whether a model takes a schedule with this setup.
+    pub(crate) fn check_schedule(
+        &self,
+        entry: &Entry,
+        file: Option<&str>,
+        setup_text: Option<&str>,
+        schedule_file: Option<&str>,
+        schedule: &str,
+    ) -> Result<(), DescribeError> {
+        let schedule_file = schedule_file.or(entry.schedule_file).unwrap_or("the schedule");
+        if entry.schedule_file.is_none() {
+            return Err(SetupError(format!("{schedule_file}: {} takes no schedule", entry.name)).into());
+        }
+        let mut prepared = entry.prepare(file, setup_text, self.entries)?;
+        Entry::take_schedule(&mut prepared, schedule_file, schedule)?;
+        Ok(())
     }
 
     /// The names, for messages.
@@ -127,7 +175,7 @@ impl Library {
                 (Some(_), Err(problem)) => Err(problem.clone()),
                 (Some(file), Ok(Resources::Folder(folder))) => texts
                     .entry(file)
-                    .or_insert_with(|| location::read_setup(folder, file))
+                    .or_insert_with(|| location::read(folder, file))
                     .as_ref()
                     .map(|text| Some(text.as_str()))
                     .map_err(Clone::clone),
@@ -135,7 +183,9 @@ impl Library {
             let file = entry.setup_file.filter(|_| !matches!(resources, Ok(Resources::None)));
             let was_read = text.is_ok();
             let outcome = match text.map(|text| entry.prepare(None, text, self.entries)) {
-                Ok(Ok(prepared)) if prepared.description.guid == guid => return Ok(prepared),
+                Ok(Ok(prepared)) if prepared.description.guid == guid => {
+                    return entry.with_schedule_at(prepared, &resources);
+                }
                 Ok(Ok(prepared)) => Ok(prepared.description.guid),
                 Ok(Err(error)) => Err(error.to_string()),
                 Err(problem) => Err(problem),

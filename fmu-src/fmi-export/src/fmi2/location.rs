@@ -1,4 +1,4 @@
-//! From the importer's `fmuResourceLocation` to a folder, and from there to a setup text.
+//! From the importer's `fmuResourceLocation` to a folder, and from there to the texts of setup and schedule.
 //!
 //! Importers disagree on how to write a file URI (RFC 8089): `file:///a`, `file:/a`, `file://localhost/a`,
 //! percent-encoded once, twice or not at all, or a plain path. Each reading is tried; the first that is a
@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use percent_encoding::percent_decode;
 
-/// No setup file is larger than this.
-const MAX_SETUP_BYTES: u64 = 64 << 20;
+/// No file is larger than this.
+const MAX_BYTES: u64 = 64 << 20;
 
 /// What the location gave.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,21 +38,33 @@ pub(crate) fn resolve(location: &[u8]) -> Result<Resources, String> {
     }
 }
 
+/// The text of `file` in `folder`, if there is such a file.
+pub(crate) fn read_if_there(folder: &Path, file: &str) -> Result<Option<String>, String> {
+    // A link that leads nowhere is there.
+    match std::fs::symlink_metadata(folder.join(file)) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        _ => read(folder, file).map(Some),
+    }
+}
+
 /// The text of `file` in `folder`.
-pub(crate) fn read_setup(folder: &Path, file: &str) -> Result<String, String> {
+pub(crate) fn read(folder: &Path, file: &str) -> Result<String, String> {
     let path = folder.join(file);
     // Opening a pipe waits until somebody writes to it.
     if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
         return Err(format!("`{}` is no regular file", path.display()));
     }
-    let mut text = String::new();
-    let read =
-        File::open(&path).and_then(|opened| opened.take(MAX_SETUP_BYTES + 1).read_to_string(&mut text));
+    let mut bytes = Vec::new();
+    let read = File::open(&path).and_then(|opened| opened.take(MAX_BYTES + 1).read_to_end(&mut bytes));
     match read {
-        Ok(bytes) if bytes as u64 > MAX_SETUP_BYTES => {
-            Err(format!("`{}` is larger than {MAX_SETUP_BYTES} bytes", path.display()))
+        Ok(count) if count as u64 > MAX_BYTES => {
+            Err(format!("`{}` is larger than {MAX_BYTES} bytes", path.display()))
         }
-        Ok(_) => Ok(text),
+        Ok(_) => String::from_utf8(bytes).map_err(|error| {
+            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
+            format!("cannot read `{}`: line {line} is not UTF-8", path.display())
+        }),
         Err(error) => Err(format!("cannot read `{}`: {error}", path.display())),
     }
 }
@@ -196,13 +208,13 @@ mod tests {
                 let location = format!("file://{}/{form}", base.to_str().unwrap());
                 let found = resolve(location.as_bytes()).unwrap();
                 assert_eq!(found, Resources::Folder(folder.clone()), "{location}");
-                assert_eq!(read_setup(&folder, "setup.toml").unwrap(), name);
+                assert_eq!(read(&folder, "setup.toml").unwrap(), name);
             }
         }
         assert_eq!(resolve(b"").unwrap(), Resources::None);
         let missing = resolve(b"file:///no/such/folder").unwrap_err();
         assert!(missing.contains("`/no/such/folder`") && missing.contains("does not exist"), "{missing}");
-        let unread = read_setup(&base, "other.toml").unwrap_err();
+        let unread = read(&base, "other.toml").unwrap_err();
         assert!(unread.contains("other.toml"), "{unread}");
         std::fs::remove_dir_all(&base).unwrap();
     }
@@ -219,7 +231,7 @@ mod tests {
             if name == "a-pipe" && !made.as_ref().is_ok_and(std::process::ExitStatus::success) {
                 continue;
             }
-            let refused = read_setup(&folder, name).unwrap_err();
+            let refused = read(&folder, name).unwrap_err();
             assert!(refused.contains(name) && refused.contains("no regular file"), "{refused}");
         }
         std::fs::remove_dir_all(&folder).unwrap();

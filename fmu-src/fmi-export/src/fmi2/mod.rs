@@ -30,7 +30,7 @@ mod state_bytes;
 mod structure;
 
 pub use crate::model::{SetupValue, StartValue};
-pub use describe::describe;
+pub use describe::{check_schedule, describe};
 pub use description::{DescribeError, description_of, scalar_variables};
 pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;

@@ -17,17 +17,22 @@ pub(crate) fn structure(
 ) -> Result<ModelStructure, String> {
     let keys: Vec<Option<Element>> =
         variables.iter().map(|variable| references::element(variable.value_reference)).collect();
-    let index_of = keys.iter().copied().zip(1..).filter_map(|(key, index)| Some((key?, index))).collect();
+    let mut index_of: [Vec<Option<u32>>; Element::TABLES] = Default::default();
+    for (key, index) in keys.iter().zip(1..).filter_map(|(key, index)| Some(((*key)?, index))) {
+        let (indices, place) = (&mut index_of[key.table()], key.place() as usize);
+        indices.resize(indices.len().max(place + 1), None);
+        indices[place] = Some(index);
+    }
     let lists = Lists { variables, keys: &keys, index_of: &index_of };
     let mut structure = rules::structure(variables);
     let input = |v: &ScalarVariable| v.causality == Causality::Input;
     let exact = |v: &ScalarVariable| {
         input(v) || v.causality == Causality::Parameter && rules::effective_initial(v) == Some(Initial::Exact)
     };
-    lists.fill(&mut structure.outputs, &dependencies.at_steps().collect(), &input, "an input")?;
+    lists.fill(&mut structure.outputs, dependencies.at_steps(), &input, "an input")?;
     lists.fill(
         &mut structure.initial_unknowns,
-        &dependencies.at_start().collect(),
+        dependencies.at_start(),
         &exact,
         "an input or a parameter with initial exact",
     )?;
@@ -38,7 +43,8 @@ pub(crate) fn structure(
 struct Lists<'a> {
     variables: &'a [ScalarVariable],
     keys: &'a [Option<Element>],
-    index_of: &'a BTreeMap<Element, u32>,
+    /// By table and place.
+    index_of: &'a [Vec<Option<u32>>; Element::TABLES],
 }
 
 impl Lists<'_> {
@@ -46,19 +52,22 @@ impl Lists<'_> {
     fn fill(
         &self,
         unknowns: &mut [Unknown],
-        rows: &BTreeMap<&Element, &Knowns>,
+        rows: &BTreeMap<Element, Knowns>,
         admitted: &dyn Fn(&ScalarVariable) -> bool,
         rule: &str,
     ) -> Result<(), String> {
-        let mut left: BTreeSet<&Element> = rows.keys().copied().collect();
+        let mut left: BTreeSet<&Element> = rows.keys().collect();
+        let is_admitted: Vec<bool> = self.variables.iter().map(admitted).collect();
+        let nothing = Knowns::default();
+        // Elements of one array often depend on the same.
+        let mut previous: Option<(&Knowns, Vec<u32>)> = None;
         for unknown in unknowns {
             let at = unknown.index as usize - 1;
             let (variable, key) = (&self.variables[at], self.keys[at].as_ref());
-            let row = key.and_then(|key| rows.get(key).copied());
+            let row = key.and_then(|key| rows.get(key));
             if let Some(key) = key {
                 left.remove(key);
             }
-            let nothing = Knowns::default();
             let knowns = match row {
                 Some(knowns) => knowns,
                 None if variable.variability == Variability::Constant => &nothing,
@@ -66,28 +75,46 @@ impl Lists<'_> {
                     return Err(format!("`{}` has no row in the model's dependencies", variable.name));
                 }
             };
-            let mut indices = Vec::new();
-            for known in knowns.elements() {
-                let index = self.index(known)?;
-                let found = &self.variables[index as usize - 1];
-                if !admitted(found) {
-                    let (unknown, known) = (&variable.name, &found.name);
-                    return Err(format!("`{unknown}` depends on `{known}`, allowed: {rule}"));
-                }
-                indices.push(index);
-            }
-            indices.sort_unstable();
-            unknown.dependencies = Some(indices);
+            let indices = match previous.take() {
+                Some((same, indices)) if same == knowns => indices,
+                _ => self.indices(variable, knowns, &is_admitted, rule)?,
+            };
+            unknown.dependencies = Some(indices.clone());
+            previous = Some((knowns, indices));
         }
         // An exact output is no unknown of initialization; its row says so by an empty list.
-        left.retain(|key| rows.get(key).is_some_and(|knowns| knowns.elements().next().is_some()));
+        left.retain(|key| rows.get(key).is_some_and(|knowns| knowns.len() > 0));
         let Some(extra) = left.first() else { return Ok(()) };
         let name = &self.variables[self.index(**extra)? as usize - 1].name;
         Err(format!("the model's dependencies have a row for `{name}`, which is no unknown there"))
     }
 
+    /// The indices of what an unknown depends on, ascending.
+    fn indices(
+        &self,
+        unknown: &ScalarVariable,
+        knowns: &Knowns,
+        is_admitted: &[bool],
+        rule: &str,
+    ) -> Result<Vec<u32>, String> {
+        let mut indices = Vec::with_capacity(knowns.len());
+        for known in knowns.elements() {
+            let index = self.index(known)?;
+            let at = index as usize - 1;
+            if !is_admitted[at] {
+                let (unknown, known) = (&unknown.name, &self.variables[at].name);
+                return Err(format!("`{unknown}` depends on `{known}`, allowed: {rule}"));
+            }
+            indices.push(index);
+        }
+        // Ascending within each table already, which the stable sort makes use of.
+        indices.sort();
+        Ok(indices)
+    }
+
     fn index(&self, element: Element) -> Result<u32, String> {
-        self.index_of.get(&element).copied().ok_or_else(|| {
+        let index = self.index_of[element.table()].get(element.place() as usize).copied().flatten();
+        index.ok_or_else(|| {
             format!("the model's dependencies name {element:?}, which is no element of a variable")
         })
     }

@@ -224,10 +224,10 @@ impl Declare {
         };
         let scalar = ScalarSpec { name, description, role };
         let variable = self.variable(&scalar, dimensions, Element::Real(at), kind);
-        for ((full, _), &value) in variable.elements().zip(start.unwrap_or_default()) {
+        for (at, &value) in start.unwrap_or_default().iter().enumerate() {
             let checked =
                 check::finite("start", Some(value)).and_then(|()| check::range(Some(value), min, max));
-            checked.map_err(|problem| DeclareError { name: full, problem })?;
+            checked.map_err(|problem| DeclareError { name: variable.element_name(at), problem })?;
         }
         let count = variable.count();
         self.add(variable, start.is_some())?;
@@ -263,24 +263,26 @@ impl Declare {
 
     fn add(&mut self, variable: Variable, has_start: bool) -> Result<(), DeclareError> {
         let is_real = matches!(variable.kind, Kind::Real { .. });
+        let of_all = check::role(variable.role, is_real, has_start)
+            .and_then(|()| check::text("description", &variable.description))
+            .and_then(|()| match variable.description.trim().is_empty() {
+                true => Err("needs a description".to_owned()),
+                false => Ok(()),
+            });
         for (full, _) in variable.elements() {
-            let result = check::name(&full)
-                .and_then(|()| check::role(variable.role, is_real, has_start))
-                .and_then(|()| check::text("description", &variable.description))
-                .and_then(|()| match variable.description.trim().is_empty() {
-                    true => Err("needs a description".to_owned()),
-                    false => Ok(()),
-                })
-                .and_then(|()| match self.interface.enumerations.iter().any(|known| known.name == full) {
+            let result = check::name(&full).and_then(|()| of_all.clone()).and_then(|()| {
+                match self.interface.enumerations.iter().any(|known| known.name == full) {
                     true => Err("an enumeration type has this name".to_owned()),
                     false => Ok(()),
-                });
+                }
+            });
             if let Err(problem) = result {
                 return Err(DeclareError { name: full, problem });
             }
-            if !self.names.insert(full.clone()) {
+            if self.names.contains(&full) {
                 return Err(DeclareError { name: full, problem: "is declared twice".to_owned() });
             }
+            self.names.insert(full);
         }
         self.interface.variables.push(variable);
         Ok(())

@@ -40,7 +40,7 @@ scalar_handle!(
 
 /// `N` Real variables `x[1]`..`x[N]`, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct RealVector<const N: usize>(pub(super) u32);
+pub struct RealVector<const N: usize>(pub(crate) u32);
 
 impl<const N: usize> RealVector<N> {
     /// Element `index`, 0-based, below `N`.
@@ -57,7 +57,7 @@ impl<const N: usize> RealVector<N> {
 
 /// `R * C` Real variables `x[1,1]`..`x[R,C]`, row by row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct RealMatrix<const R: usize, const C: usize>(pub(super) u32);
+pub struct RealMatrix<const R: usize, const C: usize>(pub(crate) u32);
 
 impl<const R: usize, const C: usize> RealMatrix<R, C> {
     /// Element at 0-based `row` and `column`.

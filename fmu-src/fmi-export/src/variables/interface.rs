@@ -1,13 +1,12 @@
-//! Everything that a model declares, free of any version of FMI, and its digest.
+//! Everything that a model declares, free of any version of FMI.
 
-use core::fmt::{Display, Write};
+use serde::Serialize;
 
 use super::Values;
-use super::variable::{Element, EnumerationType, Item, Kind, Variable};
-use crate::dependencies::{Dependencies, Knowns};
+use super::variable::{EnumerationType, Variable};
 
-/// The declarations of a model.
-#[derive(Clone, Debug, Default)]
+/// The declarations of a model; serialised they enter the GUID, every fact of them.
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Interface {
     /// The variables in the order of declaration.
     pub variables: Vec<Variable>,
@@ -17,113 +16,19 @@ pub struct Interface {
     pub start: Values,
 }
 
-impl Interface {
-    /// A text that changes exactly when a declaration, a start value or a dependency changes. Every entry carries its length,
-    /// so no two interfaces share a text.
-    pub(crate) fn canonical(&self, dependencies: &Dependencies) -> String {
-        let mut out = Canonical("interface 1\n".to_owned());
-        for EnumerationType { name, description, items } in &self.enumerations {
-            out.entry("enumeration", name);
-            out.entry("description", description);
-            for Item { name, value, description } in *items {
-                out.entry("item", name);
-                out.entry("value", value);
-                out.entry("description", description);
-            }
-        }
-        for variable in &self.variables {
-            let Variable { name, description, role, dimensions, first, kind } = variable;
-            out.entry("variable", name);
-            out.entry("description", description);
-            out.entry("causality", role.causality);
-            out.entry("variability", role.variability);
-            out.option("initial", role.initial);
-            for length in dimensions {
-                out.entry("dimension", length);
-            }
-            out.element("first", *first);
-            out.kind(kind);
-            for (_, element) in variable.elements() {
-                self.start(&mut out, element);
-            }
-        }
-        out.rows("step", dependencies.at_steps());
-        out.rows("start", dependencies.at_start());
-        out.0
-    }
-
-    fn start(&self, out: &mut Canonical, element: Element) {
-        let at = element.place() as usize;
-        match element {
-            Element::Real(_) => out.option("start", self.start.reals.get(at).map(|value| value.to_bits())),
-            Element::Integer(_) => out.option("start", self.start.integers.get(at)),
-            Element::Boolean(_) => out.option("start", self.start.booleans.get(at)),
-            Element::Text(_) => out.option("start", self.start.strings.get(at)),
-        }
-    }
-}
-
-struct Canonical(String);
-
-impl Canonical {
-    fn entry(&mut self, what: &str, value: impl Display) {
-        let value = value.to_string();
-        // Writing to a String cannot fail.
-        let _ = writeln!(self.0, "{what} {}:{value}", value.len());
-    }
-
-    fn option(&mut self, what: &str, value: Option<impl Display>) {
-        if let Some(value) = value {
-            self.entry(what, value);
-        }
-    }
-
-    fn element(&mut self, what: &str, element: Element) {
-        let table = match element {
-            Element::Real(_) => "real",
-            Element::Integer(_) => "integer",
-            Element::Boolean(_) => "boolean",
-            Element::Text(_) => "text",
-        };
-        self.entry(what, format_args!("{table} {}", element.place()));
-    }
-
-    fn kind(&mut self, kind: &Kind) {
-        match kind {
-            Kind::Real { unit, display_unit, min, max, nominal } => {
-                self.entry("unit", unit);
-                self.option("displayUnit", display_unit.as_ref());
-                for (what, value) in [("min", min), ("max", max), ("nominal", nominal)] {
-                    self.option(what, value.map(f64::to_bits));
-                }
-            }
-            Kind::Integer { min, max } => {
-                self.option("min", *min);
-                self.option("max", *max);
-            }
-            Kind::Enumeration(name) => self.entry("type", name),
-            Kind::Boolean | Kind::Text => {}
-        }
-    }
-
-    fn rows<'a>(&mut self, when: &str, rows: impl Iterator<Item = (&'a Element, &'a Knowns)>) {
-        for (unknown, knowns) in rows {
-            self.element(when, *unknown);
-            for known in knowns.elements() {
-                self.element("known", known);
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    //! The canonical text sees every declared fact, and texts cannot pose as structure.
+    //! What enters the GUID holds every declared fact, and texts cannot pose as structure.
+    use std::collections::BTreeSet;
+
     use model_description::{Causality, Variability};
 
     use super::*;
+    use crate::dependencies::Dependencies;
     use crate::knowns;
-    use crate::variables::{Declare, Integer, Real, RealSpec, RealVector, Role, ScalarSpec};
+    use crate::variables::{
+        Declare, Element, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec,
+    };
 
     struct Handles {
         input: RealVector<2>,
@@ -156,6 +61,10 @@ mod tests {
         let mut dependencies = Dependencies::new();
         dependencies.output(handles.output, handles.input, handles.input);
         (scope.finish(), dependencies, handles)
+    }
+
+    fn digested(interface: &Interface, dependencies: &Dependencies) -> Vec<u8> {
+        postcard::to_allocvec(&(interface, dependencies)).unwrap()
     }
 
     #[test]
@@ -194,12 +103,33 @@ mod tests {
             ("dependency at the start", |_, table, h| table.output(h.output, knowns![], h.count)),
         ];
         let (base, table, _) = declared();
-        let base = base.canonical(&table);
+        let base = digested(&base, &table);
         for (what, change) in changes {
             let (mut interface, mut table, handles) = declared();
             change(&mut interface, &mut table, &handles);
-            assert_ne!(interface.canonical(&table), base, "{what}");
+            assert_ne!(digested(&interface, &table), base, "{what}");
         }
+    }
+
+    #[test]
+    fn every_fact_of_an_item_enters() {
+        const BASE: Item = Item { name: "one", value: 1, description: "The first." };
+        const ITEMS: [&[Item]; 5] = [
+            &[BASE],
+            &[Item { name: "two", ..BASE }],
+            &[Item { value: 2, ..BASE }],
+            &[Item { description: "The last.", ..BASE }],
+            &[BASE, BASE],
+        ];
+        let texts: BTreeSet<Vec<u8>> = ITEMS
+            .iter()
+            .map(|items| {
+                let (mut interface, table, _) = declared();
+                interface.enumerations.push(EnumerationType { name: "E", description: "D", items });
+                digested(&interface, &table)
+            })
+            .collect();
+        assert_eq!(texts.len(), ITEMS.len());
     }
 
     #[test]
@@ -208,6 +138,6 @@ mod tests {
         one.variables[0].description = "x\ncausality 5:input".to_owned();
         let (mut two, _, _) = declared();
         two.variables[0].description = "x".to_owned();
-        assert_ne!(one.canonical(&table), two.canonical(&table));
+        assert_ne!(digested(&one, &table), digested(&two, &table));
     }
 }

@@ -1,6 +1,9 @@
 //! What is declared of a variable. An array is one variable; its elements are counted row by row.
 
+use core::fmt::Write;
+
 use model_description::{Causality, Initial, Variability};
+use serde::{Serialize, Serializer};
 
 /// Causality, variability and initial of a declaration (FMI 2.0.5, 2.2.7; FMI 3.0, 2.4.7.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,8 +16,16 @@ pub struct Role {
     pub initial: Option<Initial>,
 }
 
+/// By the standard's words.
+impl Serialize for Role {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { causality, variability, initial } = self;
+        (causality.as_str(), variability.as_str(), initial.map(Initial::as_str)).serialize(serializer)
+    }
+}
+
 /// A declared variable; its start values stand in [`Interface::start`](super::Interface::start).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Variable {
     /// Full structured name, of an array without indices.
     pub name: String,
@@ -31,7 +42,7 @@ pub struct Variable {
 }
 
 /// Type of a variable.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Kind {
     /// A floating-point number.
     Real {
@@ -62,7 +73,7 @@ pub enum Kind {
 }
 
 /// One scalar, by its place in the table of values of its type; Enumerations share the Integers' table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub enum Element {
     /// Of the Reals.
     Real(u32),
@@ -75,6 +86,30 @@ pub enum Element {
 }
 
 impl Element {
+    /// Number of tables of values.
+    pub(crate) const TABLES: usize = 4;
+
+    /// The table, in the order of the variants.
+    pub(crate) const fn table(self) -> usize {
+        match self {
+            Self::Real(_) => 0,
+            Self::Integer(_) => 1,
+            Self::Boolean(_) => 2,
+            Self::Text(_) => 3,
+        }
+    }
+
+    /// The element at a place of a table; `None` if there is no such table.
+    pub(crate) const fn of_table(table: usize, place: u32) -> Option<Self> {
+        match table {
+            0 => Some(Self::Real(place)),
+            1 => Some(Self::Integer(place)),
+            2 => Some(Self::Boolean(place)),
+            3 => Some(Self::Text(place)),
+            _ => None,
+        }
+    }
+
     /// The element `count` places on.
     #[must_use]
     pub const fn after(self, count: u32) -> Self {
@@ -105,20 +140,25 @@ impl Variable {
         (0..self.count()).map(|at| (self.element_name(at), self.first.after(at as u32)))
     }
 
-    fn element_name(&self, at: usize) -> String {
-        let mut indices = Vec::with_capacity(self.dimensions.len());
-        let mut rest = at;
-        for length in self.dimensions.iter().rev() {
-            indices.push((rest % length + 1).to_string());
-            rest /= length;
+    /// Of the element counted row by row.
+    pub(super) fn element_name(&self, at: usize) -> String {
+        let mut name = String::with_capacity(self.name.len() + 4 * self.dimensions.len());
+        name.push_str(&self.name);
+        let mut count = self.count();
+        for (position, length) in self.dimensions.iter().enumerate() {
+            count /= length;
+            // Writing to a String cannot fail.
+            let _ = write!(name, "{}{}", if position == 0 { '[' } else { ',' }, at / count % length + 1);
         }
-        indices.reverse();
-        if indices.is_empty() { self.name.clone() } else { format!("{}[{}]", self.name, indices.join(",")) }
+        if !self.dimensions.is_empty() {
+            name.push(']');
+        }
+        name
     }
 }
 
 /// An enumeration type.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct EnumerationType {
     /// Name of the type.
     pub name: &'static str,
@@ -129,7 +169,7 @@ pub struct EnumerationType {
 }
 
 /// An item of an enumeration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Item {
     /// Name.
     pub name: &'static str,

@@ -1,7 +1,7 @@
 //! The GUID finds the model; when it does not, the log names every GUID that was compared.
 
 use client::InProcess;
-use fmi_export::model_description::Description;
+use fmi_export::model_description::{Description, Status};
 
 use super::{PROBE, described};
 
@@ -13,7 +13,7 @@ fn guid(model: &str, setup: &str) -> String {
 struct Folder(std::path::PathBuf);
 
 impl Folder {
-    fn new(name: &str, files: &[(&str, &str)]) -> Self {
+    fn new<T: AsRef<[u8]>>(name: &str, files: &[(&str, T)]) -> Self {
         let folder = std::env::temp_dir().join(format!("fmi-export-{}-{name}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         for (file, text) in files {
@@ -121,7 +121,7 @@ fn a_bad_setup_file_or_folder_is_named() {
 
 #[test]
 fn a_setup_file_that_is_not_there_is_the_first_thing_told() {
-    let folder = Folder::new("empty", &[]);
+    let folder = Folder::new::<&str>("empty", &[]);
     let text = refused(&guid("AllTypes", TWO), Some(&folder.uri()));
     assert!(text.starts_with("fmi2Instantiate: cannot read `") && text.contains("all-types.toml"), "{text}");
     assert!(text.contains(&described("Empty").guid) && !text.contains("belong together"), "{text}");
@@ -131,7 +131,7 @@ fn a_setup_file_that_is_not_there_is_the_first_thing_told() {
 fn a_model_that_panics_while_described_hides_nobody() {
     for place in ["parseSetup", "about", "declare", "serializeSetup"] {
         let setup = format!("panic_in = '{place}'");
-        let folder = Folder::new(place, &[("panicking.toml", &setup), ("all-types.toml", TWO)]);
+        let folder = Folder::new(place, &[("panicking.toml", setup.as_str()), ("all-types.toml", TWO)]);
         let text = refused("{x}", Some(&folder.uri()));
         assert!(text.contains("Panicking cannot be set up: the model panicked"), "{text}");
         InProcess::instantiate(PROBE, &guid("AllTypes", TWO), Some(&folder.uri())).unwrap();
@@ -159,4 +159,51 @@ fn the_description_declares_what_the_library_can() {
     assert!(!structure.outputs.is_empty() && structure.derivatives.is_empty());
     assert!(units.iter().any(|unit| unit.name == "m/s") && units.iter().all(|unit| unit.name != "Pa"));
     assert_eq!(types.len(), 1);
+}
+
+const SCHEDULE: &str = "all-types-schedule.toml";
+
+/// The status of a step from 0 to 3 s.
+fn step_of_3_s(instance: &mut InProcess) -> Status {
+    assert_eq!(instance.start(0.0, None), Status::Ok);
+    instance.do_step(0.0, 3.0)
+}
+
+#[test]
+fn a_schedule_is_taken_where_there_is_one_and_leaves_the_guid() {
+    let without = Folder::new("no-schedule", &[("all-types.toml", TWO)]);
+    let with = Folder::new("schedule", &[("all-types.toml", TWO), (SCHEDULE, "end_s = 2.0\n")]);
+    let requested = guid("AllTypes", TWO);
+    let mut instance = InProcess::instantiate(PROBE, &requested, Some(&without.uri())).unwrap();
+    assert_eq!(step_of_3_s(&mut instance), Status::Ok);
+    let mut instance = InProcess::instantiate(PROBE, &requested, Some(&with.uri())).unwrap();
+    assert_eq!(step_of_3_s(&mut instance), Status::Discard);
+    // It outlives a reset, as the setup does.
+    assert_eq!(instance.reset(), Status::Ok);
+    assert_eq!(step_of_3_s(&mut instance), Status::Discard);
+    // The compiled-in setup has none, and a model that takes none leaves it alone.
+    let mut instance = InProcess::instantiate(PROBE, &described("AllTypes").guid, None).unwrap();
+    assert_eq!(step_of_3_s(&mut instance), Status::Ok);
+    let torn = Folder::new("torn-for-others", &[(SCHEDULE, "end_s = ")]);
+    InProcess::instantiate(PROBE, &described("Empty").guid, Some(&torn.uri())).unwrap();
+}
+
+#[test]
+fn a_bad_schedule_is_named_with_its_line() {
+    let requested = guid("AllTypes", TWO);
+    let files = |schedule: &'static [u8]| [("all-types.toml", TWO.as_bytes()), (SCHEDULE, schedule)];
+    for (name, schedule, words) in [
+        ("torn", b"# two\nend_s = ".as_slice(), ["all-types-schedule.toml: ", "line 2"]),
+        ("unknown", b"\nend_s = 1\nstart_s = 2\n", ["all-types-schedule.toml: ", "start_s"]),
+        ("latin", b"end_s = 1\n# gr\xfc\xdfe\n", ["all-types-schedule.toml`: ", "line 2 is not UTF-8"]),
+    ] {
+        let folder = Folder::new(&format!("schedule-{name}"), &files(schedule));
+        let text = refused(&requested, Some(&folder.uri()));
+        assert!(words.iter().all(|word| text.contains(word)), "{name}: {text}");
+        assert!(!text.contains("GUID"), "{text}");
+    }
+    let folder = Folder::new("schedule-folder", &[("all-types.toml", TWO)]);
+    std::fs::create_dir(folder.0.join(SCHEDULE)).unwrap();
+    let text = refused(&requested, Some(&folder.uri()));
+    assert!(text.contains("no regular file"), "{text}");
 }

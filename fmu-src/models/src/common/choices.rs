@@ -3,6 +3,7 @@
 use fmi_export::Enumeration;
 use physics::bodies::{Body, surface};
 use physics::environment::eclipse::ShadowModel;
+use physics::guidance::system;
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
 /// An enumeration whose items are the variants of an enum of physics: `item = value => Variant`, each with its description.
@@ -132,18 +133,19 @@ impl SunshadeShape {
     }
 }
 
-/// What a command gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum CommandKind {
-    /// No command yet: the attitude is held.
-    None = 0,
-    /// Attitude command.q and rate command.rate.
-    Attitude = 1,
-    /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
-    /// command.rate.
-    ErrorQuaternion = 2,
-    /// The attitude held turns on with command.rate.
-    RateOnly = 3,
+enumeration_of! {
+    /// What a command gives.
+    CommandKind(system::CommandKind) {
+        /// No command yet: the attitude is held.
+        none = 0 => None,
+        /// Attitude command.q and rate command.rate.
+        attitude = 1 => Attitude,
+        /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
+        /// command.rate.
+        errorQuaternion = 2 => ErrorQuaternion,
+        /// The attitude held turns on with command.rate.
+        rateOnly = 3 => RateOnly,
+    }
 }
 
 /// Pitch during science.

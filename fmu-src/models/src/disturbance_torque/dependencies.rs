@@ -45,22 +45,22 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
         let panels = panels.map(|(_, panel)| panel.angle).collect::<Knowns>();
         let inputs = &knowns![places, planet.pole, panels];
         let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(spacecraft, axis));
-        table.output(force.thermal.element(axis), inputs, knowns![inputs, all, shape]);
+        table.output(force.by_source.thermal.element(axis), inputs, knowns![inputs, all, shape]);
     }
     let forces = [
-        (force.solar, sunlit, by_sun),
-        (force.albedo, planet_lit, reflecting),
-        (force.infrared, planet_lit, radiating),
+        (force.by_source.solar, sunlit, by_sun),
+        (force.by_source.albedo, planet_lit, reflecting),
+        (force.by_source.infrared, planet_lit, radiating),
         (force.total, planet_lit, all),
     ];
     for (force, inputs, parameters) in forces {
         table.output(force, inputs, knowns![inputs, parameters, shade]);
     }
     let torques = [
-        (torque.solar, sunlit, by_sun),
-        (torque.albedo, planet_lit, reflecting),
-        (torque.infrared, planet_lit, radiating),
-        (torque.thermal, planet_lit, all),
+        (torque.by_source.solar, sunlit, by_sun),
+        (torque.by_source.albedo, planet_lit, reflecting),
+        (torque.by_source.infrared, planet_lit, radiating),
+        (torque.by_source.thermal, planet_lit, all),
         (torque.total, planet_lit, all),
     ];
     for (torque, inputs, parameters) in torques {
@@ -73,7 +73,7 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
         let inertia = inertia_about_others(v.spacecraft.inertia, axis);
         let gradient = &knowns![planet.present, planet.gravitational_parameter, inertia];
         let at_start = knowns![places, gradient];
-        table.output(torque.gravity_gradient.element(axis), places, at_start);
+        table.output(torque.by_source.gravity_gradient.element(axis), places, at_start);
         table.output(torque.total.element(axis), knowns![], gradient);
     }
     for (plate, face) in v.plate.iter().zip(&setup.reported_faces) {

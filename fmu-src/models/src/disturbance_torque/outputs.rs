@@ -52,16 +52,16 @@ fn vectors<T: Scalar>(
     let (torque, force) = (&variables.torque, &variables.force);
     let light = &found.disturbance;
     [
-        (torque.solar, light.solar.torque_body_n_m),
-        (torque.albedo, light.albedo.torque_body_n_m),
-        (torque.infrared, light.infrared.torque_body_n_m),
-        (torque.thermal, light.thermal.torque_body_n_m),
-        (torque.gravity_gradient, found.gravity_gradient_n_m),
+        (torque.by_source.solar, light.solar.torque_body_n_m),
+        (torque.by_source.albedo, light.albedo.torque_body_n_m),
+        (torque.by_source.infrared, light.infrared.torque_body_n_m),
+        (torque.by_source.thermal, light.thermal.torque_body_n_m),
+        (torque.by_source.gravity_gradient, found.gravity_gradient_n_m),
         (torque.total, found.total_torque_body_n_m()),
-        (force.solar, light.solar.force_body_n),
-        (force.albedo, light.albedo.force_body_n),
-        (force.infrared, light.infrared.force_body_n),
-        (force.thermal, light.thermal.force_body_n),
+        (force.by_source.solar, light.solar.force_body_n),
+        (force.by_source.albedo, light.albedo.force_body_n),
+        (force.by_source.infrared, light.infrared.force_body_n),
+        (force.by_source.thermal, light.thermal.force_body_n),
         (force.total, found.total_force_body_n()),
     ]
 }

@@ -1,12 +1,13 @@
 //! The model's variables at its public face.
 
-use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text, Variables};
+use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Variables};
 use physics::bodies::surface::MERCURY;
 use physics::constants;
 use physics::environment::sun;
 
 use super::setup::DisturbanceSetup;
 use crate::common::choices::SunshadeShape;
+use crate::common::loads::{ForceBySource, PlateVariables, TorqueBySource};
 use crate::common::variables::{EclipseVariables, SurfaceVariables};
 
 /// Every variable, in the order of the XML.
@@ -35,7 +36,7 @@ pub struct DisturbanceVariables {
     pub torque: TorqueVariables,
     #[group]
     pub force: ForceVariables,
-    #[group(count = setup.reported_faces.len())]
+    #[group(count = setup.reported_faces.len(), setup = &setup.reported_faces)]
     pub plate: Vec<PlateVariables>,
 }
 
@@ -153,21 +154,8 @@ pub struct SunshadeVariables {
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct TorqueVariables {
-    /// Direct sunlight.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
-    pub solar: RealVector<3>,
-    /// Sunlight reflected by the planet.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub albedo: RealVector<3>,
-    /// Infrared light of the planet.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub infrared: RealVector<3>,
-    /// Recoil of the heat the spacecraft radiates, all surfaces in balance with their light.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub thermal: RealVector<3>,
-    /// Gravity gradient of the planet.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
-    pub gravity_gradient: RealVector<3>,
+    #[group(name = "")]
+    pub by_source: TorqueBySource,
     /// Sum of all sources.
     #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
     pub total: RealVector<3>,
@@ -177,35 +165,9 @@ pub struct TorqueVariables {
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct ForceVariables {
-    /// Direct sunlight.
-    #[output(unit = "N", display = "uN", nominal = 1e-4)]
-    pub solar: RealVector<3>,
-    /// Sunlight reflected by the planet.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub albedo: RealVector<3>,
-    /// Infrared light of the planet.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub infrared: RealVector<3>,
-    /// Recoil of the heat the spacecraft radiates, all surfaces in balance with their light.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub thermal: RealVector<3>,
+    #[group(name = "")]
+    pub by_source: ForceBySource,
     /// Sum of all sources.
     #[output(unit = "N", display = "uN", nominal = 1e-4)]
     pub total: RealVector<3>,
-}
-
-/// One face of a plate or panel, in the file's order: plates, sunshade, panels, the rear after the front.
-#[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
-pub struct PlateVariables {
-    /// Name of its surface in the spacecraft's file.
-    #[output(constant, start = setup.reported_faces[index].name.as_str())]
-    pub name: Text,
-    /// Temperature.
-    #[output(unit = "K", nominal = 300.0)]
-    pub temperature: Real,
-    /// Force of sunlight, planet light and recoil, body frame; all add up to force.total, but for sunlight on a
-    /// cylindrical shade, which is round there and of flat strips here.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub force: RealVector<3>,
 }

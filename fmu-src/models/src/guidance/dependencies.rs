@@ -183,7 +183,7 @@ fn command(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
     }
     let beginning =
         knowns![scan.frame, scan.reference, scan.rate, scan.speed, scan.duration, v.limb.height_rate];
-    let rate = knowns![start, &i.sensed, beginning, v.earth_acquisition.rate];
+    let rate = knowns![start, &i.sensed, beginning, v.earth_acquisition.rate, compatibility(v)];
     table.output(v.command.rate, knowns![later, &i.sensed], rate);
     // The search begins about X.
     table.output(v.command.rate.element(0), knowns![], v.sun_search.rate);
@@ -196,7 +196,7 @@ fn judgement(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Pa
     table.output(
         v.scan.active,
         knowns![&i.existence, scan_frame],
-        knowns![&i.existence, scan_frame, &p.mode],
+        knowns![&i.existence, scan_frame, &p.mode, compatibility(v)],
     );
     table.output(v.earth.sun_separation, &i.existence, knowns![&i.existence, &p.mode]);
     let moved = &knowns![&i.scanned, v.limb.height_rate];
@@ -230,6 +230,12 @@ fn devices(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
     let link = &knowns![antenna, &i.aimpoint, &i.rolls];
     let limits = knowns![v.link.sun_exclusion, v.link.beam, v.keep_in.method, v.subsolar.method];
     table.output(v.link.available, knowns![link, &i.scanned], knowns![link, &p.mode, &p.guided, limits]);
+}
+
+/// Which scans go with which aimpoints.
+fn compatibility(v: &GuidanceVariables) -> Knowns {
+    let frames = v.scan_compatibility.iter();
+    frames.map(|it| knowns![it.direction, it.local_direction, it.point, it.planet_point]).collect()
 }
 
 /// What makes an aimpoint be, or have a direction.

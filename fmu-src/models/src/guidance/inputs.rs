@@ -120,7 +120,7 @@ pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSe
             instruments: &context.setup.spacecraft.instruments,
             mdis: MdisRange { minimum_rad: real(v.mdis.minimum), maximum_rad: real(v.mdis.maximum) },
             subsolar: values.choice(v.subsolar.method).map_or(SubsolarMethod::Normal, |it| it.0),
-            scans: ScanCompatibility::default(),
+            scans: scans(context, values),
         },
         modes: ModeSettings {
             operational: Constraints {
@@ -140,10 +140,21 @@ pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSe
             sun_search_rate_rad_s: real(v.sun_search.rate),
             sun_search_duration_s: real(v.sun_search.duration),
         },
+        keep_in,
         keep_in_distance_m: real(v.keep_in.distance),
         link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
         orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, keep_in.elevation_rad)?,
     })
+}
+
+/// Which scans go with which aimpoints.
+fn scans(context: &Plan<'_>, values: &Values) -> ScanCompatibility {
+    let mut scans = ScanCompatibility::default();
+    for (allowed, frame) in scans.allowed.iter_mut().zip(&context.variables.scan_compatibility) {
+        let kinds = [frame.direction, frame.local_direction, frame.point, frame.planet_point];
+        *allowed = kinds.map(|kind| values.boolean(kind));
+    }
+    scans
 }
 
 /// The attitude to start from.
@@ -173,6 +184,11 @@ impl<'a> Reader<'a> {
 
     fn vector(&self, handle: RealVector<3>) -> Vector3<f64> {
         Vector3::from(self.inputs.vector(self.values, handle, self.time_s))
+    }
+
+    /// How a vector of inputs moves now, by their derivatives.
+    fn rate(&self, handle: RealVector<3>) -> Vector3<f64> {
+        Vector3::from([0, 1, 2].map(|i| self.inputs.rate(handle.element(i), self.time_s)))
     }
 
     fn count(&self, handle: Integer) -> u32 {
@@ -291,6 +307,7 @@ impl<'a> Reader<'a> {
             option: self.item(aimpoint.option, |it| it.0),
             vector: self.vector(aimpoint.vector),
             position_m: self.vector(aimpoint.position),
+            velocity_m_s: self.rate(aimpoint.position),
             right_ascension_rad: self.real(aimpoint.right_ascension),
             declination_rad: self.real(aimpoint.declination),
             latitude_rad: self.real(aimpoint.latitude),

@@ -42,6 +42,7 @@ impl Model for Guidance {
     const NAME: &'static str = "Guidance";
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
+    const SCHEDULE_FILE: Option<&'static str> = Some("timeline.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::GUIDANCE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
@@ -52,6 +53,10 @@ impl Model for Guidance {
 
     fn parse_setup(file: &str, text: &str) -> Result<GuidanceSetup, SetupError> {
         GuidanceSetup::from_toml(file, text)
+    }
+
+    fn parse_schedule(setup: &mut GuidanceSetup, file: &str, text: &str) -> Result<(), SetupError> {
+        setup.take_timeline(file, text)
     }
 
     fn start_values(setup: &GuidanceSetup) -> Vec<StartValue> {
@@ -163,7 +168,14 @@ impl State {
             None => self.fixed.insert(Fixed::read(context, values)?),
         };
         let reader = Reader::new(context, values, inputs, time_s);
-        let command = reader.command();
+        let entry = context.setup.timeline.as_ref().and_then(|timeline| timeline.entry_at(time_s, epoch_s));
+        let mut settings = *settings;
+        let mut command = reader.command();
+        if let Some(entry) = entry {
+            command = command.over(&entry.command);
+            let operational = &mut settings.modes.operational;
+            operational.keep_in = entry.keep_in.applied(&settings.keep_in, operational.keep_in.is_some());
+        }
         let surroundings = reader.surroundings(fixed, &command, &mut self.ephemeris, epoch_s);
         if surroundings.is_none() && !self.said_unconnected {
             self.said_unconnected = true;
@@ -173,8 +185,10 @@ impl State {
             );
         }
         let commanded = self.system.command().attitude_at(time_s);
-        let sensed = reader.sensed(commanded, surroundings.is_some())?;
-        self.system.sample(settings, &SampleInputs { command, surroundings, sensed });
+        let mut sensed = reader.sensed(commanded, surroundings.is_some())?;
+        sensed.request = sensed.request.or(entry.and_then(|entry| entry.mode));
+        let inputs = SampleInputs { command, entry: entry.map(|entry| entry.line), surroundings, sensed };
+        self.system.sample(&settings, &inputs);
         Ok(())
     }
 }

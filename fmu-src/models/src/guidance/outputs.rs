@@ -2,8 +2,7 @@
 
 use fmi_export::{Real, Values};
 
-use physics::guidance::antenna::Antenna;
-use physics::guidance::system::{CommandKind as Kind, GuidanceState, Judgement};
+use physics::guidance::system::GuidanceState;
 
 use super::setup::Plan;
 use super::variables::choices::{ActiveMode, AntennaSelect};
@@ -14,13 +13,7 @@ pub fn write(context: &Plan<'_>, values: &mut Values, state: &GuidanceState, tim
     let v = context.variables;
     let command = state.command();
     let attitude = command.attitude_at(time_s);
-    let kind = match command.kind {
-        Kind::None => CommandKind::None,
-        Kind::Attitude => CommandKind::Attitude,
-        Kind::ErrorQuaternion => CommandKind::ErrorQuaternion,
-        Kind::RateOnly => CommandKind::RateOnly,
-    };
-    values.set_choice(v.command.kind, kind);
+    values.set_choice(v.command.kind, CommandKind(command.kind));
     values.set_vector(v.command.q, command.quaternion_of(&attitude));
     values.set_vector(v.command.rate, command.rate_body_rad_s.into());
     values.set_vector(v.command.error, command.error);
@@ -30,17 +23,11 @@ pub fn write(context: &Plan<'_>, values: &mut Values, state: &GuidanceState, tim
     let sun = state.sun_angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);
     values.set_real(v.sun.elevation, sun.elevation_rad);
-    let Judgement { mdis, antenna, antenna_azimuth_rad, .. } = *state.judgement();
     let judged = state.judgement();
-    values.set_real(v.mdis.angle, mdis.angle_rad);
-    values.set_boolean(v.mdis.in_range, mdis.in_range);
-    let select = match antenna {
-        Antenna::None => AntennaSelect::None,
-        Antenna::Sunshade => AntennaSelect::Sunshade,
-        Antenna::Back => AntennaSelect::Back,
-    };
-    values.set_choice(v.antenna.select, select);
-    values.set_real(v.antenna.azimuth, antenna_azimuth_rad);
+    values.set_real(v.mdis.angle, judged.mdis.angle_rad);
+    values.set_boolean(v.mdis.in_range, judged.mdis.in_range);
+    values.set_choice(v.antenna.select, AntennaSelect(judged.antenna));
+    values.set_real(v.antenna.azimuth, judged.antenna_azimuth_rad);
     values.set_real(v.earth.sun_separation, judged.sun_separation_rad);
     values.set_boolean(v.link.available, judged.link_available);
     values.set_boolean(v.target.reachable, judged.reachable);

@@ -1,6 +1,7 @@
 //! The model and its immutable setup: the spacecraft that is pointed.
 
 use fmi_export::{Context, SetupError};
+use physics::guidance::timeline::Timeline;
 use physics::spacecraft::{Spacecraft, SunKeepIn};
 use serde::Serialize;
 
@@ -15,13 +16,23 @@ pub type Plan<'a> = Context<'a, Guidance>;
 pub struct GuidanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
+    /// Commands over time, if there is a file of them; it does not enter the GUID.
+    #[serde(skip)]
+    pub timeline: Option<Timeline>,
 }
 
 impl GuidanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
-        Ok(Self { spacecraft })
+        Ok(Self { spacecraft, timeline: None })
+    }
+
+    /// Takes the commands of a timeline.
+    pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+        let timeline = Timeline::from_toml(file, text, &self.spacecraft.instruments);
+        self.timeline = Some(timeline.map_err(|error| SetupError(error.to_string()))?);
+        Ok(())
     }
 
     /// The keep-in zone; without one in the file the half of the sky on the axis's side.

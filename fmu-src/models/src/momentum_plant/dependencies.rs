@@ -38,6 +38,8 @@ struct Start {
     elements: Knowns,
     /// The right ascension of the pole turns the orbit about EME2000's Z axis.
     turned_about_z: Knowns,
+    /// Where Sun and planets are.
+    ephemeris: Knowns,
     /// Where the Sun is from the spacecraft.
     sun: Knowns,
     /// The same along Z of EME2000.
@@ -95,6 +97,7 @@ impl Start {
             awaited,
             elements,
             turned_about_z,
+            ephemeris,
             sun,
             sun_z,
             attitude,
@@ -136,6 +139,16 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
             knowns![&start.rate, rate],
         );
     }
+    let orbit_given = &knowns![orbit.position, orbit.velocity];
+    let sources = &knowns![orbit.source, orbit.center, v.ephemeris.source, orbit_given, &start.ephemeris];
+    for axis in 0..3 {
+        let [sun, earth] = [v.sun.position, v.earth.position].map(|it| it.element(axis));
+        table.output(v.sun.position_inertial.element(axis), knowns![orbit_given, sun], knowns![sources, sun]);
+        let seen = knowns![orbit_given, v.sun.position, earth];
+        table.output(v.earth.position_inertial.element(axis), &seen, knowns![sources, &seen]);
+    }
+    table.output(v.sun.velocity_inertial, orbit_given, sources);
+    table.output(v.earth.velocity_inertial, orbit_given, sources);
     let shape = knowns![orbit.semi_major_axis, orbit.eccentricity, orbit.true_anomaly];
     table.output(orbit.time_since_periapsis, &inputs.places, knowns![&start.begun, shape, gm]);
     table.output(v.sun.distance, &inputs.places, &start.sun);
@@ -168,7 +181,8 @@ fn light_and_loads(
     let sunlight = &knowns![v.solar.flux, v.solar.fixed_pressure, v.solar.pressure];
     let eclipse = &knowns![planet.radius, v.eclipse.method];
     let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(spacecraft));
-    let shadows = &knowns![v.shadowing.enabled].only_if(can_shadow(spacecraft));
+    let is_shadowed = can_shadow(spacecraft);
+    let shadows = &knowns![v.shadowing.enabled].only_if(is_shadowed);
     let panels = &start.panels.iter().collect::<Knowns>();
     // Light and heat beyond plain sunlight are read from a polynomial over a stretch of flight; what else lies within its
     // tolerance is no dependence.
@@ -183,7 +197,7 @@ fn light_and_loads(
         surface.night_temperature,
         surface.day_temperature,
     ];
-    let past_shadows = fitted.clone().only_if(can_shadow(spacecraft));
+    let past_shadows = fitted.clone().only_if(is_shadowed);
     let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, past_shadows];
     let solar = &knowns![by_sun, shade];
     let albedo = &knowns![&start.attitude, reflected, shade, fitted];
@@ -192,7 +206,7 @@ fn light_and_loads(
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
-    let forces = [(force.albedo, albedo), (force.infrared, infrared), (force.total, all)];
+    let forces = [(force.by_source.albedo, albedo), (force.by_source.infrared, infrared), (force.total, all)];
     for (force, at_start) in forces {
         table.output(force, lit, knowns![at_start, panels]);
     }
@@ -203,7 +217,7 @@ fn light_and_loads(
         let turned = (0..v.panel.len()).filter(turning).map(|k| &start.panels[k]).collect::<Knowns>();
         let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(spacecraft, axis));
         table.output(
-            force.thermal.element(axis),
+            force.by_source.thermal.element(axis),
             knowns![&inputs.attitude, angles],
             knowns![recoil, shape, &turned],
         );
@@ -211,13 +225,13 @@ fn light_and_loads(
         let lit_alike =
             v.panel.iter().map(|panel| knowns![panel.control, panel.sun_offset, panel.enabled, panel.angle]);
         let at_start = knowns![solar, lit_alike.collect::<Knowns>(), turned];
-        table.output(force.solar.element(axis), lit, at_start);
+        table.output(force.by_source.solar.element(axis), lit, at_start);
     }
     let torques = [
-        (torque.solar, knowns![solar]),
-        (torque.albedo, knowns![albedo]),
-        (torque.infrared, knowns![infrared]),
-        (torque.thermal, knowns![recoil, shade, storage]),
+        (torque.by_source.solar, knowns![solar]),
+        (torque.by_source.albedo, knowns![albedo]),
+        (torque.by_source.infrared, knowns![infrared]),
+        (torque.by_source.thermal, knowns![recoil, shade, storage]),
         (torque.total, knowns![all, storage]),
     ];
     for (torque, at_start) in torques {
@@ -230,7 +244,7 @@ fn light_and_loads(
         let inertia = inertia_about_others(v.spacecraft.inertia, axis);
         let gradient =
             &knowns![&start.attitude, v.gravity_gradient.enabled, planet.gravitational_parameter, inertia];
-        table.output(torque.gravity_gradient.element(axis), &inputs.attitude, gradient);
+        table.output(torque.by_source.gravity_gradient.element(axis), &inputs.attitude, gradient);
         let applied = &knowns![torque.applied.element(axis)];
         table.output(torque.total.element(axis), applied, knowns![applied, gradient]);
         let applied = &knowns![force.applied.element(axis)];
@@ -315,10 +329,11 @@ fn craft(table: &mut Dependencies, setup: &PlantSetup, v: &PlantVariables, input
         inputs.attitude.clone().only_if(shaded),
         knowns![&start.attitude, &shape].only_if(shaded),
     );
+    let polynomials = setup.polynomials();
     for (row, column) in (0..27).map(|at| (at / 9, at % 9)) {
-        let moved = (0..3).filter(|&axis| setup.moves_coefficient(axis, row, column));
+        let moved = (0..3).filter(|&axis| polynomials.moves_coefficient(axis, row, column));
         let moved: Knowns = moved.map(|axis| center_of_mass.element(axis)).collect();
-        let shape = shape.clone().only_if(setup.shapes_differ(row, column));
+        let shape = shape.clone().only_if(polynomials.shapes_differ(row, column));
         table.calculated(v.sunshade.coefficient.element(row, column), knowns![moved, shape]);
     }
 }

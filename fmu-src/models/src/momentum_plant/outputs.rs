@@ -28,10 +28,10 @@ pub fn write(
 
     let total = loads.total();
     for effect in Effect::ALL {
-        if let Some(torque) = variables.torque.of(effect) {
+        if let Some(torque) = variables.torque.by_source.of(effect) {
             values.set_vector(torque, loads[effect].torque_body_n_m.into());
         }
-        if let Some(force) = variables.force.of(effect) {
+        if let Some(force) = variables.force.by_source.of(effect) {
             values.set_vector(force, loads[effect].force_body_n.into());
         }
     }
@@ -61,6 +61,11 @@ pub fn write(
     let spacecraft = &instant.geometry.spacecraft;
     values.set_vector(variables.position, spacecraft.position_m.into());
     values.set_vector(variables.velocity, spacecraft.velocity_m_s.into());
+    let (sun, earth) = (instant.geometry.sun_from_center(), instant.geometry.earth_from_center());
+    values.set_vector(variables.sun.position_inertial, sun.position_m.into());
+    values.set_vector(variables.sun.velocity_inertial, sun.velocity_m_s.into());
+    values.set_vector(variables.earth.position_inertial, earth.position_m.into());
+    values.set_vector(variables.earth.velocity_inertial, earth.velocity_m_s.into());
     values.set_vector(variables.heliocentric.position, instant.geometry.heliocentric_position_m().into());
     let since_s = if state.waiting {
         0.0
@@ -193,10 +198,13 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     if let Some(axis) = variables.delta_v.index_of(output) {
         return Some(values.vector(variables.acceleration)[axis]);
     }
-    if let Some(axis) = variables.position.index_of(output) {
-        return Some(values.vector(variables.velocity)[axis]);
-    }
-    None
+    let moving = [
+        (variables.position, variables.velocity),
+        (variables.sun.position_inertial, variables.sun.velocity_inertial),
+        (variables.earth.position_inertial, variables.earth.velocity_inertial),
+    ];
+    let found = moving.iter().find_map(|(place, rate)| place.index_of(output).map(|axis| (rate, axis)));
+    found.map(|(rate, axis)| values.vector(*rate)[axis])
 }
 
 /// Why a flight ends, with the variables to look at.

@@ -80,27 +80,41 @@ impl PlantSetup {
         })
     }
 
-    /// Whether a coefficient of the shade's torque polynomial follows the centre of mass along `axis`, in any shape; it
-    /// is linear in it.
+    /// The shade's torque polynomials in the shapes the file describes, with the centre of mass at the origin and a metre
+    /// along each axis from it.
+    pub fn polynomials(&self) -> ShadePolynomials {
+        let shapes = [SunshadeModel::Plates, SunshadeModel::Cylinder];
+        ShadePolynomials(CENTERS_OF_MASS_BODY_M.map(|center_of_mass_body_m| {
+            let of_shape =
+                |shade, shape| TorquePolynomial::of_sunshade(shade, shape, &center_of_mass_body_m).ok();
+            let shade = self.spacecraft.sunshade.iter();
+            shade
+                .flat_map(|shade| shapes.into_iter().filter_map(move |shape| of_shape(shade, shape)))
+                .collect()
+        }))
+    }
+}
+
+const CENTERS_OF_MASS_BODY_M: [Vector3<f64>; 4] = [
+    Vector3::new(0.0, 0.0, 0.0),
+    Vector3::new(1.0, 0.0, 0.0),
+    Vector3::new(0.0, 1.0, 0.0),
+    Vector3::new(0.0, 0.0, 1.0),
+];
+
+/// Torque polynomials by centre of mass and shape.
+pub struct ShadePolynomials([Vec<TorquePolynomial>; 4]);
+
+impl ShadePolynomials {
+    /// Whether a coefficient follows the centre of mass along `axis`, in any shape; it is linear in it.
     pub fn moves_coefficient(&self, axis: usize, row: usize, column: usize) -> bool {
-        let [at_origin, aside] = [Vector3::zeros(), Vector3::ith(axis, 1.0)].map(|at| self.polynomials(&at));
-        at_origin.iter().zip(&aside).any(|(one, other)| one.differs(other, row, column))
+        let [at_origin, aside @ ..] = &self.0;
+        at_origin.iter().zip(&aside[axis]).any(|(one, other)| one.differs(other, row, column))
     }
 
     /// Whether a coefficient differs between the shade's shapes, the centre of mass anywhere.
     pub fn shapes_differ(&self, row: usize, column: usize) -> bool {
-        let places = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
         let differ = |pair: &[TorquePolynomial]| pair[0].differs(&pair[1], row, column);
-        places.iter().any(|at| self.polynomials(at).windows(2).any(differ))
-    }
-
-    /// In the shapes the file describes.
-    fn polynomials(&self, center_of_mass_body_m: &Vector3<f64>) -> Vec<TorquePolynomial> {
-        let shapes = [SunshadeModel::Plates, SunshadeModel::Cylinder];
-        let shade = self.spacecraft.sunshade.iter();
-        let found = shade.flat_map(|shade| {
-            shapes.map(|shape| TorquePolynomial::of_sunshade(shade, shape, center_of_mass_body_m).ok())
-        });
-        found.flatten().collect()
+        self.0.iter().any(|shapes| shapes.windows(2).any(differ))
     }
 }

@@ -14,6 +14,7 @@ use fmi_export::{
 use nalgebra::Vector3;
 use physics::spin::{
     plant::{Directions, Plant},
+    predictions::Predictions,
     spinner::Spinner,
 };
 
@@ -96,9 +97,9 @@ impl Model for SpinPlant {
             plant.command(commands, directions);
         }
         let (fired, log) = (plant.sequencer().map_or(0, |s| s.fired()), context.log);
-        let had_propellant = !plant.is_dry();
+        let had_propellant = !plant.propulsion().is_dry();
         plant.advance(context.setup, step.end_s).map_err(|error| Failure::new(error.to_string()))?;
-        if had_propellant && plant.is_dry() {
+        if had_propellant && plant.propulsion().is_dry() {
             log.warning(&format!(
                 "the propellant ran out between {} and {} s: no thruster fires any more",
                 step.start_s, step.end_s
@@ -139,11 +140,11 @@ impl OutputRates for SpinPlant {
 
 /// What a burn that can be flown will not do as one may expect.
 fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
-    let (log, seen) = (context.log, plant.predictions());
-    if plant.is_dry() {
+    let (log, seen) = (context.log, Predictions::of(plant));
+    if plant.propulsion().is_dry() {
         log.warning("there is no propellant (propellant.loaded): no thruster fires");
     }
-    if let Some(apart_rad) = plant.passed_target_rad() {
+    if let Some(apart_rad) = seen.passed_target_rad(plant) {
         log.warning(&format!(
             "the burn's {} pulses would move the momentum by {:.4} deg, but burn.targetDirection is {:.4} deg away, and \
              beyond it they take back what they did",
@@ -152,7 +153,7 @@ fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
             apart_rad.to_degrees()
         ));
     }
-    if let Some(clearance_rad) = plant.too_close_to_sun_rad() {
+    if let Some(clearance_rad) = seen.too_close_to_sun_rad(plant) {
         log.warning(&format!(
             "the burn is timed by Sun crossings, and its way passes the Sun's line at {:.4} deg, where a crossing says \
              little: burn.timing 3 (true phase) or 1 (clock) does without",

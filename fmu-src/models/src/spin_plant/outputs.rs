@@ -3,8 +3,10 @@
 use fmi_export::{Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::spin::{
-    outputs::{Bounds, Rates},
+    outputs::{Bounds, Outputs},
     plant::Plant,
+    predictions::Predictions,
+    rates::Rates,
 };
 
 use super::setup::Plan;
@@ -12,7 +14,7 @@ use super::setup::Plan;
 /// Writes what holds for the whole flight.
 pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
-    let seen = plant.predictions();
+    let seen = Predictions::of(plant);
     values.set_integer(v.burn.planned_count, i32::try_from(seen.count).unwrap_or(i32::MAX));
     values.set_real(v.burn.planned_duration, seen.duration_s);
     values.set_real(v.burn.planned_angle, seen.manoeuvre_rad);
@@ -28,7 +30,7 @@ pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) 
 pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
     let spinner = context.setup;
-    let seen = plant.outputs(spinner);
+    let seen = Outputs::of(plant, spinner);
     values.set_vector(v.attitude.q, seen.state.attitude.0);
     values.set_vector(v.attitude.rate, seen.rate_rad_s.into());
     values.set_vector(v.momentum.inertial, seen.state.momentum_inertial.into());
@@ -44,7 +46,10 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_real(v.spin.period_change, seen.period_change_s);
     values.set_real(v.spin.period_variation, seen.period_variation_s);
     values.set_real(v.spin.sector_error, seen.sector_error);
-    values.set_integer(v.spin.sun_crossings, i32::try_from(plant.sun_watch().count()).unwrap_or(i32::MAX));
+    values.set_integer(
+        v.spin.sun_crossings,
+        i32::try_from(plant.sensors().sun_crossings().count()).unwrap_or(i32::MAX),
+    );
     values.set_vector(v.sun.inertial, seen.sun_inertial.into());
     values.set_real(v.sun.angle, seen.sun_angle_rad);
     values.set_vector(v.earth.inertial, seen.earth_inertial.into());
@@ -89,7 +94,7 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
 /// First time derivative of an output that is continuous in time.
 pub fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
     let v = context.variables;
-    let rates: Rates = plant.rates(context.setup);
+    let rates = Rates::of(plant, context.setup);
     let of = |handle: Real, value: f64| (handle == output).then_some(value);
     let of_vector =
         |handle: RealVector<3>, value: &Vector3<f64>| handle.index_of(output).map(|index| value[index]);

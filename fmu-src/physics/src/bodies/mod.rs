@@ -17,6 +17,8 @@ use surface::{DayTemperature, PlanetSurface};
 
 /// A body a spacecraft can fly around or look at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum Body {
     /// The Sun.
     Sun,

@@ -1,6 +1,7 @@
 //! Where everything is and what light falls there: time, ephemerides, orbits, eclipse.
 
 pub mod bodies_from_center;
+pub mod dates;
 pub mod eclipse;
 pub mod ephemeris;
 pub mod frames;

@@ -1,7 +1,7 @@
 //! Epochs: seconds past J2000 (2000-01-01 12:00) in barycentric dynamical time, as plain `f64`.
 //!
 //! One second past J2000 in this century is resolved to 6e-8 s or better. TDB runs 32.184 s plus the leap seconds
-//! ahead of UTC (66.184 s in 2009); whoever has a UTC date adds that.
+//! ahead of UTC (66.184 s in 2009), and a periodic term of 1.7 ms; [`super::dates`] reads dates with all three.
 
 use crate::constants::DAY_S;
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::command::{AimpointCommand, AimpointOption, AzimuthReference};
 use super::lighting::{SubsolarMethod, optimal_lighting_m, subsolar_m};
 use super::lvlh::lvlh_direction;
-use super::moving::{MovingVector, fixed, value};
+use super::moving::{MovingVector, fixed, moving, value};
 use super::planet_point::{geographic_m, planet_fixed};
 use super::surroundings::Surroundings;
 use crate::bodies::Body;
@@ -75,10 +75,10 @@ pub const AIMPOINTS: [Aimpoint; 15] = {
             |c, _, _| Some(fixed(celestial(c.right_ascension_rad, c.declination_rad))),
             Direction,
         ),
-        row(Option::EarthCentered, |c, s, _| Some(s.to_earth() + fixed(c.position_m)), Point),
-        row(Option::SunCentered, |c, s, _| Some(s.to_sun() + fixed(c.position_m)), Point),
-        row(Option::PlanetCentered, |c, s, _| Some(s.to_planet() + fixed(c.position_m)), PlanetPoint),
-        row(Option::PlanetFixed, |c, s, _| Some(s.to_planet() + planet_fixed(s, &c.position_m)), PlanetPoint),
+        row(Option::EarthCentered, |c, s, _| Some(s.to_earth() + given(c)), Point),
+        row(Option::SunCentered, |c, s, _| Some(s.to_sun() + given(c)), Point),
+        row(Option::PlanetCentered, |c, s, _| Some(s.to_planet() + given(c)), PlanetPoint),
+        row(Option::PlanetFixed, |c, s, _| Some(s.to_planet() + planet_fixed(s, &given(c))), PlanetPoint),
         row(Option::LatitudeLongitude, latitude_longitude, PlanetPoint),
         row(Option::LvlhDowntrack, |c, s, _| lvlh(c, s, AzimuthReference::Downtrack), LocalDirection),
         row(Option::LvlhSun, |c, s, _| lvlh(c, s, AzimuthReference::Sun), LocalDirection),
@@ -110,6 +110,11 @@ pub fn celestial(right_ascension_rad: f64, declination_rad: f64) -> Vector3<f64>
     Vector3::new(cos_dec * cos_ra, cos_dec * sin_ra, sin_dec)
 }
 
+/// The position that is given, with its motion.
+fn given(command: &AimpointCommand) -> MovingVector {
+    moving(command.position_m, command.velocity_m_s)
+}
+
 fn latitude_longitude(
     command: &AimpointCommand,
     surroundings: &Surroundings,
@@ -117,7 +122,7 @@ fn latitude_longitude(
 ) -> Option<MovingVector> {
     let radii_m = &surroundings.planet.radii_m;
     let at_m = geographic_m(radii_m, command.latitude_rad, command.longitude_rad, command.height_m);
-    Some(surroundings.to_planet() + planet_fixed(surroundings, &at_m))
+    Some(surroundings.to_planet() + planet_fixed(surroundings, &fixed(at_m)))
 }
 
 fn lvlh(
@@ -149,6 +154,7 @@ mod tests {
             option: Some(option),
             vector: Vector3::new(1.0, -2.0, 0.5),
             position_m: Vector3::new(1e6, -2e6, 5e5),
+            velocity_m_s: Vector3::zeros(),
             right_ascension_rad: 1.1,
             declination_rad: -0.4,
             latitude_rad: 0.3,

@@ -1,7 +1,8 @@
 //! What can be commanded: options of the four vectors (paper 001, Tables 1 to 4), scenarios (Table 5), limb and scan.
 //!
 //! A command holds every number any option reads; an option reads its own and no other. Options and scenarios that are
-//! `None` are not commanded. Angles in rad, lengths in m, body-frame angles as in [`crate::attitude::SunAngles`].
+//! `None` are not commanded. Angles in rad, lengths in m, body-frame angles as in [`crate::attitude::SunAngles`]. In a file
+//! options have the names of the FMU's items.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -15,6 +16,8 @@ pub const RIGHT_ANGLE_RAD: f64 = core::f64::consts::FRAC_PI_2;
 
 /// Sets of vectors under one name (Table 5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum Scenario {
     /// All four vectors by their options.
     Generic,
@@ -38,10 +41,13 @@ pub enum Scenario {
 
 /// How the boresight is given (Table 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum BoresightOption {
     /// Body-frame vector.
     Vector,
     /// Azimuth and elevation in the body frame.
+    #[serde(rename = "azEl")]
     AzimuthElevation,
     /// Angle from +Z in the camera's plane, positive sunward.
     Mdis,
@@ -51,10 +57,13 @@ pub enum BoresightOption {
 
 /// What the boresight aims at (Table 2), and any body of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum AimpointOption {
     /// EME2000 vector.
     Vector,
     /// Right ascension and declination in EME2000.
+    #[serde(rename = "raDec")]
     RightAscensionDeclination,
     /// Position from the Earth, EME2000.
     EarthCentered,
@@ -65,6 +74,7 @@ pub enum AimpointOption {
     /// Position from the target planet, along its own rotating axes.
     PlanetFixed,
     /// Planetocentric latitude and longitude (east positive), height along the radius.
+    #[serde(rename = "latLon")]
     LatitudeLongitude,
     /// Azimuth and elevation in the local frame, azimuth from the downtrack direction.
     LvlhDowntrack,
@@ -86,19 +96,25 @@ pub enum AimpointOption {
 
 /// How the body roll vector is given (Table 3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum BodyRollOption {
     /// Body-frame vector.
     Vector,
     /// Azimuth and elevation in the body frame.
+    #[serde(rename = "azEl")]
     AzimuthElevation,
 }
 
 /// How the external roll reference is given (Table 4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum ExternalRollOption {
     /// EME2000 vector.
     Vector,
     /// Right ascension and declination in EME2000.
+    #[serde(rename = "raDec")]
     RightAscensionDeclination,
     /// The Sun.
     Sun,
@@ -110,6 +126,8 @@ pub enum ExternalRollOption {
 
 /// From which horizontal direction an azimuth about the local vertical counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum AzimuthReference {
     /// The horizontal part of the velocity.
     #[default]
@@ -120,6 +138,8 @@ pub enum AzimuthReference {
 
 /// Frame of a scan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum ScanFrame {
     /// The boresight turns about the body axes.
     Body,
@@ -159,6 +179,8 @@ pub struct AimpointCommand {
     pub vector: Vector3<f64>,
     /// Position of options centred on a body.
     pub position_m: Vector3<f64>,
+    /// How it moves, in m/s: with it, an ephemeris given from outside is tracked.
+    pub velocity_m_s: Vector3<f64>,
     /// Right ascension.
     pub right_ascension_rad: f64,
     /// Declination.
@@ -277,6 +299,7 @@ field_by_field!(AimpointCommand {
     option,
     vector,
     position_m,
+    velocity_m_s,
     right_ascension_rad,
     declination_rad,
     latitude_rad,

@@ -6,6 +6,8 @@ pub mod antenna;
 mod attitudes;
 pub mod boresight;
 pub mod command;
+#[cfg(test)]
+mod constraint_tests;
 pub mod constraints;
 pub mod downlink;
 mod guided;
@@ -32,6 +34,7 @@ pub mod system;
 mod test_geometry;
 #[cfg(test)]
 mod test_orbit;
+pub mod timeline;
 
 pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, science, sun_pointing};
 pub use guided::{Guided, GuidedAttitude};

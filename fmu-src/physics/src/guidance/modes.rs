@@ -25,6 +25,8 @@ const OPPOSITE: f64 = 1e-15;
 
 /// How much the guidance is trusted with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
 pub enum Mode {
     /// Every command.
     #[default]

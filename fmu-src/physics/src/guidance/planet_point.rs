@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use super::moving::{MovingVector, fixed};
+use super::moving::MovingVector;
 use super::surroundings::Surroundings;
 use crate::numerics::scalar::Scalar;
 
@@ -28,16 +28,16 @@ pub fn geographic_m(
     direction * (radius_m(radii_m, &direction) + height_m)
 }
 
-/// EME2000 position from the planet's centre of a point that stays along the planet's axes, in m.
-pub fn planet_fixed(surroundings: &Surroundings, position_planet_m: &Vector3<f64>) -> MovingVector {
+/// EME2000 position from the planet's centre of a point given along the planet's axes, in m.
+pub fn planet_fixed(surroundings: &Surroundings, position_planet: &MovingVector) -> MovingVector {
     let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
-    planet_from_inertial.tr_mul(&fixed(*position_planet_m))
+    planet_from_inertial.tr_mul(position_planet)
 }
 
 #[cfg(test)]
 mod tests {
     //! Against closed forms of poles, equator and rotation.
-    use super::super::moving::{rate, value};
+    use super::super::moving::{fixed, rate, value};
     use super::super::test_orbit::TestOrbit;
     use super::*;
     use approx::assert_relative_eq;
@@ -74,7 +74,7 @@ mod tests {
         let (sin_dec, cos_dec) = planet.pole_declination_rad.sin_cos();
         let pole = Vector3::new(cos_ra * cos_dec, sin_ra * cos_dec, sin_dec);
         for at in [Vector3::new(1e6, 2e6, 3e5), Vector3::new(-2e6, 1e5, -1e6)] {
-            let point = planet_fixed(&surroundings, &at);
+            let point = planet_fixed(&surroundings, &fixed(at));
             assert_relative_eq!(value(&point).dot(&pole), at.z, epsilon = 1e-7);
             assert_relative_eq!(value(&point).norm(), at.norm(), epsilon = 1e-7);
             let expected = pole.cross(&value(&point)) * planet.rotation_rate_rad_s;
@@ -84,7 +84,7 @@ mod tests {
         let node = Vector3::new(-sin_ra, cos_ra, 0.0);
         let turned = planet.prime_meridian_rad + planet.rotation_rate_rad_s * surroundings.epoch_s;
         let expected = node * turned.cos() + pole.cross(&node) * turned.sin();
-        let found = value(&planet_fixed(&surroundings, &Vector3::x()));
+        let found = value(&planet_fixed(&surroundings, &fixed(Vector3::x())));
         assert_relative_eq!(found, expected, epsilon = 1e-12);
     }
 }

@@ -21,21 +21,21 @@ pub struct ScanCompatibility {
     pub allowed: [[bool; AimKind::ALL.len()]; SCANS.len()],
 }
 
+/// Body scans go with everything (said by the paper), and so do inertial rotations. A translation needs a point at a
+/// distance (the paper's example), along the planet's axes one that belongs to the planet. A rotation in the local frame goes
+/// with what stands in that frame: its own directions and the planet. By [`ScanFrame`], then by [`AimKind`].
+pub const DEFAULT_COMPATIBILITY: [[bool; AimKind::ALL.len()]; SCANS.len()] = [
+    // direction, local direction, point, planet point
+    [true, true, true, true],
+    [true, true, true, true],
+    [false, false, true, true],
+    [false, false, false, true],
+    [false, true, false, true],
+];
+
 impl Default for ScanCompatibility {
-    /// Body scans go with everything (said by the paper), and so do inertial rotations. A translation needs a point at a
-    /// distance (the paper's example), along the planet's axes one that belongs to the planet. A rotation in the local frame
-    /// goes with what stands in that frame: its own directions and the planet.
     fn default() -> Self {
-        Self {
-            //        direction, local direction, point, planet point
-            allowed: [
-                [true, true, true, true],
-                [true, true, true, true],
-                [false, false, true, true],
-                [false, false, false, true],
-                [false, true, false, true],
-            ],
-        }
+        Self { allowed: DEFAULT_COMPATIBILITY }
     }
 }
 

@@ -35,7 +35,7 @@ const SCENARIOS: [Scenario; 8] = [
     Scenario::LimbGeneric,
 ];
 
-fn hardware() -> GuidanceHardware<'static> {
+pub(super) fn hardware() -> GuidanceHardware<'static> {
     static TILTED: OnceLock<[Instrument; 1]> = OnceLock::new();
     let instruments = TILTED.get_or_init(|| {
         let boresight_body = Vector3::new(0.03, -0.02, 1.0).normalize();
@@ -44,12 +44,13 @@ fn hardware() -> GuidanceHardware<'static> {
     GuidanceHardware { instruments, ..GuidanceHardware::default() }
 }
 
-fn aimpoint(option: AimpointOption) -> AimpointCommand {
+pub(super) fn aimpoint(option: AimpointOption) -> AimpointCommand {
     let far = matches!(option, AimpointOption::EarthCentered | AimpointOption::SunCentered);
     AimpointCommand {
         option: Some(option),
         vector: Vector3::new(1.0, -2.0, 0.5),
         position_m: Vector3::new(1e6, -2e6, 5e5) * if far { 1e4 } else { 1.0 },
+        velocity_m_s: Vector3::zeros(),
         right_ascension_rad: 1.1,
         declination_rad: -0.4,
         latitude_rad: 0.3,
@@ -62,7 +63,7 @@ fn aimpoint(option: AimpointOption) -> AimpointCommand {
 }
 
 /// All numbers of a command, to be used by whichever option.
-fn command(scenario: Scenario) -> PointingCommand {
+pub(super) fn command(scenario: Scenario) -> PointingCommand {
     PointingCommand {
         scenario: Some(scenario),
         boresight: BoresightCommand {

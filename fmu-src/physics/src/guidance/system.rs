@@ -14,6 +14,7 @@ use super::command::{PointingCommand, Scenario};
 use super::constraints::{ConstrainedPointing, Constraints};
 use super::downlink::{LinkLimits, link};
 use super::guided::Guided;
+use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
 use super::modes::{Mode, ModeSettings, ModeState, Sensed, Steering};
 use super::moving::{MovingVector, rate, value};
@@ -39,6 +40,8 @@ pub struct GuidanceSettings<'a> {
     pub hardware: GuidanceHardware<'a>,
     /// Modes and their constraints.
     pub modes: ModeSettings,
+    /// The keep-in zone of Operational, in force or not.
+    pub keep_in: KeepIn,
     /// Greatest distance from the Sun at which the keep-in zone of Operational counts, in m.
     pub keep_in_distance_m: f64,
     /// The radio link.
@@ -52,6 +55,8 @@ pub struct GuidanceSettings<'a> {
 pub struct SampleInputs {
     /// What is commanded.
     pub command: PointingCommand,
+    /// The timeline's entry that is in force, whose scan and limb scan begin with it.
+    pub entry: Option<usize>,
     /// Where everything is; `None` while it is not known.
     pub surroundings: Option<Surroundings>,
     /// Mode request, estimate and Sun sensors at the sample's time.
@@ -127,6 +132,8 @@ pub struct GuidanceState {
     modes: ModeState,
     periapses: PeriapsisCount,
     scan_since_s: Option<f64>,
+    /// The timeline's entry at the last sample.
+    entry: Option<usize>,
     /// The limb scenario and since when it is commanded, in s.
     limb: Option<(Scenario, f64)>,
     next_sample_s: f64,
@@ -150,6 +157,7 @@ impl GuidanceState {
             modes: ModeState::default(),
             periapses: PeriapsisCount::default(),
             scan_since_s: None,
+            entry: None,
             limb: None,
             next_sample_s: start_s,
         }
@@ -198,6 +206,10 @@ impl GuidanceState {
         match self.modes.sample(&modes, &sensed, surroundings) {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
+                if inputs.entry != self.entry {
+                    (self.scan_since_s, self.limb) = (None, None);
+                    self.entry = inputs.entry;
+                }
                 self.keep_clocks(&command, time_s);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     self.point(settings, &command, &constraints, surroundings, time_s);

@@ -95,7 +95,9 @@ impl MomentumSegment {
             if !core::mem::replace(&mut watched, true) {
                 let values = samples.map(|sample| sample.events);
                 let after_s = after_event_s(start_s);
-                let event_s = first_event(after_s, start_s, end_s, &values, |at_s| flight.events(at_s));
+                let rounding_s = flight.time_rounding_s(end_s);
+                let event_s =
+                    first_event(after_s, start_s, end_s, rounding_s, &values, |at_s| flight.events(at_s));
                 if let Some(event_s) = event_s {
                     flight.spend(Effort::Search, start_s)?;
                     interval.end_at(event_s);

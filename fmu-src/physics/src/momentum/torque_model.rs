@@ -61,6 +61,11 @@ pub trait TorqueModel {
     /// The event functions of the sample alone.
     fn events(&mut self, time_s: f64) -> EventValues;
 
+    /// What the flight rounds `time_s` to, in s: samples and event functions are constant over less.
+    fn time_rounding_s(&self, time_s: f64) -> f64 {
+        spacing(time_s)
+    }
+
     /// Counts what is about to be done, the flight having come to `time_s`.
     ///
     /// # Errors

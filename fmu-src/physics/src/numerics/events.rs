@@ -28,6 +28,8 @@ const MOST_FITS: u32 = 256;
 const FIT: f64 = 1e-12;
 /// The same for events, whose place is then found on the function itself: a dip of 1e-5 of the interval is still seen.
 const EVENT_FIT: f64 = 1e-10;
+/// The same where the rounding of time is what the fit misses: halving the interval does not make that smaller.
+const ROUNDED_FIT: f64 = 1e-7;
 
 /// Every change of sign of `function` in `(from, to]`, rising; of more than `R` the first ones.
 ///
@@ -99,16 +101,17 @@ const LOCATED: f64 = 1e-10;
 /// the polynomial through them stays away from zero by more than it can miss, nothing is evaluated. The others are fitted
 /// together as in [`sign_changes`], from left to right up to the first event, so that a dip between two nodes is not
 /// overlooked. A function that is not finite is not watched. `after` lies a little behind `from`, for an interval may begin
-/// at an event.
+/// at an event. The functions see their argument rounded to `rounding`: what they gain over that is no misfit.
 pub fn first_event<const K: usize, const N: usize>(
     after: f64,
     from: f64,
     to: f64,
+    rounding: f64,
     samples: &[SVector<f64, K>; N],
     mut values: impl FnMut(f64) -> SVector<f64, K>,
 ) -> Option<f64> {
     let fitted = Segment::<K, N>::from_samples(from, to, samples);
-    let suspects: [bool; K] = core::array::from_fn(|k| zero_of_row(&fitted, k) != Zero::Excluded);
+    let suspects: [bool; K] = core::array::from_fn(|k| zero_of_row(&fitted, k, rounding) != Zero::Excluded);
     // Depth first, left before right: at most one right half waits per level.
     let mut waiting = [(from, to, 0, suspects); DEPTH + 2];
     let (mut height, mut fits) = (usize::from(suspects.contains(&true)), 0);
@@ -118,7 +121,7 @@ pub fn first_event<const K: usize, const N: usize>(
         let (start, end, depth, suspects) = waiting[height];
         let segment = Segment::<K, TERMS>::fit(start, end, &mut values);
         let zeros: [Zero; K] = core::array::from_fn(|k| match suspects[k] {
-            true => zero_of_row(&segment, k),
+            true => zero_of_row(&segment, k, rounding),
             false => Zero::Excluded,
         });
         let suspects = zeros.map(|zero| zero != Zero::Excluded);
@@ -160,7 +163,7 @@ enum Zero {
 }
 
 /// What a fit tells of the zeros of its row `k`: what it misses is of the size of its last two coefficients.
-fn zero_of_row<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize) -> Zero {
+fn zero_of_row<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize, rounding: f64) -> Zero {
     let terms = fitted.coefficients().row(k);
     if !terms.iter().all(|term| term.is_finite()) {
         return Zero::Excluded;
@@ -176,7 +179,11 @@ fn zero_of_row<const K: usize, const N: usize>(fitted: &Segment<K, N>, k: usize)
     if nearest.value(start)[0] > 0.0 && nearest.sign_changes(start, end).is_empty() {
         return Zero::Excluded;
     }
-    if tail > EVENT_FIT * terms.amax() { Zero::Unresolved } else { Zero::Resolved }
+    // The slope is at most the sum of n^2 |c_n|, times 2 by the length; a coefficient takes up twice what a sample is off.
+    let slope = terms.iter().enumerate().map(|(n, term)| (n * n) as f64 * term.abs()).sum::<f64>() * 2.0
+        / (end - start);
+    let rounded = (2.0 * rounding * slope).min(ROUNDED_FIT * terms.amax());
+    if tail > rounded.max(EVENT_FIT * terms.amax()) { Zero::Unresolved } else { Zero::Resolved }
 }
 
 /// The number at which `function` has changed its sign next to a root located roughly; `None` where it touches zero only.
@@ -205,6 +212,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::spacing::spacing;
 
     #[test]
     fn a_function_of_nothing_but_rounding_ends_the_search() {
@@ -262,20 +270,38 @@ mod tests {
             };
             let samples = Segment::<3, 8>::nodes(from, to).map(values);
             assert!(samples.iter().all(|sample| sample[1] > 0.0), "the nodes see the dip");
-            let edge = first_event(from + 1e-6, from, to, &samples, values).unwrap();
+            let edge = first_event(from + 1e-6, from, to, 0.0, &samples, values).unwrap();
             assert!((edge - (center - 0.5e-3)).abs() < 1e-7, "{edge}");
             assert!(values(edge)[1] <= 0.0 && values(edge.next_down())[1] > 0.0);
             // From within the dip on the next event is its end.
             let samples = Segment::<3, 8>::nodes(edge, to).map(values);
-            let end = first_event(edge + 1e-6, edge, to, &samples, values).unwrap();
+            let end = first_event(edge + 1e-6, edge, to, 0.0, &samples, values).unwrap();
             assert!((end - (center + 0.5e-3)).abs() < 1e-7, "{end}");
         }
+    }
+
+    /// Time counted from an epoch far away is rounded to 6e-8 s.
+    #[test]
+    fn rounded_time_costs_no_halving() {
+        let epoch = 3.5e8;
+        let rounding = spacing(epoch);
+        let mut evaluations = 0;
+        let mut values = |t: f64| {
+            evaluations += 1;
+            let at = (t + epoch) - epoch;
+            Vector1::new(1e-2 * (1e-3 * (at - 31.0)).sin() * (2.0 + (0.01 * at).cos()))
+        };
+        let samples = Segment::<1, 8>::nodes(0.0, 45.0).map(&mut values);
+        let edge = first_event(1e-4, 0.0, 45.0, rounding, &samples, &mut values).unwrap();
+        assert!((edge - 31.0).abs() <= rounding, "{edge}");
+        assert!(values(edge)[0] * values(edge.next_down())[0] <= 0.0);
+        assert!(evaluations < 8 + 16 + 80, "{evaluations}");
     }
 
     #[test]
     fn without_an_event_only_the_samples_are_used() {
         let samples = Segment::<1, 8>::nodes(0.0, 1.0).map(|t| Vector1::new(2.0 + t.sin()));
-        let found = first_event(0.0, 0.0, 1.0, &samples, |_| panic!("evaluated"));
+        let found = first_event(0.0, 0.0, 1.0, 0.0, &samples, |_| panic!("evaluated"));
         assert_eq!(found, None);
     }
 

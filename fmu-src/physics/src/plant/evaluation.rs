@@ -1,4 +1,9 @@
-//! The plant: attitude, torque and force at any time of a configured flight.
+//! The plant: attitude, torque and force at any time of a configured flight, and the propagator that makes them known.
+//!
+//! A span of the propagator is one on which the orbit is known and attitude law and shadow keep their branch.
+//! An orbit that light and heat act on has to be known before they can be computed, and they before it. A segment begins
+//! with the orbit under gravity alone. Within a segment it is off by centimetres, which changes light and heat by less than
+//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end.
 
 use nalgebra::Vector3;
 
@@ -7,15 +12,22 @@ use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel};
+use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
 use crate::spacecraft::Panel;
 
-use super::configuration::Configuration;
+use super::configuration::{Configuration, Motion};
 use super::error::PlantError;
 use super::instant::Instant;
+use super::kinematics::Kinematics;
+use super::light_and_heat::RadiationBuilder;
 use super::propagator_state::PropagatorState;
+use super::radiation_segment::RadiationSegment;
 use super::radiation_solver::RadiationSolver;
-use super::work::{Cost, Work};
+use super::work::Cost;
+
+/// Nodes at which the acceleration of a segment is taken.
+const NODES: usize = 8;
 
 /// Force and torque from outside, body frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,15 +85,11 @@ pub struct PreparedSpacecraft<'a> {
 
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a, L> {
-    pub(super) prepared: PreparedSpacecraft<'a>,
-    pub(super) configuration: &'a Configuration,
-    pub(super) propagator: &'a mut PropagatorState,
-    pub(super) ephemeris: &'a mut Ephemeris,
-    pub(super) light: Option<&'a mut RadiationSolver>,
+    prepared: PreparedSpacecraft<'a>,
+    kinematics: Kinematics<'a>,
+    segment: &'a mut Option<RadiationSegment>,
+    light: Option<&'a mut RadiationSolver>,
     external: L,
-    work: Work,
-    /// Spent on event functions and not counted yet.
-    pub(super) searched_units: u32,
 }
 
 impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
@@ -100,25 +108,20 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         external: L,
         work_limit: u32,
     ) -> Self {
-        let work = Work::new(work_limit, ephemeris.evaluations());
-        Self { prepared, configuration, propagator, ephemeris, light, external, work, searched_units: 0 }
-    }
-
-    /// Counts work, the flight having come to `time_s`.
-    pub(super) fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
-        let searched = core::mem::take(&mut self.searched_units);
-        self.work.spend(Cost::Search, searched, self.ephemeris.evaluations(), time_s)?;
-        Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
+        let PropagatorState { trajectory, light: segment } = propagator;
+        let kinematics = Kinematics::new(configuration, trajectory, ephemeris, work_limit);
+        Self { prepared, kinematics, segment, light, external }
     }
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
-        let instant = self.instant(time_s);
+        let instant = self.kinematics.instant(time_s);
+        let configuration = self.kinematics.configuration;
         let mut loads = self.radiation(time_s, &instant);
         if let Some(planet_body_m) = &instant.planet_body_m {
             loads[Effect::GravityGradient].torque_body_n_m = gravity_gradient_n_m(
-                self.configuration.gravity_gradient_m3_s2,
-                &self.configuration.inertia_body_kg_m2,
+                configuration.gravity_gradient_m3_s2,
+                &configuration.inertia_body_kg_m2,
                 planet_body_m,
             );
         }
@@ -129,22 +132,23 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
 
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
-        self.propagator.trajectory.time_since_periapsis_s(self.configuration, time_s)
+        self.kinematics.trajectory.time_since_periapsis_s(self.kinematics.configuration, time_s)
     }
 
     /// Light and heat: slow effects from their segment, plain sunlight in closed form.
     fn radiation(&self, time_s: f64, instant: &Instant) -> Loads {
-        let effects = &self.configuration.light_and_heat;
+        let configuration = self.kinematics.configuration;
+        let effects = &configuration.light_and_heat;
         let mut loads = Loads::zero();
         let mut shadowed = false;
-        if let (Some(segment), Some(light)) = (&self.propagator.light, &self.light)
+        if let (Some(segment), Some(light)) = (&*self.segment, &self.light)
             && effects.any()
         {
             shadowed = effects.shadowing && light.model.can_shadow();
             segment.loads(time_s, &mut loads);
         }
         if !shadowed {
-            let pressure_pa = self.configuration.light.pressure_pa(instant.sun_distance_m);
+            let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
             loads[Effect::Solar] = self.sunlight(&Beam {
                 source_body: instant.sun_body,
                 pressure_pa: pressure_pa * instant.lit_fraction,
@@ -154,17 +158,75 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     }
 
     fn sunlight(&self, beam: &Beam<f64>) -> ForceTorque<f64> {
-        let center_of_mass = &self.configuration.center_of_mass_body_m;
+        let configuration = self.kinematics.configuration;
+        let center_of_mass = &configuration.center_of_mass_body_m;
         let solar = self.prepared.solar;
         let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
-        for (index, (panel, setting)) in
-            self.prepared.panels.iter().zip(&self.configuration.panels).enumerate()
-        {
+        for (index, (panel, setting)) in self.prepared.panels.iter().zip(&configuration.panels).enumerate() {
             if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body) {
                 sum += solar.panel(index, beam, angle_rad, center_of_mass);
             }
         }
         sum
+    }
+
+    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
+    /// force of the effects that act.
+    ///
+    /// # Errors
+    /// A geometry without meaning.
+    pub fn faces(&mut self, time_s: f64, report: impl FnMut(f64, Vector3<f64>)) -> Result<(), PlantError> {
+        let Some(light) = self.light.as_deref_mut() else { return Ok(()) };
+        let mut builder = RadiationBuilder { panels: self.prepared.panels, kinematics: &mut self.kinematics };
+        builder.faces(light, self.segment.as_ref(), time_s, report)
+    }
+
+    /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
+    fn extend_radiation(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        match &mut self.light {
+            Some(light) if self.kinematics.configuration.light_and_heat.any() => {
+                let mut builder =
+                    RadiationBuilder { panels: self.prepared.panels, kinematics: &mut self.kinematics };
+                builder.extend(light, self.segment, start_s, limit_s)
+            }
+            _ => Ok(limit_s),
+        }
+    }
+
+    fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
+        if self.kinematics.trajectory.end_s() > start_s {
+            return self.extend_radiation(start_s, self.kinematics.trajectory.end_s());
+        }
+        // Two integrations of some 40 evaluations, and the search for changes in between.
+        self.kinematics.spend_units(Cost::Orbit, 60, start_s)?;
+        self.kinematics.trajectory.leave(self.kinematics.configuration, start_s);
+        let before = *self.kinematics.trajectory;
+        self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
+        if let Motion::Disturbed { feedback: true, .. } = self.kinematics.configuration.motion {
+            let lit_s = self.extend_radiation(start_s, self.kinematics.trajectory.end_s())?;
+            let end_s = self.kinematics.smooth_until(start_s, lit_s);
+            let acceleration_m_s2 =
+                Segment::<3, NODES>::fit(start_s, end_s, |at_s| self.sample(at_s).acceleration_inertial_m_s2);
+            let predicted = core::mem::replace(self.kinematics.trajectory, before);
+            self.kinematics.trajectory.take_passages(&predicted, end_s);
+            self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
+        }
+        let end_s = self.kinematics.trajectory.end_s();
+        // Written so that a NaN is stuck too.
+        if end_s > start_s {
+            self.extend_radiation(start_s, end_s)
+        } else {
+            Err(PlantError::Stuck { start_s, end_s })
+        }
+    }
+
+    fn integrate(
+        &mut self,
+        limit_s: f64,
+        extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
+    ) -> Result<(), PlantError> {
+        let Kinematics { configuration, trajectory, ephemeris, .. } = &mut self.kinematics;
+        Ok(trajectory.advance(configuration, ephemeris, self.prepared.orbit_method, limit_s, extra_m_s2)?)
     }
 }
 
@@ -172,7 +234,9 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
     type Failure = PlantError;
 
     fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        self.reach(start_s, limit_s)
+        let known_s = self.orbit_and_light(start_s)?.min(limit_s);
+        let instant = self.kinematics.instant(start_s);
+        Ok(self.kinematics.attitude_until_s(start_s, &instant, known_s))
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {
@@ -180,14 +244,18 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
         Sample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
-            acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(self.configuration.mass_kg),
+            acceleration_inertial_m_s2: evaluation
+                .acceleration_inertial_m_s2(self.kinematics.configuration.mass_kg),
             events: evaluation.instant.events,
         }
     }
 
     fn events(&mut self, time_s: f64) -> EventValues {
-        self.searched_units = self.searched_units.saturating_add(1);
-        self.instant(time_s).events
+        self.kinematics.events(time_s)
+    }
+
+    fn time_rounding_s(&self, time_s: f64) -> f64 {
+        self.kinematics.time_rounding_s(time_s)
     }
 
     fn spend(&mut self, effort: Effort, time_s: f64) -> Result<(), PlantError> {
@@ -198,6 +266,6 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
             Effort::Dump => 16,
         };
         let faces = self.prepared.solar.face_count() as u32;
-        self.spend_units(effort.into(), samples * (Self::SAMPLE_UNITS + faces / 50), time_s)
+        self.kinematics.spend_units(effort.into(), samples * (Self::SAMPLE_UNITS + faces / 50), time_s)
     }
 }

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::attitude::MovingUnit;
-use crate::bodies::Body;
 use crate::environment::CartesianState;
+use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::LinesOfSight;
 
@@ -47,6 +47,16 @@ impl Geometry {
         -self.to_sun.position_m
     }
 
+    /// The Sun from the orbit's centre.
+    pub fn sun_from_center(&self) -> CartesianState {
+        sum(&self.to_sun, &self.spacecraft)
+    }
+
+    /// The Earth from the orbit's centre.
+    pub fn earth_from_center(&self) -> CartesianState {
+        sum(&self.to_earth, &self.spacecraft)
+    }
+
     /// Directions with their rates; a body at zero distance counts as lying toward +X.
     pub fn lines_of_sight(&self) -> LinesOfSight {
         let unit = |to: &CartesianState| {
@@ -68,28 +78,18 @@ pub(super) fn sun_and_earth(
     ephemeris: &mut Ephemeris,
     epoch_s: f64,
 ) -> (CartesianState, CartesianState) {
-    let planet = match configuration.ephemeris {
+    let ellipse = match configuration.ephemeris {
         EphemerisSource::Given { sun_m, earth_m } => return (fixed(sun_m), fixed(earth_m)),
         EphemerisSource::Vsop87 => None,
         EphemerisSource::Kepler(planet) => Some(planet),
     };
-    let earth = ephemeris.state(Body::Earth, epoch_s);
-    if configuration.center == Body::Sun {
-        return (fixed(Vector3::zeros()), earth);
-    }
-    let center = match planet {
-        Some(planet) => planet.state(epoch_s),
-        None => ephemeris.state(configuration.center, epoch_s),
-    };
-    // About the Earth there is one Earth, on whatever orbit.
-    let earth = if configuration.center == Body::Earth { center } else { earth };
-    (difference(&fixed(Vector3::zeros()), &center), difference(&earth, &center))
-}
-
-fn fixed(position_m: Vector3<f64>) -> CartesianState {
-    CartesianState { position_m, velocity_m_s: Vector3::zeros() }
+    BodiesFromCenter { center: configuration.center, ellipse }.sun_and_earth(ephemeris, epoch_s)
 }
 
 fn difference(a: &CartesianState, b: &CartesianState) -> CartesianState {
     CartesianState { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
+}
+
+fn sum(a: &CartesianState, b: &CartesianState) -> CartesianState {
+    CartesianState { position_m: a.position_m + b.position_m, velocity_m_s: a.velocity_m_s + b.velocity_m_s }
 }

@@ -5,6 +5,7 @@
 //! Sun's. Momentum, light and outputs all read this.
 
 use crate::attitude::MovingFrame;
+use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::Activity;
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
@@ -12,10 +13,12 @@ use crate::numerics::events::first_event;
 use crate::numerics::intervals::first_change_s;
 use crate::numerics::spacing::spacing;
 
-use super::configuration::AttitudeSource;
-use super::evaluation::{ExternalLoad, Plant};
+use super::configuration::{AttitudeSource, Configuration};
+use super::error::PlantError;
 use super::geometry::Geometry;
 use super::instant::{Instant, Regime};
+use super::trajectory::Trajectory;
+use super::work::{Cost, Work};
 
 /// Nodes at which a span is looked through for events.
 const NODES: usize = 8;
@@ -32,9 +35,48 @@ struct LawAt {
     until_s: f64,
 }
 
-impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
+/// Motion and light of a configured flight, and the work that is done for it.
+pub(super) struct Kinematics<'a> {
+    pub configuration: &'a Configuration,
+    pub trajectory: &'a mut Trajectory,
+    pub ephemeris: &'a mut Ephemeris,
+    work: Work,
+    /// Spent on event functions and not counted yet.
+    searched_units: u32,
+}
+
+impl<'a> Kinematics<'a> {
+    /// `trajectory` belongs to this configuration; at most `work_limit` units of work are done.
+    pub fn new(
+        configuration: &'a Configuration,
+        trajectory: &'a mut Trajectory,
+        ephemeris: &'a mut Ephemeris,
+        work_limit: u32,
+    ) -> Self {
+        let work = Work::new(work_limit, ephemeris.evaluations());
+        Self { configuration, trajectory, ephemeris, work, searched_units: 0 }
+    }
+
+    /// Counts work, the flight having come to `time_s`.
+    pub fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
+        let searched = core::mem::take(&mut self.searched_units);
+        self.work.spend(Cost::Search, searched, self.ephemeris.evaluations(), time_s)?;
+        Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
+    }
+
+    /// The event functions alone, counted as a search.
+    pub fn events(&mut self, time_s: f64) -> EventValues {
+        self.searched_units = self.searched_units.saturating_add(1);
+        self.instant(time_s).events
+    }
+
+    /// What `time_s` is rounded to, in s: everything is constant over less.
+    pub fn time_rounding_s(&self, time_s: f64) -> f64 {
+        spacing(time_s).max(spacing(time_s + self.configuration.epoch_minus_time_s))
+    }
+
     /// Everything but the loads at `time_s`.
-    pub(super) fn instant(&mut self, time_s: f64) -> Instant {
+    pub fn instant(&mut self, time_s: f64) -> Instant {
         let geometry = self.geometry(time_s);
         let law = self.attitude(time_s, &geometry);
         let (lit_fraction, gaps_rad) = self.light_fraction(&geometry);
@@ -71,7 +113,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
 
     /// Where everything is at `time_s`.
     fn geometry(&mut self, time_s: f64) -> Geometry {
-        let spacecraft = self.propagator.trajectory.state_at(self.configuration, time_s);
+        let spacecraft = self.trajectory.state_at(self.configuration, time_s);
         Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
     }
 
@@ -80,7 +122,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         match &self.configuration.attitude {
             AttitudeSource::Guided(guided) => {
                 let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-                let trajectory = &self.propagator.trajectory;
+                let trajectory = &*self.trajectory;
                 let epoch_s = time_s + configuration.epoch_minus_time_s;
                 let window = trajectory
                     .window(configuration, time_s)
@@ -114,7 +156,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     }
 
     /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.
-    pub(super) fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+    pub fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
         let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
         let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
         let (before_s, behind_s) =
@@ -122,9 +164,9 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         if before_s >= limit_s || behind_s.is_nan() {
             return limit_s;
         }
-        let same = |plant: &mut Self, at_s: f64| {
-            let geometry = plant.geometry(at_s);
-            let law = plant.attitude(at_s, &geometry);
+        let same = |it: &mut Self, at_s: f64| {
+            let geometry = it.geometry(at_s);
+            let law = it.attitude(at_s, &geometry);
             let now = (law.window_since_s, law.downlink, law.slewing);
             now == (instant.regime.window_since_s, instant.regime.downlink, instant.regime.slewing)
         };
@@ -135,16 +177,14 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     }
 
     /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.
-    pub(super) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+    pub fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
         // The edge this span starts at was found on an orbit that has been computed anew since.
         let after_s = after_event_s(start_s).min(limit_s);
         let first = self.instant(after_s);
         let limit_s = self.attitude_until_s(after_s, &first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
-        let events = |at_s: f64| {
-            self.searched_units = self.searched_units.saturating_add(1);
-            self.instant(at_s).events
-        };
-        first_event(after_s, start_s, limit_s, &samples, events).unwrap_or(limit_s)
+        let rounding_s = self.time_rounding_s(limit_s);
+        first_event(after_s, start_s, limit_s, rounding_s, &samples, |at_s| self.events(at_s))
+            .unwrap_or(limit_s)
     }
 }

@@ -6,9 +6,10 @@ use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::disturbance::{Disturbance, FaceResult, GeometryError, PlanetGeometry};
+use crate::spacecraft::Panel;
 
 use super::error::PlantError;
-use super::evaluation::{ExternalLoad, Plant};
+use super::kinematics::Kinematics;
 use super::radiation_node::RadiationNode;
 use super::radiation_segment::{HOTTEST_K, NODES, ROWS, RadiationSegment};
 use super::radiation_solver::RadiationSolver;
@@ -20,11 +21,17 @@ const SHORTEST_S: f64 = 1.0;
 /// Torque is resolved as if the largest force had at least this arm, in m: on a symmetric body there is none.
 const LEAST_ARM_M: f64 = 0.01;
 
-impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
+/// Builds the radiation segments of a flight whose spacecraft has these panels.
+pub(super) struct RadiationBuilder<'r, 'a> {
+    pub panels: &'a [Panel],
+    pub kinematics: &'r mut Kinematics<'a>,
+}
+
+impl RadiationBuilder<'_, '_> {
     /// Turns everything at `time_s` into the body frame for `node`.
     fn view(&mut self, time_s: f64, light_panels: &[usize], node: &mut RadiationNode) {
-        let configuration = self.configuration;
-        let instant = self.instant(time_s);
+        let configuration = self.kinematics.configuration;
+        let instant = self.kinematics.instant(time_s);
         let viewing = &mut node.viewing;
         viewing.sun_direction_body = instant.sun_body;
         let flux_w_m2 = |distance_m: f64| configuration.light.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
@@ -43,7 +50,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
             }
         });
         for (angle_rad, &index) in viewing.panel_angles_rad.iter_mut().zip(light_panels) {
-            let setting = configuration.panels.get(index).zip(self.prepared.panels.get(index));
+            let setting = configuration.panels.get(index).zip(self.panels.get(index));
             *angle_rad = setting
                 .and_then(|(setting, panel)| setting.angle_rad(panel, &viewing.sun_direction_body))
                 .unwrap_or(0.0);
@@ -51,35 +58,31 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     }
 
     /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
-    pub(super) fn extend_radiation(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        if !self.configuration.light_and_heat.any() {
-            return Ok(limit_s);
-        }
-        if let Some(segment) = &self.propagator.light
-            && segment.start_s <= start_s
-            && start_s < segment.end_s
-        {
+    pub fn extend(
+        &mut self,
+        light: &mut RadiationSolver,
+        segment: &mut Option<RadiationSegment>,
+        start_s: f64,
+        limit_s: f64,
+    ) -> Result<f64, PlantError> {
+        let segment = segment.get_or_insert_with(RadiationSegment::before);
+        if segment.start_s <= start_s && start_s < segment.end_s {
             return Ok(segment.end_s.min(limit_s));
         }
-        let Some(light) = self.light.take() else { return Ok(limit_s) };
-        let mut segment = self.propagator.light.take().unwrap_or_else(RadiationSegment::before);
-        let built = self.build_radiation_segment(light, &mut segment, start_s, limit_s);
-        let end_s = segment.end_s;
-        self.propagator.light = Some(segment);
-        self.light = Some(light);
-        built.map(|()| end_s)
+        self.build(light, segment, start_s, limit_s)?;
+        Ok(segment.end_s)
     }
 
     /// Builds the segment that begins at `start_s`. It ends at the next multiple of the grid or sooner: at `limit_s`, where
     /// the branch changes, or where the last Chebyshev terms would exceed the tolerance.
-    fn build_radiation_segment(
+    fn build(
         &mut self,
         light: &mut RadiationSolver,
         segment: &mut RadiationSegment,
         start_s: f64,
         limit_s: f64,
     ) -> Result<(), PlantError> {
-        let effects = self.configuration.light_and_heat;
+        let effects = self.kinematics.configuration.light_and_heat;
         let stores = effects.storage && effects.recoil && light.model.stores_heat();
         if stores {
             self.take_heat(light, segment, start_s)?;
@@ -89,12 +92,12 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
         // Written so that a NaN from restored bytes is the shortest.
         let longest_s = segment.next_longest_s.max(SHORTEST_S);
         let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, SHORTEST_S);
-        interval.end_at(self.smooth_until(start_s, interval.end_s()));
+        interval.end_at(self.kinematics.smooth_until(start_s, interval.end_s()));
         let series = loop {
-            self.spend_units(Cost::Light, light.segment_units(stores), start_s)?;
+            self.kinematics.spend_units(Cost::Light, light.segment_units(stores), start_s)?;
             let lit = self.light_between(light, stores, &segment.end_k, start_s, interval.end_s());
             let shadows: usize = light.nodes.iter().map(|node| node.workspace.shadows_cut()).sum();
-            self.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
+            self.kinematics.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
             match lit {
                 Ok(series) => {
                     let unresolved = unresolved(&series, &effects);
@@ -167,7 +170,7 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
                 node.radiate_stored(model)?;
             }
         }
-        let effects = &self.configuration.light_and_heat;
+        let effects = &self.kinematics.configuration.light_and_heat;
         let samples = core::array::from_fn(|j| rows(&nodes[j].found, effects));
         Ok(Segment::from_samples(start_s, end_s, &samples))
     }
@@ -179,31 +182,34 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     /// A geometry without meaning.
     pub fn faces(
         &mut self,
+        light: &mut RadiationSolver,
+        segment: Option<&RadiationSegment>,
         time_s: f64,
         mut report: impl FnMut(f64, Vector3<f64>),
     ) -> Result<(), PlantError> {
-        let Some(light) = self.light.take() else { return Ok(()) };
-        let outcome = self.light_at(light, time_s);
-        if outcome.is_ok()
-            && let Some(node) = light.nodes.first()
-        {
-            let effects = &self.configuration.light_and_heat;
+        self.light_at(light, segment, time_s)?;
+        if let Some(node) = light.nodes.first() {
+            let effects = &self.kinematics.configuration.light_and_heat;
             for face in node.workspace.faces() {
                 report(face.temperature_k, force_of(face, effects));
             }
         }
-        self.light = Some(light);
-        outcome
+        Ok(())
     }
 
     /// Light and heat at one time, in the first of the nodes.
-    fn light_at(&mut self, light: &mut RadiationSolver, time_s: f64) -> Result<(), PlantError> {
+    fn light_at(
+        &mut self,
+        light: &mut RadiationSolver,
+        segment: Option<&RadiationSegment>,
+        time_s: f64,
+    ) -> Result<(), PlantError> {
         let RadiationSolver { model, panels, nodes, .. } = light;
         let Some(node) = nodes.first_mut() else { return Ok(()) };
         self.view(time_s, panels, node);
         node.balance(model).map_err(|error| self.no_light(time_s, error))?;
-        let effects = &self.configuration.light_and_heat;
-        if let Some(segment) = &self.propagator.light
+        let effects = &self.kinematics.configuration.light_and_heat;
+        if let Some(segment) = segment
             && effects.recoil
             && effects.storage
             && model.stores_heat()
@@ -215,7 +221,8 @@ impl<L: Fn(f64) -> ExternalLoad> Plant<'_, L> {
     }
 
     fn no_light(&self, time_s: f64, source: GeometryError) -> PlantError {
-        let position_m = self.propagator.trajectory.state_at(self.configuration, time_s).position_m.into();
+        let Kinematics { configuration, trajectory, .. } = &*self.kinematics;
+        let position_m = trajectory.state_at(configuration, time_s).position_m.into();
         PlantError::Light { time_s, position_m, source }
     }
 }

@@ -21,7 +21,6 @@ mod geometry;
 mod instant;
 mod kinematics;
 mod light_and_heat;
-mod propagator;
 mod propagator_state;
 mod radiation_node;
 mod radiation_segment;

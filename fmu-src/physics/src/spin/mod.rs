@@ -12,6 +12,8 @@ pub mod noise;
 pub mod nutation;
 pub mod outputs;
 pub mod plant;
+pub mod predictions;
+pub mod rates;
 pub mod sequencer;
 pub mod series;
 pub mod spinner;

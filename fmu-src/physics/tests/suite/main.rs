@@ -8,3 +8,4 @@ mod plant_orbit;
 mod plant_shadow;
 #[cfg(feature = "schema")]
 mod schema_file;
+mod timeline_names;

@@ -1,4 +1,5 @@
-//! Imports run one way: modules of the crate in the order of [`ORDER`], and no file uses one that uses it.
+//! Imports run one way: modules of the crate in the order of [`ORDER`], and no file uses one that uses it. A type's
+//! methods stand in the file of the type.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -184,6 +185,66 @@ fn no_file_uses_one_that_uses_it() {
         }
     }
     assert_eq!(in_circles, EXCEPTIONS, "files that use one another in a circle");
+}
+
+/// Types with methods of their own in a text: `impl<T> Name<T> {`, not `impl Trait for Name {`.
+fn types_with_methods(text: &str) -> Vec<&str> {
+    let heads = text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("impl"));
+    let start_of = |number: usize| text.lines().take(number).map(|line| line.len() + 1).sum::<usize>();
+    let head = |(number, _)| text[start_of(number)..].split('{').next().unwrap_or_default().trim_start();
+    heads.map(head).filter(|head| !head.contains(" for ")).filter_map(named).collect()
+}
+
+/// The type of an `impl`'s head, without its parameters; `None` where a macro names it.
+fn named(head: &str) -> Option<&str> {
+    let mut rest = head.strip_prefix("impl")?;
+    if rest.starts_with('<') {
+        let mut depth = 0;
+        let end = rest.char_indices().find(|&(at, c)| {
+            depth += i32::from(c == '<') - i32::from(c == '>' && !rest[..at].ends_with('-'));
+            depth == 0
+        });
+        rest = &rest[end?.0 + 1..];
+    }
+    let name = rest.trim_start().split(|c: char| !c.is_alphanumeric() && c != '_').next()?;
+    (!name.is_empty()).then_some(name)
+}
+
+/// Types whose methods stand in another file than the type itself.
+fn apart(text: &str) -> Vec<&str> {
+    let declares = |name: &str| {
+        let mut words =
+            text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+        let mut before = "";
+        words.any(|word| {
+            let found = word == name && ["struct", "enum", "union", "trait", "type"].contains(&before);
+            before = word;
+            found
+        })
+    };
+    types_with_methods(text).into_iter().filter(|name| !declares(name)).collect()
+}
+
+#[test]
+fn methods_stand_in_the_file_of_their_type() {
+    let modules = modules();
+    let found: Vec<String> = modules
+        .iter()
+        .flat_map(|(module, text)| {
+            apart(text).into_iter().map(|name| format!("{}: {name}", module.join("::")))
+        })
+        .collect();
+    assert_eq!(found, [""; 0], "types with methods in another file than their own");
+    let count: usize = modules.values().map(|text| types_with_methods(text).len()).sum();
+    assert!(count > 150, "the scan found hardly any methods: {count}");
+}
+
+#[test]
+fn methods_in_another_file_are_found() {
+    let text = "pub struct A<T>(T);\nimpl<T: Fn(f64) -> B> A<T> {}\nimpl<'a, L: Into<Vec<f64>>>\n    B<'a, L>\n{}\n\
+                enum Cc { A }\nimpl C {}\nimpl Clone for D {}\nimpl<T> From<T> for E {}\nimpl $type {}\n";
+    assert_eq!(types_with_methods(text), ["A", "B", "C"]);
+    assert_eq!(apart(text), ["B", "C"]);
 }
 
 #[test]

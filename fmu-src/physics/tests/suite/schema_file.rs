@@ -1,14 +1,22 @@
-//! The committed JSON Schema is the one the spacecraft types give; `UPDATE_SCHEMA=1` writes it anew.
+//! The committed JSON Schemas are those the types give; `UPDATE_SCHEMA=1` writes them anew.
 
 use std::fs;
 use std::path::Path;
 
 #[test]
-fn the_schema_file_is_in_step() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../resources/spacecraft.schema.json");
-    let wanted = physics::spacecraft::schema();
+fn the_schema_of_the_spacecraft_is_in_step() {
+    assert_in_step("spacecraft.schema.json", &physics::spacecraft::schema());
+}
+
+#[test]
+fn the_schema_of_the_timeline_is_in_step() {
+    assert_in_step("timeline.schema.json", &physics::guidance::timeline::schema());
+}
+
+fn assert_in_step(file: &str, wanted: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../resources").join(file);
     if std::env::var_os("UPDATE_SCHEMA").is_some() {
-        fs::write(&path, &wanted).unwrap();
+        fs::write(&path, wanted).unwrap();
     }
     let found = fs::read_to_string(&path).unwrap();
     assert!(found == wanted, "{} is out of step: run the tests once with UPDATE_SCHEMA=1", path.display());

@@ -15,6 +15,7 @@ use crate::{
     args::{self, Check},
     child::Link,
     outcome::Outcome,
+    timeline,
 };
 
 /// A group of findings under one heading.
@@ -66,6 +67,13 @@ pub fn run(arguments: &Check) -> Outcome {
     sections.push(Section { title: "archive".to_owned(), findings: conformance::archive(&fmu) });
     sections
         .push(Section { title: "modelDescription.xml".to_owned(), findings: conformance::description(&fmu) });
+    if let Some(read) = timeline::of(&fmu) {
+        let findings = match read {
+            Ok(timeline) => vec![Finding::good(timeline::summary(&timeline))],
+            Err(problems) => problems.lines().map(Finding::bad).collect(),
+        };
+        sections.push(Section { title: timeline::FILE.to_owned(), findings });
+    }
     let runnable = !arguments.is_static && fmu.co_simulation().is_ok();
     if runnable {
         let loads = child::run(&fmu, "library", arguments.timeout);

@@ -6,6 +6,7 @@
 mod documentation;
 mod per_plate;
 mod picture;
+mod schedule;
 pub mod source;
 mod start;
 mod writer;
@@ -53,7 +54,7 @@ pub fn run(arguments: &Pack) -> Outcome {
             with_hint(source.binary(), &model, file.as_deref(), spacecraft.as_deref(), refusal)
         })?;
     let mut description = model_description::parse(described.xml.as_bytes())?.description;
-    let mut setup = spacecraft.unwrap_or(described.default_setup);
+    let mut setup = spacecraft.unwrap_or_else(|| described.default_setup.clone());
     if !arguments.set.is_empty() {
         if described.setup_file.is_none() {
             return Err(format!("--set: {model} reads no file that start values could stand in").into());
@@ -67,6 +68,15 @@ pub fn run(arguments: &Pack) -> Outcome {
         setup = per_plate::asking(&setup)?;
         description = per_plate::describe(source.binary(), &model, file.as_deref(), &setup)?;
     }
+    let timeline = match &arguments.timeline {
+        Some(path) => {
+            let (shown, text) = (path.display().to_string(), read_text(path)?);
+            let given = (shown.as_str(), text.as_str());
+            let name = schedule::checked(source.binary(), &described, file.as_deref(), &setup, given)?;
+            Some((name, text))
+        }
+        None => None,
+    };
     let identifier = arguments.name.as_deref().unwrap_or(&model);
     rename(&mut description, identifier)?;
 
@@ -76,6 +86,9 @@ pub fn run(arguments: &Pack) -> Outcome {
     source.add_licenses(&mut entries)?;
     if let Some(name) = &described.setup_file {
         entries.add(&format!("resources/{name}"), setup.clone().into_bytes())?;
+    }
+    if let Some((name, text)) = timeline {
+        entries.add(&format!("resources/{name}"), text.into_bytes())?;
     }
     let picture = picture::png(&setup);
     let page = documentation::html(&description, &described.sources, picture.is_some());
@@ -89,7 +102,8 @@ pub fn run(arguments: &Pack) -> Outcome {
     if source.is_at(&path) {
         return Err(format!("{} is the template itself: see --name and --output", path.display()).into());
     }
-    let inputs: Vec<&Path> = [source.path()].into_iter().chain(arguments.spacecraft.as_deref()).collect();
+    let files = [&arguments.spacecraft, &arguments.timeline].into_iter().flatten();
+    let inputs: Vec<&Path> = [source.path()].into_iter().chain(files.map(PathBuf::as_path)).collect();
     let destination = Destination::open(&path, "--output", &inputs)?;
     let is_stdout = destination.is_stdout();
     destination.fill(|file| file.write_all(&bytes))?;

@@ -7,6 +7,7 @@ mod hostile;
 mod packs;
 mod plans;
 mod runs;
+mod timelines;
 mod usage;
 
 use std::{

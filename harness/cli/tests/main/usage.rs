@@ -117,4 +117,6 @@ fn every_command_and_flag_has_help() {
     }
     assert!(run(&["study", "list"], 0).contains("momentum/table2"));
     assert!(run(&["schema"], 0).trim_start().starts_with('{'));
+    assert_eq!(run(&["schema", "spacecraft"], 0), run(&["schema"], 0));
+    assert!(run(&["schema", "timeline"], 0).contains("heliotorque timeline"));
 }

@@ -1,11 +1,11 @@
-//! The models of a heliotorque library with their descriptions: the C function `fmi_export_describe`.
+//! The models of a heliotorque library with their descriptions: its C functions beside FMI's.
 
 use std::{
     ffi::{CString, c_char, c_int, c_void},
     ptr,
 };
 
-use model_description::describe::{Describe, SYMBOL, kind};
+use model_description::describe::{CHECK_SCHEDULE_SYMBOL, CheckSchedule, Describe, SYMBOL, kind};
 
 use super::binary::Binary;
 
@@ -16,6 +16,8 @@ pub struct Described {
     pub model: String,
     /// Name of its setup file under `resources/`, if it has one.
     pub setup_file: Option<String>,
+    /// Name of its schedule file under `resources/`, if it takes one.
+    pub schedule_file: Option<String>,
     /// The compiled-in setup text.
     pub default_setup: String,
     /// Quantities and by what they are computed; names of papers and what they stand for.
@@ -32,6 +34,21 @@ unsafe extern "C" fn receive(context: *mut c_void, kind: c_int, text: *const c_c
         let bytes = if length == 0 { &[] } else { std::slice::from_raw_parts(text.cast::<u8>(), length) };
         received.push((kind, String::from_utf8_lossy(bytes).into_owned()));
     }
+}
+
+/// What the library sent, and its answer.
+fn collected(call: impl FnOnce(*mut c_void) -> c_int) -> (c_int, Vec<(c_int, String)>) {
+    let mut received = Vec::new();
+    let code = call((&raw mut received).cast());
+    (code, received)
+}
+
+fn c_text(text: Option<&str>) -> Result<Option<CString>, String> {
+    text.map(CString::new).transpose().map_err(|_| "a text contains a zero byte".to_owned())
+}
+
+fn pointer(text: &Option<CString>) -> *const c_char {
+    text.as_ref().map_or(ptr::null(), |text| text.as_ptr())
 }
 
 impl Binary {
@@ -54,6 +71,40 @@ impl Binary {
             .ok_or_else(|| format!("{model}: the library gave no XML"))
     }
 
+    /// Whether a model takes a schedule, given by its name for errors and its text, with this setup.
+    pub fn check_schedule(
+        &self,
+        model: &str,
+        file: Option<&str>,
+        setup: Option<&str>,
+        (schedule_file, schedule): (&str, &str),
+    ) -> Result<(), String> {
+        // SAFETY: the symbol of this name has this type.
+        let function = unsafe { self.library.get::<CheckSchedule>(CHECK_SCHEDULE_SYMBOL.as_bytes()) }
+            .map_err(|_| format!("{schedule_file}: the library of the template is older than schedules"))?;
+        let (model, file, setup) = (c_text(Some(model))?, c_text(file)?, c_text(setup)?);
+        let (schedule_file, schedule) = (c_text(Some(schedule_file))?, c_text(Some(schedule))?);
+        let (code, received) = collected(|context| {
+            // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
+            unsafe {
+                function(
+                    pointer(&model),
+                    pointer(&file),
+                    pointer(&setup),
+                    pointer(&schedule_file),
+                    pointer(&schedule),
+                    context,
+                    Some(receive),
+                )
+            }
+        });
+        match received.into_iter().find(|(what, _)| *what == kind::ERROR) {
+            None if code == 0 => Ok(()),
+            None => Err(format!("fmi_export_check_schedule answered {code} without a reason")),
+            Some((_, problem)) => Err(problem),
+        }
+    }
+
     fn call_describe(
         &self,
         model: Option<&str>,
@@ -64,22 +115,11 @@ impl Binary {
         let function = unsafe { self.library.get::<Describe>(SYMBOL.as_bytes()) }.map_err(|_| {
             "this is no heliotorque library: it does not export fmi_export_describe".to_owned()
         })?;
-        let c_text = |text: Option<&str>| {
-            text.map(CString::new).transpose().map_err(|_| "a text contains a zero byte".to_owned())
-        };
         let (model, file, setup) = (c_text(model)?, c_text(file)?, c_text(setup)?);
-        let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
-        let mut received: Vec<(c_int, String)> = Vec::new();
-        // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
-        let code = unsafe {
-            function(
-                pointer(&model),
-                pointer(&file),
-                pointer(&setup),
-                (&raw mut received).cast(),
-                Some(receive),
-            )
-        };
+        let (code, received) = collected(|context| {
+            // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
+            unsafe { function(pointer(&model), pointer(&file), pointer(&setup), context, Some(receive)) }
+        });
         let mut models: Vec<Described> = Vec::new();
         let mut problem = None;
         for (what, text) in received {
@@ -89,6 +129,7 @@ impl Binary {
                 (kind::SETUP_TEXT, Some(model)) => model.default_setup = text,
                 (kind::MODEL, _) => models.push(Described { model: text, ..Described::default() }),
                 (kind::SETUP_FILE, Some(model)) => model.setup_file = Some(text),
+                (kind::SCHEDULE_FILE, Some(model)) => model.schedule_file = Some(text),
                 (kind::SOURCE, Some(model)) => {
                     let pair = text.split_once('\t').map(|(what, by)| (what.to_owned(), by.to_owned()));
                     model.sources.extend(pair);

@@ -3,6 +3,7 @@
 use loader::{Fmu, Instance, InstanceOptions, Value};
 
 use crate::case;
+use crate::vector::{Vector, cross, dot, turn};
 use crate::{Options, StudyError};
 
 /// Mercury's sidereal revolution by the paper's semi-major axis, in s.
@@ -69,8 +70,6 @@ pub struct Sample {
 
 /// Names of the effects in [`Sample::effects`].
 pub const EFFECTS: [&str; 4] = ["solar", "albedo", "infrared", "thermal"];
-
-type Vector = [f64; 3];
 
 /// Both FMUs.
 pub struct Fmus {
@@ -228,20 +227,4 @@ impl DisturbanceRun {
             without_solar: sum(&[1, 2, 3]),
         })
     }
-}
-
-/// Components in the body frame: passive rotation by a scalar-last quaternion.
-fn turn(q: &[f64; 4], v: &Vector) -> Vector {
-    let axis = [q[0], q[1], q[2]];
-    let t = cross(&axis, v).map(|x| 2.0 * x);
-    let tt = cross(&axis, &t);
-    [0, 1, 2].map(|i| v[i] - q[3] * t[i] + tt[i])
-}
-
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: &Vector, b: &Vector) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -61,6 +61,7 @@ impl Model for AllTypes {
     const NAME: &'static str = "AllTypes";
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("all-types.toml");
+    const SCHEDULE_FILE: Option<&'static str> = Some("all-types-schedule.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../resources/all-types.toml");
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates().differentiable();
 
@@ -70,6 +71,10 @@ impl Model for AllTypes {
 
     fn parse_setup(file: &str, text: &str) -> Result<Setup, fmi_export::SetupError> {
         Setup::parse(file, text)
+    }
+
+    fn parse_schedule(setup: &mut Setup, file: &str, text: &str) -> Result<(), fmi_export::SetupError> {
+        setup.take_schedule(file, text)
     }
 
     fn about(setup: &Setup) -> About {
@@ -129,7 +134,7 @@ impl Model for AllTypes {
     ) -> Result<StepEnd, Failure> {
         let variables = context.variables;
         report(context, values, state, step);
-        let ends_at_s = values.real(variables.end.time);
+        let ends_at_s = values.real(variables.end.time).min(context.setup.end_s.unwrap_or(f64::INFINITY));
         if ends_at_s < step.start_s {
             return Ok(StepEnd::at(step.start_s).terminate("`end.time` is over"));
         }

@@ -12,6 +12,16 @@ pub struct Setup {
     /// The channels, any number.
     #[serde(default)]
     pub channel: Vec<Channel>,
+    /// When the schedule ends the simulation, in s.
+    #[serde(skip)]
+    pub end_s: Option<f64>,
+}
+
+/// The content of `all-types-schedule.toml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Schedule {
+    end_s: f64,
 }
 
 /// One channel.
@@ -25,5 +35,12 @@ pub struct Channel {
 impl Setup {
     pub(super) fn parse(file: &str, text: &str) -> Result<Self, SetupError> {
         toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))
+    }
+
+    pub(super) fn take_schedule(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+        let schedule: Schedule =
+            toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))?;
+        self.end_s = Some(schedule.end_s);
+        Ok(())
     }
 }

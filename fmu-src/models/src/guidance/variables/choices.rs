@@ -1,7 +1,7 @@
 //! Guidance's choices.
 
-use fmi_export::Enumeration;
 use physics::bodies::Body;
+use physics::guidance::antenna::Antenna;
 use physics::guidance::command;
 use physics::guidance::keep_in;
 use physics::guidance::lighting;
@@ -215,13 +215,14 @@ enumeration_of! {
     }
 }
 
-/// The antenna in use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum AntennaSelect {
-    /// None: no downlink.
-    None = 0,
-    /// Beside the sunshade, azimuth -90 to 0 deg.
-    Sunshade = 1,
-    /// At the back, azimuth 90 to 180 deg.
-    Back = 2,
+enumeration_of! {
+    /// The antenna in use.
+    AntennaSelect(Antenna) {
+        /// None: no downlink.
+        none = 0 => None,
+        /// Beside the sunshade, azimuth -90 to 0 deg.
+        sunshade = 1 => Sunshade,
+        /// At the back, azimuth 90 to 180 deg.
+        back = 2 => Back,
+    }
 }

@@ -1,7 +1,9 @@
 //! What is commanded: scenario, the options of the four vectors, limb, scan, mode.
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+use physics::guidance::aimpoint::AimKind;
 use physics::guidance::command;
+use physics::guidance::scan::DEFAULT_COMPATIBILITY;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{
@@ -51,7 +53,8 @@ pub struct AimpointVariables {
     /// Direction in EME2000, of any length.
     #[input(unit = "1", start = [0.0; 3])]
     pub vector: RealVector<3>,
-    /// Position for the options earthCentered, sunCentered, planetCentered and planetFixed.
+    /// Position for the options earthCentered, sunCentered, planetCentered and planetFixed; with its derivative as an input
+    /// derivative a given ephemeris is tracked.
     #[input(unit = "m", display = "km", start = [0.0; 3])]
     pub position: RealVector<3>,
     /// Right ascension.
@@ -174,6 +177,23 @@ pub struct ScanVariables {
     /// with the aimpoint.
     #[output]
     pub active: Boolean,
+}
+
+/// With which aimpoints the scan frame of this number (items of `scan.frame`) goes. Paper 001 prints no matrix: assumed.
+#[derive(Variables)]
+pub struct ScanCompatibilityVariables {
+    /// With directions: vector, raDec (assumed).
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::Direction as usize])]
+    pub direction: Boolean,
+    /// With directions of the local frames: lvlhDowntrack, lvlhSun (assumed).
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::LocalDirection as usize])]
+    pub local_direction: Boolean,
+    /// With points in space: earthCentered, sunCentered, planetCentered, sun, earth, body (assumed).
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::Point as usize])]
+    pub point: Boolean,
+    /// With points of the planet: planetFixed, latLon, nadir, subsolar, optimalLighting, limb (assumed).
+    #[parameter(start = DEFAULT_COMPATIBILITY[index][AimKind::PlanetPoint as usize])]
+    pub planet_point: Boolean,
 }
 
 /// The mode.

@@ -7,12 +7,13 @@ pub mod outputs;
 pub mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
+use physics::guidance::scan::SCANS;
 
 use super::setup::GuidanceSetup;
 use crate::common::variables::{EphemerisVariables, GuidedVariables, WorkLimit};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
-    ModeVariables, PointingVariables, ScanVariables,
+    ModeVariables, PointingVariables, ScanCompatibilityVariables, ScanVariables,
 };
 use limits::{
     AntennaVariables, EarthAcquisitionVariables, HotPoleVariables, KeepInVariables, LinkVariables,
@@ -78,6 +79,8 @@ pub struct GuidanceVariables {
     pub limb: LimbVariables,
     #[group]
     pub scan: ScanVariables,
+    #[group(count = SCANS.len())]
+    pub scan_compatibility: Vec<ScanCompatibilityVariables>,
     #[group]
     pub sun: SunVariables,
     #[group]

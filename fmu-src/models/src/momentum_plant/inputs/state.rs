@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
+use physics::guidance::system::CommandKind as Kind;
 use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
 use serde::{Deserialize, Serialize};
@@ -168,17 +169,17 @@ impl PlantState {
             Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
         };
         let held = self.command.attitude_at(time_s);
-        let (attitude, rate) = match values.choice(context.variables.command.kind) {
-            Some(CommandKind::None) => (held, [0.0; 3]),
-            Some(CommandKind::RateOnly) => (held, rate),
-            Some(CommandKind::ErrorQuaternion) if self.turned_out => (held, rate),
-            Some(CommandKind::ErrorQuaternion) if is_zero(&error) => (held, [0.0; 3]),
-            Some(CommandKind::ErrorQuaternion) => {
+        let (attitude, rate) = match values.choice(context.variables.command.kind).map(|it| it.0) {
+            Some(Kind::None) => (held, [0.0; 3]),
+            Some(Kind::RateOnly) => (held, rate),
+            Some(Kind::ErrorQuaternion) if self.turned_out => (held, rate),
+            Some(Kind::ErrorQuaternion) if is_zero(&error) => (held, [0.0; 3]),
+            Some(Kind::ErrorQuaternion) => {
                 self.turned_out = true;
                 (held.then(&quaternion("command.error", error)?.inverse()), rate)
             }
-            Some(CommandKind::Attitude) | None if is_zero(&q) => (held, [0.0; 3]),
-            Some(CommandKind::Attitude) | None => (quaternion("command.q", q)?, rate),
+            Some(Kind::Attitude) | None if is_zero(&q) => (held, [0.0; 3]),
+            Some(Kind::Attitude) | None => (quaternion("command.q", q)?, rate),
         };
         self.command = Command { attitude, rate_body_rad_s: Vector3::from(rate), since_s: time_s };
         Ok(())
@@ -197,10 +198,10 @@ impl PlantState {
         }
         if is_commanded(context, values) {
             let CommandInputs { q, error, .. } = &self.command_inputs;
-            match values.choice(context.variables.command.kind) {
-                Some(CommandKind::None) => unset.push("command.kind"),
-                Some(CommandKind::Attitude) if is_zero(q) => unset.push("command.q"),
-                Some(CommandKind::ErrorQuaternion) if !self.turned_out && is_zero(error) => {
+            match values.choice(context.variables.command.kind).map(|it| it.0) {
+                Some(Kind::None) => unset.push("command.kind"),
+                Some(Kind::Attitude) if is_zero(q) => unset.push("command.q"),
+                Some(Kind::ErrorQuaternion) if !self.turned_out && is_zero(error) => {
                     unset.push("command.error");
                 }
                 _ => {}
@@ -261,12 +262,12 @@ impl CommandInputs {
     /// With everything that the kind of command does not give left out; an error that was turned out gives no more.
     fn given(self, turned_out: bool) -> Self {
         let (no_q, no_rate) = ([0.0; 4], [0.0; 3]);
-        match CommandKind::from_value(self.kind) {
-            Some(CommandKind::None) => Self { q: no_q, rate: no_rate, error: no_q, ..self },
-            Some(CommandKind::RateOnly) => Self { q: no_q, error: no_q, ..self },
-            Some(CommandKind::ErrorQuaternion) if turned_out => Self { q: no_q, error: no_q, ..self },
-            Some(CommandKind::ErrorQuaternion) => Self { q: no_q, ..self },
-            Some(CommandKind::Attitude) | None => Self { error: no_q, ..self },
+        match CommandKind::from_value(self.kind).map(|it| it.0) {
+            Some(Kind::None) => Self { q: no_q, rate: no_rate, error: no_q, ..self },
+            Some(Kind::RateOnly) => Self { q: no_q, error: no_q, ..self },
+            Some(Kind::ErrorQuaternion) if turned_out => Self { q: no_q, error: no_q, ..self },
+            Some(Kind::ErrorQuaternion) => Self { q: no_q, ..self },
+            Some(Kind::Attitude) | None => Self { error: no_q, ..self },
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The spacecraft itself: mass, shade, panels, wheels, faces.
 
-use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Text, Variables};
+use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
 use super::choices::{PanelControl, PanelTilt};
@@ -91,20 +91,4 @@ pub struct KeepInVariables {
     /// How far inside the zone the Sun stands; negative outside.
     #[output(unit = "rad", display = "deg")]
     pub margin: Real,
-}
-
-/// One face of a plate or panel, in the file's order: plates, sunshade, panels, the rear after the front. There if the
-/// FMU was packed with per-plate outputs.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct PlateVariables {
-    /// Name of its surface in the spacecraft's file.
-    #[output(constant, start = setup.reported_faces[index].name.as_str())]
-    pub name: Text,
-    /// Temperature.
-    #[output(unit = "K", nominal = 300.0)]
-    pub temperature: Real,
-    /// Force of sunlight and of whatever else acts of planet light and recoil, body frame.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub force: RealVector<3>,
 }

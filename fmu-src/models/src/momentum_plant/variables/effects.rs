@@ -3,11 +3,11 @@
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use physics::momentum::Convention;
-use physics::radiation::Effect;
 
 use super::super::setup::PlantSetup;
 use super::choices::{DumpReinitTo, MomentumConvention};
 use super::defaults;
+use crate::common::loads::{ForceBySource, TorqueBySource};
 use crate::common::variables::WorkLimit;
 
 /// Light of the planet.
@@ -60,21 +60,8 @@ pub struct TorqueVariables {
     /// Torque from outside this model, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
     pub applied: RealVector<3>,
-    /// Direct sunlight on sunshade and panels.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
-    pub solar: RealVector<3>,
-    /// Sunlight reflected by the planet; 0 unless planetLight.enabled.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub albedo: RealVector<3>,
-    /// Infrared light of the planet; 0 unless planetLight.enabled.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub infrared: RealVector<3>,
-    /// Recoil of the heat the spacecraft radiates; 0 unless thermal.enabled.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub thermal: RealVector<3>,
-    /// Gravity gradient of the planet.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
-    pub gravity_gradient: RealVector<3>,
+    #[group(name = "")]
+    pub by_source: TorqueBySource,
     /// Sum of all sources, the external one included.
     #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
     pub total: RealVector<3>,
@@ -87,18 +74,8 @@ pub struct ForceVariables {
     /// Force from outside this model, body frame, through the centre of mass.
     #[input(unit = "N", display = "uN", start = [0.0; 3])]
     pub applied: RealVector<3>,
-    /// Direct sunlight on sunshade and panels.
-    #[output(unit = "N", display = "uN", nominal = 1e-4)]
-    pub solar: RealVector<3>,
-    /// Sunlight reflected by the planet; 0 unless planetLight.enabled.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub albedo: RealVector<3>,
-    /// Infrared light of the planet; 0 unless planetLight.enabled.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub infrared: RealVector<3>,
-    /// Recoil of the heat the spacecraft radiates; 0 unless thermal.enabled.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub thermal: RealVector<3>,
+    #[group(name = "")]
+    pub by_source: ForceBySource,
     /// Sum of all sources, the external one included.
     #[output(unit = "N", display = "uN", nominal = 1e-4)]
     pub total: RealVector<3>,
@@ -186,31 +163,4 @@ pub struct DumpVariables {
     /// Angular impulse of the last dump, body frame.
     #[output(discrete, unit = "N.m.s")]
     pub impulse: RealVector<3>,
-}
-
-impl TorqueVariables {
-    /// The output of an effect; none for what is applied from outside.
-    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
-        match effect {
-            Effect::Solar => Some(self.solar),
-            Effect::Albedo => Some(self.albedo),
-            Effect::Infrared => Some(self.infrared),
-            Effect::Thermal => Some(self.thermal),
-            Effect::GravityGradient => Some(self.gravity_gradient),
-            Effect::Applied => None,
-        }
-    }
-}
-
-impl ForceVariables {
-    /// The output of an effect; none for what is applied from outside and what exerts no force.
-    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
-        match effect {
-            Effect::Solar => Some(self.solar),
-            Effect::Albedo => Some(self.albedo),
-            Effect::Infrared => Some(self.infrared),
-            Effect::Thermal => Some(self.thermal),
-            Effect::GravityGradient | Effect::Applied => None,
-        }
-    }
 }

@@ -9,9 +9,7 @@ mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 
-use body::{
-    KeepInVariables, PanelVariables, PlateVariables, SpacecraftVariables, SunshadeVariables, WheelVariables,
-};
+use body::{KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables, WheelVariables};
 use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
@@ -20,6 +18,7 @@ use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables
 use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
 
 use super::setup::PlantSetup;
+use crate::common::loads::PlateVariables;
 use crate::common::variables::{EclipseVariables, EphemerisVariables, GuidedVariables};
 
 /// Every variable of the plant, in the order of the XML.
@@ -96,6 +95,6 @@ pub struct PlantVariables {
     /// Centre of mass in the body frame.
     #[output(unit = "m", display = "cm")]
     pub center_of_mass: RealVector<3>,
-    #[group(count = setup.reported_faces.len())]
+    #[group(count = setup.reported_faces.len(), setup = &setup.reported_faces)]
     pub plate: Vec<PlateVariables>,
 }

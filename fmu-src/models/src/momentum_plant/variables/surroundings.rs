@@ -62,6 +62,12 @@ pub struct SunVariables {
     /// From the spacecraft to the Sun, body frame.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub position_body: RealVector<3>,
+    /// Sun's position from the orbit's centre in EME2000, for models that have it as an input.
+    #[output(unit = "m", display = "AU", nominal = 1e11)]
+    pub position_inertial: RealVector<3>,
+    /// Its velocity; 0 when ephemeris.source is inputs.
+    #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
+    pub velocity_inertial: RealVector<3>,
     /// Unit vector to the Sun, body frame.
     #[output(unit = "1", nominal = 1.0)]
     pub direction: RealVector<3>,
@@ -86,6 +92,12 @@ pub struct EarthVariables {
     /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,
+    /// Earth's position from the orbit's centre in EME2000, for models that have it as an input.
+    #[output(unit = "m", display = "AU", nominal = 1e11)]
+    pub position_inertial: RealVector<3>,
+    /// Its velocity; 0 when ephemeris.source is inputs.
+    #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
+    pub velocity_inertial: RealVector<3>,
     /// Azimuth of the Earth in the body frame, from -Y toward +X.
     #[output(unit = "rad", display = "deg")]
     pub azimuth: Real,

@@ -10,9 +10,10 @@ use physics::spin::{forecast::Timing, spinner::Spinner};
 
 /// The burn the spacecraft flies by itself.
 #[derive(Variables)]
+#[variables(setup = Spinner)]
 pub struct BurnVariables {
-    /// Shape of the train of pulses.
-    #[parameter(start = BurnPlan::Uniform)]
+    /// Shape of the train of pulses; commanded where the spacecraft file has no thruster that tilts the momentum.
+    #[parameter(start = plan(setup))]
     pub plan: Choice<BurnPlan>,
     /// What pulses are timed by.
     #[parameter(start = BurnTiming(Timing::Clock))]
@@ -20,11 +21,12 @@ pub struct BurnVariables {
     /// No pulse begins before this time.
     #[parameter(unit = "s", start = 0.0)]
     pub start: Real,
-    /// Number of the thruster, from 1 in the order of the setup; 8 is ACE's IIIR.
-    #[parameter(start = 8)]
+    /// Number of the thruster, from 1 in the order of the spacecraft file. Where the file does not say, the first that tilts the
+    /// momentum and leaves the spin; 8 is ACE's IIIR.
+    #[parameter(start = thruster(setup).0)]
     pub thruster: Integer,
     /// Number of the thruster that fires on odd half turns, opposite to the first; 0 = none.
-    #[parameter(start = 10)]
+    #[parameter(start = thruster(setup).1)]
     pub opposite_thruster: Integer,
     /// Name of a group or thruster of the setup to fire instead of the numbers; empty = use the numbers.
     #[parameter(start = "")]
@@ -87,6 +89,18 @@ pub struct BurnVariables {
     /// How far its widest pulse moves the momentum, eq 3.
     #[calculated_parameter(unit = "rad", display = "deg")]
     pub pulse_angle: Real,
+}
+
+/// Numbers of the thruster that moves the momentum and of its opposite, from 1; 0 for none.
+fn thruster(setup: &Spinner) -> (i32, i32) {
+    let number = |index: usize| i32::try_from(index + 1).unwrap_or(0);
+    let pair = setup.steering_pair();
+    pair.map_or((0, 0), |(first, opposite)| (number(first), opposite.map_or(0, number)))
+}
+
+/// The train that can be flown.
+fn plan(setup: &Spinner) -> BurnPlan {
+    if setup.steering_pair().is_some() { BurnPlan::Uniform } else { BurnPlan::Commanded }
 }
 
 /// Pulses commanded from outside.

@@ -5,7 +5,10 @@ use models::SpinPlant;
 use physics::spin::burn::BurnRequest;
 use physics::spin::forecast::Timing;
 use physics::spin::geometry::{L1Ephemeris, L1Phases};
+use physics::spin::outputs::Outputs;
 use physics::spin::plant::{Commands, Directions, MassSource, Plant, Sampling, Start};
+use physics::spin::predictions::Predictions;
+use physics::spin::rates::Rates;
 use physics::spin::spinner;
 use physics::spin::train::Shape;
 
@@ -162,7 +165,7 @@ fn states_torn_at_random_are_refused_or_flown_on_without_panic_or_hang() {
             flown += 1;
             let now_s = other.time_s();
             let _ = other.advance(&spinner, now_s + 30.0);
-            let _ = (other.outputs(&spinner), other.rates(&spinner), other.predictions());
+            let _ = (Outputs::of(&other, &spinner), Rates::of(&other, &spinner), Predictions::of(&other));
         }
     }
     assert!(refused > 50 && flown > 500, "{refused} {flown}");

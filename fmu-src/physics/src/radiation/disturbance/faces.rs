@@ -2,7 +2,11 @@
 
 use nalgebra::Vector3;
 
-use crate::spacecraft::{Cylinder, FaceThermal, Optics, Panel, Plate, Spacecraft, SunshadeModel, Thermal};
+use crate::radiation::shadow::{Hinge, Outline};
+use crate::radiation::thermal::transient::HeatStore;
+use crate::spacecraft::{
+    Cylinder, Emission, FaceThermal, Optics, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
+};
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
 const CYLINDER_STRIPS: u32 = 24;
@@ -36,6 +40,36 @@ pub(super) struct Surface {
     pub closed_form_sun: bool,
     /// Index of its outline among the outlines, if it has one.
     pub outline: Option<usize>,
+}
+
+impl Surface {
+    /// Temperatures of its faces `duration_s` later, in place, for the heat of every face at the start and at the end; left
+    /// as they are where it stores no heat.
+    pub fn advance_temperatures(&self, temperatures_k: &mut [f64], heat_w: [&[f64]; 2], duration_s: f64) {
+        if self.thermal.heat_capacity_j_m2_k <= 0.0 {
+            return;
+        }
+        let first = self.first_face;
+        let count = if self.two_sided { 2 } else { 1 };
+        let pick = |values: &[f64], scale: f64| {
+            let at = |side: usize| values.get(first + side).map_or(0.0, |value| value * scale);
+            if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
+        };
+        let rear = self.thermal.rear.map_or(Emission::constant(0.0), |rear| rear.emission);
+        let store = HeatStore {
+            emission: [self.thermal.front.emission, rear],
+            conduction: self.thermal.conduction,
+            heat_capacity_j_m2_k: self.thermal.heat_capacity_j_m2_k,
+        };
+        let per_area = 1.0 / self.area_m2;
+        let heat = heat_w.map(|heat_w| pick(heat_w, per_area));
+        let next = store.advance(pick(temperatures_k, 1.0), heat, duration_s);
+        for (side, value) in next.into_iter().enumerate().take(count) {
+            if let Some(temperature_k) = temperatures_k.get_mut(first + side) {
+                *temperature_k = value;
+            }
+        }
+    }
 }
 
 /// Where a normal comes from.
@@ -165,4 +199,27 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
             polygon: None,
         }
     })
+}
+
+/// Outlines of plates and panels in the order of the faces' outlines.
+pub(super) fn outlines(faces: &Faces, spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Vec<Outline> {
+    let plates = spacecraft.plates_body(form.unwrap_or(SunshadeModel::Plates));
+    let fixed = plates.iter().filter_map(|plate| {
+        let two_sided = plate.rear_optics.is_some();
+        plate.polygon.as_ref().map(|polygon| Outline { polygon: polygon.clone(), hinge: None, two_sided })
+    });
+    let turning = spacecraft.panels.iter().enumerate().filter_map(|(index, panel)| {
+        panel.polygon.as_ref().map(|polygon| Outline {
+            polygon: polygon.clone(),
+            two_sided: panel.rear_optics.is_some(),
+            hinge: Some(Hinge {
+                panel: index,
+                point_body_m: panel.center_body_m,
+                axis_body: panel.axis_body,
+            }),
+        })
+    });
+    let outlines: Vec<Outline> = fixed.chain(turning).collect();
+    debug_assert_eq!(outlines.len(), faces.outlines.len());
+    outlines
 }

@@ -2,8 +2,10 @@
 
 use nalgebra::Vector3;
 
+use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::environment::sun::{SunError, flux_w_m2};
 use crate::numerics::scalar::Scalar;
+use crate::radiation::flat_plate::Beam;
 use crate::radiation::grid::GridError;
 use crate::radiation::ring::ViewError;
 
@@ -129,6 +131,14 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             panel_angles_rad,
             center_of_mass_body_m,
         })
+    }
+
+    /// Sunlight as far as the planet lets it through.
+    pub(super) fn beam(&self) -> Beam<T> {
+        Beam {
+            source_body: self.sun_direction_body,
+            pressure_pa: self.sun_flux_w_m2 * self.lit_fraction * (1.0 / SPEED_OF_LIGHT_M_S),
+        }
     }
 
     pub(super) fn check(&self, panels: usize) -> Result<(), GeometryError> {

@@ -5,7 +5,7 @@
 
 mod by_source;
 mod error;
-mod evaluate;
+mod face_loads;
 mod faces;
 mod geometry;
 mod model;

@@ -1,13 +1,20 @@
-//! A spacecraft and a planet prepared for evaluation.
+//! A spacecraft and a planet prepared for evaluation; from geometry to force and torque.
+
+use nalgebra::Vector3;
 
 use super::error::ModelError;
-use super::faces::{Faces, Normal};
+use super::face_loads::FaceLoads;
+use super::faces::{Faces, Normal, outlines};
+use super::geometry::{Geometry, GeometryError, Recoil};
 use super::planet_rule::{PlanetLightMethod, PlanetRule};
+use super::workspace::{Disturbance, Workspace};
 use crate::bodies::surface::PlanetSurface;
-use crate::radiation::shadow::{Hinge, Outline, ShadowScene};
+use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::radiation::force_torque::ForceTorque;
+use crate::radiation::planet_light::PlanetLight;
+use crate::radiation::shadow::ShadowScene;
 use crate::radiation::solar::SolarModel;
-use crate::radiation::thermal::transient::HeatStore;
-use crate::spacecraft::{Emission, Panel, Spacecraft, SunshadeModel};
+use crate::spacecraft::{Panel, Spacecraft, SunshadeModel};
 
 /// What an evaluation takes into account.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,14 +43,14 @@ impl Default for Options {
 /// A spacecraft prepared for light and heat; whatever does not change is computed once.
 #[derive(Clone, Debug)]
 pub struct DisturbanceModel {
-    pub(super) faces: Faces,
-    pub(super) panels: Vec<Panel>,
+    faces: Faces,
+    panels: Vec<Panel>,
     /// Sunlight on a cylindrical shade in closed form.
-    pub(super) cylinder: Option<SolarModel>,
-    pub(super) planet_light: PlanetRule,
-    pub(super) planet: Option<PlanetSurface>,
+    cylinder: Option<SolarModel>,
+    planet_light: PlanetRule,
+    planet: Option<PlanetSurface>,
     /// Present only where some surface can shadow another.
-    pub(super) scene: Option<ShadowScene>,
+    scene: Option<ShadowScene>,
 }
 
 impl DisturbanceModel {
@@ -159,6 +166,79 @@ impl DisturbanceModel {
         self.faces.surfaces.iter().any(|surface| surface.thermal.heat_capacity_j_m2_k > 0.0)
     }
 
+    /// Force and torque about the centre of mass by effect; by face in the workspace.
+    ///
+    /// Does not allocate once the workspace has been used, unless surfaces shadow one another.
+    ///
+    /// # Errors
+    /// A geometry without meaning: not finite, spacecraft inside the planet, Sun without direction, wrong number of
+    /// angles or temperatures.
+    pub fn evaluate<T: Scalar>(
+        &self,
+        geometry: &Geometry<'_, T>,
+        recoil: Recoil<'_>,
+        workspace: &mut Workspace<T>,
+    ) -> Result<Disturbance<T>, GeometryError> {
+        let surface = self.planet.map(|surface| surface.constant());
+        self.evaluate_on(surface.as_ref(), geometry, recoil, workspace)
+    }
+
+    /// As [`DisturbanceModel::evaluate`] near a planet of this surface, whose properties may depend on the seed; not
+    /// checked.
+    ///
+    /// # Errors
+    /// See [`DisturbanceModel::evaluate`].
+    pub fn evaluate_on<T: Scalar>(
+        &self,
+        surface: Option<&PlanetSurface<T>>,
+        geometry: &Geometry<'_, T>,
+        recoil: Recoil<'_>,
+        workspace: &mut Workspace<T>,
+    ) -> Result<Disturbance<T>, GeometryError> {
+        geometry.check(self.panels.len())?;
+        self.check_temperatures(recoil)?;
+        workspace.prepare(self.faces.normals.len(), self.faces.faces.len());
+        self.turn_normals(geometry, workspace);
+        self.light_planet(surface, geometry, workspace)?;
+        if let Some(scene) = &self.scene {
+            let sun = &geometry.sun_direction_body;
+            scene.evaluate(sun, geometry.panel_angles_rad, &mut workspace.shadow);
+        }
+        let loads = self.loads(geometry);
+        let mut sum = loads.receive(workspace);
+        sum.thermal = loads.radiate(recoil, workspace);
+        if let Some(cylinder) = &self.cylinder {
+            sum.solar += cylinder.sunshade(&geometry.beam(), &geometry.center_of_mass_body_m);
+        }
+        Ok(sum)
+    }
+
+    /// Recoil of heat anew for the light of the last evaluation, at other temperatures.
+    ///
+    /// # Errors
+    /// Not one temperature for each face, or a workspace of another model.
+    pub fn recoil<T: Scalar>(
+        &self,
+        geometry: &Geometry<'_, T>,
+        recoil: Recoil<'_>,
+        workspace: &mut Workspace<T>,
+    ) -> Result<ForceTorque<T>, GeometryError> {
+        self.check_temperatures(recoil)?;
+        let (found, allowed) = (workspace.faces.len(), self.faces.faces.len());
+        if found != allowed {
+            return Err(GeometryError::Temperatures { found, allowed });
+        }
+        Ok(self.loads(geometry).radiate(recoil, workspace))
+    }
+
+    /// Heat every face takes in, in W, as of the last evaluation: absorbed light and heat from inside. Written to
+    /// `heat_w`, face by face, as far as both reach.
+    pub fn heat_w(&self, workspace: &Workspace<f64>, heat_w: &mut [f64]) {
+        for ((heat_w, state), face) in heat_w.iter_mut().zip(&workspace.faces).zip(&self.faces.faces) {
+            *heat_w = state.absorbed_sun_w + state.absorbed_planet_w + face.internal_heat_w;
+        }
+    }
+
     /// Temperatures of all faces `duration_s` later, in place.
     ///
     /// `heat_w` is what each face takes in ([`super::DisturbanceModel::heat_w`]) at the start and at the end; in between
@@ -172,52 +252,64 @@ impl DisturbanceModel {
         duration_s: f64,
     ) {
         for surface in &self.faces.surfaces {
-            if surface.thermal.heat_capacity_j_m2_k <= 0.0 {
-                continue;
-            }
-            let first = surface.first_face;
-            let count = if surface.two_sided { 2 } else { 1 };
-            let pick = |values: &[f64], scale: f64| {
-                let at = |side: usize| values.get(first + side).map_or(0.0, |value| value * scale);
-                if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
-            };
-            let rear = surface.thermal.rear.map_or(Emission::constant(0.0), |rear| rear.emission);
-            let store = HeatStore {
-                emission: [surface.thermal.front.emission, rear],
-                conduction: surface.thermal.conduction,
-                heat_capacity_j_m2_k: surface.thermal.heat_capacity_j_m2_k,
-            };
-            let per_area = 1.0 / surface.area_m2;
-            let heat = [pick(start_heat_w, per_area), pick(end_heat_w, per_area)];
-            let next = store.advance(pick(temperatures_k, 1.0), heat, duration_s);
-            for (side, value) in next.into_iter().enumerate().take(count) {
-                if let Some(temperature_k) = temperatures_k.get_mut(first + side) {
-                    *temperature_k = value;
-                }
-            }
+            surface.advance_temperatures(temperatures_k, [start_heat_w, end_heat_w], duration_s);
         }
+    }
+
+    fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), GeometryError> {
+        let allowed = self.faces.faces.len();
+        match recoil {
+            Recoil::Stored(temperatures_k) if temperatures_k.len() != allowed => {
+                Err(GeometryError::Temperatures { found: temperatures_k.len(), allowed })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn loads<'a, T: Scalar>(&'a self, geometry: &'a Geometry<'a, T>) -> FaceLoads<'a, T> {
+        FaceLoads { faces: &self.faces, geometry, shadowing: self.scene.is_some() }
+    }
+
+    fn turn_normals<T: Scalar>(&self, geometry: &Geometry<'_, T>, workspace: &mut Workspace<T>) {
+        let turned = |panel: usize| match (self.panels.get(panel), geometry.panel_angles_rad.get(panel)) {
+            (Some(panel), Some(angle_rad)) => panel.normal_body(*angle_rad),
+            _ => Vector3::zeros(),
+        };
+        for (normal, source) in workspace.normals.iter_mut().zip(&self.faces.normals) {
+            *normal = match *source {
+                Normal::Fixed(fixed) => constant_vector(&fixed),
+                Normal::Front(panel) => turned(panel),
+                Normal::Rear(panel) => -turned(panel),
+            };
+        }
+    }
+
+    /// Planet light for every distinct normal.
+    fn light_planet<T: Scalar>(
+        &self,
+        surface: Option<&PlanetSurface<T>>,
+        geometry: &Geometry<'_, T>,
+        workspace: &mut Workspace<T>,
+    ) -> Result<(), GeometryError> {
+        let (Some(surface), Some(planet)) = (surface, &geometry.planet) else {
+            workspace.lights.fill(PlanetLight::dark());
+            return Ok(());
+        };
+        let planet_source = self.planet_light.planet_source(surface, planet)?;
+        for (index, normal) in workspace.normals.iter().enumerate() {
+            // Panels that stand alike, or like a plate, see the same.
+            let turns = !matches!(self.faces.normals[index], Normal::Fixed(_));
+            let alike =
+                turns.then(|| workspace.normals[..index].iter().position(|known| same(known, normal)));
+            workspace.lights[index] = match alike.flatten() {
+                Some(known) => workspace.lights[known],
+                None => planet_source.receive(normal),
+            };
+        }
+        Ok(())
     }
 }
 
-/// Outlines of plates and panels in the order of the faces' outlines.
-fn outlines(faces: &Faces, spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Vec<Outline> {
-    let plates = spacecraft.plates_body(form.unwrap_or(SunshadeModel::Plates));
-    let fixed = plates.iter().filter_map(|plate| {
-        let two_sided = plate.rear_optics.is_some();
-        plate.polygon.as_ref().map(|polygon| Outline { polygon: polygon.clone(), hinge: None, two_sided })
-    });
-    let turning = spacecraft.panels.iter().enumerate().filter_map(|(index, panel)| {
-        panel.polygon.as_ref().map(|polygon| Outline {
-            polygon: polygon.clone(),
-            two_sided: panel.rear_optics.is_some(),
-            hinge: Some(Hinge {
-                panel: index,
-                point_body_m: panel.center_body_m,
-                axis_body: panel.axis_body,
-            }),
-        })
-    });
-    let outlines: Vec<Outline> = fixed.chain(turning).collect();
-    debug_assert_eq!(outlines.len(), faces.outlines.len());
-    outlines
+fn same<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> bool {
+    a.iter().zip(b.iter()).all(|(a, b)| a.same(*b))
 }

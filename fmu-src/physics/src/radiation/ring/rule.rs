@@ -96,7 +96,7 @@ impl RingRule {
     ) -> PlanetLight<T> {
         let plate = Plate::new(view, &view.local(normal));
         let mut total = [Tensors::zero(), Tensors::zero()];
-        let breaks = view.breaks(&plate);
+        let breaks = plate.breaks(view);
         for segment in breaks.segments() {
             let mut over = |low: T, high: T| {
                 let width = high - low;
@@ -156,64 +156,56 @@ impl<T: Scalar> Plate<T> {
     fn outward(&self, view: &PlanetView<T>, light: ReceivedLight<T>) -> ReceivedLight<T> {
         ReceivedLight { vector_pa: view.unlocal(&self.azimuth.turned_forth(&light.vector_pa)), ..light }
     }
-}
 
-impl<T: Scalar> PlanetView<T> {
     /// Limb, nadir, the births of both arcs, and where the terminator crosses the plate's horizon.
-    fn breaks(&self, plate: &Plate<T>) -> Breaks<T> {
+    fn breaks(&self, view: &PlanetView<T>) -> Breaks<T> {
         let mut breaks = Breaks::none();
         // Plate horizon: sin(eta) = |cos(tilt)|, so cos(eta) = sin(tilt).
-        let along = self.relative_distance * plate.reach;
-        let under_root = along * along - self.limb_squared;
-        let horizon = (under_root.value() > 0.0).then(|| (self.limb / (along + under_root.sqrt())).ln());
-        let horizon = horizon.map(|x| if x.value() > -RACING { self.held(x) } else { x });
-        if horizon.is_none() && plate.normal.z.value() <= 0.0 {
+        let along = view.relative_distance * self.reach;
+        let under_root = along * along - view.limb_squared;
+        let horizon = (under_root.value() > 0.0).then(|| (view.limb / (along + under_root.sqrt())).ln());
+        let horizon = horizon.map(|x| if x.value() > -RACING { held(view, x) } else { x });
+        if horizon.is_none() && self.normal.z.value() <= 0.0 {
             return breaks;
         }
-        breaks.insert(self.nearest, false);
+        breaks.insert(view.nearest, false);
         breaks.insert(T::constant(0.0), false);
         let mut inside = |x: T, born: bool| {
-            if x.value() > self.nearest.value() + AT_NADIR {
+            if x.value() > view.nearest.value() + AT_NADIR {
                 breaks.insert(x, born);
             } else {
-                breaks.born[0] |= born && x.value() >= self.nearest.value() - AT_NADIR;
+                breaks.born[0] |= born && x.value() >= view.nearest.value() - AT_NADIR;
             }
         };
         if let Some(x) = horizon {
             inside(x, true);
         }
-        if let Some(x) = self.terminator {
+        if let Some(x) = view.terminator {
             inside(x, true);
         }
-        self.crossings(plate, &mut inside);
-        if let (Some(x), true) = (horizon, plate.normal.z.value() < 0.0)
-            && x.value() > self.nearest.value() + AT_NADIR
+        self.crossings(view, &mut inside);
+        if let (Some(x), true) = (horizon, self.normal.z.value() < 0.0)
+            && x.value() > view.nearest.value() + AT_NADIR
         {
             breaks.unseen_before = x.value();
         }
         breaks
     }
 
-    /// A break that keeps its part of the way from nadir to the limb: as good a place to split there, whatever the
-    /// geometry does next, and one that does not move faster than nadir itself.
-    fn held(&self, x: T) -> T {
-        self.nearest * (x.value() / self.nearest.value())
-    }
-
     /// Where both arcs end at one point of a ring: points p with n.p = 0, sun.p = d sun.nadir on the sphere.
-    fn crossings(&self, plate: &Plate<T>, inside: &mut impl FnMut(T, bool)) {
-        let (n, sun) = (&plate.normal, &plate.sun);
+    fn crossings(&self, view: &PlanetView<T>, inside: &mut impl FnMut(T, bool)) {
+        let (n, sun) = (&self.normal, &self.sun);
         let n_dot_sun = n.dot(sun);
         let sine_squared = n_dot_sun * n_dot_sun * -1.0 + 1.0;
         if sine_squared.value() < 1e-12 {
             return;
         }
-        let level = self.relative_distance * sun.z / sine_squared;
+        let level = view.relative_distance * sun.z / sine_squared;
         let foot = (sun - n * n_dot_sun) * level;
         let line = n.cross(sun) / sine_squared.sqrt();
         // |foot + lambda line - d nadir| = 1
-        let half_b = self.relative_distance * line.z;
-        let c = foot.dot(&foot) - self.relative_distance * foot.z * 2.0 + self.limb_squared;
+        let half_b = view.relative_distance * line.z;
+        let c = foot.dot(&foot) - view.relative_distance * foot.z * 2.0 + view.limb_squared;
         let under_root = half_b * half_b - c;
         if under_root.value() <= 0.0 {
             return;
@@ -222,14 +214,20 @@ impl<T: Scalar> PlanetView<T> {
         for lambda in [half_b - root, half_b + root] {
             let t_squared = foot.dot(&foot) + lambda * lambda;
             // Beyond the limb the point is on the far side.
-            if t_squared.value() < self.limb_squared.value() {
-                let x = (t_squared / self.limb_squared).ln() * 0.5;
+            if t_squared.value() < view.limb_squared.value() {
+                let x = (t_squared / view.limb_squared).ln() * 0.5;
                 let races = root.value().powi(2) < RACING * RACING * t_squared.value()
                     || sine_squared.value() < RACING * RACING;
-                inside(if races { self.held(x) } else { x }, false);
+                inside(if races { held(view, x) } else { x }, false);
             }
         }
     }
+}
+
+/// A break that keeps its part of the way from nadir to the limb: as good a place to split there, whatever the
+/// geometry does next, and one that does not move faster than nadir itself.
+fn held<T: Scalar>(view: &PlanetView<T>, x: T) -> T {
+    view.nearest * (x.value() / view.nearest.value())
 }
 
 /// One ring of the planet.

@@ -77,7 +77,8 @@ impl<T: Scalar> Pieces<T> {
         left.flat_m2 = self.flat_m2;
         for piece in self.iter() {
             if apart(piece, hole) {
-                left.push(piece.iter().copied());
+                left.points.extend_from_slice(piece);
+                left.ends.push(left.points.len());
                 continue;
             }
             let [inside, next] = scratch;
@@ -109,6 +110,31 @@ pub(super) fn flat_m2(size_m: f64) -> f64 {
 ///
 /// What is left turns at every corner by at least 64 times the angle by which rounding can turn its edges.
 pub(super) fn drop_flat_corners<T: Scalar>(points: &mut Vec<Vector2<T>>, start: usize, flat_m2: f64) {
+    if points.len() < start + 3 {
+        points.truncate(start);
+    } else if has_flat_corner(&points[start..], flat_m2) {
+        drop_those(points, start, flat_m2);
+    }
+}
+
+/// Of an outline with at least two corners.
+#[inline]
+fn has_flat_corner<T: Scalar>(outline: &[Vector2<T>], flat_m2: f64) -> bool {
+    let [.., before, last] = outline else { return true };
+    let (mut from, mut edge) = (last.map(T::value), (last - before).map(T::value));
+    // The smallest turn; a NaN is passed over and shows.
+    let mut least = f64::INFINITY;
+    for point in outline {
+        let to = point.map(T::value);
+        let next = to - from;
+        least = least.min(edge.perp(&next));
+        (from, edge) = (to, next);
+    }
+    least <= flat_m2
+}
+
+#[cold]
+fn drop_those<T: Scalar>(points: &mut Vec<Vector2<T>>, start: usize, flat_m2: f64) {
     let is_flat = |a: &Vector2<T>, b: &Vector2<T>, c: &Vector2<T>| {
         let [a, b, c] = [a, b, c].map(|p| p.map(T::value));
         // Written so that a NaN stays and shows.
@@ -133,8 +159,11 @@ pub(super) fn drop_flat_corners<T: Scalar>(points: &mut Vec<Vector2<T>>, start: 
             break;
         }
     }
-    points.truncate(if end >= first + 3 { end } else { start });
-    points.drain(start..first.min(points.len()));
+    if end < first + 3 {
+        (first, end) = (start, start);
+    }
+    points.truncate(end);
+    points.drain(start..first);
 }
 
 #[inline]
@@ -143,7 +172,7 @@ pub(super) fn cross<T: Scalar>(a: &Vector2<T>, b: &Vector2<T>) -> T {
 }
 
 pub(super) fn edges<T: Scalar>(piece: &[Vector2<T>]) -> impl Iterator<Item = (Vector2<T>, Vector2<T>)> + '_ {
-    let next = piece.iter().cycle().skip(1);
+    let next = piece.iter().skip(1).chain(piece.first());
     piece.iter().zip(next).map(|(a, b)| (*a, *b))
 }
 
@@ -169,12 +198,19 @@ fn clip<T: Scalar>(piece: &[Vector2<T>], a: &Vector2<T>, b: &Vector2<T>, kept: &
 
 /// Whether an edge of either keeps them apart.
 fn apart<T: Scalar>(piece: &[Vector2<T>], hole: &[Vector2<T>]) -> bool {
-    let separates = |edges_of: &[Vector2<T>], other: &[Vector2<T>]| {
-        edges(edges_of).any(|(a, b)| {
-            let along = (b - a).map(T::value);
-            let start = a.map(T::value);
-            other.iter().all(|p| along.perp(&(p.map(T::value) - start)) <= 0.0)
-        })
-    };
     separates(hole, piece) || separates(piece, hole)
+}
+
+/// Whether everything of `other` lies right of an edge of the first outline.
+fn separates<T: Scalar>(edges_of: &[Vector2<T>], other: &[Vector2<T>]) -> bool {
+    let Some(mut start) = edges_of.last().map(|p| p.map(T::value)) else { return false };
+    for end in edges_of {
+        let end = end.map(T::value);
+        let along = end - start;
+        if other.iter().all(|p| along.perp(&(p.map(T::value) - start)) <= 0.0) {
+            return true;
+        }
+        start = end;
+    }
+    false
 }

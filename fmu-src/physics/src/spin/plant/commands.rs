@@ -1,25 +1,10 @@
-//! What the master gives a flight: commands and directions.
+//! What the master commands: thrusters over a step, pulses within it, torque from outside.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::spacing::spacing;
 use crate::spin::{series::BodyTorque, spinner::MOST_THRUSTERS};
-
-/// Beyond these lengths the squares of a vector's components under- or overflow.
-const NORMALIZABLE: core::ops::RangeInclusive<f64> = 1e-100..=1e100;
-
-/// Directions in inertial space that the sensors look for; unit vectors, or 0 for one that is not known: nothing is seen
-/// there. On the L1 orbit those of Sun and Earth do not count.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Directions {
-    /// Sun.
-    pub sun_inertial: Vector3<f64>,
-    /// Earth.
-    pub earth_inertial: Vector3<f64>,
-    /// Star.
-    pub star_inertial: Vector3<f64>,
-}
 
 /// A thruster command within a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -56,26 +41,6 @@ impl PulseCommand {
     }
 }
 
-impl Directions {
-    /// The unit vector along a vector; 0 of 0, and `None` of one so short or long that rounding takes its direction.
-    pub fn unit(along: [f64; 3]) -> Option<Vector3<f64>> {
-        let vector = Vector3::from(along);
-        let norm = vector.norm();
-        if NORMALIZABLE.contains(&norm) {
-            return Some(vector / norm);
-        }
-        (along == [0.0; 3]).then(Vector3::zeros)
-    }
-
-    /// Whether all are unit vectors, or none.
-    pub(super) fn are_directions(&self) -> bool {
-        let unit = |direction: &Vector3<f64>| {
-            *direction == Vector3::zeros() || (direction.norm() - 1.0).abs() < 1e-6
-        };
-        [&self.sun_inertial, &self.earth_inertial, &self.star_inertial].into_iter().all(unit)
-    }
-}
-
 impl Commands {
     /// Nothing.
     pub fn none() -> Self {
@@ -94,6 +59,12 @@ impl Commands {
         let is_cut =
             |pulse: &PulseCommand| pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s + rounding_s;
         self.pulses.iter().position(is_cut)
+    }
+
+    /// Whether decoded commands can be some.
+    pub(super) fn is_sound(&self) -> bool {
+        let pulse = |pulse: &PulseCommand| pulse.delay_s >= 0.0 && pulse.on_s >= 0.0;
+        self.pulses.iter().all(pulse) && self.torque.is_sound()
     }
 
     /// Thrusters on just after `time_s`, in a step from `from_s`.

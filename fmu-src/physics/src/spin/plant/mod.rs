@@ -1,13 +1,16 @@
 //! The spinner in flight: body, burn, outside commands and sensors, from edge to edge.
 
-mod access;
 mod commands;
-mod propellant;
-mod sensing;
+mod directions;
+mod propulsion;
+mod sensors;
 mod sound;
 mod start;
 mod state;
 
-pub use commands::{Commands, Directions, PulseCommand};
-pub use start::{Start, StartError};
-pub use state::{LEAST_WORK, MOST_WORK, MassSource, Plant, Sampling, SpinPlantError, StarSample};
+pub use commands::{Commands, PulseCommand};
+pub use directions::Directions;
+pub use propulsion::{MassSource, Propulsion};
+pub use sensors::{Sampling, Sensors, StarSample};
+pub use start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
+pub use state::{Plant, SpinPlantError};

@@ -3,46 +3,28 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::commands::{Commands, Directions};
+use super::commands::Commands;
+use super::directions::{DirectionSource, Directions};
+use super::propulsion::{MassSource, Propulsion};
+use super::sensors::{Sensor, Sensors};
+use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
+use crate::attitude::Inertia;
 use crate::spin::{
-    crossing_detector::CrossingDetector,
-    geometry::L1Ephemeris,
+    burn::{Burn, BurnInitialConditions},
+    damper::Damper,
     motion::{Motion, MotionError},
-    nutation::{LinearNutation, Spin},
+    nutation::Spin,
     sequencer::{Phase, Sequencer},
+    series::BodyTorque,
     spinner::Spinner,
-    tracker::NutationEstimator,
     work::{Cost, Work, WorkExceeded},
 };
 
 /// A communication point this close to an edge, as a share of the step's later or earlier end, counts as the edge.
 const SAME_TIME: f64 = 1e-13;
 
-/// Least work of a step that may be allowed, in units of about a microsecond.
-pub const LEAST_WORK: u32 = 1000;
-/// Most.
-pub const MOST_WORK: u32 = 1_000_000_000;
-
-/// Sun and Earth of the L1 orbit stand still for the sensors over intervals of this length, in s: less than 0.01 deg.
-pub(super) const DIRECTION_INTERVAL_S: f64 = 600.0;
-
-/// What the inertia follows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum MassSource {
-    /// Stays as given.
-    Fixed,
-    /// Follows the propellant by the setup's table, at the end of each pulse.
-    Propellant,
-}
-
-/// When the star tracker samples its star.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Sampling {
-    /// On the turns that search the star's picket, when it passes the boresight.
-    Spins,
-    /// Every 8 nominal turns by the clock, as eqs 16 to 20 assume.
-    Clock,
-}
+/// By which share of a turn times of one flight may be out of order.
+const OUT_OF_ORDER: f64 = 1e-3;
 
 /// Why a flight does not come to the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -55,84 +37,142 @@ pub enum SpinPlantError {
     Work(#[from] WorkExceeded),
 }
 
-/// A star tracker sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct StarSample {
-    /// When, in s; -1 before any.
-    pub time_s: f64,
-    /// Measured declination in the sensor, in rad.
-    pub declination_rad: f64,
-    /// How many so far.
-    pub count: u32,
-}
-
 /// A spinner in flight: everything a step needs from the steps before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plant {
-    pub(super) motion: Motion,
-    pub(super) time_s: f64,
-    pub(super) mass_source: MassSource,
-    pub(super) initial_propellant_kg: f64,
-    pub(super) initial_momentum_inertial: Vector3<f64>,
-    pub(super) initial_spin_axis_inertial: Vector3<f64>,
-    pub(super) theory: Spin,
-    pub(super) sequencer: Option<Sequencer>,
-    pub(super) commands: Commands,
-    pub(super) directions: Directions,
-    /// Thrusters on.
-    pub(super) mask: u32,
-    /// Since when, in s.
-    pub(super) mask_since_s: f64,
-    pub(super) used_kg: f64,
-    pub(super) delta_v_inertial_m_s: Vector3<f64>,
-    /// Up to when delta-v is summed, in s.
-    pub(super) delta_v_until_s: f64,
-    pub(super) predicted: LinearNutation,
-    pub(super) sun: CrossingDetector,
-    pub(super) star: CrossingDetector,
-    pub(super) sun_sample_rad: f64,
-    pub(super) sampling: Sampling,
-    pub(super) clock_period_s: f64,
-    pub(super) clock_start_s: f64,
-    pub(super) clock_count: u64,
-    /// One turn in so many sees the star.
-    pub(super) every: u32,
-    pub(super) sample: StarSample,
-    pub(super) estimator: NutationEstimator,
-    pub(super) estimator_since_s: f64,
-    pub(super) sensor_azimuths: SensorAzimuths,
-    pub(super) seed: u64,
+    motion: Motion,
+    time_s: f64,
+    initial: InitialConditions,
+    sequencer: Option<Sequencer>,
+    commands: Commands,
     /// Whether commands came since the last step.
-    pub(super) commanded: bool,
-    pub(super) l1: Option<L1Ephemeris>,
-    pub(super) refresh_count: i64,
-    pub(super) refresh_s: f64,
+    commanded: bool,
+    directions: DirectionSource,
+    propulsion: Propulsion,
+    sensors: Sensors,
     /// What a step may cost.
-    pub(super) work_limit: u32,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct SensorAzimuths {
-    pub(super) sun: Vector3<f64>,
-    pub(super) star: Vector3<f64>,
+    work_limit: u32,
 }
 
 impl Plant {
+    /// Starts a flight at `start_s`.
+    pub fn start(
+        spinner: &Spinner,
+        start: &Start,
+        directions: Directions,
+        commands: Commands,
+        start_s: f64,
+    ) -> Result<Self, StartError> {
+        let inertia = match start.mass_source {
+            MassSource::Fixed => Inertia::new(start.inertia_kg_m2)?,
+            MassSource::Propellant => spinner.mass_properties.inertia(start.propellant_kg)?,
+        };
+        let attitude = start.check(spinner)?;
+        let spin_n_m_s = inertia.spin_kg_m2() * start.spin_rate_rad_s;
+        let across = spin_n_m_s * start.nutation_rad.tan();
+        let (sine, cosine) = start.nutation_phase_rad.sin_cos();
+        let momentum_inertial =
+            attitude.inertial_from_body(&Vector3::new(across * cosine, across * sine, spin_n_m_s));
+        let theory = Spin {
+            rate_rad_s: start.spin_rate_rad_s,
+            ratio: inertia.inertial_nutation_ratio().unwrap_or(inertia.ratio()),
+            inertia_kg_m2: inertia.spin_kg_m2(),
+        };
+        let sequencer = match &start.burn {
+            None => None,
+            Some(request) => {
+                let initial = BurnInitialConditions {
+                    spin: theory,
+                    momentum_inertial,
+                    propellant_kg: start.propellant_kg,
+                };
+                let burn = Burn::new(spinner, request, &initial)?;
+                Some(Sequencer::new(burn, spinner.sun_sensor.azimuth_deg.to_radians()))
+            }
+        };
+        let damper = Damper::new(start.damper_time_constant_s, &inertia);
+        let quiet = BodyTorque::constant(Vector3::zeros());
+        let motion = Motion::new(inertia, damper, quiet, start_s, attitude, momentum_inertial, f64::INFINITY);
+        let mut plant = Self {
+            motion,
+            time_s: start_s,
+            initial: InitialConditions {
+                momentum_inertial,
+                spin_axis_inertial: attitude.spin_axis_inertial(),
+                theory,
+            },
+            sequencer,
+            commands: Commands::none(),
+            commanded: true,
+            directions: DirectionSource::new(directions, start.l1, start_s),
+            propulsion: Propulsion::new(start.mass_source, start.propellant_kg, start_s),
+            sensors: Sensors::new(spinner, start.sampling, start.nominal_rate_rad_s, start.seed, start_s),
+            work_limit: start.work_limit,
+        };
+        start.refuse_blind_timing(
+            &plant.motion.at(start_s).momentum_inertial,
+            &plant.directions.present().sun_inertial,
+        )?;
+        let mut work = Work::new(start.work_limit);
+        plant.schedule(start_s, &mut work);
+        work.check(start_s)?;
+        plant.command(commands, directions);
+        Ok(plant)
+    }
+
+    /// Where communication stands, in s.
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// The motion in force.
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// What it started with.
+    pub fn initial(&self) -> &InitialConditions {
+        &self.initial
+    }
+
+    /// The burn in flight.
+    pub fn sequencer(&self) -> Option<&Sequencer> {
+        self.sequencer.as_ref()
+    }
+
+    /// Thrusters and tank.
+    pub fn propulsion(&self) -> &Propulsion {
+        &self.propulsion
+    }
+
+    /// Sun sensor and star tracker.
+    pub fn sensors(&self) -> &Sensors {
+        &self.sensors
+    }
+
+    /// Directions that the sensors look for now.
+    pub fn directions(&self) -> &Directions {
+        self.directions.present()
+    }
+
+    /// Directions at a time: on the L1 orbit they move.
+    pub fn directions_at(&self, time_s: f64) -> Directions {
+        self.directions.at(time_s)
+    }
+
     /// New commands and directions, from the present time on.
     ///
     /// With the L1 orbit in charge, only the star of `directions` counts.
-    pub fn command(&mut self, commands: Commands, mut directions: Directions) {
-        if self.l1.is_some() {
-            directions.sun_inertial = self.directions.sun_inertial;
-            directions.earth_inertial = self.directions.earth_inertial;
+    pub fn command(&mut self, commands: Commands, directions: Directions) {
+        let before = *self.directions.present();
+        self.directions.give(directions);
+        let now = self.directions.present();
+        if now.sun_inertial != before.sun_inertial {
+            self.sensors.forget_sun(self.time_s);
         }
-        if directions.sun_inertial != self.directions.sun_inertial {
-            self.sun.forget(self.time_s);
+        if now.star_inertial != before.star_inertial {
+            self.sensors.forget_star(self.time_s);
         }
-        if directions.star_inertial != self.directions.star_inertial {
-            self.star.forget(self.time_s);
-        }
-        self.directions = directions;
         self.commands = commands;
         self.commanded = true;
     }
@@ -157,8 +197,8 @@ impl Plant {
             work.check(reached_s)?;
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
             let command_s = self.commands.edge_after_s(from_s, now_s);
-            let dry_s = self.dry_s(spinner).max(now_s);
-            let edge_s = plan_s.min(command_s).min(self.refresh_s).min(dry_s);
+            let dry_s = self.propulsion.dry_s(spinner).max(now_s);
+            let edge_s = plan_s.min(command_s).min(self.directions.refresh_s()).min(dry_s);
             let (until_s, segment_end_s) = (edge_s.min(end_s), self.motion.segment_end_s());
             // What is seen may move the plan's edge.
             if let Some(seen_s) = self.observe(spinner, until_s.min(segment_end_s), work)? {
@@ -175,9 +215,11 @@ impl Plant {
             }
             (now_s, reached_s) = (edge_s, edge_s);
             work.spend(Cost::Edge);
-            if self.refresh_s <= edge_s {
+            if self.directions.refresh_s() <= edge_s {
                 work.spend(Cost::Direction);
-                self.refresh_directions();
+                if let Some(from_s) = self.directions.refresh() {
+                    self.sensors.forget_sun(from_s);
+                }
             }
             let mut hint_s = f64::INFINITY;
             if plan_s <= edge_s
@@ -201,13 +243,8 @@ impl Plant {
         Ok(())
     }
 
-    /// Where communication stands, in s.
-    pub fn time_s(&self) -> f64 {
-        self.time_s
-    }
-
     /// Puts the thrusters and outside torque in force that hold just after `now_s`.
-    pub(super) fn switch(
+    fn switch(
         &mut self,
         spinner: &Spinner,
         from_s: f64,
@@ -217,22 +254,20 @@ impl Plant {
     ) -> Result<(), SpinPlantError> {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
         let asked = plan | self.commands.mask_after(from_s, now_s);
-        let mask = if self.is_dry() { 0 } else { asked };
+        let mask = if self.propulsion.is_dry() { 0 } else { asked };
         let mut torque = self.commands.torque;
         if mask != 0 {
             torque = torque.plus(&spinner.thrust(mask).torque_body_n_m);
         }
-        if mask != self.mask || torque != *self.motion.torque() {
+        if mask != self.propulsion.mask() || torque != *self.motion.torque() {
             self.reach(spinner, now_s, work)?;
             self.settle_pulse(spinner, now_s);
-            let inertia = self.inertia_now(spinner);
+            let inertia = self.propulsion.inertia(spinner, &self.motion);
             work.spend_segment(self.motion.damper());
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s);
             self.motion.check()?;
-            self.mask = mask;
-            self.mask_since_s = now_s;
-            self.sun.forget(now_s);
-            self.star.forget(now_s);
+            self.propulsion.fire(mask, now_s);
+            self.sensors.forget_motion(now_s);
             if self.sequencer.as_ref().is_some_and(Sequencer::follows_motion) {
                 self.schedule(now_s, work);
             }
@@ -240,12 +275,110 @@ impl Plant {
         Ok(())
     }
 
-    pub(super) fn schedule(&mut self, now_s: f64, work: &mut Work) {
-        if self.is_dry() {
+    /// Books what the thrusters that were on used and did.
+    fn settle_pulse(&mut self, spinner: &Spinner, now_s: f64) {
+        if self.propulsion.settle(spinner, &self.motion, &self.initial.theory, now_s) {
+            self.sensors.restart_estimate(now_s);
+        }
+    }
+
+    /// Empties the tank at `now_s`; the burn ends with the pulse it cut.
+    fn run_dry(&mut self, spinner: &Spinner, now_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
+        self.reach(spinner, now_s, work)?;
+        self.settle_pulse(spinner, now_s);
+        self.propulsion.empty();
+        if let Some(sequencer) = &mut self.sequencer {
+            sequencer.stop();
+        }
+        Ok(())
+    }
+
+    /// Lets the sensors see the first thing there is to see up to `until_s`; when it was, if there was one.
+    fn observe(
+        &mut self,
+        spinner: &Spinner,
+        until_s: f64,
+        work: &mut Work,
+    ) -> Result<Option<f64>, SpinPlantError> {
+        let directions = *self.directions.present();
+        let Some((sensor, time_s)) = self.sensors.next_reading(&self.motion, &directions, until_s, work)
+        else {
+            return Ok(None);
+        };
+        self.reach(spinner, time_s, work)?;
+        let sun = &directions.sun_inertial;
+        match sensor {
+            Sensor::Sun => {
+                self.sensors.read_sun(spinner, &self.motion, sun, time_s);
+                if let Some(sequencer) = self.sequencer.as_mut().filter(|_| !self.propulsion.is_dry()) {
+                    sequencer.sun_pulse(&self.motion, time_s, sun, work);
+                }
+            }
+            Sensor::StarTracker => {
+                let theory = &self.initial.theory;
+                self.sensors.read_star(spinner, &self.motion, &directions, theory, time_s, work);
+            }
+        }
+        Ok(Some(time_s))
+    }
+
+    /// Goes on to the next segment, summing delta-v as the present one is left.
+    fn next_segment(&mut self, spinner: &Spinner, work: &mut Work) -> Result<(), SpinPlantError> {
+        self.motion.check()?;
+        let end_s = self.motion.segment_end_s();
+        work.spend_segment(self.motion.damper());
+        self.propulsion.leave_segment(spinner, &self.motion, work);
+        self.motion.next_segment();
+        self.sensors.forget_motion(end_s);
+        Ok(())
+    }
+
+    /// Goes on through segments until the present one holds `time_s`.
+    fn reach(&mut self, spinner: &Spinner, time_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
+        while self.motion.segment_end_s() < time_s {
+            work.check(self.motion.anchor_s())?;
+            self.next_segment(spinner, work)?;
+        }
+        Ok(self.propulsion.sum_panels(spinner, &self.motion, time_s, work)?)
+    }
+
+    fn schedule(&mut self, now_s: f64, work: &mut Work) {
+        if self.propulsion.is_dry() {
             return;
         }
         if let Some(sequencer) = &mut self.sequencer {
-            sequencer.schedule(&self.motion, now_s, &self.directions.sun_inertial, work);
+            sequencer.schedule(&self.motion, now_s, &self.directions.present().sun_inertial, work);
         }
+    }
+
+    /// Whether a decoded state can be flown on: its thrusters exist, its numbers are finite and belong together.
+    pub fn fits(&self, spinner: &Spinner) -> bool {
+        let burn = self.sequencer().map(Sequencer::burn);
+        let known = (1_u64 << spinner.thrusters.len()) - 1;
+        let masks = [
+            self.propulsion.mask(),
+            self.commands.fire,
+            burn.map_or(0, |b| b.mask),
+            burn.map_or(0, |b| b.opposite_mask),
+        ];
+        let slack_s = OUT_OF_ORDER * self.initial.theory.period_s();
+        masks.iter().all(|&mask| u64::from(mask) & !known == 0)
+            && (LEAST_WORK..=MOST_WORK).contains(&self.work_limit)
+            && self.initial.is_sound()
+            && self.motion_is_sound(slack_s)
+            && self.propulsion.is_sound(spinner, self.time_s + slack_s)
+            && self.commands.is_sound()
+            && self.sensors.is_sound(self.time_s)
+            && self.directions.is_sound(self.time_s)
+            && self.sequencer().is_none_or(Sequencer::is_sound)
+    }
+
+    fn motion_is_sound(&self, slack_s: f64) -> bool {
+        let (now_s, anchor_s, end_s) = (self.time_s, self.motion.anchor_s(), self.motion.segment_end_s());
+        now_s.is_finite()
+            && self.motion.is_sound()
+            && anchor_s <= now_s + slack_s
+            && now_s <= end_s + slack_s
+            && self.motion.check_at(now_s).is_ok()
     }
 }

@@ -6,7 +6,9 @@ use crate::numerics::spacing::spacing;
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
+    outputs::Outputs,
     plant::{Commands, Plant, Start},
+    predictions::Predictions,
 };
 
 /// A flight of 1600 s from `start_s` with 114 pulses, and what it shows.
@@ -18,7 +20,7 @@ fn flown(inertia_kg_m2: [f64; 3], timing: Timing, start_s: f64) -> crate::spin::
     for i in 1..=16 {
         plant.advance(&spinner, start_s + 100.0 * f64::from(i)).unwrap();
     }
-    plant.outputs(&spinner)
+    Outputs::of(&plant, &spinner)
 }
 
 #[test]
@@ -52,13 +54,17 @@ fn a_burn_that_waits_for_11_days_fires_every_pulse() {
         start.burn = Some(BurnRequest { timing, start_s: 1e6, ..request() });
         let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
         plant.advance(&spinner, 1e6 + 1600.0).unwrap();
-        let outputs = plant.outputs(&spinner);
+        let outputs = Outputs::of(&plant, &spinner);
         assert_eq!((outputs.pulses_fired, outputs.burn_done), (114, true), "{timing:?}");
-        let expected = plant.predictions().manoeuvre_rad;
+        let expected = Predictions::of(&plant).manoeuvre_rad;
         assert!((outputs.momentum_displacement_rad / expected - 1.0).abs() < 2e-3, "{timing:?}");
         // A crossing of the Sun in every turn.
         let turns = (1e6 + 1600.0) / 12.0;
-        assert!((plant.sun_watch().count() as f64 - turns).abs() < 3.0, "{}", plant.sun_watch().count());
+        assert!(
+            (plant.sensors().sun_crossings().count() as f64 - turns).abs() < 3.0,
+            "{}",
+            plant.sensors().sun_crossings().count()
+        );
     }
 }
 

@@ -7,6 +7,7 @@ mod observation;
 mod refusals;
 mod rocket;
 mod split;
+mod steering;
 mod tank;
 mod theory;
 mod work;

@@ -10,6 +10,7 @@ use crate::spin::{
     geometry::L1Ephemeris,
     noise::{Channel, normal},
     nutation::period_variation_s,
+    outputs::Outputs,
     plant::{Commands, Directions, Plant, Sampling},
     tracker::{NutationEstimator, picket_of, searched},
 };
@@ -28,7 +29,7 @@ fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for i in 1..2000 {
             plant.advance(&spinner, 6.0 * f64::from(i)).unwrap();
-            if let Some(period) = plant.sun_watch().period_s() {
+            if let Some(period) = plant.sensors().sun_crossings().period_s() {
                 least = least.min(period);
                 most = most.max(period);
             }
@@ -45,8 +46,8 @@ fn a_quiet_spinner_crosses_the_sun_once_a_period() {
     let spinner = ace();
     let mut plant = Plant::start(&spinner, &paper_start(1.483), directions(), Commands::none(), 0.0).unwrap();
     plant.advance(&spinner, 1200.5).unwrap();
-    let outputs = plant.outputs(&spinner);
-    assert_eq!(plant.sun_watch().count(), 101);
+    let outputs = Outputs::of(&plant, &spinner);
+    assert_eq!(plant.sensors().sun_crossings().count(), 101);
     assert_relative_eq!(outputs.period_s, 12.0, max_relative = 1e-12);
     assert!(outputs.sector_error.abs() < 1e-6);
     assert_relative_eq!(outputs.sun_angle_rad.to_degrees(), 10.0, max_relative = 1e-12);
@@ -74,7 +75,7 @@ fn the_star_is_sampled_every_eight_spins_or_every_96_s() {
         let mut times = Vec::new();
         for i in 1..2000 {
             plant.advance(&spinner, f64::from(i)).unwrap();
-            let sample = plant.sample();
+            let sample = plant.sensors().sample();
             if times.last() != Some(&sample.time_s) && sample.count > 0 {
                 times.push(sample.time_s);
             }
@@ -96,7 +97,7 @@ fn declination_swings_by_the_nutation_angle_either_way() {
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for i in 1..10_000 {
         plant.advance(&spinner, 0.01 * f64::from(i)).unwrap();
-        let declination = plant.outputs(&spinner).declination_rad;
+        let declination = Outputs::of(&plant, &spinner).declination_rad;
         least = least.min(declination);
         most = most.max(declination);
     }
@@ -115,8 +116,8 @@ fn the_estimator_finds_the_nutation_angle_within_its_own_error() {
         start.seed = seed;
         let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
         plant.advance(&spinner, 4.0 * 3600.0).unwrap();
-        let estimate = plant.outputs(&spinner).estimate;
-        assert!(plant.estimator().count() > 100);
+        let estimate = Outputs::of(&plant, &spinner).estimate;
+        assert!(plant.sensors().estimator().count() > 100);
         assert!(estimate.sigma_rad.to_degrees() < 0.004);
         hits += i32::from((estimate.nutation_rad - start.nutation_rad).abs() < estimate.sigma_rad);
     }
@@ -191,8 +192,8 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     for i in 1..=4000 {
         cut.advance(&spinner, f64::from(i)).unwrap();
     }
-    assert_eq!(whole.outputs(&spinner), cut.outputs(&spinner));
-    assert!(whole.sun_watch().count() > 330);
+    assert_eq!(Outputs::of(&whole, &spinner), Outputs::of(&cut, &spinner));
+    assert!(whole.sensors().sun_crossings().count() > 330);
 }
 
 #[test]
@@ -205,12 +206,12 @@ fn the_sector_error_is_what_a_spin_divided_by_the_period_before_is_off() {
     let (mut crossings, mut most) = (Vec::new(), 0.0_f64);
     for i in 1..2000 {
         plant.advance(&spinner, 0.1 * f64::from(i)).unwrap();
-        let seen_s = plant.sun_watch().last_s();
+        let seen_s = plant.sensors().sun_crossings().last_s();
         if crossings.last() != seen_s.as_ref() {
             crossings.extend(seen_s);
         }
         let [.., a, b, c] = crossings[..] else { continue };
-        let outputs = plant.outputs(&spinner);
+        let outputs = Outputs::of(&plant, &spinner);
         assert_relative_eq!(outputs.period_s, c - b, max_relative = 1e-12);
         assert_relative_eq!(outputs.period_change_s, (c - b) - (b - a), epsilon = 1e-12);
         // Sectors of the width learnt in one spin, counted over the next.
@@ -237,24 +238,28 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
         Plant::start(&spinner, &paper_start(1.483), star(210.0, 3.0), Commands::none(), 0.0).unwrap();
     // 30 deg a second: from 90 to 210 deg in 4 s.
     plant.advance(&spinner, 26.0).unwrap();
-    assert_relative_eq!(plant.outputs(&spinner).declination_rad.to_degrees(), 3.0, max_relative = 1e-12);
-    let seen = plant.sample();
+    assert_relative_eq!(
+        Outputs::of(&plant, &spinner).declination_rad.to_degrees(),
+        3.0,
+        max_relative = 1e-12
+    );
+    let seen = plant.sensors().sample();
     assert_eq!(seen.count, 2);
     assert_relative_eq!(seen.time_s, 16.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), 3.0, max_relative = 1e-12);
     // At 26 s the boresight is at 150 deg; a star at 240 deg comes 3 s later, the old one would in 2 s.
     plant.command(Commands::none(), star(240.0, -9.9));
     plant.advance(&spinner, 28.5).unwrap();
-    assert_eq!(plant.sample().count, 2);
+    assert_eq!(plant.sensors().sample().count, 2);
     plant.advance(&spinner, 30.0).unwrap();
-    let seen = plant.sample();
+    let seen = plant.sensors().sample();
     assert_eq!(seen.count, 3);
     assert_relative_eq!(seen.time_s, 29.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), -9.9, max_relative = 1e-12);
     // The field of view is 20 deg, 10 to either side.
     plant.command(Commands::none(), star(240.0, 10.1));
     plant.advance(&spinner, 90.0).unwrap();
-    assert_eq!(plant.sample().count, 3);
+    assert_eq!(plant.sensors().sample().count, 3);
 }
 
 #[test]
@@ -266,15 +271,15 @@ fn a_pulse_begins_the_estimate_anew() {
     start.damper_time_constant_s = 0.0;
     let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
     plant.advance(&spinner, 4.0 * 3600.0).unwrap();
-    let before = plant.outputs(&spinner);
+    let before = Outputs::of(&plant, &spinner);
     assert_relative_eq!(before.estimate.nutation_rad, before.nutation_rad, max_relative = 0.01);
     plant.command(Commands { fire: 1 << 7, ..Commands::none() }, directions());
     plant.advance(&spinner, 4.0 * 3600.0 + 0.2).unwrap();
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 4.0 * 3600.0 + 3.0).unwrap();
-    assert_eq!(plant.estimator().count(), 0);
+    assert_eq!(plant.sensors().estimator().count(), 0);
     plant.advance(&spinner, 8.0 * 3600.0).unwrap();
-    let after = plant.outputs(&spinner);
+    let after = Outputs::of(&plant, &spinner);
     assert!((after.nutation_rad - before.nutation_rad).abs() > 0.2 * before.nutation_rad);
     assert_relative_eq!(after.estimate.nutation_rad, after.nutation_rad, max_relative = 0.01);
 }

@@ -4,7 +4,9 @@ use super::{ace, directions, paper_spin, paper_start, request};
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
+    outputs::Outputs,
     plant::{Commands, Plant},
+    predictions::Predictions,
     train::{Shape, Train, TrainError},
 };
 
@@ -22,9 +24,9 @@ fn flown(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
         ..request()
     });
     let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
-    let planned = plant.predictions();
+    let planned = Predictions::of(&plant);
     plant.advance(&spinner, planned.duration_s + 60.0).unwrap();
-    let outputs = plant.outputs(&spinner);
+    let outputs = Outputs::of(&plant, &spinner);
     assert!(!outputs.burn_active);
     (planned.manoeuvre_rad, outputs.momentum_displacement_rad, outputs.state.nutation_rad())
 }

@@ -6,6 +6,7 @@ use super::{ace, directions, paper_start, request};
 use crate::spin::{
     burn::BurnRequest,
     plant::{Commands, Plant, Sampling, SpinPlantError, Start},
+    predictions::Predictions,
     train::Shape,
 };
 
@@ -75,7 +76,7 @@ fn the_longest_trains_are_planned_in_time() {
         let begun = Instant::now();
         let planned = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0);
         let took_s = begun.elapsed().as_secs_f64();
-        println!("{shape:?}: {took_s:.2} s, {:?}", planned.map(|p| p.predictions().count));
+        println!("{shape:?}: {took_s:.2} s, {:?}", planned.map(|p| Predictions::of(&p).count));
         assert!(took_s < 60.0);
     }
 }

@@ -1,0 +1,167 @@
+//! The shape of a timeline file: keys and items are named as the variables of Guidance.
+
+use serde::Deserialize;
+
+use super::quantity::Quantity;
+use crate::bodies::Body;
+use crate::guidance::command::{
+    AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
+    Scenario,
+};
+use crate::guidance::modes::Mode;
+
+/// Commands of Guidance over time.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(title = "heliotorque timeline"))]
+#[serde(deny_unknown_fields)]
+pub(super) struct Description {
+    /// The commands in the order of their times. Each lasts until the next one or until its own `until`.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub command: Vec<CommandDescription>,
+}
+
+/// A command.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct CommandDescription {
+    /// When it begins: a date that ends in UTC or TDB ("2008-03-19T19:30:00 UTC"), or FMI time: a number of seconds or a
+    /// string with a unit ("90 min"). A file has one kind.
+    pub at: Quantity,
+    /// When it ends, if that is before the next one begins; then nothing is commanded.
+    pub until: Option<Quantity>,
+    pub scenario: Option<Scenario>,
+    pub boresight: Option<BoresightDescription>,
+    pub aimpoint: Option<AimpointDescription>,
+    /// The MDIS camera's aimpoint in the scenario doubleTarget.
+    pub second_aimpoint: Option<AimpointDescription>,
+    pub body_roll: Option<BodyRollDescription>,
+    pub external_roll: Option<ExternalRollDescription>,
+    pub limb: Option<LimbDescription>,
+    pub scan: Option<ScanDescription>,
+    pub keep_in: Option<KeepInDescription>,
+    /// A mode asked for when the command begins; Safe Hold follows downlink alone.
+    pub mode: Option<Mode>,
+}
+
+/// The boresight.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct BoresightDescription {
+    pub option: Option<BoresightOption>,
+    /// Body-frame components, of any length.
+    pub vector: Option<[f64; 3]>,
+    /// Azimuth in the body frame, from -Y toward +X; of the antenna where an antenna is the boresight.
+    pub azimuth: Option<Quantity>,
+    /// Elevation in the body frame, positive toward -Z.
+    pub elevation: Option<Quantity>,
+    /// MDIS angle: from +Z, positive sunward.
+    pub angle: Option<Quantity>,
+    /// Instrument of a scenario: its name in the spacecraft file, or its row there from 1; 0 is +Z.
+    pub instrument: Option<Quantity>,
+}
+
+/// An aimpoint.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct AimpointDescription {
+    pub option: AimpointOption,
+    /// Direction in EME2000, of any length.
+    pub vector: Option<[f64; 3]>,
+    /// Position for the options earthCentered, sunCentered, planetCentered and planetFixed.
+    pub position: Option<[Quantity; 3]>,
+    /// Right ascension.
+    pub right_ascension: Option<Quantity>,
+    /// Declination.
+    pub declination: Option<Quantity>,
+    /// Planetocentric latitude.
+    pub latitude: Option<Quantity>,
+    /// Longitude, east positive.
+    pub longitude: Option<Quantity>,
+    /// Height above the ellipsoid along the radius; 0 unless given.
+    pub height: Option<Quantity>,
+    /// Azimuth in the local frame, right-handed about up.
+    pub azimuth: Option<Quantity>,
+    /// Elevation in the local frame, toward up.
+    pub elevation: Option<Quantity>,
+    pub body: Option<Body>,
+}
+
+/// The body roll vector.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct BodyRollDescription {
+    pub option: BodyRollOption,
+    /// Body-frame components, of any length.
+    pub vector: Option<[f64; 3]>,
+    /// Azimuth in the body frame, from -Y toward +X.
+    pub azimuth: Option<Quantity>,
+    /// Elevation in the body frame, positive toward -Z.
+    pub elevation: Option<Quantity>,
+}
+
+/// The external roll reference.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct ExternalRollDescription {
+    pub option: ExternalRollOption,
+    /// Direction in EME2000, of any length.
+    pub vector: Option<[f64; 3]>,
+    /// Right ascension.
+    pub right_ascension: Option<Quantity>,
+    /// Declination.
+    pub declination: Option<Quantity>,
+}
+
+/// Where at the limb, and how it is scanned.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct LimbDescription {
+    /// Azimuth about the local vertical, right-handed about up, in the scenario limbGeneric.
+    pub azimuth: Option<Quantity>,
+    pub reference: Option<AzimuthReference>,
+    /// Height above the limb along its radius when the scenario starts; 0 unless given.
+    pub height: Option<Quantity>,
+    /// How fast the height grows; 0 unless given.
+    pub height_rate: Option<Quantity>,
+}
+
+/// A scan pattern over the scenario.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct ScanDescription {
+    pub frame: ScanFrame,
+    pub reference: Option<AzimuthReference>,
+    /// Rates of rotations, right-handed, about x, y and z in turn.
+    pub rate: Option<[Quantity; 3]>,
+    /// Speeds of translations.
+    pub speed: Option<[Quantity; 3]>,
+    /// How long each axis moves.
+    pub duration: Option<[Quantity; 3]>,
+    /// How long each axis holds after a motion; 0 unless given.
+    pub pause: Option<[Quantity; 3]>,
+    /// How often each axis moves; 0, as if not given: without end.
+    pub segments: Option<[u32; 3]>,
+    /// Whether every second motion of an axis goes back; false unless given.
+    pub reverse: Option<[bool; 3]>,
+}
+
+/// The Sun keep-in zone while the command lasts, instead of the FMU's parameters.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct KeepInDescription {
+    /// Whether commands keep the Sun inside the zone.
+    pub enabled: Option<bool>,
+    /// Largest Sun azimuth either way.
+    pub azimuth: Option<Quantity>,
+    /// Largest Sun elevation either way.
+    pub elevation: Option<Quantity>,
+}

@@ -1,0 +1,105 @@
+//! The scan of a command: a scenario that has scans, numbers of its frame, motions that last, an aim that its frame goes with.
+
+use super::commands::{Commands, named};
+use super::description::{CommandDescription, ScanDescription};
+use super::quantity::{RATE, SPEED, TIME};
+use super::reads::{Keys, reads, scan_keys};
+use crate::guidance::aimpoint::{AIMPOINTS, AimKind};
+use crate::guidance::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
+use crate::guidance::scan::ScanCompatibility;
+use crate::spacecraft::Place;
+
+/// Greatest number of segments.
+const MOST_SEGMENTS: u32 = 1_000_000;
+
+/// The scan of a command; none where there is none or its scenario has none, which is reported elsewhere.
+pub(super) fn scan(
+    commands: &mut Commands<'_, '_>,
+    at: &Place,
+    description: &CommandDescription,
+    command: &PointingCommand,
+) -> ScanCommand {
+    let scenario = command.scenario.filter(|scenario| reads(*scenario).scan);
+    let (Some(given), Some(scenario)) = (&description.scan, scenario) else { return ScanCommand::default() };
+    let at = at.key("scan");
+    if !commands.check.is_stand_in(&at.key("frame")) {
+        judge_frame(commands, &at, given);
+        let aim = aim_kind(scenario, command.aimpoint.option);
+        if aim.is_some_and(|aim| !ScanCompatibility::default().allows(given.frame, aim)) {
+            let found = named("the frame", given.frame) + ", which does not go with this aimpoint";
+            commands.check.report(&at.key("frame"), found, "a frame that does: body, inertialRotation ...");
+        }
+    }
+    let mut three = |key: &str, given: &Option<_>, kind| {
+        given.as_ref().map_or([0.0; 3], |given| commands.three(&at.key(key), given, kind))
+    };
+    let scan = ScanCommand {
+        frame: Some(given.frame),
+        reference: given.reference,
+        rate_rad_s: three("rate", &given.rate, &RATE),
+        speed_m_s: three("speed", &given.speed, &SPEED),
+        duration_s: three("duration", &given.duration, &TIME),
+        pause_s: three("pause", &given.pause, &TIME),
+        segments: given.segments.unwrap_or_default(),
+        reverse: given.reverse.unwrap_or_default(),
+    };
+    judge_motions(commands, &at, given, &scan);
+    scan
+}
+
+fn judge_frame(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescription) {
+    let keys = [
+        ("reference", given.reference.is_some()),
+        ("rate", given.rate.is_some()),
+        ("speed", given.speed.is_some()),
+        ("duration", given.duration.is_some()),
+        ("pause", given.pause.is_some()),
+        ("segments", given.segments.is_some()),
+        ("reverse", given.reverse.is_some()),
+    ];
+    let Keys { needed, optional } = scan_keys(given.frame);
+    commands.judge(at, &keys, needed, optional, &named("the frame", given.frame));
+}
+
+/// An axis moves, every axis that does for a time, and no time is negative.
+fn judge_motions(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescription, scan: &ScanCommand) {
+    let check = &mut commands.check;
+    for (key, times_s) in [("duration", scan.duration_s), ("pause", scan.pause_s)] {
+        for (axis, time_s) in times_s.into_iter().enumerate().filter(|(_, time_s)| *time_s < 0.0) {
+            check.report(&at.key(key).item(axis), format_args!("{time_s} s"), "a time from 0 s");
+        }
+    }
+    for (axis, segments) in scan.segments.into_iter().enumerate() {
+        if segments > MOST_SEGMENTS {
+            let allowed = format!("0 (without end) to {MOST_SEGMENTS}");
+            check.report(&at.key("segments").item(axis), segments, allowed);
+        }
+    }
+    let rates =
+        [("rate", given.rate.is_some(), scan.rate_rad_s), ("speed", given.speed.is_some(), scan.speed_m_s)];
+    for (key, _, rates) in rates.into_iter().filter(|(_, is_given, _)| *is_given) {
+        if check.has_reported(&at.key(key)) {
+            continue;
+        }
+        if rates == [0.0; 3] {
+            check.report(&at.key(key), "zero on every axis", "an axis that moves, or no scan");
+        }
+        for (axis, _) in rates.into_iter().enumerate().filter(|(_, rate)| *rate != 0.0) {
+            if given.duration.is_some() && scan.duration_s[axis] == 0.0 {
+                let place = at.key("duration").item(axis);
+                check.report_across(at, &place, "0 s for an axis that moves", "a time above 0 s");
+            }
+        }
+    }
+}
+
+/// What a scenario aims at; `None` where no aimpoint is given.
+fn aim_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimKind> {
+    match scenario {
+        Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimKind::PlanetPoint),
+        Scenario::Downlink | Scenario::OrbitPhase => None,
+        Scenario::Generic | Scenario::PlusZ | Scenario::Mdis | Scenario::DoubleTarget => {
+            AIMPOINTS.iter().find(|row| Some(row.option) == aimpoint).map(|row| row.kind)
+        }
+    }
+}

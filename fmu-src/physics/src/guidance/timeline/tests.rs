@@ -1,0 +1,347 @@
+//! Every key of a command is read as written; a bad timeline is refused by line, key, what was found and what is allowed.
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+use super::*;
+use crate::bodies::Body;
+use crate::constants::DEG_RAD;
+use crate::guidance::command::*;
+use crate::guidance::modes::Mode;
+use crate::spacecraft::{Instrument, MESSENGER_TOML, Spacecraft};
+
+const EXAMPLE: &str = include_str!("../../../../resources/examples/timeline.toml");
+
+fn instruments() -> Vec<Instrument> {
+    let named = |name: &str| Instrument { name: name.to_owned(), boresight_body: Vector3::z() };
+    vec![named("MASCS"), named("MLA")]
+}
+
+fn read(text: &str) -> Timeline {
+    Timeline::from_toml("t.toml", text, &instruments()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// One command at 0 s.
+fn command(text: &str) -> TimelineEntry {
+    read(&format!("[[command]]\nat = 0\n{text}")).entries()[0]
+}
+
+#[test]
+fn the_example_is_a_day_at_mercury() {
+    let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+    let timeline = Timeline::from_toml("timeline.toml", EXAMPLE, &spacecraft.instruments).unwrap();
+    assert_eq!(timeline.clock(), TimelineClock::Epoch);
+    let [first, .., last] = timeline.entries() else { panic!("too few") };
+    let start_s = crate::environment::dates::epoch_s("2011-04-06T00:00:00 UTC").unwrap();
+    assert_eq!(first.at_s, start_s);
+    assert!((last.until_s.unwrap() - first.at_s - 86_400.0).abs() < 1e-3);
+    let scenarios: Vec<_> = timeline.entries().iter().filter_map(|entry| entry.command.scenario).collect();
+    use Scenario::{Downlink, Generic, LimbTerminator, Mdis, Nadir, PlusZ};
+    assert_eq!(scenarios, [Nadir, LimbTerminator, Mdis, Generic, Downlink, PlusZ, Nadir]);
+    // Between the mosaic's end and the star nothing is commanded.
+    let at = |hours: f64| timeline.entry_at(0.0, start_s + hours * 3600.0);
+    assert_eq!(at(4.3).and_then(|entry| entry.command.scan.frame), Some(ScanFrame::Body));
+    assert_eq!(at(4.5), None);
+    assert_eq!(at(10.0).and_then(|entry| entry.keep_in.elevation_rad), Some(10.0 * DEG_RAD));
+}
+
+#[test]
+fn every_key_of_a_generic_command_is_read() {
+    for (boresight, wanted) in [
+        (
+            "option = \"vector\", vector = [1, 2.5, -3]",
+            BoresightCommand {
+                option: Some(BoresightOption::Vector),
+                vector: Vector3::new(1.0, 2.5, -3.0),
+                ..BoresightCommand::default()
+            },
+        ),
+        (
+            "option = \"azEl\", azimuth = \"-90 deg\", elevation = 0.25",
+            BoresightCommand {
+                option: Some(BoresightOption::AzimuthElevation),
+                azimuth_rad: -PI / 2.0,
+                elevation_rad: 0.25,
+                ..BoresightCommand::default()
+            },
+        ),
+        (
+            "option = \"mdis\", angle = \"40 deg\"",
+            BoresightCommand {
+                option: Some(BoresightOption::Mdis),
+                angle_rad: 40.0 * DEG_RAD,
+                ..BoresightCommand::default()
+            },
+        ),
+        (
+            "option = \"phasedArray\", azimuth = \"135 deg\"",
+            BoresightCommand {
+                option: Some(BoresightOption::PhasedArray),
+                azimuth_rad: 135.0 * DEG_RAD,
+                ..BoresightCommand::default()
+            },
+        ),
+    ] {
+        let text = format!(
+            "scenario = \"generic\"\nboresight = {{ {boresight} }}\naimpoint = {{ option = \"sun\" }}\n\
+             bodyRoll = {{ option = \"azEl\", azimuth = 1, elevation = \"-45 deg\" }}\n\
+             externalRoll = {{ option = \"raDec\", rightAscension = \"180 deg\", declination = 0.5 }}"
+        );
+        let wanted = PointingCommand {
+            scenario: Some(Scenario::Generic),
+            boresight: wanted,
+            aimpoint: AimpointCommand { option: Some(AimpointOption::Sun), ..AimpointCommand::default() },
+            body_roll: BodyRollCommand {
+                option: Some(BodyRollOption::AzimuthElevation),
+                azimuth_rad: 1.0,
+                elevation_rad: -PI / 4.0,
+                ..BodyRollCommand::default()
+            },
+            external_roll: ExternalRollCommand {
+                option: Some(ExternalRollOption::RightAscensionDeclination),
+                right_ascension_rad: PI,
+                declination_rad: 0.5,
+                ..ExternalRollCommand::default()
+            },
+            ..PointingCommand::default()
+        };
+        assert_eq!(command(&text).command, wanted, "{boresight}");
+    }
+    let text = "scenario = \"generic\"\nboresight = { option = \"vector\", vector = [0, 0, 1] }\n\
+                aimpoint = { option = \"sun\" }\nbodyRoll = { option = \"vector\", vector = [0, -2, 0] }\n\
+                externalRoll = { option = \"vector\", vector = [0, 0, 4] }";
+    let found = command(text).command;
+    assert_eq!(found.body_roll.vector, Vector3::new(0.0, -2.0, 0.0));
+    assert_eq!(found.external_roll.vector, Vector3::new(0.0, 0.0, 4.0));
+    for (name, option) in [
+        ("sun", ExternalRollOption::Sun),
+        ("earth", ExternalRollOption::Earth),
+        ("planet", ExternalRollOption::Planet),
+    ] {
+        let text = text.replace("option = \"vector\", vector = [0, 0, 4]", &format!("option = \"{name}\""));
+        assert_eq!(command(&text).command.external_roll.option, Some(option));
+    }
+}
+
+#[test]
+fn every_aimpoint_is_read_for_both_keys() {
+    let none = AimpointCommand::default();
+    let position = Vector3::new(1e3, 2.0, -ASTRONOMICAL_UNIT_M);
+    use crate::constants::ASTRONOMICAL_UNIT_M;
+    use AimpointOption as Option;
+    let at = |option| AimpointCommand { option: Some(option), position_m: position, ..none };
+    let local =
+        |option| AimpointCommand { option: Some(option), azimuth_rad: 6.0, elevation_rad: -1.5, ..none };
+    let alone = |option| AimpointCommand { option: Some(option), ..none };
+    let (p, l) = (", position = [\"1 km\", 2, \"-1 AU\"]", ", azimuth = 6, elevation = -1.5");
+    let body = |body| AimpointCommand { option: Some(Option::Body), body: Some(body), ..none };
+    for (text, wanted) in [
+        (
+            "vector\", vector = [0, 3, 0]".to_owned(),
+            AimpointCommand { option: Some(Option::Vector), vector: Vector3::y() * 3.0, ..none },
+        ),
+        (
+            "raDec\", rightAscension = 1, declination = -0.5".to_owned(),
+            AimpointCommand {
+                option: Some(Option::RightAscensionDeclination),
+                right_ascension_rad: 1.0,
+                declination_rad: -0.5,
+                ..none
+            },
+        ),
+        (format!("earthCentered\"{p}"), at(Option::EarthCentered)),
+        (format!("sunCentered\"{p}"), at(Option::SunCentered)),
+        (format!("planetCentered\"{p}"), at(Option::PlanetCentered)),
+        (format!("planetFixed\"{p}"), at(Option::PlanetFixed)),
+        (
+            "latLon\", latitude = \"-90 deg\", longitude = \"360 deg\", height = \"2 km\"".to_owned(),
+            AimpointCommand {
+                option: Some(Option::LatitudeLongitude),
+                latitude_rad: -PI / 2.0,
+                longitude_rad: 2.0 * PI,
+                height_m: 2e3,
+                ..none
+            },
+        ),
+        (format!("lvlhDowntrack\"{l}"), local(Option::LvlhDowntrack)),
+        (format!("lvlhSun\"{l}"), local(Option::LvlhSun)),
+        ("sun\"".to_owned(), alone(Option::Sun)),
+        ("earth\"".to_owned(), alone(Option::Earth)),
+        ("nadir\"".to_owned(), alone(Option::Nadir)),
+        ("subsolar\"".to_owned(), alone(Option::Subsolar)),
+        ("optimalLighting\"".to_owned(), alone(Option::OptimalLighting)),
+        ("body\", body = \"mercury\"".to_owned(), body(Body::Mercury)),
+        ("body\", body = \"sun\"".to_owned(), body(Body::Sun)),
+        ("body\", body = \"venus\"".to_owned(), body(Body::Venus)),
+        ("body\", body = \"earth\"".to_owned(), body(Body::Earth)),
+        ("body\", body = \"mars\"".to_owned(), body(Body::Mars)),
+        ("body\", body = \"jupiter\"".to_owned(), body(Body::Jupiter)),
+    ] {
+        let found = command(&format!(
+            "scenario = \"doubleTarget\"\naimpoint = {{ option = \"{text} }}\nsecondAimpoint = {{ option = \"{text} }}"
+        ));
+        assert_eq!(found.command.aimpoint, wanted, "{text}");
+        assert_eq!(found.command.second_aimpoint, wanted, "{text}");
+    }
+}
+
+#[test]
+fn every_scenario_takes_what_it_reads() {
+    for (text, scenario) in [
+        ("plusZ\"\naimpoint = { option = \"earth\" }\nboresight = { instrument = 2 }", Scenario::PlusZ),
+        ("nadir\"\naimpoint = { option = \"nadir\" }", Scenario::Nadir),
+        (
+            "mdis\"\nboresight = { option = \"mdis\", angle = 0 }\naimpoint = { option = \"nadir\" }",
+            Scenario::Mdis,
+        ),
+        ("downlink\"", Scenario::Downlink),
+        ("downlink\"\nboresight = { option = \"phasedArray\", azimuth = -1 }", Scenario::Downlink),
+        ("downlink\"\nmode = \"safeHold\"", Scenario::Downlink),
+        ("limbTerminator\"\nlimb = { height = -100, heightRate = 5 }", Scenario::LimbTerminator),
+        ("limbTerminator\"", Scenario::LimbTerminator),
+        ("limbGeneric\"\nlimb = { azimuth = 1, reference = \"sun\" }", Scenario::LimbGeneric),
+    ] {
+        assert_eq!(command(&format!("scenario = \"{text}")).command.scenario, Some(scenario));
+    }
+    let limb = "scenario = \"limbGeneric\"\nlimb = { azimuth = \"90 deg\", reference = \"sun\", height = \"25 km\", \
+                heightRate = \"-0.3 km/s\" }";
+    let wanted = LimbCommand {
+        azimuth_rad: PI / 2.0,
+        reference: Some(AzimuthReference::Sun),
+        height_m: 25e3,
+        height_rate_m_s: -300.0,
+    };
+    assert_eq!(command(limb).command.limb, wanted);
+    for (instrument, number) in [("0", 0), ("1", 1), ("2.0", 2), ("\"MASCS\"", 1), ("\"MLA\"", 2)] {
+        let text = format!("scenario = \"nadir\"\nboresight = {{ instrument = {instrument} }}");
+        assert_eq!(command(&text).command.boresight.instrument, number, "{instrument}");
+    }
+}
+
+#[test]
+fn every_scan_is_read() {
+    let rest = "duration = [\"1 min\", 2, 0], pause = [0, 0.5, 0], segments = [3, 0, 1000000], reverse = [true, false, true]";
+    let motion = ScanCommand {
+        duration_s: [60.0, 2.0, 0.0],
+        pause_s: [0.0, 0.5, 0.0],
+        segments: [3, 0, 1_000_000],
+        reverse: [true, false, true],
+        ..ScanCommand::default()
+    };
+    let rates = "rate = [\"0.1 deg/s\", -2e-3, 0]";
+    let speeds = "speed = [\"1 km/s\", -5, 0]";
+    let turned =
+        |frame| ScanCommand { frame: Some(frame), rate_rad_s: [0.1 * DEG_RAD, -2e-3, 0.0], ..motion };
+    let moved = |frame| ScanCommand { frame: Some(frame), speed_m_s: [1e3, -5.0, 0.0], ..motion };
+    for (text, wanted) in [
+        (format!("\"body\", {rates}"), turned(ScanFrame::Body)),
+        (format!("\"inertialRotation\", {rates}"), turned(ScanFrame::InertialRotation)),
+        (format!("\"inertialTranslation\", {speeds}"), moved(ScanFrame::InertialTranslation)),
+        (format!("\"planetTranslation\", {speeds}"), moved(ScanFrame::PlanetTranslation)),
+        (
+            format!("\"lvlhRotation\", reference = \"sun\", {rates}"),
+            ScanCommand { reference: Some(AzimuthReference::Sun), ..turned(ScanFrame::LvlhRotation) },
+        ),
+    ] {
+        let found = command(&format!("scenario = \"nadir\"\nscan = {{ frame = {text}, {rest} }}"));
+        assert_eq!(found.command.scan, wanted, "{text}");
+    }
+}
+
+#[test]
+fn modes_and_zones_stand_alone() {
+    let entry = command("mode = \"earthAcquisition\"");
+    assert_eq!((entry.mode, entry.command), (Some(Mode::EarthAcquisition), PointingCommand::default()));
+    assert_eq!(command("mode = \"operational\"").mode, Some(Mode::Operational));
+    assert_eq!(command("mode = \"safeHold\"").mode, Some(Mode::SafeHold));
+    let zone = command("keepIn = { enabled = false, azimuth = \"90 deg\", elevation = 0 }").keep_in;
+    let wanted =
+        KeepInOverride { enabled: Some(false), azimuth_rad: Some(PI / 2.0), elevation_rad: Some(0.0) };
+    assert_eq!(zone, wanted);
+    let one = KeepInOverride { enabled: Some(true), ..KeepInOverride::default() };
+    assert_eq!(command("keepIn = { enabled = true }").keep_in, one);
+}
+
+#[test]
+fn times_are_dates_or_fmi_time() {
+    let two = |first: &str, second: &str| {
+        read(&format!(
+            "[[command]]\nat = {first}\nscenario = \"nadir\"\n[[command]]\nat = {second}\nscenario = \"downlink\""
+        ))
+    };
+    let fmi = two("-10", "\"90 min\"");
+    assert_eq!(fmi.clock(), TimelineClock::FmiTime);
+    assert_eq!([fmi.entries()[0].at_s, fmi.entries()[1].at_s], [-10.0, 5400.0]);
+    assert_eq!([fmi.entries()[0].line, fmi.entries()[1].line], [1, 4]);
+    // The same instant in both scales, 66.184 s apart within TDB's annual term.
+    let dates = two("\"2009-04-06T00:00:00 TDB\"", "\"2009-04-06T00:00:00 UTC\"");
+    assert_eq!((dates.clock(), dates.entries()[0].at_s), (TimelineClock::Epoch, 292_248_000.0));
+    assert!((dates.entries()[1].at_s - 292_248_066.184).abs() < 2e-3);
+    assert_eq!(dates.entry_at(f64::INFINITY, 292_248_001.0).unwrap().line, 1);
+    assert_eq!(fmi.entry_at(5400.0, f64::NEG_INFINITY).unwrap().line, 4);
+    assert_eq!(fmi.entry_at(f64::NAN, 0.0), None);
+}
+
+proptest! {
+    #[test]
+    fn the_entry_in_force_is_found(
+        starts in prop::collection::btree_set(-50_i32..50, 1..12),
+        ends in prop::collection::vec(prop::option::of(1_i32..20), 12),
+    ) {
+        let starts: Vec<i32> = starts.into_iter().collect();
+        let mut text = String::new();
+        let mut spans = Vec::new();
+        for (k, start) in starts.iter().enumerate() {
+            text += &format!("[[command]]\nat = {start}\nscenario = \"nadir\"\n");
+            let next = starts.get(k + 1).copied();
+            let end = ends[k].map(|length| next.unwrap_or(i32::MAX).min(start + length));
+            text += &end.map(|end| format!("until = {end}\n")).unwrap_or_default();
+            spans.push((f64::from(*start), f64::from(end.or(next).unwrap_or(i32::MAX))));
+        }
+        let timeline = read(&text);
+        for half_seconds in -110..110 {
+            let now_s = f64::from(half_seconds) * 0.5;
+            let wanted = spans.iter().position(|(start, end)| (start..end).contains(&&now_s));
+            let found = timeline.entry_at(now_s, f64::NAN).map(|entry| entry.at_s);
+            prop_assert_eq!(found, wanted.map(|index| spans[index].0));
+        }
+    }
+
+    #[test]
+    fn no_file_panics(at in 0..EXAMPLE.len(), byte in prop::char::range(' ', '~'), cut in 0..EXAMPLE.len()) {
+        if EXAMPLE.is_char_boundary(at) && EXAMPLE.is_char_boundary(at + 1) {
+            let mut text = EXAMPLE.to_owned();
+            text.replace_range(at..at + 1, &byte.to_string());
+            let _ = Timeline::from_toml("t.toml", &text, &[]).map_err(|error| error.to_string());
+        }
+        if let Some(torn) = EXAMPLE.get(..cut) {
+            let _ = Timeline::from_toml("t.toml", torn, &[]).map_err(|error| error.to_string());
+        }
+    }
+}
+
+/// `bad_timelines.txt`: files with something wrong, each followed by what is told of it, indented.
+#[test]
+fn bad_timelines_are_told() {
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guidance/timeline/bad_timelines.txt");
+    let wanted = std::fs::read_to_string(&path).unwrap();
+    let cases: Vec<String> = wanted
+        .split("----\n")
+        .map(|case| {
+            case.lines().filter(|line| !line.starts_with("    ")).map(|line| format!("{line}\n")).collect()
+        })
+        .collect();
+    assert!(cases.len() > 50);
+    let told = |text: &String| {
+        let error = Timeline::from_toml("t.toml", text, &instruments()).map(|_| text).unwrap_err();
+        error.to_string().lines().fold(text.clone(), |told, line| format!("{told}    {line}\n"))
+    };
+    let found = cases.iter().map(told).collect::<Vec<_>>().join("----\n");
+    if std::env::var_os("UPDATE_SNAPSHOT").is_some() {
+        std::fs::write(&path, &found).unwrap();
+    }
+    assert!(found == wanted, "{} is out of step: see UPDATE_SNAPSHOT=1\n{found}", path.display());
+}

@@ -1,0 +1,132 @@
+//! Directions of Sun, Earth and star in inertial space: as given, or Sun and Earth from the L1 orbit.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::sound::is_moderate;
+use crate::spin::geometry::L1Ephemeris;
+
+/// Sun and Earth of the L1 orbit stand still for the sensors over intervals of this length, in s: less than 0.01 deg.
+const INTERVAL_S: f64 = 600.0;
+
+/// Beyond these lengths the squares of a vector's components under- or overflow.
+const NORMALIZABLE: core::ops::RangeInclusive<f64> = 1e-100..=1e100;
+
+/// Directions in inertial space that the sensors look for; unit vectors, or 0 for one that is not known: nothing is seen
+/// there. On the L1 orbit those of Sun and Earth do not count.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Directions {
+    /// Sun.
+    pub sun_inertial: Vector3<f64>,
+    /// Earth.
+    pub earth_inertial: Vector3<f64>,
+    /// Star.
+    pub star_inertial: Vector3<f64>,
+}
+
+/// Where the sensors' directions come from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct DirectionSource {
+    present: Directions,
+    /// The L1 orbit; without it Sun and Earth stand where they are given.
+    l1: Option<L1Ephemeris>,
+    refresh_count: i64,
+    refresh_s: f64,
+}
+
+impl Directions {
+    /// The unit vector along a vector; 0 of 0, and `None` of one so short or long that rounding takes its direction.
+    pub fn unit(along: [f64; 3]) -> Option<Vector3<f64>> {
+        let vector = Vector3::from(along);
+        let norm = vector.norm();
+        if NORMALIZABLE.contains(&norm) {
+            return Some(vector / norm);
+        }
+        (along == [0.0; 3]).then(Vector3::zeros)
+    }
+
+    /// Whether all are unit vectors, or none.
+    pub(super) fn are_directions(&self) -> bool {
+        let unit = |direction: &Vector3<f64>| {
+            *direction == Vector3::zeros() || (direction.norm() - 1.0).abs() < 1e-6
+        };
+        [&self.sun_inertial, &self.earth_inertial, &self.star_inertial].into_iter().all(unit)
+    }
+}
+
+impl DirectionSource {
+    /// Directions at the start; with an L1 orbit only the star of `given` counts.
+    pub fn new(given: Directions, l1: Option<L1Ephemeris>, start_s: f64) -> Self {
+        let mut source = Self { present: given, l1, refresh_count: 0, refresh_s: f64::INFINITY };
+        if l1.is_some() {
+            source.refresh_count = (start_s / INTERVAL_S).floor() as i64;
+            source.refresh_s = source.refresh_count as f64 * INTERVAL_S;
+            source.refresh();
+        }
+        source
+    }
+
+    /// Those the sensors look for now.
+    pub fn present(&self) -> &Directions {
+        &self.present
+    }
+
+    /// When those of the L1 orbit are next looked up, in s; infinite without it.
+    pub fn refresh_s(&self) -> f64 {
+        self.refresh_s
+    }
+
+    /// New directions; with the L1 orbit in charge, only the star of `given` counts.
+    pub fn give(&mut self, given: Directions) {
+        let Directions { sun_inertial, earth_inertial, .. } = self.present;
+        self.present = match self.l1 {
+            Some(_) => Directions { sun_inertial, earth_inertial, ..given },
+            None => given,
+        };
+    }
+
+    /// Looks up Sun and Earth on the L1 orbit for the interval that begins; when it does, in s.
+    pub fn refresh(&mut self) -> Option<f64> {
+        let l1 = self.l1.as_ref()?;
+        let from_s = self.refresh_s;
+        let seen = l1.sun_earth(from_s);
+        self.present.sun_inertial = seen.sun_inertial;
+        self.present.earth_inertial = seen.earth_inertial;
+        self.refresh_count = self.refresh_count.saturating_add(1);
+        self.refresh_s = self.refresh_count as f64 * INTERVAL_S;
+        Some(from_s)
+    }
+
+    /// Directions at a time: on the L1 orbit they move.
+    pub fn at(&self, time_s: f64) -> Directions {
+        let mut directions = self.present;
+        if let Some(l1) = &self.l1 {
+            let seen = l1.sun_earth(time_s);
+            directions.sun_inertial = seen.sun_inertial;
+            directions.earth_inertial = seen.earth_inertial;
+        }
+        directions
+    }
+
+    /// Whether a decoded source can be one at `time_s`.
+    pub fn is_sound(&self, time_s: f64) -> bool {
+        let refreshes = match &self.l1 {
+            None => self.refresh_s == f64::INFINITY,
+            Some(l1) => {
+                orbit_is_sound(l1)
+                    && self.refresh_s == self.refresh_count as f64 * INTERVAL_S
+                    && (self.refresh_s - time_s).abs() <= 2.0 * INTERVAL_S
+            }
+        };
+        self.present.are_directions() && refreshes
+    }
+}
+
+/// Whether Sun and Earth of an L1 orbit have a direction at any time.
+pub(super) fn orbit_is_sound(L1Ephemeris { orbit, phases }: &L1Ephemeris) -> bool {
+    let angles = [phases.longitude_rad, phases.in_plane_rad, phases.out_of_plane_rad, orbit.obliquity_deg];
+    let rates = [orbit.line_rate_deg_day, orbit.in_plane_frequency, orbit.out_of_plane_frequency];
+    let distances = [orbit.sun_earth_distance_m, orbit.earth_l1_distance_m];
+    angles.iter().chain(&rates).chain(&distances).chain(&orbit.amplitude_m).all(|&x| is_moderate(x))
+        && orbit.amplitude_m[0].abs() < orbit.earth_l1_distance_m
+}

@@ -1,0 +1,234 @@
+//! What the thrusters use and do: propellant, delta-v, inertia, foreseen nutation.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::sound::are_moderate;
+use crate::attitude::Inertia;
+use crate::spin::{
+    motion::Motion,
+    nutation::{LinearNutation, Spin},
+    spinner::Spinner,
+    work::{Cost, Work, WorkExceeded},
+};
+
+/// A turning force is summed over intervals of this much turn.
+const IMPULSE_PANEL_RAD: f64 = 2.0;
+
+/// And over intervals in which the mass falls by this factor, its logarithm.
+const IMPULSE_PANEL_MASS: f64 = 0.25;
+
+/// What the edges of many pulses have lost to rounding by a time, as a share of it and of the time a full tank lasts.
+const EDGE_ROUNDING: f64 = 1e-11;
+
+/// Gauss-Legendre nodes and weights on -1..1 for the impulse of a turning thruster.
+const NODES: [(f64, f64); 8] = [
+    (-0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
+    (-0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (-0.525_532_409_916_329, 0.313_706_645_877_887_27),
+    (-0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_27),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
+];
+
+/// What the inertia follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MassSource {
+    /// Stays as given.
+    Fixed,
+    /// Follows the propellant by the setup's table, at the end of each pulse.
+    Propellant,
+}
+
+/// Thrusters, tank and what they did so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Propulsion {
+    mass_source: MassSource,
+    initial_propellant_kg: f64,
+    /// Thrusters on.
+    mask: u32,
+    /// Since when, in s.
+    mask_since_s: f64,
+    used_kg: f64,
+    delta_v_inertial_m_s: Vector3<f64>,
+    /// Up to when delta-v is summed, in s.
+    delta_v_until_s: f64,
+    predicted: LinearNutation,
+}
+
+impl Propulsion {
+    /// No thruster on, and nothing used.
+    pub(super) fn new(mass_source: MassSource, propellant_kg: f64, start_s: f64) -> Self {
+        Self {
+            mass_source,
+            initial_propellant_kg: propellant_kg,
+            mask: 0,
+            mask_since_s: start_s,
+            used_kg: 0.0,
+            delta_v_inertial_m_s: Vector3::zeros(),
+            delta_v_until_s: start_s,
+            predicted: LinearNutation::default(),
+        }
+    }
+
+    /// Thrusters on, bit by bit.
+    pub fn mask(&self) -> u32 {
+        self.mask
+    }
+
+    /// Nutation by the linear theory after the last pulse, in rad.
+    pub fn predicted_nutation_rad(&self) -> f64 {
+        self.predicted.angle_rad()
+    }
+
+    /// Propellant at the start, in kg.
+    pub fn initial_propellant_kg(&self) -> f64 {
+        self.initial_propellant_kg
+    }
+
+    /// Whether the tank is empty: nothing fires any more.
+    pub fn is_dry(&self) -> bool {
+        self.used_kg >= self.initial_propellant_kg
+    }
+
+    /// Puts thrusters on; those before are settled.
+    pub(super) fn fire(&mut self, mask: u32, now_s: f64) {
+        self.mask = mask;
+        self.mask_since_s = now_s;
+    }
+
+    /// Books what the thrusters that were on used and did, and puts them off; whether any was on.
+    pub(super) fn settle(&mut self, spinner: &Spinner, motion: &Motion, theory: &Spin, now_s: f64) -> bool {
+        if self.mask == 0 {
+            return false;
+        }
+        self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, now_s);
+        let thrust = spinner.thrust(self.mask);
+        let across = [thrust.torque_body_n_m.x, thrust.torque_body_n_m.y];
+        self.predicted.pulse(theory, across, self.mask_since_s, now_s);
+        self.used_kg = self.used_at(spinner, now_s);
+        self.mask = 0;
+        true
+    }
+
+    /// Nothing is left in the tank.
+    pub(super) fn empty(&mut self) {
+        self.used_kg = self.initial_propellant_kg;
+    }
+
+    /// When the thrusters that are on empty the tank, in s; infinite while none is.
+    pub(super) fn dry_s(&self, spinner: &Spinner) -> f64 {
+        if self.mask == 0 {
+            return f64::INFINITY;
+        }
+        let flow_kg_s = spinner.thrust(self.mask).flow_kg_s;
+        let left_s = (self.initial_propellant_kg - self.used_kg) / flow_kg_s;
+        // Edges are known to rounding: a pulse that takes the last drop ends by its own.
+        let late_s = self.mask_since_s.abs() + self.initial_propellant_kg / flow_kg_s;
+        self.mask_since_s + left_s + EDGE_ROUNDING * late_s
+    }
+
+    /// Inertia with the propellant left, of the body in `motion`.
+    pub(super) fn inertia(&self, spinner: &Spinner, motion: &Motion) -> Inertia {
+        if self.mass_source == MassSource::Fixed {
+            return *motion.inertia();
+        }
+        let left_kg = (self.initial_propellant_kg - self.used_kg).max(0.0);
+        // The table was checked when it was read; the present body is the answer that cannot be refused.
+        spinner.mass_properties.inertia(left_kg).unwrap_or(*motion.inertia())
+    }
+
+    /// Propellant used until `time_s`, in kg.
+    pub fn used_at(&self, spinner: &Spinner, time_s: f64) -> f64 {
+        if self.mask == 0 {
+            return self.used_kg;
+        }
+        let more_kg = spinner.thrust(self.mask).flow_kg_s * (time_s - self.mask_since_s);
+        (self.used_kg + more_kg).min(self.initial_propellant_kg)
+    }
+
+    /// Mass at `time_s`, in kg.
+    fn mass_at_kg(&self, spinner: &Spinner, time_s: f64) -> f64 {
+        let left_kg = self.initial_propellant_kg - self.used_at(spinner, time_s);
+        spinner.mass_properties.dry_mass_kg + left_kg.max(0.0)
+    }
+
+    /// Sums delta-v to the end of the motion's present segment.
+    pub(super) fn leave_segment(&mut self, spinner: &Spinner, motion: &Motion, work: &mut Work) {
+        if self.mask != 0 {
+            work.spend(Cost::Impulse);
+            let end_s = motion.segment_end_s();
+            self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, end_s);
+            self.delta_v_until_s = end_s;
+        }
+    }
+
+    /// Sums delta-v over the whole panels before `time_s` in a segment without end.
+    ///
+    /// # Errors
+    /// More panels than the work allows.
+    pub(super) fn sum_panels(
+        &mut self,
+        spinner: &Spinner,
+        motion: &Motion,
+        time_s: f64,
+        work: &mut Work,
+    ) -> Result<(), WorkExceeded> {
+        if self.mask == 0 || !motion.segment_end_s().is_infinite() {
+            return Ok(());
+        }
+        // Thrusters without torque: whole panels of the closed form, counted from when they went on.
+        let rate = motion.at(motion.anchor_s()).rate_rad_s(motion.inertia()).norm();
+        loop {
+            let panel_end_s = self.delta_v_until_s.max(self.mask_since_s) + IMPULSE_PANEL_RAD / rate;
+            if panel_end_s.is_nan() || panel_end_s > time_s {
+                return Ok(());
+            }
+            work.check(self.delta_v_until_s)?;
+            work.spend(Cost::Impulse);
+            self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, panel_end_s);
+            self.delta_v_until_s = panel_end_s;
+        }
+    }
+
+    /// Delta-v until `time_s` in the present segment, inertial, in m/s: the turning force over the mass left at each instant.
+    pub fn delta_v_at(&self, spinner: &Spinner, motion: &Motion, time_s: f64) -> Vector3<f64> {
+        if self.mask == 0 {
+            return self.delta_v_inertial_m_s;
+        }
+        let from_s = self.delta_v_until_s.max(self.mask_since_s);
+        let thrust = spinner.thrust(self.mask);
+        let mass_kg = self.mass_at_kg(spinner, from_s);
+        let fall = (mass_kg / self.mass_at_kg(spinner, time_s)).ln();
+        // Panels in which the mass falls by one factor, so that its reciprocal is smooth in each.
+        let panels = (fall / IMPULSE_PANEL_MASS).ceil().max(1.0);
+        let mut delta_v = self.delta_v_inertial_m_s;
+        let mut start_s = from_s;
+        for panel in 1..=panels as u32 {
+            let burnt_kg = -mass_kg * (-fall * f64::from(panel) / panels).exp_m1();
+            let is_last = f64::from(panel) >= panels;
+            let end_s = if is_last { time_s } else { from_s + burnt_kg / thrust.flow_kg_s };
+            let half_s = 0.5 * (end_s - start_s);
+            for (node, weight) in NODES {
+                let at_s = start_s + half_s * (1.0 + node);
+                let force_n = motion.at(at_s).attitude.inertial_from_body(&thrust.force_body_n);
+                delta_v += force_n * (weight * half_s / self.mass_at_kg(spinner, at_s));
+            }
+            start_s = end_s;
+        }
+        delta_v
+    }
+
+    /// Whether decoded thrusters and tank can be some by `latest_s`.
+    pub(super) fn is_sound(&self, spinner: &Spinner, latest_s: f64) -> bool {
+        let since_s = [self.mask_since_s, self.delta_v_until_s];
+        // A tank that is never empty and has nothing left would be emptied without end.
+        (0.0..=spinner.mass_properties.most_propellant_kg()).contains(&self.initial_propellant_kg)
+            && (0.0..=self.initial_propellant_kg).contains(&self.used_kg)
+            && since_s.iter().all(|at_s| at_s.is_finite() && *at_s <= latest_s)
+            && are_moderate(&self.delta_v_inertial_m_s)
+            && self.predicted.is_sound()
+    }
+}

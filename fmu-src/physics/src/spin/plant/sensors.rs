@@ -1,0 +1,275 @@
+//! What the sensors see: Sun crossings and star samples.
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::directions::Directions;
+use super::sound::{are_moderate, is_moderate, is_unit};
+use crate::attitude::{RigidBodyState, angle_between_rad};
+use crate::spin::{
+    crossing::{Crossing, Pole},
+    crossing_detector::CrossingDetector,
+    motion::Motion,
+    noise::{Channel, normal},
+    nutation::Spin,
+    spinner::Spinner,
+    tracker::{NutationEstimator, picket_of, searched},
+    work::{Cost, Work},
+};
+
+/// When the star tracker samples its star.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Sampling {
+    /// On the turns that search the star's picket, when it passes the boresight.
+    Spins,
+    /// Every 8 nominal turns by the clock, as eqs 16 to 20 assume.
+    Clock,
+}
+
+/// A star tracker sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StarSample {
+    /// When, in s; -1 before any.
+    pub time_s: f64,
+    /// Measured declination in the sensor, in rad.
+    pub declination_rad: f64,
+    /// How many so far.
+    pub count: u32,
+}
+
+/// Which sensor has a reading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sensor {
+    Sun,
+    StarTracker,
+}
+
+/// Sun sensor and star tracker with what they saw so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sensors {
+    sun: CrossingDetector,
+    star: CrossingDetector,
+    sun_sample_rad: f64,
+    sampling: Sampling,
+    clock_period_s: f64,
+    clock_start_s: f64,
+    clock_count: u64,
+    /// One turn in so many sees the star.
+    every: u32,
+    sample: StarSample,
+    estimator: NutationEstimator,
+    estimator_since_s: f64,
+    azimuths: SensorAzimuths,
+    seed: u64,
+}
+
+/// Where the slits point, body frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct SensorAzimuths {
+    sun: Vector3<f64>,
+    star: Vector3<f64>,
+}
+
+impl Sensors {
+    /// Nothing seen yet; `nominal_rate_rad_s` sets the clock of the star tracker.
+    pub(super) fn new(
+        spinner: &Spinner,
+        sampling: Sampling,
+        nominal_rate_rad_s: f64,
+        seed: u64,
+        start_s: f64,
+    ) -> Self {
+        let slit = |azimuth_deg: f64| {
+            let (sine, cosine) = azimuth_deg.to_radians().sin_cos();
+            Vector3::new(cosine, sine, 0.0)
+        };
+        Self {
+            sun: CrossingDetector::new(start_s),
+            star: CrossingDetector::new(start_s),
+            sun_sample_rad: 0.0,
+            sampling,
+            clock_period_s: f64::from(spinner.star_tracker.every) * 2.0 * PI / nominal_rate_rad_s,
+            clock_start_s: start_s,
+            clock_count: 0,
+            every: spinner.star_tracker.every,
+            sample: StarSample { time_s: -1.0, ..StarSample::default() },
+            estimator: NutationEstimator::default(),
+            estimator_since_s: start_s,
+            azimuths: SensorAzimuths {
+                sun: slit(spinner.sun_sensor.azimuth_deg),
+                star: slit(spinner.star_tracker.azimuth_deg),
+            },
+            seed,
+        }
+    }
+
+    /// Sun crossings.
+    pub fn sun_crossings(&self) -> &CrossingDetector {
+        &self.sun
+    }
+
+    /// Last reading of the Sun sensor, in rad.
+    pub fn sun_sample_rad(&self) -> f64 {
+        self.sun_sample_rad
+    }
+
+    /// Last star tracker sample.
+    pub fn sample(&self) -> StarSample {
+        self.sample
+    }
+
+    /// Estimator over the samples since the last pulse.
+    pub fn estimator(&self) -> &NutationEstimator {
+        &self.estimator
+    }
+
+    /// Nominal time between samples of one star, in s.
+    pub fn sample_spacing_s(&self, theory: &Spin) -> f64 {
+        match self.sampling {
+            Sampling::Clock => self.clock_period_s,
+            Sampling::Spins => f64::from(self.every) * theory.period_s(),
+        }
+    }
+
+    /// The Sun stands elsewhere from `now_s` on.
+    pub(super) fn forget_sun(&mut self, now_s: f64) {
+        self.sun.forget(now_s);
+    }
+
+    /// The star stands elsewhere from `now_s` on.
+    pub(super) fn forget_star(&mut self, now_s: f64) {
+        self.star.forget(now_s);
+    }
+
+    /// The motion is another from `now_s` on.
+    pub(super) fn forget_motion(&mut self, now_s: f64) {
+        self.sun.forget(now_s);
+        self.star.forget(now_s);
+    }
+
+    /// A pulse ended: nutation is estimated anew.
+    pub(super) fn restart_estimate(&mut self, now_s: f64) {
+        self.estimator = NutationEstimator::default();
+        self.estimator_since_s = now_s;
+    }
+
+    /// The first thing there is to see up to `until_s`, and when, in s.
+    pub(super) fn next_reading(
+        &mut self,
+        motion: &Motion,
+        directions: &Directions,
+        until_s: f64,
+        work: &mut Work,
+    ) -> Option<(Sensor, f64)> {
+        let azimuths = self.azimuths;
+        let look = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
+        let due_s = |detector: &mut CrossingDetector, body, inertial: Vector3<f64>, work: &mut Work| {
+            // A direction of 0 is none.
+            let known = inertial != Vector3::zeros();
+            let due_s = known.then(|| detector.due_s(motion, look(body, inertial), until_s, work)).flatten();
+            due_s.unwrap_or(f64::INFINITY)
+        };
+        let sun_s = due_s(&mut self.sun, azimuths.sun, directions.sun_inertial, work);
+        let star_s = if self.sampling == Sampling::Clock {
+            let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
+            if tick_s <= until_s { tick_s } else { f64::INFINITY }
+        } else {
+            due_s(&mut self.star, azimuths.star, directions.star_inertial, work)
+        };
+        if sun_s.is_infinite() && star_s.is_infinite() {
+            return None;
+        }
+        Some(if sun_s <= star_s { (Sensor::Sun, sun_s) } else { (Sensor::StarTracker, star_s) })
+    }
+
+    /// The Sun sensor's reading as the Sun crosses it.
+    pub(super) fn read_sun(
+        &mut self,
+        spinner: &Spinner,
+        motion: &Motion,
+        sun_inertial: &Vector3<f64>,
+        time_s: f64,
+    ) {
+        let state = motion.at(time_s);
+        let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), sun_inertial);
+        let noise = normal(self.seed, Channel::SunSensor, self.sun.count());
+        self.sun_sample_rad = angle + spinner.sun_sensor.noise_deg.to_radians() * noise;
+        self.sun.pass(time_s, state.rate_rad_s(motion.inertia()).z);
+    }
+
+    /// The star tracker's reading, if it sees the star.
+    pub(super) fn read_star(
+        &mut self,
+        spinner: &Spinner,
+        motion: &Motion,
+        directions: &Directions,
+        theory: &Spin,
+        time_s: f64,
+        work: &mut Work,
+    ) {
+        let state = motion.at(time_s);
+        let tracker = &spinner.star_tracker;
+        let declination =
+            state.attitude.spin_axis_inertial().dot(&directions.star_inertial).clamp(-1.0, 1.0).asin();
+        let visible = directions.star_inertial != Vector3::zeros()
+            && declination.abs() <= 0.5 * tracker.field_of_view_deg.to_radians();
+        let turn = match self.sampling {
+            Sampling::Clock => {
+                work.spend(Cost::ClockSample);
+                self.clock_count = self.clock_count.saturating_add(1);
+                None
+            }
+            Sampling::Spins => {
+                self.star.pass(time_s, state.rate_rad_s(motion.inertia()).z);
+                Some(self.star.count().wrapping_sub(1))
+            }
+        };
+        // Pickets count from the Sun pulse: without a Sun there are none.
+        let sun_known = directions.sun_inertial != Vector3::zeros();
+        let seen = turn.is_none_or(|turn| {
+            sun_known && searched(star_picket(spinner, directions, &state), turn, tracker.every)
+        });
+        if !(visible && seen) {
+            return;
+        }
+        let noise = normal(self.seed, Channel::StarTracker, u64::from(self.sample.count));
+        let declination_rad = declination + tracker.noise_deg.to_radians() * noise;
+        self.sample = StarSample { time_s, declination_rad, count: self.sample.count.wrapping_add(1) };
+        let phase = theory.ratio * theory.rate_rad_s * (time_s - self.estimator_since_s);
+        self.estimator.add(phase, declination_rad);
+    }
+
+    /// Whether decoded sensors can be some at `time_s`.
+    pub(super) fn is_sound(&self, time_s: f64) -> bool {
+        let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
+        let times = [self.clock_start_s, self.sample.time_s, self.estimator_since_s];
+        self.sun.is_sound()
+            && self.star.is_sound()
+            && are_moderate(&times)
+            && is_moderate(self.clock_period_s)
+            && self.clock_period_s > 0.0
+            && (self.sampling == Sampling::Spins || tick_s > time_s - self.clock_period_s)
+            && self.every > 0
+            && are_moderate([&self.sun_sample_rad, &self.sample.declination_rad])
+            && self.estimator.is_sound()
+            && is_unit(&self.azimuths.sun)
+            && is_unit(&self.azimuths.star)
+    }
+}
+
+/// Picket of the star: its azimuth about the momentum after the Sun's.
+fn star_picket(spinner: &Spinner, directions: &Directions, state: &RigidBodyState) -> u32 {
+    let pole = state.momentum_inertial;
+    let ahead = |direction: &Vector3<f64>| {
+        let seen = state
+            .attitude
+            .body_from_inertial(&(direction - pole * (pole.dot(direction) / pole.norm_squared())));
+        seen.y.atan2(seen.x)
+    };
+    // Half a picket of margin keeps a star that starts on a border off it.
+    let pickets = spinner.star_tracker.pickets;
+    let margin = PI / f64::from(pickets);
+    picket_of(ahead(&directions.star_inertial) - ahead(&directions.sun_inertial) + margin, pickets)
+}

@@ -1,0 +1,277 @@
+//! Limb points at azimuths, and the scan of the limb's height, where the Sun stays in its zone.
+
+use loader::Value;
+
+use super::disc::{View, X_LABEL, Y_LABEL};
+use super::flight::{
+    DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, Settings, digits, number, real,
+};
+use super::limb_orbit;
+use super::planet::Ellipsoid;
+use crate::case::{chosen, run_all};
+use crate::chart::{PlaneChart, PlanePanel, Series};
+use crate::vector::{Vector, difference, norm};
+use crate::{Options, Report, StudyError};
+
+pub(super) const PLUS_Z: Vector = [0.0, 0.0, 1.0];
+/// Assumed, close to the planet's figure; the default is a sphere: so that the limb is that of a triaxial ellipsoid, in m.
+const RADII_M: Vector = [2_440_530.0, 2_439_280.0, 2_438_260.0];
+
+/// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
+const EPOCH_S: f64 = DEFAULT_EPOCH_S + 6.0 * 86_400.0;
+const TRUE_ANOMALY_DEG: f64 = 170.0;
+const AZIMUTHS_DEG: [f64; 8] = [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
+/// Of the scan.
+const SCAN_AZIMUTH_DEG: f64 = 60.0;
+const HEIGHT_RATE_M_S: f64 = 1000.0;
+const SCAN_S: u32 = 300;
+
+/// What one case flies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Case {
+    Azimuth(f64),
+    Scan,
+    Terminator,
+}
+
+impl Case {
+    fn label(&self) -> String {
+        match self {
+            Self::Azimuth(azimuth_deg) => format!("azimuth {azimuth_deg} deg"),
+            Self::Scan => "height scan".to_owned(),
+            Self::Terminator => "terminator".to_owned(),
+        }
+    }
+
+    fn fly(&self, fmus: &Fmus) -> Result<Flown, StudyError> {
+        let (azimuth_deg, height_rate_m_s, seconds) = match *self {
+            Self::Azimuth(azimuth_deg) => (azimuth_deg, 0.0, 1),
+            Self::Scan => (SCAN_AZIMUTH_DEG, HEIGHT_RATE_M_S, SCAN_S),
+            Self::Terminator => return limb_orbit::fly(fmus),
+        };
+        let command = move |_: &Place| {
+            vec![
+                number("pointing.scenario", 8),
+                real("limb.azimuth", f64::to_radians(azimuth_deg)),
+                real("limb.heightRate", height_rate_m_s),
+            ]
+        };
+        fmus.fly(&Flight {
+            label: &self.label(),
+            epoch_s: EPOCH_S,
+            true_anomaly_deg: TRUE_ANOMALY_DEG,
+            seconds,
+            parameters: triaxial(),
+            command: &command,
+        })
+    }
+}
+
+/// The planet's radii as settings.
+pub(super) fn triaxial() -> Settings {
+    (0..3).map(|i| (format!("planet.radii[{}]", i + 1), Value::Real(RADII_M[i]))).collect()
+}
+
+/// Where +Z passes the limb, found from the attitude alone.
+pub(super) struct Found {
+    /// The limb point, from the planet's centre, in m.
+    pub foot_m: Vector,
+    /// The line's height over it, in m.
+    pub height_m: f64,
+    /// About the local vertical from downtrack, in deg.
+    pub azimuth_deg: f64,
+    /// Of the Sun in the body frame, in deg.
+    pub sun_deg: [f64; 2],
+    /// From nadir, in deg.
+    pub off_nadir_deg: f64,
+}
+
+impl Found {
+    pub(super) fn of(sample: &Sample, ellipsoid: &Ellipsoid) -> Option<Self> {
+        let boresight = sample.inertial(&PLUS_Z);
+        let view = View::at(&sample.place);
+        let (foot_m, height_m) = ellipsoid.height_over_limb_m(&sample.place.position_m, &boresight)?;
+        let (x, y) = view.direction(&boresight);
+        Some(Self {
+            foot_m,
+            height_m,
+            azimuth_deg: view.azimuth_deg(&boresight),
+            sun_deg: sample.body_angles_deg(&sample.place.to_sun_m),
+            off_nadir_deg: x.hypot(y),
+        })
+    }
+}
+
+/// Limb points at azimuths, on the terminator over an orbit, and a scan of the limb's height.
+pub fn limb(options: &Options) -> Result<Report, StudyError> {
+    let all = AZIMUTHS_DEG.map(Case::Azimuth).into_iter().chain([Case::Scan, Case::Terminator]);
+    let cases = chosen("pointing/limb", options, all, Case::label)?;
+    let fmus = Fmus::open(options)?;
+    let flown = run_all(options, &cases, |case| Ok((*case, case.fly(&fmus)?)))?;
+    let mut report = Report::default();
+    report.line("Limb pointing (paper 001, eqs 20 to 22 and Figure 6)\n");
+    let azimuths: Vec<(f64, &Flown)> = flown
+        .iter()
+        .filter_map(|(case, flown)| match case {
+            Case::Azimuth(azimuth_deg) => Some((*azimuth_deg, flown)),
+            _ => None,
+        })
+        .collect();
+    let of = |wanted: Case| flown.iter().find(|(case, _)| *case == wanted).map(|(_, flown)| flown);
+    if !azimuths.is_empty() {
+        print_azimuths(&mut report, options, &azimuths)?;
+    }
+    if let Some(scan) = of(Case::Scan) {
+        print_scan(&mut report, options, scan)?;
+    }
+    if let Some(orbit) = of(Case::Terminator) {
+        limb_orbit::print(&mut report, options, orbit)?;
+    }
+    report.line(REMARK);
+    Ok(report)
+}
+
+const REMARK: &str = "\
+Heights are found from the commanded attitude alone: of the points of the line along +Z the one whose radius meets the
+ellipsoid at the limb (eq 21), its height along the radius; the residual is that less the commanded height. Radii of
+2440.53, 2439.28 and 2438.26 km along the planet's own axes. Azimuths are right-handed about up from downtrack, an
+assumption: the paper does not print their sense.";
+
+fn print_azimuths(
+    report: &mut Report,
+    options: &Options,
+    azimuths: &[(f64, &Flown)],
+) -> Result<(), StudyError> {
+    let own = [
+        "azimuth_deg",
+        "found_azimuth_deg",
+        "off_nadir_deg",
+        "height_m",
+        "sun_azimuth_deg",
+        "sun_elevation_deg",
+    ];
+    let header = [&own[..], &["reachable"], &GEOMETRY].concat();
+    let (mut rows, mut shown, mut limb_points) = (Vec::new(), Vec::new(), Vec::new());
+    let mut disc = None;
+    for (azimuth_deg, flown) in azimuths {
+        let Some(sample) = flown.samples.first() else { continue };
+        let ellipsoid = flown.planet.at(sample.place.epoch_s);
+        let Some(found) = Found::of(sample, &ellipsoid) else { continue };
+        let view = View::at(&sample.place);
+        let found_deg = found.azimuth_deg.rem_euclid(360.0);
+        shown.push(vec![
+            format!("{azimuth_deg:.0} deg"),
+            format!("{found_deg:.9} deg"),
+            format!("{:.4} deg", found.off_nadir_deg),
+            format!("{:+.1e} m", found.height_m),
+            format!("{:.1e} / {:+.3} deg", found.sun_deg[0], found.sun_deg[1]),
+            if sample.reachable && !sample.constrained { "on the limb" } else { "constrained" }.to_owned(),
+        ]);
+        let numbers = [*azimuth_deg, found_deg, found.off_nadir_deg, found.height_m];
+        let mut row: Vec<String> = numbers.into_iter().chain(found.sun_deg).map(digits).collect();
+        row.push(sample.reachable.to_string());
+        row.extend(sample.geometry());
+        rows.push(row);
+        let at = view.point(&found.foot_m);
+        limb_points.push((at, format!("{azimuth_deg:.0}")));
+        disc.get_or_insert_with(|| view.disc("limb at azimuths", &ellipsoid, &sample.place.sun_m()));
+    }
+    report.table(
+        &[
+            "azimuth",
+            "of +Z",
+            "off nadir",
+            "height residual",
+            "Sun azimuth / elevation in the body frame",
+            "",
+        ],
+        &shown,
+    );
+    report.csv(options, "limb.csv", &header, rows)?;
+    let Some(mut panel) = disc else { return Ok(()) };
+    panel.title = format!("true anomaly {TRUE_ANOMALY_DEG} deg, labels: azimuth [deg]");
+    panel.series.push(Series::dots("limb points commanded", limb_points.iter().map(|(at, _)| *at).collect()));
+    panel.texts = limb_points.into_iter().map(|((x, y), text)| ((1.11 * x, 1.11 * y), text)).collect();
+    let chart = PlaneChart {
+        title: "Generic limb points".to_owned(),
+        x_label: X_LABEL.to_owned(),
+        y_label: Y_LABEL.to_owned(),
+        panels: vec![panel],
+    };
+    report.plane(options, "limb.svg", &chart)
+}
+
+fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(), StudyError> {
+    let own = ["commanded_height_m", "height_m", "sun_azimuth_deg", "sun_elevation_deg"];
+    let header = [&own[..], &GEOMETRY].concat();
+    let (mut rows, mut shown, mut track) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut creep_m, mut last): (f64, Option<Vector>) = (0.0, None);
+    let Some(first) = flown.samples.first() else { return Ok(()) };
+    // All seen from the place of the first sample, as directions of +Z.
+    for sample in &flown.samples {
+        let ellipsoid = flown.planet.at(sample.place.epoch_s);
+        let Some(found) = Found::of(sample, &ellipsoid) else { continue };
+        let commanded_m = HEIGHT_RATE_M_S * sample.place.time_s;
+        let fixed = ellipsoid.along_axes(&found.foot_m);
+        creep_m += last.replace(fixed).map_or(0.0, |last| norm(&difference(&fixed, &last)));
+        let numbers = [commanded_m, found.height_m].into_iter().chain(found.sun_deg).map(digits);
+        rows.push(numbers.chain(sample.geometry()).collect());
+        track.push(View::at(&sample.place).direction(&sample.inertial(&PLUS_Z)));
+        if sample.place.time_s % 60.0 == 0.0 {
+            shown.push(vec![
+                format!("{:.0} s", sample.place.time_s),
+                format!("{:.0} km", commanded_m / 1e3),
+                format!("{:+.1e} m", found.height_m - commanded_m),
+                format!("{:.4} deg", found.off_nadir_deg),
+                format!("{:.1} km", creep_m / 1e3),
+                format!("{:.1e} / {:+.3} deg", found.sun_deg[0], found.sun_deg[1]),
+            ]);
+        }
+    }
+    report.line(&format!(
+        "\nScan of the limb's height at azimuth {SCAN_AZIMUTH_DEG} deg, {:.0} km/s:\n",
+        HEIGHT_RATE_M_S / 1e3
+    ));
+    report.table(
+        &[
+            "time",
+            "commanded height",
+            "height residual",
+            "off nadir",
+            "limb point's way on the surface",
+            "Sun azimuth / elevation in the body frame",
+        ],
+        &shown,
+    );
+    report.csv(options, "limb-scan.csv", &header, rows)?;
+    let (view, ellipsoid) = (View::at(&first.place), flown.planet.at(first.place.epoch_s));
+    let mut whole = view.disc("the disc", &ellipsoid, &first.place.sun_m());
+    whole.series.push(Series::line("track of +Z over the scan", track.clone()));
+    let ends = (track.first().copied().unwrap_or_default(), track.last().copied().unwrap_or_default());
+    let marks: Vec<(f64, f64)> = track.iter().copied().step_by(60).collect();
+    whole.series.push(Series::dots("every 60 s", marks.clone()));
+    let aside = 0.09;
+    let close = PlanePanel {
+        title: "the limb, heights in km".to_owned(),
+        centre: (0.5 * (ends.0.0 + ends.1.0), 0.5 * (ends.0.1 + ends.1.1)),
+        half_width: 0.8,
+        texts: marks
+            .iter()
+            .enumerate()
+            .map(|(k, (x, y))| {
+                (
+                    (x + 1.6 * aside, y - 0.5 * aside),
+                    format!("{:.0}", 60.0 * k as f64 * HEIGHT_RATE_M_S / 1e3),
+                )
+            })
+            .collect(),
+        ..whole.clone()
+    };
+    let chart = PlaneChart {
+        title: "Scan of the limb's height".to_owned(),
+        x_label: X_LABEL.to_owned(),
+        y_label: Y_LABEL.to_owned(),
+        panels: vec![whole, close],
+    };
+    report.plane(options, "limb-scan.svg", &chart)
+}

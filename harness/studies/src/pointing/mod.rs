@@ -1,0 +1,17 @@
+//! Paper 001: the attitudes `Guidance` commands along the orbit `MomentumPlant` flies.
+//!
+//! Limb points and scans of the limb's height, mosaics on the planet's disc, and the commanded curves of Figures 7 and 8.
+
+mod camera;
+mod disc;
+mod flight;
+mod limb;
+mod limb_orbit;
+mod mosaic;
+mod planet;
+mod scans;
+mod transition;
+
+pub use limb::limb;
+pub use mosaic::mosaic;
+pub use transition::transition;

@@ -1,0 +1,228 @@
+//! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
+
+use super::flight::{
+    DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, Settings, digits, number, real,
+};
+use crate::case::{chosen, run_all};
+use crate::chart::{Chart, Mark, Panel, Series};
+use crate::vector::angle_rad;
+use crate::{Options, Report, StudyError};
+
+/// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
+/// Sun at azimuth and elevation 0. The paper prints no epoch.
+const EPOCH_S: f64 = DEFAULT_EPOCH_S + 3.15 * 86_400.0;
+/// Assumed: ten hours past periapsis, the end of the paper's eight hours of downlink about apoapsis.
+const TRUE_ANOMALY_DEG: f64 = 215.0;
+/// "The commanded slew begins at 500 seconds".
+const SLEW_S: f64 = 500.0;
+const END_S: u32 = 1000;
+
+/// How the camera's angle is commanded after the slew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Angle {
+    /// Every second the one that leaves the Sun on -Y.
+    Followed,
+    /// The one of the slew.
+    Held,
+}
+
+impl Angle {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Followed => "camera follows",
+            Self::Held => "camera held",
+        }
+    }
+
+    fn fly(self, fmus: &Fmus) -> Result<Flown, StudyError> {
+        let command = |place: &Place| -> Settings {
+            let camera = || {
+                // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
+                let sun_nadir_rad = angle_rad(&place.to_sun_m, &place.nadir_m());
+                real("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
+            };
+            if place.time_s == 0.0 {
+                vec![number("pointing.scenario", 6)]
+            } else if place.time_s == SLEW_S {
+                vec![number("pointing.scenario", 4), number("aimpoint.option", 12), camera()]
+            } else if place.time_s > SLEW_S && self == Self::Followed {
+                vec![camera()]
+            } else {
+                Vec::new()
+            }
+        };
+        fmus.fly(&Flight {
+            label: self.label(),
+            epoch_s: EPOCH_S,
+            true_anomaly_deg: TRUE_ANOMALY_DEG,
+            seconds: END_S,
+            parameters: Vec::new(),
+            command: &command,
+        })
+    }
+}
+
+/// What the figures show at one second, in deg.
+struct Angles {
+    sun: [f64; 2],
+    earth: [f64; 2],
+    planet: [f64; 2],
+}
+
+impl Angles {
+    fn of(sample: &Sample) -> Self {
+        let place = &sample.place;
+        Self {
+            sun: sample.body_angles_deg(&place.to_sun_m),
+            earth: sample.body_angles_deg(&place.to_earth),
+            planet: sample.body_angles_deg(&place.nadir_m()),
+        }
+    }
+}
+
+/// Rotation angle from one attitude to another, in deg.
+fn slew_deg(from: &Sample, to: &Sample) -> f64 {
+    let dot: f64 = from.q.iter().zip(&to.q).map(|(a, b)| a * b).sum();
+    let across: f64 = from.q.iter().zip(&to.q).map(|(a, b)| (b - dot * a).powi(2)).sum::<f64>().sqrt();
+    2.0 * across.atan2(dot.abs()).to_degrees()
+}
+
+/// The commanded curves of Figures 7 and 8.
+pub fn transition(options: &Options) -> Result<Report, StudyError> {
+    let angles = [Angle::Followed, Angle::Held];
+    let cases = chosen("pointing/transition", options, angles, |angle| angle.label().to_owned())?;
+    let fmus = Fmus::open(options)?;
+    let flown = run_all(options, &cases, |angle| Ok((*angle, angle.fly(&fmus)?)))?;
+    let mut report = Report::default();
+    report.line(
+        "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n",
+    );
+    let rows = flown.iter().flat_map(|(angle, flown)| rows(*angle, flown)).collect::<Vec<_>>();
+    report.table(&["case", "quantity", "paper", "ours", "verdict"], &rows);
+    report.line(REMARK);
+    write(&mut report, options, &flown)?;
+    if let Some((_, flown)) = flown.first() {
+        report.picture(options, "transition-quaternion.svg", &quaternion_chart(flown))?;
+        report.picture(options, "transition-angles.svg", &angle_chart(flown))?;
+    }
+    Ok(report)
+}
+
+const REMARK: &str = "\
+Not reproduced: the paper prints neither the epoch nor the place on the orbit, and no numbers of the curves; so the
+quaternions of Figure 7 and the azimuth and elevation of Mercury in Figure 8 cannot be compared, and its slew angle is
+unspecified. Chosen: 2009-04-09 03:36 TDB, when the Earth is 33 deg from the Sun, and a true anomaly of 215 deg at the
+start, where the paper's eight hours of downlink about apoapsis end; elsewhere on this orbit the slew is anything up to
+180 deg. The paper puts azimuth -33 deg into the +X,+Y quadrant; by its own angles it is in the -X,-Y quadrant. The
+estimated curves need a controller and are not drawn. Camera follows: its angle is commanded anew every second, so that
+the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.";
+
+fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
+    let at = |second: f64| flown.samples.iter().find(|sample| sample.place.time_s == second);
+    let (Some(before), Some(after)) = (at(SLEW_S - 1.0), at(SLEW_S)) else { return Vec::new() };
+    let all = || flown.samples.iter().map(Angles::of);
+    let before_slew =
+        || flown.samples.iter().filter(|sample| sample.place.time_s < SLEW_S).map(|s| Angles::of(s).earth);
+    let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
+    let sun = [0, 1].map(|i| greatest(&mut all().map(|angles| angles.sun[i])));
+    let elevation = greatest(&mut before_slew().map(|earth| earth[1]));
+    let azimuth = Angles::of(before).earth[0];
+    // Adding zero takes the sign from a zero.
+    let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);
+    let mdis_deg = after.mdis_angle_rad.to_degrees();
+    let constrained = flown.samples.iter().filter(|sample| sample.constrained).count();
+    let row = |quantity: &str, paper: &str, ours: String, verdict: &str| {
+        vec![angle.label().to_owned(), quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+    };
+    let agrees = |is: bool| if is { "agrees" } else { "differs" };
+    vec![
+        row(
+            "Earth azimuth before the slew",
+            "-33 deg",
+            format!("{azimuth:.2} deg"),
+            agrees((azimuth + 33.0).abs() < 0.05),
+        ),
+        row(
+            "Earth elevation before the slew, greatest",
+            "0 deg",
+            format!("{elevation:.1e} deg"),
+            agrees(elevation < 1e-9),
+        ),
+        row("Sun azimuth, greatest", "0 deg", format!("{:.1e} deg", sun[0]), agrees(sun[0] < 1e-9)),
+        row("Sun elevation, greatest", "0 deg", format!("{:.1e} deg", sun[1]), agrees(sun[1] < 1e-9)),
+        row("slew angle", "not printed", format!("{:.3} deg", slew_deg(before, after)), "-"),
+        row(
+            "Mercury azimuth / elevation after the slew",
+            "not printed",
+            format!("{:.2} / {:.2} deg", planet[0], planet[1]),
+            "-",
+        ),
+        row(
+            "camera angle after the slew",
+            "in range (-50 to 40 deg)",
+            format!("{mdis_deg:.3} deg"),
+            agrees((-50.0..=40.0).contains(&mdis_deg)),
+        ),
+        row("samples changed by a constraint", "none", constrained.to_string(), agrees(constrained == 0)),
+    ]
+}
+
+fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Result<(), StudyError> {
+    let sun = ["case", "sun_azimuth_deg", "sun_elevation_deg"];
+    let others = ["earth_azimuth_deg", "earth_elevation_deg", "mercury_azimuth_deg", "mercury_elevation_deg"];
+    let header = [&sun[..], &others, &["mdis_angle_deg"], &GEOMETRY].concat();
+    let rows = flown.iter().flat_map(|(angle, flown)| {
+        flown.samples.iter().map(|sample| {
+            let Angles { sun, earth, planet } = Angles::of(sample);
+            let mut row = vec![angle.label().to_owned()];
+            let numbers = sun.into_iter().chain(earth).chain(planet);
+            row.extend(numbers.chain([sample.mdis_angle_rad.to_degrees()]).map(digits));
+            row.extend(sample.geometry());
+            row
+        })
+    });
+    report.csv(options, "transition.csv", &header, rows)
+}
+
+/// A line over time, interrupted at the slew.
+fn over_time(label: &str, flown: &Flown, value: impl Fn(&Sample) -> f64) -> Series {
+    let mut points = Vec::new();
+    for sample in &flown.samples {
+        if sample.place.time_s == SLEW_S {
+            points.push((SLEW_S, f64::NAN));
+        }
+        points.push((sample.place.time_s, value(sample)));
+    }
+    Series::line(label, points)
+}
+
+fn quaternion_chart(flown: &Flown) -> Chart {
+    let panel = |i: usize| Panel {
+        y_label: format!("q{} [1]", i + 1),
+        series: vec![over_time(if i == 0 { "commanded" } else { "" }, flown, |sample| sample.q[i])],
+        ..Panel::default()
+    };
+    Chart {
+        title: "Commanded quaternion over the transition".to_owned(),
+        x_label: "time [s]".to_owned(),
+        panels: (0..4).map(panel).collect(),
+    }
+}
+
+fn angle_chart(flown: &Flown) -> Chart {
+    let panel = |name: &str, i: usize| Panel {
+        y_label: format!("{name} [deg]"),
+        series: vec![
+            over_time("Mercury", flown, |sample| Angles::of(sample).planet[i]),
+            over_time("Earth", flown, |sample| Angles::of(sample).earth[i]),
+            // Dashed, as it lies on one of the others all the time.
+            Series { mark: Mark::Dashed, ..over_time("Sun", flown, |sample| Angles::of(sample).sun[i]) },
+        ],
+        ..Panel::default()
+    };
+    Chart {
+        title: "Sun, Earth and Mercury in the commanded body frame".to_owned(),
+        x_label: "time [s]".to_owned(),
+        panels: vec![panel("azimuth", 0), panel("elevation", 1)],
+    }
+}
