@@ -211,7 +211,7 @@ pub const GUIDANCE: &[Source] = &[
         "roll vectors that give no roll",
         "geometry.degenerate: an external roll reference along the aimpoint gives way to the north of EME2000, then to the \
          equinox; a body roll vector along the boresight to -Y, then to +Z. Without a direction of boresight or aimpoint the \
-         last command stays",
+         last law stays that gave an attitude",
     ),
     source(
         "samples",
@@ -222,7 +222,8 @@ pub const GUIDANCE: &[Source] = &[
         "inputs that are 0",
         "count as not given: the timeline's stand in their place. A zero position, sun.position or earth.position (where \
          ephemeris.source asks for them) is not connected yet: the last command stays and nothing is judged. A zero estimate.q, \
-         or one that still has its start value, is not connected: the monitor takes the command as flown",
+         or one that still has its start value, is not connected: the monitor watches nothing. Without a scenario the last law \
+         stays, within its constraints, without its scan",
     ),
     source(
         "local frames",

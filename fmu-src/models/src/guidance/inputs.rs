@@ -103,6 +103,13 @@ pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSe
     if axis_body == Vector3::from([0.0; 3]) {
         return Err(Failure::new("keepIn.axis: found (0, 0, 0), allowed: a vector of any length but zero"));
     }
+    if real(v.mdis.minimum) > real(v.mdis.maximum) {
+        return Err(Failure::new(format!(
+            "mdis.minimum, mdis.maximum: found {:?} and {:?} rad, allowed: a minimum not above the maximum",
+            real(v.mdis.minimum),
+            real(v.mdis.maximum)
+        )));
+    }
     let zone = |azimuth, elevation| KeepIn {
         axis_body,
         azimuth_rad: real(azimuth),
@@ -131,6 +138,7 @@ pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSe
                 keep_in: Some(zone(v.safe_hold.keep_in.azimuth, v.safe_hold.keep_in.elevation)),
                 hot_pole,
             },
+            watches_hot_pole: true,
             monitor: values.boolean(v.monitor.enabled).then(|| Monitor {
                 margin_rad: real(v.monitor.margin),
                 persistence_s: real(v.monitor.persistence),
@@ -280,13 +288,19 @@ impl<'a> Reader<'a> {
         surroundings.is_connected(fixed.bodies.center).then_some(surroundings)
     }
 
-    /// Mode request, estimate and Sun sensors. `commanded` is the attitude commanded now: it stands in for an estimate that
-    /// is not connected.
-    pub fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<Sensed, Failure> {
+    /// Whether an input asks for a mode.
+    pub fn asks_for_a_mode(&self) -> bool {
+        self.item(self.context.variables.mode.request, |it| it.0).is_some()
+    }
+
+    /// Mode request, estimate and Sun sensors, and whether there is an estimate to be judged. Where it is not connected, or
+    /// nothing is placed yet, the attitude commanded now stands in for it.
+    pub fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<(Sensed, bool), Failure> {
         let v = self.context.variables;
         let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
         let valid = self.flag(v.estimate.valid);
-        let estimate = if q == [0.0; 4] && (valid || !is_placed) || valid && q == NOT_CONNECTED {
+        let is_estimated = is_placed && !(valid && (q == [0.0; 4] || q == NOT_CONNECTED));
+        let estimate = if !is_estimated {
             Some(commanded)
         } else if valid {
             let attitude = Attitude::along_quaternion(q);
@@ -294,12 +308,13 @@ impl<'a> Reader<'a> {
         } else {
             None
         };
-        Ok(Sensed {
+        let sensed = Sensed {
             time_s: self.time_s,
             request: self.item(v.mode.request, |it| it.0),
             estimate,
             sun_body: self.flag(v.sun.sensed_valid).then(|| self.vector(v.sun.sensed)),
-        })
+        };
+        Ok((sensed, is_estimated))
     }
 
     fn aimpoint(&self, aimpoint: &AimpointVariables) -> AimpointCommand {

@@ -12,7 +12,7 @@ use fmi_export::{
 };
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
-use physics::guidance::system::{GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs};
+use physics::guidance::system::{GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries};
 use serde::{Deserialize, Serialize};
 
 use inputs::{Fixed, Reader};
@@ -170,12 +170,20 @@ impl State {
         let reader = Reader::new(context, values, inputs, time_s);
         let entry = context.setup.timeline.as_ref().and_then(|timeline| timeline.entry_at(time_s, epoch_s));
         let mut settings = *settings;
-        let mut command = reader.command();
+        let given = reader.command();
+        let mut command = given;
         if let Some(entry) = entry {
             command = command.over(&entry.command);
             let operational = &mut settings.modes.operational;
             operational.keep_in = entry.keep_in.applied(&settings.keep_in, operational.keep_in.is_some());
         }
+        let line = entry.map(|entry| entry.line);
+        let entries = TimedEntries {
+            scan: line.filter(|_| given.scan.frame.is_none()),
+            scenario: line.filter(|_| given.scenario.is_none()),
+            mode: line.filter(|_| !reader.asks_for_a_mode()),
+        };
+        let command = self.system.continued(&command);
         let surroundings = reader.surroundings(fixed, &command, &mut self.ephemeris, epoch_s);
         if surroundings.is_none() && !self.said_unconnected {
             self.said_unconnected = true;
@@ -185,9 +193,12 @@ impl State {
             );
         }
         let commanded = self.system.command().attitude_at(time_s);
-        let mut sensed = reader.sensed(commanded, surroundings.is_some())?;
+        let (mut sensed, is_estimated) = reader.sensed(commanded, surroundings.is_some())?;
+        if !is_estimated {
+            settings.modes.monitor = None;
+        }
         sensed.request = sensed.request.or(entry.and_then(|entry| entry.mode));
-        let inputs = SampleInputs { command, entry: entry.map(|entry| entry.line), surroundings, sensed };
+        let inputs = SampleInputs { command, entries, surroundings, sensed };
         self.system.sample(&settings, &inputs);
         Ok(())
     }

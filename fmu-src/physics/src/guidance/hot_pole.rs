@@ -93,7 +93,8 @@ impl HotPole {
         } else {
             Moving::constant(if reached { 0.0 } else { core::f64::consts::PI })
         };
-        let turn = if farthest.re < 0.0 { farthest + opening } else { farthest - opening };
+        // With Sun, deck and planet in one plane either sense is as far; rounding does not choose it.
+        let turn = if b.re < -PARALLEL_RAD { farthest + opening } else { farthest - opening };
         KeptOut { pointing: pointing.turned(&sun_body, turn), in_force: true, reached }
     }
 }
@@ -124,6 +125,31 @@ mod tests {
     }
 
     const EVERYWHERE: HotPole = HotPole { altitude_m: 1e12, angle_rad: 4.0, cone_rad: 0.0 };
+
+    #[test]
+    fn rounding_does_not_choose_the_sense_of_the_turn() {
+        let mut random = Random(12);
+        let pole = HotPole { cone_rad: 2.0, ..EVERYWHERE };
+        // -Y at the Sun, -Z rolled to the planet: Sun, deck and planet in one plane.
+        let at = |noise: Vector3<f64>| {
+            let up = Vector3::new(0.9, 0.3, 0.1).normalize();
+            let s = surroundings(fixed(up), fixed(Vector3::x()));
+            let vectors = PointingVectors {
+                boresight_body: fixed(-Vector3::y()),
+                aimpoint: fixed(Vector3::x() + noise),
+                body_roll: fixed(-Vector3::z()),
+                external_roll: fixed(-up),
+            };
+            let kept = pole.constrained(&vectors.pointing().unwrap(), &s);
+            assert!(kept.in_force);
+            kept.pointing.frame().inertial_from_body
+        };
+        let exact = at(Vector3::zeros());
+        for _ in 0..200 {
+            let found = at(random.direction() * 1e-16);
+            assert!((found.matrix() - exact.matrix()).norm() < 1e-9);
+        }
+    }
 
     #[test]
     fn the_cone_is_kept_or_the_best_turn_flagged() {

@@ -13,7 +13,7 @@
 use nalgebra::{ComplexField, Matrix3, Vector3};
 
 use super::law::{Pointing, PointingVectors};
-use super::moving::{Moving, MovingMatrix, MovingVector, direction, fixed, unit, value};
+use super::moving::{Moving, MovingMatrix, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
 use crate::attitude::SunAngles;
 use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::numerics::scalar::Scalar;
@@ -93,14 +93,19 @@ impl KeepIn {
         if now.keep_in_margin_rad(self.azimuth_rad, self.elevation_rad) >= 0.0 {
             return Some(None);
         }
-        let (azimuth_sign, elevation_sign) = (sign(now.azimuth_rad), sign(now.elevation_rad));
+        // What lies on an axis within rounding takes the positive side, and an azimuth of 0.
+        let side =
+            |angle_rad: f64, off: Moving| if off.re.abs() < PARALLEL_RAD { 1.0 } else { sign(angle_rad) };
+        let azimuth_sign = side(now.azimuth_rad, sun.x);
+        let elevation_sign = side(now.elevation_rad, sun.z);
         // In the octant of positive azimuth and elevation.
         let (x, y) = (sun.x * azimuth_sign, sun.y);
-        // Zero is added so that it has no sign, which would show on the far side.
-        let up = -sun.z * elevation_sign + 0.0;
+        let up = -sun.z * elevation_sign;
+        // Neither a sign of zero nor rounding may show on the far side.
+        let up = if up.re <= 0.0 { Moving::constant(0.0) } else { up };
         let [azimuth_limit, elevation_limit] = [self.azimuth_rad, self.elevation_rad].map(Moving::constant);
-        let beyond_azimuth = now.azimuth_rad.abs() > self.azimuth_rad;
-        let at_pole = x.re == 0.0 && y.re == 0.0;
+        let at_pole = x.re.hypot(y.re) < PARALLEL_RAD;
+        let beyond_azimuth = !at_pole && now.azimuth_rad.abs() > self.azimuth_rad;
         let azimuth = if beyond_azimuth {
             azimuth_limit
         } else if at_pole {
@@ -333,6 +338,30 @@ mod tests {
                     let found = value(&point);
                     assert!(distance_outside_rad(&zone, &found) < 1e-14, "{axis} {zone:?} {found}");
                     assert!(rate(&point) == Vector3::zeros());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rounding_about_an_axis_does_not_choose_the_boundary_point() {
+        let mut random = Random(9);
+        let zone = KeepIn {
+            axis_body: -Vector3::y(),
+            azimuth_rad: 0.26,
+            elevation_rad: 0.22,
+            method: KeepInMethod::Nearest,
+        };
+        for axis in [Vector3::z(), -Vector3::z(), Vector3::y()] {
+            for method in METHODS {
+                let at = |noise: Vector3<f64>| {
+                    let zone = KeepIn { method, ..zone };
+                    value(&zone.boundary_point(&fixed((axis + noise).normalize())).unwrap().unwrap())
+                };
+                let exact = at(Vector3::zeros());
+                for _ in 0..200 {
+                    let found = at(random.direction() * 1e-16);
+                    assert!((found - exact).norm() < 1e-12, "{axis} {method:?}: {found} {exact}");
                 }
             }
         }

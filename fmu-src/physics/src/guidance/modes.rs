@@ -73,6 +73,8 @@ pub struct ModeSettings {
     pub safe_hold: Constraints,
     /// `None` is off.
     pub monitor: Option<Monitor>,
+    /// Whether it watches the hot pole; not while no turn about the Sun line reaches the cone's boundary.
+    pub watches_hot_pole: bool,
     /// Boresight of Earth Acquisition, body frame, of any length.
     pub boresight_body: Vector3<f64>,
     /// Rate of Earth Acquisition about its boresight, in rad/s.
@@ -126,6 +128,11 @@ pub struct ModeState {
 }
 
 impl ModeState {
+    /// The request of a new command acts even where it is that of the command before.
+    pub fn renew_request(&mut self) {
+        self.last_request = None;
+    }
+
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
         self.search_since_s.is_none_or(|since_s| since_s.abs() <= GREATEST_IN_STATE)
@@ -176,7 +183,9 @@ impl ModeState {
             return;
         };
         let excess_rad = surroundings.map_or(f64::NEG_INFINITY, |surroundings| {
-            excess_rad(settings.constraints(self.mode), estimate, surroundings)
+            let constraints = settings.constraints(self.mode);
+            let hot_pole = constraints.hot_pole.filter(|_| settings.watches_hot_pole);
+            excess_rad(&Constraints { hot_pole, ..*constraints }, estimate, surroundings)
         });
         if monitor.trips(&mut self.monitor, sensed.time_s, excess_rad) {
             self.mode = self.mode.demoted();

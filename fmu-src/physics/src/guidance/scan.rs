@@ -139,9 +139,14 @@ pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, elapsed_s: f6
     }
 }
 
+/// Rz Ry Rx; axes that do not turn are left out.
 fn rotation(command: &ScanCommand, elapsed_s: f64) -> MovingMatrix {
-    let about = |axis| rotation_about(axis, axis_offset(command, axis, command.rate_rad_s[axis], elapsed_s));
-    about(2) * about(1) * about(0)
+    let mut turned = MovingMatrix::identity();
+    for axis in (0..3).filter(|axis| command.rate_rad_s[*axis] != 0.0) {
+        turned =
+            rotation_about(axis, axis_offset(command, axis, command.rate_rad_s[axis], elapsed_s)) * turned;
+    }
+    turned
 }
 
 fn translation_m(command: &ScanCommand, elapsed_s: f64) -> MovingVector {

@@ -9,7 +9,7 @@ use super::antenna::AntennaAzimuth;
 use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
 use super::command::{BoresightOption, PointingCommand, Scenario};
 use super::downlink::{Downlink, DownlinkRequest, downlink};
-use super::law::PointingVectors;
+use super::law::{Pointing, PointingVectors};
 use super::lighting::SubsolarMethod;
 use super::limb::{LimbPoint, generic_limb, terminator_limb};
 use super::moving::{MovingVector, fixed, value};
@@ -50,6 +50,8 @@ pub struct Aimed {
     pub vectors: PointingVectors,
     /// The camera's angle, where the command sets it; out of range it is the nearest bound.
     pub mdis: Option<DeviceAngle>,
+    /// From the spacecraft to what the camera follows beside the boresight, EME2000.
+    pub second: Option<MovingVector>,
     /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
     pub antenna: Option<AntennaAzimuth>,
     /// Whether the boresight is on the aimpoint that was asked for.
@@ -92,11 +94,7 @@ const SCENARIOS: [(Scenario, ScenarioLaw); 8] = [
     (Scenario::DoubleTarget, |r| {
         let aimed = r.sunward(r.instrument()?, r.aimpoint()?);
         let second = aimpoint(&r.command.second_aimpoint, r.surroundings, r.hardware.subsolar);
-        let camera = second.and_then(|second| {
-            let body = aimed.vectors.pointing()?.to_body(&second.toward);
-            Some(r.hardware.mdis.toward(&value(&body)))
-        });
-        Some(Aimed { mdis: camera, ..aimed })
+        Some(Aimed { second: second.map(|second| second.toward), ..aimed })
     }),
     (Scenario::Downlink, antenna_at_the_earth),
     (Scenario::LimbTerminator, |r| {
@@ -122,6 +120,14 @@ pub fn aim(
     let directed =
         |vector: &MovingVector| value(vector).amax() > 0.0 && vector.iter().all(|x| x.re.is_finite());
     directed(&aimed.vectors.boresight_body).then_some(aimed)
+}
+
+impl Aimed {
+    /// The camera's angle in the attitude that is commanded in the end.
+    pub fn camera(&self, pointing: &Pointing, range: &MdisRange) -> Option<DeviceAngle> {
+        let followed = self.second.map(|second| range.toward(&value(&pointing.to_body(&second))));
+        followed.or(self.mdis)
+    }
 }
 
 impl Reading<'_> {
@@ -152,6 +158,7 @@ impl Reading<'_> {
                 external_roll: self.surroundings.to_sun(),
             },
             mdis: boresight.mdis,
+            second: None,
             antenna: boresight.antenna,
             reachable: aim.reachable,
             clamped: boresight.mdis.is_some_and(|camera| !camera.in_range)
@@ -175,6 +182,7 @@ fn antenna_at_the_earth(r: &Reading<'_>) -> Option<Aimed> {
     Some(Aimed {
         vectors,
         mdis: None,
+        second: None,
         antenna: Some(AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad: 0.0 }),
         reachable: true,
         clamped,

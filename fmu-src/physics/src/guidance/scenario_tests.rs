@@ -307,9 +307,10 @@ fn the_camera_comes_nearest_to_the_second_aimpoint() {
         command.second_aimpoint = aimpoint(row.option);
         let s = orbit.surroundings(f64::from(step) * 900.0);
         let aimed = aim(&command, &hardware(), &s, &PointingProgress::default()).unwrap();
-        let camera = aimed.mdis.unwrap();
+        let pointing = aimed.vectors.pointing().unwrap();
+        let camera = aimed.camera(&pointing, &hardware().mdis).unwrap();
         in_range += u32::from(camera.in_range);
-        let to_inertial = aimed.vectors.pointing().unwrap().frame().inertial_from_body;
+        let to_inertial = pointing.frame().inertial_from_body;
         let mut only_second = PointingCommand { aimpoint: command.second_aimpoint, ..command };
         only_second.scenario = Some(Scenario::PlusZ);
         let second = aim(&only_second, &hardware(), &s, &PointingProgress::default()).unwrap();

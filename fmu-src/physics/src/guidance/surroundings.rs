@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rate, rotation_about, value};
+use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rate, value};
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
+use crate::environment::frames::{rotation_x, rotation_z};
 
 /// Shape, pole and rotation of the planet that is observed (paper 001: triaxial ellipsoid, fixed pole).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,10 +42,15 @@ impl TargetPlanet {
     pub fn planet_from_inertial(&self, epoch_s: f64) -> MovingMatrix {
         use core::f64::consts::{FRAC_PI_2, TAU};
         let turned_rad = (self.prime_meridian_rad + self.rotation_rate_rad_s * epoch_s) % TAU;
-        let about = |axis, angle_rad: Moving| rotation_about(axis, -angle_rad);
-        about(2, Moving::new(turned_rad, self.rotation_rate_rad_s))
-            * about(0, Moving::from_re(FRAC_PI_2 - self.pole_declination_rad))
-            * about(2, Moving::from_re(FRAC_PI_2 + self.pole_right_ascension_rad))
+        // Rx and the first Rz stand still: their product is one of plain numbers.
+        let node = rotation_z(-(FRAC_PI_2 + self.pole_right_ascension_rad));
+        let equator_from_inertial = rotation_x(-(FRAC_PI_2 - self.pole_declination_rad)) * node;
+        let (sine, cosine) = turned_rad.sin_cos();
+        let sine = Moving::new(sine, self.rotation_rate_rad_s * cosine);
+        let cosine = Moving::new(cosine, -self.rotation_rate_rad_s * sine.re);
+        let [x, y, z] = [0, 1, 2].map(|row| equator_from_inertial.row(row).into_owned());
+        let turned = |a: Moving, b: Moving| x.zip_map(&y, |x, y| a * x + b * y);
+        MovingMatrix::from_rows(&[turned(cosine, sine), turned(-sine, cosine), z.map(Moving::from_re)])
     }
 }
 

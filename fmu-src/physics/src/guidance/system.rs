@@ -2,15 +2,16 @@
 //! is known then; between samples it is propagated by its rate.
 //!
 //! A sample decides the mode, admits the command that the mode allows, aims, applies the constraints and judges the result.
-//! Samples lie at whole seconds of time, and at the start. Where the spacecraft, Sun or Earth is not known, or boresight or
-//! aimpoint has no direction, the last command stays.
+//! Samples lie at whole seconds of time, and at the start. Where no scenario is commanded, or boresight or aimpoint has no
+//! direction, the last law stays that gave an attitude, within its constraints. Where the spacecraft, Sun or Earth is not
+//! known, the last command stays and nothing is judged.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::antenna::{Antenna, AntennaAzimuth};
 use super::boresight::DeviceAngle;
-use super::command::{PointingCommand, Scenario};
+use super::command::{LimbCommand, PointingCommand, ScanCommand, Scenario};
 use super::constraints::{ConstrainedPointing, Constraints};
 use super::downlink::{LinkLimits, link};
 use super::guided::Guided;
@@ -55,12 +56,23 @@ pub struct GuidanceSettings<'a> {
 pub struct SampleInputs {
     /// What is commanded.
     pub command: PointingCommand,
-    /// The timeline's entry that is in force, whose scan and limb scan begin with it.
-    pub entry: Option<usize>,
+    /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
+    pub entries: TimedEntries,
     /// Where everything is; `None` while it is not known.
     pub surroundings: Option<Surroundings>,
     /// Mode request, estimate and Sun sensors at the sample's time.
     pub sensed: Sensed,
+}
+
+/// Which entry of a timeline something comes from; `None` where it comes from no timeline.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TimedEntries {
+    /// The scan.
+    pub scan: Option<usize>,
+    /// The scenario.
+    pub scenario: Option<usize>,
+    /// The mode that is asked for.
+    pub mode: Option<usize>,
 }
 
 /// What a command gives.
@@ -132,8 +144,10 @@ pub struct GuidanceState {
     modes: ModeState,
     periapses: PeriapsisCount,
     scan_since_s: Option<f64>,
-    /// The timeline's entry at the last sample.
-    entry: Option<usize>,
+    /// The timeline's entries at the last sample.
+    entries: TimedEntries,
+    /// The last command that gave an attitude; it stays where none is given, and where a new one has no direction.
+    law: Option<PointingCommand>,
     /// The limb scenario and since when it is commanded, in s.
     limb: Option<(Scenario, f64)>,
     next_sample_s: f64,
@@ -157,7 +171,8 @@ impl GuidanceState {
             modes: ModeState::default(),
             periapses: PeriapsisCount::default(),
             scan_since_s: None,
-            entry: None,
+            entries: TimedEntries::default(),
+            law: None,
             limb: None,
             next_sample_s: start_s,
         }
@@ -203,14 +218,11 @@ impl GuidanceState {
         if to_sun.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
             modes.operational.keep_in = None;
         }
+        modes.watches_hot_pole &= !(self.judgement.hot_pole && self.judgement.clamped);
+        self.keep_clocks(&inputs.command, inputs.entries, time_s);
         match self.modes.sample(&modes, &sensed, surroundings) {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
-                if inputs.entry != self.entry {
-                    (self.scan_since_s, self.limb) = (None, None);
-                    self.entry = inputs.entry;
-                }
-                self.keep_clocks(&command, time_s);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     self.point(settings, &command, &constraints, surroundings, time_s);
                 }
@@ -282,8 +294,31 @@ impl GuidanceState {
         [to_sun + rate * (time_s - self.to_sun_since_s), rate]
     }
 
-    /// A scan begins where its frame is first commanded, a limb scenario where it is.
-    fn keep_clocks(&mut self, command: &PointingCommand, time_s: f64) {
+    /// What is commanded now: where no scenario is, the last command that gave an attitude, without its scans.
+    pub fn continued(&self, command: &PointingCommand) -> PointingCommand {
+        match self.law {
+            Some(law) if command.scenario.is_none() => PointingCommand {
+                scan: ScanCommand::default(),
+                limb: LimbCommand { height_rate_m_s: 0.0, ..law.limb },
+                ..law
+            },
+            _ => *command,
+        }
+    }
+
+    /// A scan begins where its frame is first commanded, a limb scenario where it is, in whatever mode; one of a timeline with
+    /// its entry.
+    fn keep_clocks(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
+        if entries.scan != self.entries.scan {
+            self.scan_since_s = None;
+        }
+        if entries.scenario != self.entries.scenario {
+            self.limb = None;
+        }
+        if entries.mode != self.entries.mode {
+            self.modes.renew_request();
+        }
+        self.entries = entries;
         self.scan_since_s = command.scan.frame.map(|_| self.scan_since_s.unwrap_or(time_s));
         let limb =
             command.scenario.filter(|it| matches!(it, Scenario::LimbTerminator | Scenario::LimbGeneric));
@@ -293,7 +328,7 @@ impl GuidanceState {
         });
     }
 
-    /// Computes an attitude; without a direction the last command stays.
+    /// Computes an attitude; without a direction the last law stays that gave one.
     fn point(
         &mut self,
         settings: &GuidanceSettings<'_>,
@@ -302,10 +337,15 @@ impl GuidanceState {
         surroundings: &Surroundings,
         time_s: f64,
     ) {
-        let found = self.aimed(settings, command, surroundings, time_s).and_then(|aimed| {
-            let constrained = constraints.applied(&aimed.vectors, surroundings)?;
-            Some((aimed, constrained))
-        });
+        let mut found = self.constrained(settings, command, constraints, surroundings, time_s);
+        let is_given = found.is_some();
+        if is_given {
+            if self.modes.mode == Mode::Operational {
+                self.law = Some(*command);
+            }
+        } else if let Some(law) = self.law.map(|law| self.modes.mode.admitted(&law)) {
+            found = self.constrained(settings, &law, constraints, surroundings, time_s);
+        }
         let Some((aimed, ConstrainedPointing { pointing, sun_keep_in, hot_pole, clamped })) = found else {
             self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING };
             return;
@@ -321,10 +361,16 @@ impl GuidanceState {
             rate_body_rad_s: frame.rate_body_rad_s,
             error: [0.0, 0.0, 0.0, 1.0],
         };
+        // The beam follows the Earth where a constraint moved the antenna off it.
+        let beam = aimed.antenna.map(|asked| {
+            let is_moved = sun_keep_in || hot_pole;
+            let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
+            if is_moved { AntennaAzimuth::toward(&earth_body()) } else { asked }
+        });
         let (antenna, antenna_azimuth_rad) =
-            aimed.antenna.map_or((Antenna::None, 0.0), |it| (it.antenna, it.azimuth_rad));
+            beam.map_or((Antenna::None, 0.0), |it| (it.antenna, it.azimuth_rad));
         let link = link(surroundings, &pointing, antenna, &settings.link);
-        let mdis = aimed.mdis.unwrap_or(Judgement::NOTHING.mdis);
+        let mdis = aimed.camera(&pointing, &settings.hardware.mdis).unwrap_or(Judgement::NOTHING.mdis);
         self.judgement = Judgement {
             mdis,
             antenna,
@@ -332,12 +378,26 @@ impl GuidanceState {
             sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
             link_available: link.is_some_and(|link| link.available),
             reachable: aimed.reachable && is_on(&pointing, &aimed.vectors),
-            degenerate: pointing.degenerate,
+            degenerate: pointing.degenerate || !is_given,
             scan_active: aimed.scan_active,
             sun_keep_in,
             hot_pole,
             clamped: clamped || aimed.clamped || !mdis.in_range,
         };
+    }
+
+    /// The vectors of a command and the attitude within the constraints; `None` where something has no direction.
+    fn constrained(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        command: &PointingCommand,
+        constraints: &Constraints,
+        surroundings: &Surroundings,
+        time_s: f64,
+    ) -> Option<(Aimed, ConstrainedPointing)> {
+        let aimed = self.aimed(settings, command, surroundings, time_s)?;
+        let constrained = constraints.applied(&aimed.vectors, surroundings)?;
+        Some((aimed, constrained))
     }
 
     /// The vectors that the command asks for.
@@ -368,6 +428,7 @@ impl GuidanceState {
         Aimed {
             vectors: pointing.vectors(),
             mdis: None,
+            second: None,
             antenna: is_downlink.then(|| AntennaAzimuth::toward(&earth_body())),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
             clamped: false,

@@ -60,7 +60,7 @@ pub struct HotPoleVariables {
     /// Whether -Z is kept away from the planet over the subsolar region.
     #[parameter(tunable, start = true)]
     pub enabled: Boolean,
-    /// Below this height over planet.radii[1] it can be in force (assumed).
+    /// Below this height above the ellipsoid, along the radius, it can be in force (assumed).
     #[parameter(tunable, unit = "m", display = "km", min = 0.0, max = 1e10, start = 2.0e6)]
     pub altitude: Real,
     /// Within this angle from the subsolar point it can be in force (assumed).

@@ -106,11 +106,11 @@ pub struct EarthVariables {
 /// The attitude as star tracker and gyros give it.
 #[derive(Variables)]
 pub struct EstimateVariables {
-    /// Attitude quaternion, scalar last, from EME2000 to body; what the monitor watches. 0: not connected yet, it watches
-    /// nothing.
+    /// Attitude quaternion, scalar last, from EME2000 to body; what the monitor watches. 0, or exactly the start value: not
+    /// connected yet, it watches nothing.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
-    /// Body rate.
+    /// Body rate. No law reads it yet; it is here so that an estimator connects whole.
     #[input(unit = "rad/s", display = "deg/s", min = -PI, max = PI, start = [0.0; 3])]
     pub rate: RealVector<3>,
     /// Whether the attitude is known.

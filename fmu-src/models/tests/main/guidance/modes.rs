@@ -122,3 +122,55 @@ fn safe_hold_ignores_all_but_downlink() {
     assert!(flight.boolean("constraint.sunKeepIn"));
     assert!(flight.real("sun.azimuth").abs() < 1e-12 && flight.real("sun.elevation").abs() < 1e-12);
 }
+
+#[test]
+fn without_an_estimate_nothing_is_demoted_and_the_start_attitude_is_held() {
+    let named = NamedModel::<Guidance>::shipped();
+    let mut flight = named.fly(0.0, PLACED).unwrap();
+    let held = quaternion(&flight, "command.q");
+    flight.step_to(600.0).unwrap();
+    assert_eq!(["mode.active", "command.kind"].map(|name| flight.integer(name)), [OPERATIONAL, 0]);
+    assert_eq!(quaternion(&flight, "command.q"), held);
+}
+
+#[test]
+fn the_last_law_stays_within_its_zone_when_nothing_is_commanded() {
+    let named = NamedModel::<Guidance>::shipped();
+    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut other = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    for second in 1..=900 {
+        if second == 20 {
+            flight.set("pointing.scenario", 0.0);
+        }
+        for it in [&mut flight, &mut other] {
+            it.step_to(f64::from(second)).unwrap();
+        }
+        assert_eq!(quaternion(&flight, "command.q"), quaternion(&other, "command.q"), "{second}");
+    }
+}
+
+#[test]
+fn an_aim_without_direction_leaves_the_law_before_it() {
+    let named = NamedModel::<Guidance>::shipped();
+    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    let mut other = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    flight.step_to(5.0).unwrap();
+    flight.set("pointing.scenario", 2.0);
+    flight.set("aimpoint.option", 1.0);
+    flight.step_to(60.0).unwrap();
+    other.step_to(60.0).unwrap();
+    assert_eq!(quaternion(&flight, "command.q"), quaternion(&other, "command.q"));
+    assert!(flight.boolean("geometry.degenerate") && !other.boolean("geometry.degenerate"));
+}
+
+#[test]
+fn the_sun_aimed_at_by_plus_z_stands_still_on_the_zones_edge() {
+    let named = NamedModel::<Guidance>::shipped();
+    let sets = [("pointing.scenario", 2.0), ("aimpoint.option", 10.0)];
+    let mut flight = named.fly(0.0, &with(&[PLACED, &sets])).unwrap();
+    for second in 1..=60 {
+        flight.step_to(f64::from(second)).unwrap();
+        assert!(flight.real("sun.azimuth").abs() < 1e-6, "{second}");
+        assert!((flight.real("sun.elevation").abs() - 13.0_f64.to_radians()).abs() < 1e-6, "{second}");
+    }
+}

@@ -29,6 +29,7 @@ fn settings() -> ModeSettings {
         operational: Constraints { keep_in: Some(zone(0.3)), hot_pole: None },
         safe_hold: Constraints { keep_in: Some(zone(0.2)), hot_pole: None },
         monitor: Some(Monitor { margin_rad: 0.01, persistence_s: 0.0 }),
+        watches_hot_pole: true,
         boresight_body: -Vector3::y() * 2.0,
         earth_acquisition_rate_rad_s: 1e-3,
         sun_search_rate_rad_s: 2e-3,
