@@ -172,6 +172,11 @@ fn a_dash_is_the_standard_output() {
     run(&[&simulate[..], &[shown(&table)]].concat(), 0);
     let output = heliotorque(&[&simulate[..], &["-"]].concat()).output().unwrap();
     assert!(output.status.success() && output.stdout == fs::read(&table).unwrap(), "{}", text(&output));
+    let (picture, arguments) = (scratch.path().join("a.svg"), &simulate[..4]);
+    run(&[arguments, &["--plot", shown(&picture)]].concat(), 0);
+    let output = heliotorque(&[arguments, &["--plot", "-"]].concat()).output().unwrap();
+    assert!(output.status.success() && output.stdout == fs::read(&picture).unwrap(), "{}", text(&output));
+    assert!(run(&[&simulate[..], &["-", "--plot", "-"]].concat(), 1).contains("one file cannot take both"));
     let library = probe_library().unwrap();
     let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", "-"];
     let output = heliotorque(&pack).current_dir(scratch.path()).output().unwrap();
