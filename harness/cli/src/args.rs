@@ -56,7 +56,7 @@ pub struct Info {
     /// List the variables too
     #[arg(long)]
     pub variables: bool,
-    /// List only these variables: a name, a vector, or a pattern with *
+    /// Show only these variables and the options they take: names, vectors, patterns with *
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub only: Vec<String>,
     /// Show what the FMU computes from its parameters: the sunshade's torque coefficients, torque and force by source at
@@ -154,7 +154,8 @@ pub struct Run {
     /// Hand the slopes of the input table to the FMU too, so that inputs do not jump from step to step
     #[arg(long, requires = "input")]
     pub slopes: bool,
-    /// Record these variables: names, vectors, patterns with *; otherwise every output
+    /// Record these variables: names, vectors, patterns with * such as 'plate*.force', which take outputs only; otherwise
+    /// every output
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub record: Vec<String>,
     /// Record at most this often, in s or with a unit; otherwise at every step
@@ -164,7 +165,7 @@ pub struct Run {
     /// stays if the FMU fails, crashes or hangs
     #[arg(long, value_name = "CSV")]
     pub output: Option<PathBuf>,
-    /// Draw what was recorded as SVG
+    /// Draw what was recorded as SVG; - is the standard output
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
     /// Longest time an FMI call may take, in s or with a unit; otherwise without bound

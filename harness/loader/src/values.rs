@@ -37,8 +37,7 @@ pub fn assignment<'a>(description: &'a Description, text: &'a str) -> Result<Vec
     };
     let name = name.trim();
     let elements = select::select(description, name)?;
-    let is_one =
-        matches!(*elements, [index] if description.variables.get(index).is_some_and(|it| it.name == name));
+    let is_one = matches!(*elements, [index] if description.variables.get(index).is_some_and(|it| select::is_same(&it.name, name)));
     let parts: Vec<&str> = if is_one { vec![value] } else { value.split(',').collect() };
     if parts.len() != elements.len() {
         return Err(Error::Value {

@@ -39,7 +39,7 @@ fn selection(fmu: &Fmu, patterns: &[String]) -> Result<Option<Vec<usize>>, loade
     }
     let mut positions = Vec::new();
     for pattern in patterns {
-        for position in fmu.select(pattern)? {
+        for position in fmu.select_outputs(pattern)? {
             if !positions.contains(&position) {
                 positions.push(position);
             }
