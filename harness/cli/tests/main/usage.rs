@@ -67,6 +67,38 @@ fn failure_is_one_and_names_the_file() {
 }
 
 #[test]
+fn what_is_no_fmu_is_named() {
+    let scratch = tempfile::tempdir().unwrap();
+    let cases: [(&str, &[u8], &str); 9] = [
+        ("empty.fmu", b"", "an empty file"),
+        ("my.fmu", b"# mine\n\nname = \"A\"\n[mass_properties]\n", "a TOML file"),
+        ("table.fmu", b"\n[start]\n", "a TOML file"),
+        ("libmine.fmu", b"\x7fELF\x02\x01", "a shared library"),
+        ("mine.fmu", b"MZ\x90\0", "a shared library"),
+        ("page.fmu", b"\xef\xbb\xbf<?xml version=\"1.0\"?>", "an XML file"),
+        ("packed.fmu", b"\x1f\x8b\x08\0", "an archive of another kind"),
+        ("words.fmu", "kein Archiv, \u{e4}".as_bytes(), "it is a text file"),
+        ("cut.fmu", b"PK\x03\x04", "not a usable FMU archive"),
+    ];
+    for (name, bytes, expected) in cases {
+        let path = scratch.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        for command in ["info", "check", "run"] {
+            let text = run(&[command, shown(&path)], 1);
+            assert!(text.contains(name) && text.contains(expected), "{text}");
+            assert!(text.contains("not a usable FMU archive"), "{text}");
+        }
+    }
+    let toml = scratch.path().join("my.toml");
+    std::fs::write(&toml, "name = 1").unwrap();
+    assert!(run(&["info", shown(&toml)], 1).contains("`heliotorque check`"));
+    for command in ["info", "run"] {
+        let text = run(&[command, shown(scratch.path())], 1);
+        assert!(text.contains("it is a folder that holds no modelDescription.xml"), "{text}");
+    }
+}
+
+#[test]
 fn a_check_that_would_check_nothing_is_refused() {
     let text = run(&["check", "no/such.fmu", "--only", "xyz"], 1);
     for probe in ["\"xyz\"", "library", "locale", "instances", "--only"] {
