@@ -88,15 +88,58 @@ fn without_files_a_summary_is_shown() {
         run(&["run", shown(&fmu), "--set", "input.text=hello", "--record", "output.text,output.real"], 0);
     assert!(text.contains("hello") && text.contains("smallest"), "{text}");
     let text = run(&["info", shown(&fmu), "--only", "channel[1].*,input.choice"], 0);
-    for part in ["channel[1].gain", "input.choice", "1 (red)", "Like the sky.", "canSerializeFMUstate"] {
+    for part in ["channel[1].gain", "input.choice", "1 (red)", "Like the sky."] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
-    assert!(!text.contains("parameter.real"));
+    // What was asked for stands alone; all there is comes without --only.
+    for part in ["parameter.real", "canSerializeFMUstate", "GUID"] {
+        assert!(!text.contains(part), "{text}");
+    }
+    let text = run(&["info", shown(&fmu), "--variables"], 0);
+    for part in ["parameter.real", "canSerializeFMUstate", "GUID", "Like the sky."] {
+        assert!(text.contains(part), "{text} lacks {part}");
+    }
     // Twice and thrice the parameter.
     let text = run(&["info", shown(&fmu), "--coefficients", "--set", "parameter.real=7 km"], 0);
     let value = |name: &str| text.lines().find(|line| line.contains(name)).unwrap().to_owned();
     assert!(value("role.calculatedFixed").contains("14000"), "{text}");
     assert!(value("role.calculatedApprox").contains("21000"), "{text}");
+}
+
+#[test]
+fn names_match_in_any_case() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let table = scratch.path().join("out.csv");
+    let simulate = ["run", shown(&fmu), "--stop", "2", "--step", "1", "--set", "INPUT.Real=2 km/s"];
+    let record = ["--record", "Output.INTEGRAL,output.Vector,OUTPUT.bool*", "--output", shown(&table)];
+    run(&[&simulate[..], &record].concat(), 0);
+    let (header, rows) = csv(&table);
+    let expected = ["time", "output.integral", "output.vector[1]", "output.vector[2]", "output.vector[3]"];
+    assert_eq!(header[..5], expected);
+    assert_eq!(header[5], "output.boolean");
+    assert!((rows[2][1] - 4000.0).abs() < 1e-8, "{rows:?}");
+    let text = run(&["info", shown(&fmu), "--only", "INPUT.CHOICE"], 0);
+    assert!(text.contains("input.choice"), "{text}");
+    // A slip of the pen still gets its neighbours.
+    let text = run(&["run", shown(&fmu), "--set", "INPUT.REEL=1"], 1);
+    assert!(text.contains("near it: input.real"), "{text}");
+}
+
+#[test]
+fn patterns_take_outputs_and_whole_vectors() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let table = scratch.path().join("out.csv");
+    let record = |names: &str| {
+        run(&["run", shown(&fmu), "--quiet", "--record", names, "--output", shown(&table)], 0);
+        csv(&table).0
+    };
+    let vector = ["output.vector[1]", "output.vector[2]", "output.vector[3]"];
+    assert_eq!(record("out*.vector")[1..], vector);
+    assert_eq!(record("output.v*or")[1..], vector);
+    // A parameter by its name or its vector's.
+    assert_eq!(record("parameter.vector,parameter.real")[4], "parameter.real");
+    let text = run(&["run", shown(&fmu), "--record", "param*.real"], 1);
+    assert!(text.contains("takes outputs only") && text.contains("named: parameter.real"), "{text}");
 }
 
 #[test]
