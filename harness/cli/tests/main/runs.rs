@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{packed, run, shown};
+use crate::{built, packed, run, shown};
 
 fn csv(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let mut reader = csv::Reader::from_path(path).unwrap();
@@ -40,6 +40,12 @@ fn a_simulation_leaves_csv_and_a_picture() {
         0,
     );
     assert!(text.contains("6 steps to 60 s"), "{text}");
+    for file in [&table, &picture] {
+        assert!(text.contains(&format!("wrote {}", file.display())), "{text}");
+    }
+    let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap().to_owned();
+    assert!(row("output.vector").contains("1, 0.002, 3"), "{text}");
+    assert!(row("output.integral").contains("120"), "{text}");
     let (header, rows) = csv(&table);
     let names = [
         "time",
@@ -140,6 +146,27 @@ fn patterns_take_outputs_and_whole_vectors() {
     assert_eq!(record("parameter.vector,parameter.real")[4], "parameter.real");
     let text = run(&["run", shown(&fmu), "--record", "param*.real"], 1);
     assert!(text.contains("takes outputs only") && text.contains("named: parameter.real"), "{text}");
+}
+
+#[test]
+fn a_time_that_is_none_is_shown_so() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let (scratch, fmu) = (tempfile::tempdir().unwrap(), dist.join("MomentumPlant.fmu"));
+    let table = scratch.path().join("out.csv");
+    let names = "dump.lastTime,dump.count,torque.solar";
+    let simulate = ["run", shown(&fmu), "--stop", "600", "--step", "600", "--record", names];
+    let row = |text: &str| text.lines().find(|line| line.contains("dump.lastTime")).unwrap().to_owned();
+    let text = run(&simulate, 0);
+    assert_eq!(row(&text).matches("none").count(), 4, "{text}");
+    let text = run(&[&simulate[..], &["--output", shown(&table)]].concat(), 0);
+    assert_eq!(row(&text).matches("none").count(), 1, "{text}");
+    assert!(text.contains("wrote") && text.contains("torque.solar"), "{text}");
+    // Files keep the number, and the standard output holds the table alone.
+    assert_eq!(csv(&table).1[1][1], -1.0);
+    let output = crate::heliotorque(&[&simulate[..], &["--output", "-"]].concat()).output().unwrap();
+    assert!(output.stdout == fs::read(&table).unwrap() && !crate::text(&output).contains("wrote"));
+    let text = run(&[&simulate[..], &["--quiet", "--output", shown(&table)]].concat(), 0);
+    assert!(text.is_empty(), "{text}");
 }
 
 #[test]
