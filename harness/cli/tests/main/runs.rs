@@ -198,6 +198,25 @@ fn bad_settings_name_the_variable_and_what_is_allowed() {
 }
 
 #[test]
+fn an_angle_beyond_its_limits_is_told_in_deg() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let fmu = dist.join("MomentumPlant.fmu");
+    for (setting, expected) in [
+        ("orbit.inclination=10", "10 rad; did you mean 10deg? Allowed: 0 to 180 deg (0 to 3.141593 rad)"),
+        ("orbit.inclination=200deg", "found 200deg, allowed: 0 to 180 deg"),
+        ("orbit.inclination=1e4", "found 1e4 rad, allowed: 0 to 180 deg"),
+        ("orbit.inclination=-10", "found -10 rad, allowed: 0 to 180 deg"),
+    ] {
+        for command in [&["run"][..], &["info", "--coefficients"]] {
+            let text = run(&[command, &[shown(&fmu), "--set", setting]].concat(), 1);
+            assert!(text.contains("orbit.inclination") && text.contains(expected), "{setting}: {text}");
+        }
+    }
+    run(&["info", "--coefficients", shown(&fmu), "--set", "orbit.inclination=10deg"], 0);
+    run(&["info", "--coefficients", shown(&fmu), "--set", "orbit.inclination=3.1"], 0);
+}
+
+#[test]
 fn an_error_on_the_way_leaves_what_was_simulated() {
     let Some((scratch, fmu)) = packed("Panicking") else { return };
     let (input, output) = (scratch.path().join("in.csv"), scratch.path().join("out.csv"));
