@@ -7,7 +7,7 @@ use model_description::{
     Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind,
 };
 
-use crate::{args::Info, coefficients, outcome::Outcome, timeline};
+use crate::{args::Info, coefficients, epoch, outcome::Outcome, timeline};
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
@@ -207,11 +207,15 @@ pub fn causality(variable: &ScalarVariable) -> String {
     }
 }
 
-/// The start value, in the variable's unit, with the display unit behind it and the item's name.
+/// The start value, in the variable's unit, with the display unit or date behind it and the item's name.
 pub fn start(description: &Description, variable: &ScalarVariable) -> String {
     match &variable.kind {
         VariableKind::Real { start: Some(start), .. } => {
             let own = terminal::short(*start);
+            let date = epoch::is_epoch(description, variable).then(|| epoch::date(*start)).flatten();
+            if let Some(date) = date {
+                return format!("{start} ({date})");
+            }
             match loader::display_unit(description, variable) {
                 Some((name, factor, offset)) if *start != 0.0 => {
                     format!("{own} ({} {name})", terminal::short(factor * start + offset))

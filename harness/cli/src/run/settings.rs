@@ -4,7 +4,7 @@ use std::path::Path;
 
 use loader::{Fmu, InputTable, Times};
 
-use crate::args::Run;
+use crate::{args::Run, epoch};
 
 /// What the arguments mean for an FMU.
 pub struct Settings {
@@ -24,7 +24,7 @@ impl Settings {
         let times = Times::of(fmu, arguments.start, arguments.stop, arguments.step)?;
         let mut sets = Vec::new();
         for setting in &arguments.set {
-            sets.extend(loader::parse_assignment(fmu, setting)?);
+            sets.extend(loader::parse_assignment(fmu, &epoch::in_seconds(fmu.description(), setting)?)?);
         }
         let inputs = arguments.input.as_deref().map(|path| read_table(fmu, path)).transpose()?;
         let positions = selection(fmu, &arguments.record)?.unwrap_or_else(|| loader::outputs(fmu));

@@ -217,6 +217,32 @@ fn an_angle_beyond_its_limits_is_told_in_deg() {
 }
 
 #[test]
+fn an_epoch_is_written_and_shown_as_a_date() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let fmu = dist.join("MomentumPlant.fmu");
+    let simulate = |setting: &str, status| {
+        let times = ["--stop", "600", "--step", "600", "--record", "start.epoch", "--set", setting];
+        run(&[&["run", shown(&fmu)], &times[..]].concat(), status)
+    };
+    let text = simulate("start.epoch=2011-04-06T00:00:00 UTC", 0);
+    // 34 leap seconds and 32.184 s after 4112.5 days.
+    assert!(text.contains("355320066.18") && text.contains("(2011-04-06T00:00:00 UTC)"), "{text}");
+    let text = simulate("Start.Epoch=2009-04-06 TDB", 0);
+    assert!(text.contains("292248000 (2009-04-05T23:58:53.8"), "{text}");
+    for (date, expected) in [
+        ("2011-04-06", "does not end in UTC or TDB"),
+        ("2011-02-29 UTC", "a day that no calendar has"),
+        ("tomorrow", "which is no date"),
+    ] {
+        let text = simulate(&format!("start.epoch={date}"), 1);
+        assert!(text.contains("start.epoch") && text.contains(expected), "{text}");
+        assert!(text.contains("2008-03-19T19:30:00 UTC") && text.contains("the units s"), "{text}");
+    }
+    let text = run(&["info", shown(&fmu), "--only", "start.epoch"], 0);
+    assert!(text.contains("292248000 (2009-04-05T23:58:53.8"), "{text}");
+}
+
+#[test]
 fn an_error_on_the_way_leaves_what_was_simulated() {
     let Some((scratch, fmu)) = packed("Panicking") else { return };
     let (input, output) = (scratch.path().join("in.csv"), scratch.path().join("out.csv"));
