@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 /// The FMU whose library reads and runs new spacecraft unless another is named.
 pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
@@ -11,6 +12,12 @@ const PACK_EXAMPLE: &str = "\
 Example:
   heliotorque check my.toml                                  what is wrong with it, by line
   heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
+
+const COMPLETIONS_EXAMPLE: &str = "\
+Example:
+  heliotorque completions bash > ~/.local/share/bash-completion/completions/heliotorque
+  heliotorque completions zsh > ~/.zfunc/_heliotorque        with fpath+=~/.zfunc before compinit in ~/.zshrc
+  heliotorque completions fish > ~/.config/fish/completions/heliotorque.fish";
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
 #[derive(Debug, Parser)]
@@ -40,6 +47,9 @@ pub enum Command {
     /// Find an optimal plan
     #[command(subcommand)]
     Plan(Plan),
+    /// Print what a shell needs to complete commands and options
+    #[command(after_help = COMPLETIONS_EXAMPLE)]
+    Completions(Completions),
     /// Runs one probe of `check` in a process of its own
     #[command(hide = true, name = "probe-in-child")]
     Probe(Probe),
@@ -64,7 +74,7 @@ pub struct Info {
     #[arg(long, conflicts_with_all = ["variables", "only"])]
     pub coefficients: bool,
     /// Set a parameter before --coefficients; repeatable, written as for `run`: sunshade.shape=cylinder,
-    /// spacecraft.centerOfMass[3]=-2.54cm
+    /// 'spacecraft.centerOfMass[3]=-2.54cm'
     #[arg(long, value_name = "NAME=VALUE", requires = "coefficients")]
     pub set: Vec<String>,
 }
@@ -97,6 +107,14 @@ pub struct Schema {
     /// Of which kind of file: spacecraft, or timeline, which `pack --timeline` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
+}
+
+/// `heliotorque completions`.
+#[derive(Debug, Args)]
+pub struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: Shell,
 }
 
 /// A kind of file that has a schema.
@@ -143,7 +161,7 @@ pub struct Run {
     /// Communication step, in s or with a unit: 10min; otherwise the FMU's default
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub step: Option<f64>,
-    /// Set a parameter, input or start value; repeatable. Takes units (spacecraft.centerOfMass[3]=-2.54cm),
+    /// Set a parameter, input or start value; repeatable. Takes units ('spacecraft.centerOfMass[3]=-2.54cm'),
     /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4), dates for epochs
     /// ('start.epoch=2011-04-06T00:00:00 UTC')
     #[arg(long, value_name = "NAME=VALUE")]

@@ -8,6 +8,7 @@ mod args;
 mod check;
 mod child;
 mod coefficients;
+mod completions;
 mod epoch;
 mod info;
 mod interrupt;

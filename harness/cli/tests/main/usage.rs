@@ -125,9 +125,48 @@ fn a_reader_that_goes_away_changes_no_status() {
 }
 
 #[test]
+fn shells_complete_commands_and_options() {
+    for (shell, begin) in
+        [("bash", "_heliotorque()"), ("zsh", "#compdef heliotorque"), ("fish", "function __fish_heliotorque")]
+    {
+        let script = run(&["completions", shell], 0);
+        assert!(script.contains(begin), "{shell}: {script}");
+        for part in ["info", "pack", "per-plate", "coefficients", "timeline"] {
+            assert!(script.contains(part), "{shell}: {script} lacks {part}");
+        }
+        assert!(!script.contains("in-child"), "{shell}: a hidden command shows");
+        // The shell itself reads it, where it is installed.
+        let scratch = tempfile::tempdir().unwrap();
+        let file = scratch.path().join("script");
+        std::fs::write(&file, &script).unwrap();
+        let read = std::process::Command::new(shell).arg("-n").arg(&file).output();
+        assert!(read.is_err() || read.is_ok_and(|it| it.status.success()), "{shell} does not read it");
+    }
+    run(&["completions", "tcsh"], 2);
+}
+
+#[test]
+fn every_shell_takes_the_commands_of_the_readme() {
+    let readme = std::fs::read_to_string("../../README.md").unwrap();
+    let mut commands = 0;
+    for block in readme.split("```").skip(1).step_by(2) {
+        for line in
+            block.lines().skip(1).filter(|_| block.contains("\nheliotorque ") || block.contains("\ncargo "))
+        {
+            commands += 1;
+            // Outside of quotes: what zsh expands, and remarks, which it does not take from a terminal.
+            let bare: String = line.split('\'').step_by(2).collect();
+            assert!(!bare.contains(['[', ']', '*', '?', '#', '~', '^', '(', ')']), "{line}");
+            assert!(line.matches('\'').count() % 2 == 0, "{line}");
+        }
+    }
+    assert!(commands > 10, "{commands}");
+}
+
+#[test]
 fn every_command_and_flag_has_help() {
     let all = run(&["--help"], 0);
-    for command in ["info", "check", "run", "pack", "schema", "study"] {
+    for command in ["info", "check", "run", "pack", "schema", "study", "completions"] {
         assert!(all.contains(command), "{command}");
         let help = run(&[command, "--help"], 0);
         let flags: Vec<&str> = help.lines().filter(|line| line.trim_start().starts_with('-')).collect();
