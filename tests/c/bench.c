@@ -1,6 +1,7 @@
 /* Speed and memory through the C interface: one line `bench <name> <value> <unit>` a figure, medians of several runs. */
 #include "fmu.h"
 
+#include <math.h>
 #include <sys/resource.h>
 #include <time.h>
 
@@ -263,6 +264,67 @@ static void manoeuvre(const Library *library, const char *xml) {
     report("spin_plant_1400s_in_one_step", values, "ms");
 }
 
+/* One choice or number of a command. */
+typedef struct {
+    const char *name;
+    int is_real;
+    double value;
+} Setting;
+
+/* A sample a second on a circle about the planet, position and velocity set before each. */
+static void guidance(const Library *library, const char *xml, const Setting *settings, int count, const char *name) {
+    double per_step[RUNS];
+    const int steps = 50000;
+    const char *names[] = {"position[1]", "position[2]", "position[3]", "velocity[1]", "velocity[2]", "velocity[3]"};
+    fmi2ValueReference place[6], q = reference_of(xml, "command.q[1]"), kind = reference_of(xml, "command.kind");
+    for (int i = 0; i < 6; i++) place[i] = reference_of(xml, names[i]);
+    for (int run = 0; run < RUNS; run++) {
+        fmi2Component c = start(library, xml);
+        for (int i = 0; i < count; i++) {
+            fmi2ValueReference reference = reference_of(xml, settings[i].name);
+            fmi2Integer item = (fmi2Integer)settings[i].value;
+            if (settings[i].is_real) CHECK(library->SetReal(c, &reference, 1, &settings[i].value) == fmi2OK);
+            else CHECK(library->SetInteger(c, &reference, 1, &item) == fmi2OK);
+        }
+        CHECK(library->ExitInitializationMode(c) == fmi2OK);
+        fmi2Real first = 0, last = 0, stepping = 0;
+        for (int i = 0; i < steps; i++) {
+            double sine = sin(6e-4 * i), cosine = cos(6e-4 * i);
+            fmi2Real values[6] = {4e6 * cosine, 1e5, 4e6 * sine, -2.4e3 * sine, 20.0, 2.4e3 * cosine};
+            double begin = now_s();
+            CHECK(library->SetReal(c, place, 6, values) == fmi2OK);
+            CHECK(library->DoStep(c, i, 1.0, fmi2True) == fmi2OK);
+            stepping += now_s() - begin;
+            if (i == 0) CHECK(library->GetReal(c, &q, 1, &first) == fmi2OK);
+        }
+        fmi2Integer commanded = 0;
+        CHECK(library->GetInteger(c, &kind, 1, &commanded) == fmi2OK && commanded == 1);
+        CHECK(library->GetReal(c, &q, 1, &last) == fmi2OK && last != first);
+        per_step[run] = stepping / steps * 1e6;
+        library->FreeInstance(c);
+    }
+    report(name, per_step, "us");
+}
+
+static void guidance_steps(const Library *library) {
+    char *xml = description_of(library, "Guidance");
+    const Setting nadir[] = {{"pointing.scenario", 0, 3}};
+    const Setting scan[] = {
+        {"pointing.scenario", 0, 2},    {"aimpoint.option", 0, 7},      {"aimpoint.latitude", 1, 0.4},
+        {"scan.frame", 0, 2},           {"scan.rate[1]", 1, 1e-4},      {"scan.rate[3]", 1, -2e-4},
+        {"scan.duration[1]", 1, 100.0}, {"scan.duration[3]", 1, 300.0},
+    };
+    const Setting orbit_phase[] = {{"pointing.scenario", 0, 10}};
+    const Setting lighting[] = {{"pointing.scenario", 0, 2}, {"aimpoint.option", 0, 14}};
+#define GUIDANCE(settings, name) guidance(library, xml, settings, (int)(sizeof settings / sizeof *settings), name)
+    GUIDANCE(nadir, "guidance_step_1s_nadir");
+    GUIDANCE(scan, "guidance_step_1s_latitude_longitude_scan");
+    GUIDANCE(orbit_phase, "guidance_step_1s_orbit_phase");
+    GUIDANCE(lighting, "guidance_step_1s_optimal_lighting");
+#undef GUIDANCE
+    free(xml);
+}
+
 int main(int count, char **arguments) {
     if (count < 5) {
         fprintf(stderr, "usage: %s libheliotorque libprobe orbiter-folder messenger-folder\n", arguments[0]);
@@ -284,6 +346,7 @@ int main(int count, char **arguments) {
     spinner_steps(&library, xml, 0, "spin_plant_steps_32ms_coasting");
     manoeuvre(&library, xml);
     free(xml);
+    guidance_steps(&library);
     empty_model(&probe);
     return 0;
 }

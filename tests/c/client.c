@@ -114,6 +114,45 @@ static void place(const Library *library, const char *xml, int steps) {
     library->FreeInstance(c);
 }
 
+/* Guidance: nadir on a circle about the planet, a sample a second; a state goes on to the same attitude to the bit. */
+static void point(const Library *library, const char *xml, int steps) {
+    fmi2Component c = start(library, xml);
+    const char *names[] = {"position[1]", "position[2]", "position[3]", "velocity[1]", "velocity[2]", "velocity[3]"};
+    fmi2ValueReference place[6], q[4], scenario = reference_of(xml, "pointing.scenario");
+    for (int i = 0; i < 6; i++) place[i] = reference_of(xml, names[i]);
+    for (int i = 0; i < 4; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "command.q[%d]", i + 1);
+        q[i] = reference_of(xml, name);
+    }
+    fmi2Integer nadir = 3;
+    CHECK(library->SetInteger(c, &scenario, 1, &nadir) == fmi2OK);
+    CHECK(library->ExitInitializationMode(c) == fmi2OK);
+    fmi2FMUstate state = NULL;
+    fmi2Real first[4] = {0}, end[4] = {0};
+    for (int round = 0; round < 2; round++) {
+        for (int i = round == 0 ? 0 : steps / 2; i < steps; i++) {
+            if (round == 0 && i == steps / 2) CHECK(library->GetFMUstate(c, &state) == fmi2OK);
+            double sine = sin(6e-4 * i), cosine = cos(6e-4 * i);
+            fmi2Real values[6] = {4e6 * cosine, 1e5, 4e6 * sine, -2.4e3 * sine, 0.0, 2.4e3 * cosine};
+            CHECK(library->SetReal(c, place, 6, values) == fmi2OK);
+            CHECK(library->DoStep(c, i, 1.0, fmi2True) == fmi2OK);
+            if (round == 0 && i == 0) CHECK(library->GetReal(c, q, 4, first) == fmi2OK);
+        }
+        fmi2Real now[4];
+        CHECK(library->GetReal(c, q, 4, now) == fmi2OK);
+        CHECK(memcmp(now, first, sizeof now) != 0);
+        if (round == 0) memcpy(end, now, sizeof end);
+        else CHECK(memcmp(now, end, sizeof now) == 0);
+        if (round == 0) CHECK(library->SetFMUstate(c, state) == fmi2OK);
+    }
+    CHECK(library->FreeFMUstate(c, &state) == fmi2OK);
+    fmi2Integer unknown = 9;
+    CHECK(library->SetInteger(c, &scenario, 1, &unknown) == fmi2Discard);
+    CHECK(library->DoStep(c, steps, 1.0, fmi2True) == fmi2OK);
+    library->FreeInstance(c);
+}
+
 /* Two threads simulate instances of their own through the same library. */
 typedef struct {
     const Library *library;
@@ -158,6 +197,9 @@ int main(int count, char **arguments) {
     free(xml);
     xml = description_of(&library, "DisturbanceTorque");
     place(&library, xml, short_simulation ? 40 : 4000);
+    free(xml);
+    xml = description_of(&library, "Guidance");
+    point(&library, xml, short_simulation ? 40 : 4000);
     free(xml);
     simulate_together(&library, short_simulation ? 40 : 1000);
     Library probe = open_library(arguments[2]);

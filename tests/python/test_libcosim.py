@@ -11,6 +11,7 @@ SIMULATIONS = {
     "MomentumPlant": (600.0, 3 * 144, [*vector("momentum.body"), *vector("position")]),
     "SpinPlant": (0.5, 1200, ["nutation.angle", *vector("momentum.inertial"), *vector("attitude.rate")]),
     "DisturbanceTorque": (60.0, 3, [f"torque.{source}[1]" for source in ("solar", "albedo", "infrared", "thermal")]),
+    "Guidance": (1.0, 300, ["epoch", *(f"command.q[{i}]" for i in range(1, 5))]),
 }
 
 

@@ -120,7 +120,7 @@ fn the_library_loads_on_older_systems() {
 }
 
 /// `fmi2Functions.h` of the standard without the model-exchange part, and the packer's function.
-const EXPORTS: [&str; 35] = [
+const EXPORTS: [&str; 36] = [
     "fmi2GetTypesPlatform",
     "fmi2GetVersion",
     "fmi2SetDebugLogging",

@@ -183,12 +183,10 @@ fn command(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
     }
     let beginning =
         knowns![scan.frame, scan.reference, scan.rate, scan.speed, scan.duration, v.limb.height_rate];
-    let rates = knowns![v.earth_acquisition.rate, v.sun_search.rate];
-    table.output(
-        v.command.rate,
-        knowns![later, &i.sensed],
-        knowns![start, &i.sensed, beginning, rates, compatibility(v)],
-    );
+    let rate = knowns![start, &i.sensed, beginning, v.earth_acquisition.rate, compatibility(v)];
+    table.output(v.command.rate, knowns![later, &i.sensed], rate);
+    // The search begins about X.
+    table.output(v.command.rate.element(0), knowns![], v.sun_search.rate);
 }
 
 /// What is said of the attitude.

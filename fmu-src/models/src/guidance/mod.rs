@@ -96,6 +96,7 @@ impl Model for Guidance {
         let mut shown = state.clone();
         let settings = inputs::settings(context, values)?;
         shown.sample(context, values, &settings, InputsOverTime::held())?;
+        state.said_unconnected = shown.said_unconnected;
         state.ephemeris = shown.ephemeris.clone();
         outputs::write(context, values, &shown.system, start_s, epoch_s);
         Ok(state)

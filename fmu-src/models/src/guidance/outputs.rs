@@ -12,14 +12,15 @@ use crate::common::choices::CommandKind;
 pub fn write(context: &Plan<'_>, values: &mut Values, state: &GuidanceState, time_s: f64, epoch_s: f64) {
     let v = context.variables;
     let command = state.command();
+    let attitude = command.attitude_at(time_s);
     values.set_choice(v.command.kind, CommandKind(command.kind));
-    values.set_vector(v.command.q, command.quaternion_at(time_s));
+    values.set_vector(v.command.q, command.quaternion_of(&attitude));
     values.set_vector(v.command.rate, command.rate_body_rad_s.into());
     values.set_vector(v.command.error, command.error);
     values.set_choice(v.mode.active, ActiveMode(state.mode()));
     values.set_real(v.epoch, epoch_s);
 
-    let sun = state.sun_angles_at(time_s);
+    let sun = state.sun_angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);
     values.set_real(v.sun.elevation, sun.elevation_rad);
     let judged = state.judgement();

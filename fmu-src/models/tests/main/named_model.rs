@@ -229,6 +229,11 @@ impl<M: Model> NamedInstance<'_, M> {
         Tables::of(&self.values).integers[self.named.find(name, Kind::Integer)]
     }
 
+    /// A Boolean.
+    pub fn boolean(&self, name: &str) -> bool {
+        Tables::of(&self.values).booleans[self.named.find(name, Kind::Boolean)]
+    }
+
     /// `name[1]`..`name[3]`.
     pub fn vector(&self, name: &str) -> nalgebra::Vector3<f64> {
         nalgebra::Vector3::from_fn(|i, _| self.real(&format!("{name}[{}]", i + 1)))

@@ -43,13 +43,16 @@ impl HotPole {
     /// Whether the spacecraft is where the constraint counts.
     pub fn in_region(&self, surroundings: &Surroundings) -> bool {
         let position_m = value(&surroundings.position);
+        let over_the_pole = angle_between_rad(&position_m, &value(&surroundings.sun)) < self.angle_rad;
+        if !over_the_pole {
+            return false;
+        }
         let distance_m = position_m.norm();
         let planet = &surroundings.planet;
         let along_axes =
             value(&(planet.planet_from_inertial(surroundings.epoch_s) * surroundings.position)) / distance_m;
         let surface_m = along_axes.component_div(&planet.radii_m).norm().recip();
         distance_m - surface_m < self.altitude_m
-            && angle_between_rad(&position_m, &value(&surroundings.sun)) < self.angle_rad
     }
 
     /// By how much -Z is inside the cone about `planet_body`, in rad; negative outside.

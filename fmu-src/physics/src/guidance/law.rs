@@ -11,7 +11,7 @@
 use nalgebra::{ComplexField, Vector3};
 
 use super::moving::{
-    Moving, MovingMatrix, MovingVector, angular_rate_rad_s, fixed, rotation_value, unit, unit_normal,
+    Moving, MovingMatrix, MovingVector, angular_rate_rad_s, fixed, normal_of_units, rotation_value, unit,
 };
 use crate::attitude::MovingFrame;
 
@@ -98,8 +98,9 @@ fn prime_axes(
     fallbacks: &[Vector3<f64>; 2],
 ) -> Option<(MovingMatrix, bool)> {
     let x = unit(primary)?;
-    let given = unit_normal(primary, secondary);
-    let z = given.or_else(|| fallbacks.iter().find_map(|other| unit_normal(primary, &fixed(*other))))?;
+    let normal = |other: &MovingVector| normal_of_units(&x, &unit(other)?);
+    let given = normal(secondary);
+    let z = given.or_else(|| fallbacks.iter().find_map(|other| normal(&fixed(*other))))?;
     // The less both vectors differ, the less their normal is perpendicular to x.
     let z = unit(&(z - x * x.dot(&z)))?;
     Some((MovingMatrix::from_columns(&[x, z.cross(&x), z]), given.is_none()))

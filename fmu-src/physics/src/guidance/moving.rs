@@ -57,7 +57,12 @@ pub fn unit(vector: &MovingVector) -> Option<MovingVector> {
 
 /// Unit vector along `a` x `b`; `None` where they are within [`PARALLEL_RAD`] of parallel or one has no direction.
 pub fn unit_normal(a: &MovingVector, b: &MovingVector) -> Option<MovingVector> {
-    let normal = unit(a)?.cross(&unit(b)?);
+    normal_of_units(&unit(a)?, &unit(b)?)
+}
+
+/// The same of two unit vectors.
+pub fn normal_of_units(a: &MovingVector, b: &MovingVector) -> Option<MovingVector> {
+    let normal = a.cross(b);
     (value(&normal).norm() > PARALLEL_RAD).then(|| unit(&normal)).flatten()
 }
 

@@ -225,13 +225,13 @@ impl GuidanceState {
         }
     }
 
-    /// Azimuth and elevation of the Sun in the commanded frame at `time_s`; both 0 while it is not known.
-    pub fn sun_angles_at(&self, time_s: f64) -> SunAngles {
+    /// Azimuth and elevation of the Sun in the frame of `attitude` at `time_s`; both 0 while it is not known.
+    pub fn sun_angles_at(&self, attitude: &Attitude, time_s: f64) -> SunAngles {
         let [to_sun, _] = self.sun_line_at(time_s);
         if to_sun == Vector3::zeros() {
             return SunAngles::default();
         }
-        SunAngles::of(&(self.command.attitude_at(time_s).inertial_from_body().inverse() * to_sun))
+        SunAngles::of(&(attitude.inertial_from_body().inverse() * to_sun))
     }
 
     /// Their rates, in rad/s.
@@ -377,8 +377,8 @@ impl GuidanceState {
 
     /// A command without an attitude of its own: the attitude reached is held by the rate.
     fn steer(&mut self, kind: CommandKind, error: [f64; 4], rate_body_rad_s: Vector3<f64>, time_s: f64) {
-        let quaternion = self.command.quaternion_at(time_s);
         let attitude = self.command.attitude_at(time_s);
+        let quaternion = self.command.quaternion_of(&attitude);
         self.command =
             GuidanceCommand { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error };
         self.judgement = Judgement::NOTHING;
@@ -393,7 +393,12 @@ impl GuidanceCommand {
 
     /// Its quaternion, scalar last, EME2000 to body; the sign goes on from sample to sample.
     pub fn quaternion_at(&self, time_s: f64) -> [f64; 4] {
-        self.attitude_at(time_s).quaternion(Some(self.quaternion))
+        self.quaternion_of(&self.attitude_at(time_s))
+    }
+
+    /// The same of the attitude then.
+    pub fn quaternion_of(&self, attitude: &Attitude) -> [f64; 4] {
+        attitude.quaternion(Some(self.quaternion))
     }
 
     /// Its rate, in 1/s: half the product with the body rate.

@@ -166,13 +166,14 @@ impl Motion {
         Err(MotionError::TooSudden { time_s: self.anchor_s, torque_n_m })
     }
 
-    /// Whether the body has a finite state at a time within the present segment, and a rate that can be followed.
+    /// The state at a time within the present segment, if it is finite and has a rate that can be followed.
     ///
     /// # Errors
     /// It turns too fast or is not finite.
-    pub fn check_at(&self, time_s: f64) -> Result<(), MotionError> {
+    pub fn check_at(&self, time_s: f64) -> Result<RigidBodyState, MotionError> {
         let state = self.at(time_s);
-        self.check_rate(time_s, &state.momentum_inertial, &state.attitude)
+        self.check_rate(time_s, &state.momentum_inertial, &state.attitude)?;
+        Ok(state)
     }
 
     fn check_rate(

@@ -124,7 +124,7 @@ impl Outputs {
     /// What the flight shows at its present time.
     pub fn of(plant: &Plant, spinner: &Spinner) -> Self {
         let time_s = plant.time_s();
-        let state = plant.motion().at(time_s);
+        let state = plant.state();
         let inertia = plant.motion().inertia();
         let rate_rad_s = state.rate_rad_s(inertia);
         let nutation_rad = state.nutation_rad();

@@ -46,7 +46,7 @@ impl Rates {
     pub fn of(plant: &Plant, spinner: &Spinner) -> Self {
         let time_s = plant.time_s();
         let motion = plant.motion();
-        let state = motion.at(time_s);
+        let state = plant.state();
         let (q, h) = (state.attitude, state.momentum_body);
         let inertia = motion.inertia();
         let rate = state.rate_rad_s(inertia);

@@ -72,7 +72,7 @@ fn the_page_and_the_licences_lead_to_files_that_are_there() {
 #[test]
 fn every_shipped_fmu_shows_a_picture() {
     let Some(dist) = built("HELIOTORQUE_DIST") else { return };
-    for name in ["MomentumPlant", "SpinPlant", "DisturbanceTorque"] {
+    for name in ["MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"] {
         let all = entries(&Path::new(&dist).join(format!("{name}.fmu")));
         let picture = all.iter().find(|(entry, _)| entry == "model.png");
         assert!(picture.is_some_and(|(_, bytes)| bytes.starts_with(b"\x89PNG")), "{name} has no picture");

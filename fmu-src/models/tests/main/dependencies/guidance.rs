@@ -32,6 +32,31 @@ const OPTIONS: &[(&str, i32, i32)] = &[
     ("boresight.instrument", 0, 3),
 ];
 
+/// Flags change at limits, which few states are near; through what a known reaches them.
+const CARRIERS: &[(&str, &str)] = &[
+    ("constraint.", "command.q"),
+    ("constraint.clamped", "mdis.angle"),
+    ("target.reachable", "command.q"),
+    ("geometry.degenerate", "command.q"),
+    ("sun.", "command.q"),
+    ("mdis.inRange", "mdis.angle"),
+    ("antenna.", "command.q"),
+    ("antenna.select", "antenna.azimuth"),
+    ("link.available", "command.q"),
+    ("link.available", "antenna.azimuth"),
+    // The monitor judges by the Sun and the hot pole's region.
+    ("mode.active", "earth.sunSeparation"),
+    ("mode.active", "constraint.hotPole"),
+    // Every output that is judged with an attitude depends on the mode and on whether there is one.
+    ("", "mode.active"),
+    ("", "command.kind"),
+    ("", "earth.sunSeparation"),
+    ("", "constraint.hotPole"),
+];
+
+/// More than is needed until everything was seen.
+const ROUNDS: usize = 1_500;
+
 /// What a drawing is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Subject {
@@ -43,8 +68,14 @@ enum Subject {
     SecondAimpoint(i32),
     /// A scan by its item.
     Scan(i32),
-    /// Modes and the monitor.
+    /// Modes and sensors.
     Modes,
+    /// The monitor, which trips at once.
+    Monitor,
+    /// The four vectors by their options, without constraints.
+    Generic,
+    /// A direction that is missing, by what it is.
+    Lost(i32),
     /// Science and downlink, near their windows.
     OrbitPhase,
     /// The hot pole: low above the subsolar point.
@@ -57,8 +88,20 @@ fn subjects() -> Vec<Subject> {
     let scenarios = (0..=8).map(Subject::Scenario);
     let aims = (1..=15).flat_map(|item| [Subject::Aimpoint(item), Subject::SecondAimpoint(item)]);
     let scans = (1..=5).map(Subject::Scan);
-    let others = [Subject::Modes, Subject::OrbitPhase, Subject::HotPole, Subject::Modes, Subject::Link];
-    scenarios.chain(aims).chain(scans).chain(others).chain(others).collect()
+    let others = [
+        Subject::Modes,
+        Subject::OrbitPhase,
+        Subject::HotPole,
+        Subject::Monitor,
+        Subject::Link,
+        Subject::Generic,
+        Subject::Monitor,
+        Subject::Generic,
+        Subject::OrbitPhase,
+        Subject::Scan(5),
+    ];
+    let lost = (0..8).map(Subject::Lost);
+    scenarios.chain(aims).chain(scans).chain(others).chain(others).chain(lost).collect()
 }
 
 fn unit_quaternion(random: &mut RandomNumbers) -> [f64; 4] {
@@ -104,7 +147,7 @@ fn draw(bench: &Guide, random: &mut RandomNumbers, subject: Subject) -> Tables {
         }
         Subject::Scan(frame) => {
             item(bench, &mut values, "scan.frame", frame);
-            bench.put(&mut values, "pointing.scenario", if random.next() < 0.3 { 5.0 } else { 2.0 });
+            bench.put(&mut values, "pointing.scenario", if random.next() < 0.5 { 5.0 } else { 2.0 });
             let aims = [6.0, 7.0, 9.0, 13.0, 12.0, 5.0];
             let aim = aims[(random.next() * 6.0) as usize % 6];
             bench.put(&mut values, "aimpoint.option", aim);
@@ -114,6 +157,42 @@ fn draw(bench: &Guide, random: &mut RandomNumbers, subject: Subject) -> Tables {
             bench.put(&mut values, "mode.request", random.whole(0, 3));
             bench.put(&mut values, "estimate.valid", chance(random, 0.6));
             bench.put(&mut values, "sun.sensedValid", chance(random, 0.6));
+        }
+        Subject::Monitor => {
+            bench.put(&mut values, "pointing.scenario", random.whole(2, 3));
+            bench.put(&mut values, "monitor.enabled", 1.0);
+            bench.put(&mut values, "mode.request", random.whole(0, 2));
+            bench.put(&mut values, "keepIn.enabled", chance(random, 0.8));
+            bench.put(&mut values, "ephemeris.source", if random.next() < 0.8 { 3.0 } else { 2.0 });
+        }
+        Subject::Generic => {
+            bench.put(&mut values, "pointing.scenario", 1.0);
+            bench.put(&mut values, "boresight.option", random.whole(1, 4));
+            bench.put(&mut values, "bodyRoll.option", random.whole(1, 2));
+            bench.put(&mut values, "externalRoll.option", random.whole(1, 5));
+            bench.put(&mut values, "keepIn.enabled", chance(random, 0.2));
+            bench.put(&mut values, "hotPole.enabled", chance(random, 0.2));
+            bench.put(&mut values, "scan.frame", random.whole(0, 2));
+        }
+        Subject::Lost(what) => {
+            let (scenario, boresight, aim) = match what {
+                0 => (1, 1, 10),
+                1 => (2, 4, 1),
+                2 => (1, 4, 1),
+                3 => (2, 4, 8),
+                4 => (8, 4, 1),
+                5 => (5, 4, 5),
+                6 => (1, 4, 5),
+                _ => (2, 4, 15),
+            };
+            item(bench, &mut values, "pointing.scenario", scenario);
+            item(bench, &mut values, "boresight.option", boresight);
+            item(bench, &mut values, "aimpoint.option", aim);
+            bench.put(&mut values, "limb.reference", 1.0);
+            bench.put(&mut values, "mode.request", 1.0);
+            bench.put(&mut values, "scan.frame", random.whole(0, 2));
+            // A spacecraft that is promoted from Earth Acquisition has an error quaternion to lose.
+            bench.put(&mut values, "sun.sensedValid", 1.0);
         }
         Subject::OrbitPhase => {
             item(bench, &mut values, "pointing.scenario", 10);
@@ -243,11 +322,60 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         bench.put(values, "link.sunExclusion", random.between(0.0, 0.1));
         bench.put(values, "link.beam", random.between(0.0, 0.5));
     }
+    if matches!(subject, Subject::Scan(_) | Subject::SecondAimpoint(_)) && random.next() < 0.6 {
+        // A camera that follows wherever it is.
+        bench.put(values, "mdis.minimum", -3.1);
+        bench.put(values, "mdis.maximum", 3.1);
+    }
+    if subject == Subject::Scan(5) && random.next() < 0.4 {
+        bench.put(values, "ephemeris.source", 3.0);
+        bench.put(values, "aimpoint.option", 12.0);
+        bench.put(values, "scan.reference", random.whole(1, 2));
+        bench.put_vector(values, "sun.position", (place * 6e10).as_slice());
+    }
+    if subject == Subject::Modes && random.next() < 0.5 {
+        bench.put(values, "estimate.valid", 0.0);
+        bench.put(values, "sun.sensedValid", random.whole(0, 1));
+        bench.put_vector(values, "sun.sensed", &[0.0; 3]);
+    }
+    if subject == Subject::OrbitPhase {
+        // Not long after periapsis, where a slew begins.
+        let climb_rad = random.between(0.05, 0.5);
+        let speed_m_s = (2.2e13 / radius_m).sqrt() * random.between(1.0, 1.3);
+        let velocity = (along * climb_rad.cos() + place * climb_rad.sin()) * speed_m_s;
+        bench.put_vector(values, "velocity", velocity.as_slice());
+        bench.put(values, "guided.downlinkStart", random.between(0.0, 900.0));
+        bench.put(values, "guided.downlinkEnd", random.between(900.0, 9000.0));
+    }
+    if let Subject::Lost(what) = subject {
+        bench.put(values, "ephemeris.source", 3.0);
+        let place = place * radius_m;
+        match what {
+            0 => bench.put_vector(values, "boresight.vector", &[0.0; 3]),
+            1 | 2 => bench.put_vector(values, "aimpoint.vector", &[0.0; 3]),
+            3 | 4 => bench.put_vector(values, "velocity", &[0.0; 3]),
+            5 | 6 => bench.put_vector(values, "aimpoint.position", place.as_slice()),
+            _ => bench.put(values, "aimpoint.body", 0.0),
+        }
+    }
+    if subject == Subject::Monitor {
+        bench.put(values, "monitor.persistence", 0.0);
+        bench.put(values, "monitor.margin", random.between(0.0, 2.0));
+        bench.put(values, "keepIn.distance", if random.next() < 0.3 { 6e10 } else { 1e12 });
+        match random.whole(0, 4) as i32 {
+            0 => bench.put_vector(values, "estimate.q", &[0.0, 0.0, 0.0, 1.0]),
+            1 => bench.put_vector(values, "estimate.q", &[0.0; 4]),
+            2 => bench.put_vector(values, "earth.position", &[0.0; 3]),
+            3 => bench.put_vector(values, "position", &[0.0; 3]),
+            _ => {}
+        }
+    }
     if subject == Subject::HotPole {
         bench.put(values, "ephemeris.source", 3.0);
         let above = (place + Vector3::from(random.direction()) * 0.5).normalize() * 6e10;
         bench.put_vector(values, "sun.position", above.as_slice());
-        bench.put(values, "hotPole.altitude", 1e9);
+        let height_m = if random.next() < 0.3 { 1e9 } else { radius_m - 2.42e6 + random.between(-2e4, 2e4) };
+        bench.put(values, "hotPole.altitude", height_m.max(0.0));
     }
 }
 
@@ -266,6 +394,7 @@ fn unset(bench: &Guide, random: &mut RandomNumbers, values: &mut Tables) {
         ("bodyRoll.vector", 3, 0.1),
         ("externalRoll.vector", 3, 0.1),
         ("scan.rate", 3, 0.1),
+        ("scan.duration", 3, 0.3),
     ];
     for (name, length, share) in inputs {
         if random.next() < share {
@@ -363,7 +492,7 @@ fn aimed_alone(bench: &Guide, random: &mut RandomNumbers, subject: Subject, valu
         bench.put(values, name, value);
     }
     if !matches!(subject, Subject::Scan(_)) && random.next() < 0.3 {
-        bench.put(values, "scan.frame", random.whole(2, 5));
+        bench.put(values, "scan.frame", random.whole(2, 4));
     }
 }
 
@@ -375,7 +504,7 @@ fn disturb(bench: &Guide, random: &mut RandomNumbers, flight: &mut Simulation<Gu
 }
 
 fn measure(text: &str, rounds: usize) {
-    let mut bench = Guide::new(text);
+    let mut bench = Guide::new(text).with_carriers(CARRIERS);
     let mut random = RandomNumbers(17);
     let subjects = subjects();
     let mut flown = 0;
@@ -395,20 +524,40 @@ fn measure(text: &str, rounds: usize) {
         } else if turn % 3 == 2 {
             align(&bench, &mut random, &mut values);
         }
-        let mut other = values.clone();
-        redraw(&bench, &mut random, subject, &mut other);
-        let others = [other];
-        for edge in bench.edges_at_start(&values, &others, 0.0) {
-            bench.look_at_start_edge(&edge, 0.0);
+        let mut others = Vec::new();
+        if subject == Subject::Monitor {
+            // From where the monitor trips to where it does not.
+            for margin_rad in [0.0, 3.1] {
+                let mut other = values.clone();
+                bench.put(&mut other, "monitor.margin", margin_rad);
+                others.push(other);
+            }
+        } else {
+            others.push(values.clone());
+            redraw(&bench, &mut random, subject, &mut others[0]);
         }
         if bench.initialize(&values, 0.0).is_none() {
             continue;
         }
         flown += 1;
-        bench.look_at_start(&values, 0.0);
+        if turn % 3 == 2 {
+            // Where nothing gives the roll, the rounding of a scan's turn by nothing does.
+            bench.look_at_start_by(&values, 0.0, |name| !name.starts_with("scan."));
+        } else {
+            bench.look_at_start(&values, 0.0);
+            for edge in bench.edges_at_start(&values, &others, 0.0) {
+                bench.look_at_start_edge(&edge, 0.0);
+            }
+        }
         let Some(mut flight) = bench.initialize(&values, 0.0) else { continue };
+        if let Subject::Lost(_) = subject {
+            bench.put(&mut flight.values, "mode.request", 3.0);
+        }
         if bench.step(&mut flight, random.whole(1, 7)).is_none() {
             continue;
+        }
+        if let Subject::Lost(_) = subject {
+            bench.put(&mut flight.values, "mode.request", 1.0);
         }
         if subject == Subject::Modes {
             disturb(&bench, &mut random, &mut flight);
@@ -423,6 +572,7 @@ fn measure(text: &str, rounds: usize) {
             bench.look_at_step_edge(&edge);
         }
         if round > 2 * subjects.len() && round % 8 == 0 && bench.is_done() {
+            println!("done after {round}");
             break;
         }
     }
@@ -432,7 +582,7 @@ fn measure(text: &str, rounds: usize) {
 
 #[test]
 fn guidance_shipped() {
-    measure(Guidance::DEFAULT_SETUP, std::env::var("R").map_or(300, |x| x.parse().unwrap()));
+    measure(Guidance::DEFAULT_SETUP, ROUNDS);
 }
 
 /// Instruments that look elsewhere.
@@ -441,8 +591,5 @@ fn guidance_with_other_instruments() {
     let instruments = "\n[[instruments]]\nname = \"aside\"\nboresight = [0.6, 0.0, 0.8]\n\
                        [[instruments]]\nname = \"down\"\nboresight = [0.0, 0.6, 0.8]\n\
                        [[instruments]]\nname = \"sunward\"\nboresight = [0.0, -1.0, 0.0]\n";
-    measure(
-        &format!("{}{instruments}", super::spacecraft::ALL),
-        std::env::var("R").map_or(300, |x| x.parse().unwrap()),
-    );
+    measure(&format!("{}{instruments}", super::spacecraft::ALL), ROUNDS);
 }

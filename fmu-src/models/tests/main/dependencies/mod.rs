@@ -5,7 +5,7 @@ mod bench;
 mod disturbance;
 mod guidance;
 mod plant;
-mod random;
+pub mod random;
 mod spacecraft;
 mod spin;
 mod variable;

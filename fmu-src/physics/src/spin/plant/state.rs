@@ -8,7 +8,7 @@ use super::directions::{DirectionSource, Directions};
 use super::propulsion::{MassSource, Propulsion};
 use super::sensors::{Sensor, Sensors};
 use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
-use crate::attitude::Inertia;
+use crate::attitude::{Inertia, RigidBodyState};
 use crate::spin::{
     burn::{Burn, BurnInitialConditions},
     damper::Damper,
@@ -42,6 +42,9 @@ pub enum SpinPlantError {
 pub struct Plant {
     motion: Motion,
     time_s: f64,
+    /// The motion's state there, once it is computed.
+    #[serde(skip)]
+    present: Option<RigidBodyState>,
     initial: InitialConditions,
     sequencer: Option<Sequencer>,
     commands: Commands,
@@ -94,6 +97,7 @@ impl Plant {
         let quiet = BodyTorque::constant(Vector3::zeros());
         let motion = Motion::new(inertia, damper, quiet, start_s, attitude, momentum_inertial, f64::INFINITY);
         let mut plant = Self {
+            present: Some(motion.at(start_s)),
             motion,
             time_s: start_s,
             initial: InitialConditions {
@@ -110,7 +114,7 @@ impl Plant {
             work_limit: start.work_limit,
         };
         start.refuse_blind_timing(
-            &plant.motion.at(start_s).momentum_inertial,
+            &plant.state().momentum_inertial,
             &plant.directions.present().sun_inertial,
         )?;
         let mut work = Work::new(start.work_limit);
@@ -123,6 +127,11 @@ impl Plant {
     /// Where communication stands, in s.
     pub fn time_s(&self) -> f64 {
         self.time_s
+    }
+
+    /// Attitude and momentum there.
+    pub fn state(&self) -> RigidBodyState {
+        self.present.unwrap_or_else(|| self.motion.at(self.time_s))
     }
 
     /// The motion in force.
@@ -238,7 +247,7 @@ impl Plant {
             }
         }
         self.reach(spinner, end_s, work)?;
-        self.motion.check_at(end_s)?;
+        self.present = Some(self.motion.check_at(end_s)?);
         self.time_s = end_s;
         Ok(())
     }

@@ -1,0 +1,54 @@
+//! Guidance through the functions a master calls.
+
+mod cuts;
+mod modes;
+mod pointing;
+mod same_law;
+mod zeros;
+
+use models::Guidance;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use super::named_model::NamedInstance;
+
+type Flight<'a> = NamedInstance<'a, Guidance>;
+
+/// Above Mercury, with Sun and Earth as inputs.
+const PLACED: &[(&str, f64)] = &[
+    ("ephemeris.source", 3.0),
+    ("position[1]", 3e6),
+    ("position[2]", 1e6),
+    ("position[3]", 2e6),
+    ("velocity[1]", -900.0),
+    ("velocity[2]", 2_000.0),
+    ("velocity[3]", 400.0),
+    ("sun.position[1]", 3e10),
+    ("sun.position[2]", -4e10),
+    ("sun.position[3]", 2e9),
+    ("earth.position[1]", -9e10),
+    ("earth.position[2]", 5e10),
+    ("earth.position[3]", -3e9),
+];
+
+/// An attitude without constraints or monitor.
+const FREE: &[(&str, f64)] = &[("keepIn.enabled", 0.0), ("hotPole.enabled", 0.0), ("monitor.enabled", 0.0)];
+
+fn with<'a>(lists: &[&[(&'a str, f64)]]) -> Vec<(&'a str, f64)> {
+    lists.concat()
+}
+
+fn quaternion(flight: &NamedInstance<'_, impl fmi_export::Model>, name: &str) -> [f64; 4] {
+    [1, 2, 3, 4].map(|i| flight.real(&format!("{name}[{i}]")))
+}
+
+/// From body to inertial components.
+fn to_inertial(flight: &Flight<'_>) -> UnitQuaternion<f64> {
+    let [x, y, z, w] = quaternion(flight, "command.q");
+    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+}
+
+fn set_vector(flight: &mut Flight<'_>, name: &str, vector: &Vector3<f64>) {
+    for (i, value) in vector.iter().enumerate() {
+        flight.set(&format!("{name}[{}]", i + 1), *value);
+    }
+}

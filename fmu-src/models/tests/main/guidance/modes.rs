@@ -1,0 +1,124 @@
+//! Modes: demotion by lost attitude and by the monitor, promotion by request alone, what each mode obeys.
+
+use models::Guidance;
+use nalgebra::Vector3;
+
+use super::super::named_model::{NamedModel, assert_same};
+use super::{Flight, PLACED, quaternion, set_vector, to_inertial, with};
+
+const OPERATIONAL: i32 = 1;
+const SAFE_HOLD: i32 = 2;
+const EARTH_ACQUISITION: i32 = 3;
+const ATTITUDE: i32 = 1;
+const ERROR_QUATERNION: i32 = 2;
+const RATE_ONLY: i32 = 3;
+
+const DOWN: &[(&str, f64)] = &[("pointing.scenario", 3.0)];
+
+fn step(flight: &mut Flight<'_>, sets: &[(&str, f64)]) -> [i32; 2] {
+    for (name, value) in sets {
+        flight.set(name, *value);
+    }
+    flight.step_to(flight.time_s() + 1.0).unwrap();
+    ["mode.active", "command.kind"].map(|name| flight.integer(name))
+}
+
+#[test]
+fn lost_attitude_demotes_and_requests_alone_promote() {
+    let named = NamedModel::<Guidance>::shipped();
+    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN])).unwrap();
+    assert_eq!(step(&mut flight, &[]), [OPERATIONAL, ATTITUDE]);
+    // Without attitude and Sun: the search; with the Sun: the turn about it.
+    assert_eq!(step(&mut flight, &[("estimate.valid", 0.0)]), [EARTH_ACQUISITION, RATE_ONLY]);
+    let sun = [("sun.sensed[1]", 2.0), ("sun.sensedValid", 1.0)];
+    assert_eq!(step(&mut flight, &sun), [EARTH_ACQUISITION, ERROR_QUATERNION]);
+    // The attitude coming back promotes nothing.
+    assert_eq!(step(&mut flight, &[("estimate.valid", 1.0)]), [EARTH_ACQUISITION, ERROR_QUATERNION]);
+    assert_eq!(step(&mut flight, &[("mode.request", 2.0)]), [SAFE_HOLD, ATTITUDE]);
+    assert_eq!(step(&mut flight, &[("mode.request", 1.0)]), [OPERATIONAL, ATTITUDE]);
+    assert_eq!(step(&mut flight, &[("mode.request", 3.0)]), [EARTH_ACQUISITION, ERROR_QUATERNION]);
+    assert_eq!(step(&mut flight, &[("mode.request", 0.0)]), [EARTH_ACQUISITION, ERROR_QUATERNION]);
+    assert_eq!(step(&mut flight, &[("mode.request", 1.0)]), [OPERATIONAL, ATTITUDE]);
+    // A request that is held does not undo a demotion.
+    assert_eq!(step(&mut flight, &[("estimate.valid", 0.0)]), [EARTH_ACQUISITION, ERROR_QUATERNION]);
+    assert_eq!(step(&mut flight, &[("estimate.valid", 1.0)]), [EARTH_ACQUISITION, ERROR_QUATERNION]);
+}
+
+#[test]
+fn earth_acquisition_turns_slowly_about_the_sun_line_and_the_search_about_each_axis() {
+    let named = NamedModel::<Guidance>::shipped();
+    let sets = [
+        ("mode.request", 3.0),
+        ("estimate.valid", 0.0),
+        ("sunSearch.duration", 10.0),
+        ("sunSearch.rate", 0.01),
+    ];
+    let mut flight = named.fly(0.0, &with(&[PLACED, &sets])).unwrap();
+    for axis in [Vector3::x(), Vector3::y(), Vector3::z(), Vector3::x()] {
+        flight.step_to(flight.time_s() + 10.0).unwrap();
+        assert_eq!(flight.vector("command.rate"), axis * 0.01);
+    }
+    flight.set("sun.sensedValid", 1.0);
+    set_vector(&mut flight, "sun.sensed", &Vector3::new(1.0, -1.0, 0.0));
+    flight.step_to(41.0).unwrap();
+    assert_eq!(flight.vector("command.rate"), -Vector3::y() * flight.real("earthAcquisition.rate"));
+    // A turn of 45 deg about Z takes -Y to the Sun.
+    let [x, y, z, w] = quaternion(&flight, "command.error");
+    assert!(x == 0.0 && y == 0.0 && (w - 22.5_f64.to_radians().cos()).abs() < 1e-15, "{z} {w}");
+    assert!((z.abs() - 22.5_f64.to_radians().sin()).abs() < 1e-15);
+}
+
+#[test]
+fn the_monitor_demotes_after_its_persistence_and_watches_no_estimate_of_zero() {
+    let named = NamedModel::<Guidance>::shipped();
+    let monitor = [("monitor.persistence", 5.0), ("monitor.margin", 0.1), ("hotPole.enabled", 0.0)];
+    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN, &monitor])).unwrap();
+    let mut near = named.fly(0.0, &with(&[PLACED, DOWN, &monitor])).unwrap();
+    near.set("estimate.q[4]", 0.0);
+    near.step_to(30.0).unwrap();
+    assert_eq!(near.integer("mode.active"), OPERATIONAL);
+    // An estimate with the Sun far outside the zone: its +Y at the Sun.
+    let [x, y, z, w] = quaternion(&flight, "command.q");
+    let away = to_inertial(&flight) * nalgebra::UnitQuaternion::from_scaled_axis(Vector3::z() * 3.0);
+    assert!([x, y, z, w].iter().all(|it| it.is_finite()));
+    for (i, value) in away.coords.iter().enumerate() {
+        flight.set(&format!("estimate.q[{}]", i + 1), *value);
+    }
+    for second in 1..=11 {
+        let [mode, _] = step(&mut flight, &[]);
+        // From the sample at 0 on; Safe Hold is given as long again to turn.
+        let expected = match second {
+            1..=5 => OPERATIONAL,
+            6..=10 => SAFE_HOLD,
+            _ => EARTH_ACQUISITION,
+        };
+        assert_eq!(mode, expected, "{second}");
+    }
+}
+
+#[test]
+fn safe_hold_ignores_all_but_downlink() {
+    let named = NamedModel::<Guidance>::shipped();
+    let hold = [("mode.request", 2.0), ("monitor.enabled", 0.0)];
+    let mut downlink = named.fly(0.0, &with(&[PLACED, &hold, &[("pointing.scenario", 6.0)]])).unwrap();
+    downlink.step_to(20.0).unwrap();
+    assert_eq!(downlink.integer("command.kind"), ATTITUDE);
+    for command in [
+        &[("pointing.scenario", 0.0)][..],
+        DOWN,
+        &[("pointing.scenario", 2.0), ("aimpoint.option", 10.0), ("scan.frame", 1.0), ("scan.rate[1]", 1e-3)],
+        &[("pointing.scenario", 10.0)],
+    ] {
+        let mut flight = named.fly(0.0, &with(&[PLACED, &hold, command])).unwrap();
+        flight.step_to(20.0).unwrap();
+        assert_same(&flight, &downlink);
+        assert_eq!(flight.integer("antenna.select"), downlink.integer("antenna.select"));
+    }
+    // Its own zone is always enforced, and no switch turns it off.
+    let tight =
+        [("safeHold.keepIn.azimuth", 0.0), ("safeHold.keepIn.elevation", 0.0), ("keepIn.enabled", 0.0)];
+    let antenna = [("pointing.scenario", 6.0), ("boresight.option", 4.0), ("boresight.azimuth", -0.1)];
+    let flight = named.fly(0.0, &with(&[PLACED, &hold, &tight, &antenna])).unwrap();
+    assert!(flight.boolean("constraint.sunKeepIn"));
+    assert!(flight.real("sun.azimuth").abs() < 1e-12 && flight.real("sun.elevation").abs() < 1e-12);
+}

@@ -1,0 +1,65 @@
+//! Guidance and the plant's own guidance are one law.
+
+use models::{Guidance, MomentumPlant};
+
+use super::super::named_model::{NamedInstance, NamedModel};
+use super::{quaternion, with};
+
+const ORBIT_S: f64 = 43_200.0;
+
+/// Steps a plant by its own guidance and Guidance with the plant's positions, and compares their attitudes at samples.
+fn compare(plant_sets: &[(&str, f64)], guidance_sets: &[(&str, f64)], length_s: f64, step_s: f64) {
+    let (plants, guidances) = (NamedModel::<MomentumPlant>::shipped(), NamedModel::<Guidance>::shipped());
+    let epoch = [("start.epoch", 2.9e8), ("guided.slewRate", 0.0)];
+    let plant_sets = with(&[plant_sets, &epoch, &[("attitude.source", 1.0), ("orbit.dynamics", 1.0)]]);
+    let mut plant = plants.fly(0.0, &plant_sets).unwrap();
+    let quiet = [("hotPole.enabled", 0.0), ("monitor.enabled", 0.0)];
+    let mut start = with(&[guidance_sets, &epoch, &quiet]);
+    let places = ["position", "velocity"].map(|name| [1, 2, 3].map(|i| format!("{name}[{i}]")));
+    let seen =
+        |plant: &NamedInstance<'_, MomentumPlant>| places.clone().map(|it| it.map(|name| plant.real(&name)));
+    let at_start = seen(&plant);
+    for (names, values) in places.iter().zip(at_start) {
+        start.extend(names.iter().map(String::as_str).zip(values));
+    }
+    let mut guidance = guidances.fly(0.0, &start).unwrap();
+    let (mut worst, mut time_s) = (0.0_f64, 0.0);
+    while time_s < length_s {
+        for (names, values) in places.iter().zip(seen(&plant)) {
+            names.iter().zip(values).for_each(|(name, value)| guidance.set(name, value));
+        }
+        // Just after the sample, which belongs to the step that begins here.
+        guidance.step_to(time_s + 1e-9).unwrap();
+        let (a, b) = (quaternion(&guidance, "command.q"), quaternion(&plant, "attitude.q"));
+        let difference = |sign: f64| a.iter().zip(b).map(|(a, b)| (a - sign * b).powi(2)).sum::<f64>().sqrt();
+        let off = difference(1.0).min(difference(-1.0));
+        assert!(off < 1e-12, "{off:e} at {time_s} s: {a:?} {b:?}");
+        worst = worst.max(off);
+        time_s += step_s;
+        plant.step_to(time_s).unwrap();
+        guidance.step_to(time_s).unwrap();
+    }
+    assert!(worst > 0.0);
+}
+
+#[test]
+fn nadir_within_the_zone_is_the_plants_nadir_rule() {
+    let rule = [("guided.scienceRule", 2.0), ("guided.downlinkEvery", 0.0)];
+    let zone = [("keepIn.azimuth", 15_f64.to_radians()), ("keepIn.elevation", 13_f64.to_radians())];
+    let limit = [("keepIn.elevation", 13_f64.to_radians())];
+    compare(&with(&[&rule, &limit]), &with(&[&zone, &[("pointing.scenario", 3.0)]]), ORBIT_S, 120.0);
+}
+
+#[test]
+fn downlink_is_the_plants_downlink() {
+    let always = [("guided.downlinkEvery", 1.0), ("guided.downlinkStart", 0.0), ("guided.downlinkEnd", 1e9)];
+    compare(&always, &[("pointing.scenario", 6.0)], ORBIT_S, 300.0);
+}
+
+#[test]
+fn the_orbit_phase_is_the_plants_guided_attitude_over_three_days() {
+    for every in [1.0, 2.0] {
+        let windows = [("guided.downlinkEvery", every)];
+        compare(&windows, &with(&[&windows, &[("pointing.scenario", 10.0)]]), 3.0 * 86_400.0, 600.0);
+    }
+}
