@@ -142,6 +142,9 @@ pub struct RunInChild {
     /// The folder that the FMU was unpacked into
     #[arg(long)]
     pub unpacked_in: PathBuf,
+    /// What the parent read from the standard input
+    #[arg(long)]
+    pub input_copy: Option<PathBuf>,
     /// What the parent was given
     #[command(flatten)]
     pub run: Run,
@@ -167,7 +170,7 @@ pub struct Run {
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows continuous inputs are
-    /// interpolated linearly and discrete ones held; two rows at one time make a jump
+    /// interpolated linearly and discrete ones held; two rows at one time make a jump; - is the standard input
     #[arg(long, value_name = "CSV")]
     pub input: Option<PathBuf>,
     /// Hand the slopes of the input table to the FMU too, so that inputs do not jump from step to step

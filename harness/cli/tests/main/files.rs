@@ -185,6 +185,27 @@ fn a_dash_is_the_standard_output() {
 }
 
 #[test]
+fn a_dash_is_the_standard_input() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let (input, temporary) = (scratch.path().join("in.csv"), scratch.path().join("tmp"));
+    fs::create_dir(&temporary).unwrap();
+    let simulate = |path: &str, table: &str| {
+        fs::write(&input, table).unwrap();
+        let times = ["--stop", "8", "--step", "1", "--record", "output.integral", "--output", "-"];
+        let mut command = heliotorque(&[&["run", shown(&fmu), "--input", path], &times[..]].concat());
+        command.env("TMPDIR", &temporary).stdin(fs::File::open(&input).unwrap()).output().unwrap()
+    };
+    let table = "time,input.real\n0,0\n4,4\n";
+    let (piped, named) = (simulate("-", table), simulate(shown(&input), table));
+    assert!(piped.status.success() && piped.stdout == named.stdout, "{}", text(&piped));
+    assert!(text(&piped).lines().count() > 8, "{}", text(&piped));
+    let wrong = simulate("-", "time,input.rael\n");
+    assert_eq!(wrong.status.code(), Some(1));
+    assert!(text(&wrong).contains("-: ") && text(&wrong).contains("near it: input.real"), "{}", text(&wrong));
+    assert!(names(&temporary).is_empty(), "{:?}", names(&temporary));
+}
+
+#[test]
 fn a_signal_leaves_no_temporary_file() {
     let Some((scratch, fmu)) = packed("AllTypes") else { return };
     let temporary = scratch.path().join("tmp");
