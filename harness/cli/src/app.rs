@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command, SchemaKind},
-    check, info, interrupt,
+    check, completions, info, interrupt,
     outcome::Outcome,
     pack, plan, run as simulation, study,
 };
@@ -40,6 +40,7 @@ pub fn run() -> Outcome {
             terminal::print(schema.trim_end())?;
             Ok(ExitCode::SUCCESS)
         }
+        Command::Completions(arguments) => completions::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
     }

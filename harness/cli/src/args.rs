@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 /// The FMU whose library reads and runs new spacecraft unless another is named.
 pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
@@ -11,6 +12,12 @@ const PACK_EXAMPLE: &str = "\
 Example:
   heliotorque check my.toml                                  what is wrong with it, by line
   heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
+
+const COMPLETIONS_EXAMPLE: &str = "\
+Example:
+  heliotorque completions bash > ~/.local/share/bash-completion/completions/heliotorque
+  heliotorque completions zsh > ~/.zfunc/_heliotorque        with fpath+=~/.zfunc before compinit in ~/.zshrc
+  heliotorque completions fish > ~/.config/fish/completions/heliotorque.fish";
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
 #[derive(Debug, Parser)]
@@ -40,6 +47,9 @@ pub enum Command {
     /// Find an optimal plan
     #[command(subcommand)]
     Plan(Plan),
+    /// Print what a shell needs to complete commands and options
+    #[command(after_help = COMPLETIONS_EXAMPLE)]
+    Completions(Completions),
     /// Runs one probe of `check` in a process of its own
     #[command(hide = true, name = "probe-in-child")]
     Probe(Probe),
@@ -56,7 +66,7 @@ pub struct Info {
     /// List the variables too
     #[arg(long)]
     pub variables: bool,
-    /// List only these variables: a name, a vector, or a pattern with *
+    /// Show only these variables and the options they take: names, vectors, patterns with *
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub only: Vec<String>,
     /// Show what the FMU computes from its parameters: the sunshade's torque coefficients, torque and force by source at
@@ -64,7 +74,7 @@ pub struct Info {
     #[arg(long, conflicts_with_all = ["variables", "only"])]
     pub coefficients: bool,
     /// Set a parameter before --coefficients; repeatable, written as for `run`: sunshade.shape=cylinder,
-    /// spacecraft.centerOfMass[3]=-2.54cm
+    /// 'spacecraft.centerOfMass[3]=-2.54cm'
     #[arg(long, value_name = "NAME=VALUE", requires = "coefficients")]
     pub set: Vec<String>,
 }
@@ -99,6 +109,14 @@ pub struct Schema {
     pub kind: SchemaKind,
 }
 
+/// `heliotorque completions`.
+#[derive(Debug, Args)]
+pub struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
 /// A kind of file that has a schema.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum SchemaKind {
@@ -124,6 +142,9 @@ pub struct RunInChild {
     /// The folder that the FMU was unpacked into
     #[arg(long)]
     pub unpacked_in: PathBuf,
+    /// What the parent read from the standard input
+    #[arg(long)]
+    pub input_copy: Option<PathBuf>,
     /// What the parent was given
     #[command(flatten)]
     pub run: Run,
@@ -143,18 +164,20 @@ pub struct Run {
     /// Communication step, in s or with a unit: 10min; otherwise the FMU's default
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub step: Option<f64>,
-    /// Set a parameter, input or start value; repeatable. Takes units (spacecraft.centerOfMass[3]=-2.54cm),
-    /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4)
+    /// Set a parameter, input or start value; repeatable. Takes units ('spacecraft.centerOfMass[3]=-2.54cm'),
+    /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4), dates for epochs
+    /// ('start.epoch=2011-04-06T00:00:00 UTC')
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows continuous inputs are
-    /// interpolated linearly and discrete ones held; two rows at one time make a jump
+    /// interpolated linearly and discrete ones held; two rows at one time make a jump; - is the standard input
     #[arg(long, value_name = "CSV")]
     pub input: Option<PathBuf>,
     /// Hand the slopes of the input table to the FMU too, so that inputs do not jump from step to step
     #[arg(long, requires = "input")]
     pub slopes: bool,
-    /// Record these variables: names, vectors, patterns with *; otherwise every output
+    /// Record these variables: names, vectors, patterns with * such as 'plate*.force', which take outputs only; otherwise
+    /// every output
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub record: Vec<String>,
     /// Record at most this often, in s or with a unit; otherwise at every step
@@ -164,7 +187,7 @@ pub struct Run {
     /// stays if the FMU fails, crashes or hangs
     #[arg(long, value_name = "CSV")]
     pub output: Option<PathBuf>,
-    /// Draw what was recorded as SVG
+    /// Draw what was recorded as SVG; - is the standard output
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
     /// Longest time an FMI call may take, in s or with a unit; otherwise without bound

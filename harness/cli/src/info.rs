@@ -7,7 +7,7 @@ use model_description::{
     Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind,
 };
 
-use crate::{args::Info, coefficients, outcome::Outcome, timeline};
+use crate::{args::Info, coefficients, epoch, outcome::Outcome, timeline};
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
@@ -16,21 +16,29 @@ pub fn run(arguments: &Info) -> Outcome {
         terminal::print(&coefficients::text(&fmu, &arguments.set)?)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let mut text = vec![summary(&fmu), capabilities(&fmu)];
-    if arguments.variables || !arguments.only.is_empty() {
-        text.push(units(fmu.description()));
-        text.extend(enumerations(fmu.description()));
-        let positions = if arguments.only.is_empty() {
-            (0..fmu.description().variables.len()).collect()
-        } else {
-            let mut positions = Vec::new();
-            for pattern in &arguments.only {
-                positions.extend(fmu.select(pattern)?);
+    let description = fmu.description();
+    let text = if arguments.only.is_empty() {
+        let mut text = vec![summary(&fmu), capabilities(&fmu)];
+        if arguments.variables {
+            let all: Vec<usize> = (0..description.variables.len()).collect();
+            text.push(units(description));
+            text.extend(enumerations(description, &all));
+            text.push(variables(description, &all));
+        }
+        text
+    } else {
+        let mut positions = Vec::new();
+        for pattern in &arguments.only {
+            for position in fmu.select(pattern)? {
+                if !positions.contains(&position) {
+                    positions.push(position);
+                }
             }
-            positions
-        };
-        text.push(variables(fmu.description(), &positions));
-    }
+        }
+        let mut text = vec![variables(description, &positions)];
+        text.extend(enumerations(description, &positions));
+        text
+    };
     terminal::print(&text.join("\n\n"))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -143,9 +151,16 @@ fn units(description: &Description) -> String {
     table.to_string()
 }
 
-fn enumerations(description: &Description) -> Option<String> {
+/// The items of the options that these variables take.
+fn enumerations(description: &Description, positions: &[usize]) -> Option<String> {
+    let is_taken = |name: &str| {
+        positions.iter().any(|&position| match &description.variables[position].kind {
+            VariableKind::Enumeration { declared_type, .. } => declared_type == name,
+            _ => false,
+        })
+    };
     let mut table = terminal::table(&["option", "item", "number", "meaning"]);
-    for simple_type in &description.types {
+    for simple_type in description.types.iter().filter(|it| is_taken(&it.name)) {
         let SimpleTypeKind::Enumeration { items, .. } = &simple_type.kind else { continue };
         for (index, item) in items.iter().enumerate() {
             table.add_row([
@@ -192,11 +207,15 @@ pub fn causality(variable: &ScalarVariable) -> String {
     }
 }
 
-/// The start value, in the variable's unit, with the display unit behind it and the item's name.
+/// The start value, in the variable's unit, with the display unit or date behind it and the item's name.
 pub fn start(description: &Description, variable: &ScalarVariable) -> String {
     match &variable.kind {
         VariableKind::Real { start: Some(start), .. } => {
             let own = terminal::short(*start);
+            let date = epoch::is_epoch(description, variable).then(|| epoch::date(*start)).flatten();
+            if let Some(date) = date {
+                return format!("{start} ({date})");
+            }
             match loader::display_unit(description, variable) {
                 Some((name, factor, offset)) if *start != 0.0 => {
                     format!("{own} ({} {name})", terminal::short(factor * start + offset))

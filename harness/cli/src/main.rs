@@ -8,6 +8,8 @@ mod args;
 mod check;
 mod child;
 mod coefficients;
+mod completions;
+mod epoch;
 mod info;
 mod interrupt;
 mod outcome;

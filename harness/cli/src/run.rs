@@ -12,8 +12,10 @@ use crate::{
 };
 
 mod child;
+mod input_copy;
 mod settings;
 
+use input_copy::InputCopy;
 use settings::Settings;
 
 /// Runs the FMU in a child process.
@@ -23,7 +25,9 @@ pub fn run(arguments: &Run) -> Outcome {
     }
     let fmu = Fmu::open(&arguments.fmu)?;
     // Everything that can be refused without the FMU's library is refused here.
-    let settings = Settings::of(&fmu, arguments)?;
+    let copy = InputCopy::of(arguments)?;
+    let input_copy = copy.as_ref().map(InputCopy::path);
+    let settings = Settings::of(&fmu, arguments, input_copy.as_deref())?;
     fmu.binary_path()?;
     let mut outputs = Outputs::open(arguments)?;
     let (times, positions) = (settings.times, settings.positions);
@@ -34,7 +38,9 @@ pub fn run(arguments: &Run) -> Outcome {
 
     let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
-    let simulated = child::simulate(&fmu, arguments.timeout, points, &mut collector, |recording, time_s| {
+    let in_child =
+        child::InChild { fmu: &fmu, input_copy: input_copy.as_deref(), timeout_s: arguments.timeout };
+    let simulated = child::simulate(&in_child, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }

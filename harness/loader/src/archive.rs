@@ -8,7 +8,7 @@ use std::{
 
 use zip::ZipArchive;
 
-use crate::Error;
+use crate::{Error, foreign};
 
 /// How much an archive may hold.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,8 @@ impl Default for Limits {
 pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>, Error> {
     let refuse = |what: String| Error::Archive { path: archive.to_owned(), what };
     let file = files::open(archive).map_err(|source| Error::File { path: archive.to_owned(), source })?;
-    let mut zip = ZipArchive::new(io::BufReader::new(file)).map_err(|error| refuse(error.to_string()))?;
+    let mut zip = ZipArchive::new(io::BufReader::new(file))
+        .map_err(|error| refuse(foreign::kind(archive).map_or_else(|| error.to_string(), str::to_owned)))?;
     if zip.len() > limits.entries {
         return Err(refuse(format!("{} entries, at most {} are allowed", zip.len(), limits.entries)));
     }

@@ -70,6 +70,16 @@ pub enum Error {
         /// Similar names, or where to see all.
         hint: String,
     },
+    /// A pattern that fits variables but no output.
+    #[error("{fmu}: no output fits {pattern:?}: a * takes outputs only, anything else is named: {example}")]
+    NoOutput {
+        /// Model name.
+        fmu: String,
+        /// The pattern.
+        pattern: String,
+        /// A variable that it fits.
+        example: String,
+    },
     /// A value that does not fit its variable.
     #[error("{variable}: {what}")]
     Value {

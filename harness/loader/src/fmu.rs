@@ -13,7 +13,7 @@ use crate::{
     Binary, Error,
     access::AccessTable,
     archive,
-    select::{select, unknown},
+    select::{self, unknown},
 };
 
 /// An opened FMU. Cheap to clone; instances may be made and simulated on many threads.
@@ -69,7 +69,13 @@ impl Fmu {
         let xml = files::read(&xml_path).map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => Error::Description {
                 path: source.clone(),
-                what: "holds no modelDescription.xml, so it is no FMU".to_owned(),
+                what: match temporary {
+                    Some(_) => "it is a ZIP archive that holds no modelDescription.xml, so it is no FMU",
+                    None => {
+                        "it is a folder that holds no modelDescription.xml, so no FMU was unpacked into it"
+                    }
+                }
+                .to_owned(),
             },
             _ => Error::File { path: xml_path.clone(), source: error },
         })?;
@@ -202,12 +208,18 @@ impl Fmu {
     /// Positions in `ModelVariables` of everything `pattern` means, in declaration order.
     ///
     /// An exact name means itself; `torque.solar` all elements `torque.solar[1]`, `torque.solar[2]`, …; a `*` stands
-    /// for any text, so `torque.*` and `momentum.body[*]` work. Brackets and dots are plain text.
+    /// for any text, so `torque.*`, `plate*.force` and `momentum.body[*]` work. Brackets and dots are plain text. A name
+    /// that nothing has may be one in another case.
     pub fn select(&self, pattern: &str) -> Result<Vec<usize>, Error> {
         match self.position(pattern.trim()) {
             Some(index) => Ok(vec![index]),
-            None => select(self.description(), pattern),
+            None => select::select(self.description(), pattern),
         }
+    }
+
+    /// As [`Fmu::select`], but a `*` takes outputs only: anything else is named.
+    pub fn select_outputs(&self, pattern: &str) -> Result<Vec<usize>, Error> {
+        select::select_outputs(self.description(), pattern)
     }
 }
 

@@ -36,8 +36,8 @@ impl InputTable {
             .iter()
             .map(|name| {
                 let name = name.as_ref().trim();
-                let position =
-                    fmu.position(name).ok_or_else(|| crate::select::unknown(fmu.description(), name))?;
+                let position = crate::select::named(fmu.description(), name)
+                    .ok_or_else(|| crate::select::unknown(fmu.description(), name))?;
                 let variable = &fmu.description().variables[position];
                 check_settable(variable)?;
                 Ok((position, variable))

@@ -12,6 +12,7 @@ mod call_record;
 mod checker;
 mod error;
 mod fmu;
+mod foreign;
 mod inputs;
 mod instance;
 mod recorder;

@@ -1,25 +1,83 @@
 //! Names of variables as people write them: exact, a whole vector, or with `*`.
 
-use model_description::{Description, names::similar};
+use model_description::{Causality, Description, ScalarVariable, names::similar};
 
 use crate::Error;
 
 /// Positions in `ModelVariables` of everything `pattern` means: see [`crate::Fmu::select`].
 pub(crate) fn select(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
     let pattern = pattern.trim();
-    if let Some(index) = description.variables.iter().position(|variable| variable.name == pattern) {
-        return Ok(vec![index]);
-    }
-    let vector = format!("{pattern}[*]");
-    let pattern_or_vector = if pattern.contains('*') { pattern } else { &vector };
-    let found: Vec<usize> = description
-        .variables
-        .iter()
-        .enumerate()
-        .filter(|(_, variable)| matches(pattern_or_vector, &variable.name))
-        .map(|(index, _)| index)
-        .collect();
+    let found = find(description, pattern);
     if found.is_empty() { Err(unknown(description, pattern)) } else { Ok(found) }
+}
+
+/// As [`select`], but a `*` takes outputs only.
+pub(crate) fn select_outputs(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
+    let mut found = select(description, pattern)?;
+    let pattern = pattern.trim();
+    if !pattern.contains('*') || named(description, pattern).is_some() {
+        return Ok(found);
+    }
+    let first = found.first().and_then(|&index| description.variables.get(index));
+    let first = first.map_or_else(String::new, |variable| variable.name.clone());
+    found.retain(|&index| description.variables[index].causality == Causality::Output);
+    if found.is_empty() {
+        return Err(Error::NoOutput {
+            fmu: description.model_name.clone(),
+            pattern: pattern.to_owned(),
+            example: first,
+        });
+    }
+    Ok(found)
+}
+
+/// Position of the variable of this name; in another case where only one has it so.
+pub(crate) fn named(description: &Description, name: &str) -> Option<usize> {
+    if let Some(index) = description.variables.iter().position(|variable| variable.name == name) {
+        return Some(index);
+    }
+    let mut others = all(description, |variable| is_same(&variable.name, name)).into_iter();
+    others.next().filter(|_| others.next().is_none())
+}
+
+/// Whether two names differ in case at most.
+pub(crate) fn is_same(one: &str, other: &str) -> bool {
+    one.to_lowercase() == other.to_lowercase()
+}
+
+fn find(description: &Description, pattern: &str) -> Vec<usize> {
+    if let Some(index) = named(description, pattern) {
+        return vec![index];
+    }
+    let lower = pattern.to_lowercase();
+    if pattern.contains('*') {
+        let fits = |pattern: &str, name: &str| matches(pattern, name) || matches(pattern, vector(name));
+        let exact = all(description, |variable| fits(pattern, &variable.name));
+        if !exact.is_empty() {
+            return exact;
+        }
+        return all(description, |variable| fits(&lower, &variable.name.to_lowercase()));
+    }
+    let exact = all(description, |variable| vector(&variable.name) == pattern);
+    if !exact.is_empty() {
+        return exact;
+    }
+    let elements = all(description, |variable| is_same(vector(&variable.name), pattern));
+    let first = elements.first().map(|&index| vector(&description.variables[index].name));
+    let is_one = elements.iter().all(|&index| Some(vector(&description.variables[index].name)) == first);
+    if is_one { elements } else { Vec::new() }
+}
+
+fn all(description: &Description, fits: impl Fn(&ScalarVariable) -> bool) -> Vec<usize> {
+    let variables = description.variables.iter().enumerate();
+    variables.filter(|(_, variable)| fits(variable)).map(|(index, _)| index).collect()
+}
+
+/// The vector or matrix that an element is of; of any other variable its name.
+fn vector(name: &str) -> &str {
+    let is_indices = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit() || byte == b',');
+    let split = name.strip_suffix(']').and_then(|name| name.rsplit_once('['));
+    split.filter(|(_, indices)| is_indices(indices)).map_or(name, |(vector, _)| vector)
 }
 
 /// That there is no variable of this name, with similar ones.

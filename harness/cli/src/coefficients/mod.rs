@@ -7,6 +7,7 @@ mod wheels;
 use loader::{Error, Fmu, Instance, Value};
 use model_description::{Causality, ScalarVariable};
 
+use crate::epoch;
 use instance::started;
 
 /// One row of a table: the elements of a vector, or of one row of a matrix.
@@ -20,7 +21,7 @@ struct Row {
 pub fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
     let mut sets = Vec::new();
     for setting in settings {
-        sets.extend(loader::parse_assignment(fmu, setting)?);
+        sets.extend(loader::parse_assignment(fmu, &epoch::in_seconds(fmu.description(), setting)?)?);
     }
     let mut instance = started(fmu, &sets)?;
     let mut parts = spacecraft::tables(fmu, &sets, &mut instance)?;

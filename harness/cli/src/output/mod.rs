@@ -2,6 +2,7 @@
 
 mod csv;
 mod exporter;
+mod shown;
 mod summary;
 mod svg;
 
@@ -16,13 +17,19 @@ use loader::{Fmu, Recording};
 use crate::args::Run;
 use csv::Csv;
 use exporter::Exporter;
-use summary::Summary;
+use summary::{Summary, last_values};
 use svg::Svg;
 
 pub use svg::check_path as check_svg_path;
 
 /// Every output of a run.
-pub struct Outputs(Vec<Box<dyn Exporter>>);
+pub struct Outputs {
+    exporters: Vec<Box<dyn Exporter>>,
+    /// Files that will be written.
+    files: Vec<PathBuf>,
+    /// Whether the last values are told: without a file the summary has them.
+    says_last: bool,
+}
 
 impl Outputs {
     /// The outputs that the arguments name, their files opened; without any, a summary on the terminal.
@@ -38,31 +45,41 @@ impl Outputs {
         {
             return Err("one file cannot take both: see --output and --plot".to_owned());
         }
-        let mut outputs: Vec<Box<dyn Exporter>> = Vec::new();
+        let named = arguments.output.iter().zip(&csv).chain(arguments.plot.iter().zip(&svg));
+        let files = named.filter(|(_, file)| !file.is_stdout()).map(|(path, _)| path.clone()).collect();
+        let says_last = !arguments.quiet && (csv.is_some() || svg.is_some());
+        let mut exporters: Vec<Box<dyn Exporter>> = Vec::new();
         if let Some(csv) = csv {
-            outputs.push(Box::new(Csv::new(csv.grow(&inputs)?)));
+            exporters.push(Box::new(Csv::new(csv.grow(&inputs)?)));
         }
         if let Some(svg) = svg {
-            outputs.push(Box::new(Svg::new(svg)));
+            exporters.push(Box::new(Svg::new(svg)));
         }
-        if outputs.is_empty() && !arguments.quiet {
-            outputs.push(Box::new(Summary));
+        if exporters.is_empty() && !arguments.quiet {
+            exporters.push(Box::new(Summary));
         }
-        Ok(Self(outputs))
+        Ok(Self { exporters, files, says_last })
     }
 
     /// Shows every output the recording so far.
     pub fn update(&mut self, recording: &Recording) -> Result<(), String> {
-        self.0.iter_mut().try_for_each(|output| output.update(recording))
+        self.exporters.iter_mut().try_for_each(|output| output.update(recording))
     }
 
-    /// Completes every output.
+    /// Completes every output and says what was written and the last values.
     pub fn finish(self, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>> {
-        self.0.into_iter().try_for_each(|output| output.finish(fmu, recording))
+        self.exporters.into_iter().try_for_each(|output| output.finish(fmu, recording))?;
+        if self.says_last {
+            terminal::note(&last_values(fmu, recording));
+            for file in &self.files {
+                terminal::note(&format!("wrote {}", file.display()));
+            }
+        }
+        Ok(())
     }
 
     /// Keeps what there is after a simulation that failed; the names of the files in progress.
     pub fn leave(self, fmu: &Fmu, recording: &Recording) -> Vec<PathBuf> {
-        self.0.into_iter().filter_map(|output| output.leave(fmu, recording)).collect()
+        self.exporters.into_iter().filter_map(|output| output.leave(fmu, recording)).collect()
     }
 }

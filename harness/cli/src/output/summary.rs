@@ -4,7 +4,10 @@ use std::{error::Error, path::PathBuf};
 
 use loader::{Fmu, Recording};
 
-use super::exporter::Exporter;
+use super::{exporter::Exporter, shown::Shown};
+
+/// Rows of the table of last values at most.
+const LAST_ROWS: usize = 24;
 
 /// The summary, printed at the end.
 pub struct Summary;
@@ -23,10 +26,6 @@ impl Exporter for Summary {
 fn summary(fmu: &Fmu, recording: &Recording) -> String {
     let mut table = terminal::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
     for (name, column) in recording.names.iter().zip(&recording.columns) {
-        let variable = fmu.find(name);
-        let display = variable.and_then(|variable| loader::display_unit(fmu.description(), variable));
-        let own = variable.and_then(|variable| loader::unit(fmu.description(), variable)).unwrap_or_default();
-        let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
         if let loader::Column::Text(texts) = column {
             let at = |text: Option<&String>| text.cloned().unwrap_or_default();
             table.add_row([
@@ -39,19 +38,43 @@ fn summary(fmu: &Fmu, recording: &Recording) -> String {
             ]);
             continue;
         }
-        let values: Vec<f64> = column.numbers().into_iter().map(|value| factor * value + offset).collect();
-        let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let first = values.first().copied().unwrap_or(f64::NAN);
-        let last = values.last().copied().unwrap_or(f64::NAN);
+        let shown = Shown::of(fmu, name);
+        let values: Vec<Option<f64>> = column.numbers().into_iter().map(|value| shown.value(value)).collect();
+        let text = |value: Option<&Option<f64>>| shown.text(value.copied().unwrap_or(Some(f64::NAN)));
         table.add_row([
             name.clone(),
-            unit.to_owned(),
-            terminal::short(first),
-            terminal::short(smallest),
-            terminal::short(largest),
-            terminal::short(last),
+            shown.unit.to_owned(),
+            text(values.first()),
+            shown.text(values.iter().flatten().copied().reduce(f64::min)),
+            shown.text(values.iter().flatten().copied().reduce(f64::max)),
+            text(values.last()),
         ]);
     }
     table.to_string()
+}
+
+/// The last value of everything recorded, a vector in a row.
+pub fn last_values(fmu: &Fmu, recording: &Recording) -> String {
+    let mut rows: Vec<(&str, &str, Vec<String>)> = Vec::new();
+    for (name, column) in recording.names.iter().zip(&recording.columns) {
+        let shown = Shown::of(fmu, name);
+        let text = match column {
+            loader::Column::Text(texts) => texts.last().cloned().unwrap_or_default(),
+            column => shown.text(column.numbers().last().map_or(Some(f64::NAN), |value| shown.value(*value))),
+        };
+        let vector = name.strip_suffix(']').and_then(|name| name.rsplit_once('['));
+        let name = vector.map_or(name.as_str(), |(vector, _)| vector);
+        match rows.last_mut() {
+            Some((of, _, values)) if vector.is_some() && *of == name => values.push(text),
+            _ => rows.push((name, shown.unit, vec![text])),
+        }
+    }
+    let mut table = terminal::table(&["variable", "unit", "last"]);
+    for (name, unit, values) in rows.iter().take(LAST_ROWS) {
+        table.add_row([*name, *unit, &values.join(", ")]);
+    }
+    match rows.len().saturating_sub(LAST_ROWS) {
+        0 => table.to_string(),
+        more => format!("{table}\n{more} more"),
+    }
 }

@@ -34,9 +34,10 @@ fn group(name: &str) -> String {
 /// Refuses a path that promises another kind of picture.
 pub fn check_path(path: &Path) -> Result<(), String> {
     match path.extension() {
+        _ if path == Path::new("-") => Ok(()),
         Some(extension) if extension.eq_ignore_ascii_case("svg") => Ok(()),
         _ => Err(format!(
-            "{}: found no SVG file's name, allowed: one that ends in .svg: see --plot",
+            "{}: found no SVG file's name, allowed: one that ends in .svg, or -: see --plot",
             path.display()
         )),
     }

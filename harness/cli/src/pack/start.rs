@@ -4,6 +4,8 @@ use loader::{Assigned, assignment};
 use model_description::{Causality, Description, VariableKind, value};
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
+use crate::epoch;
+
 /// The table of start values in a setup file.
 const TABLE: &str = "start";
 
@@ -27,7 +29,9 @@ pub fn with_start_values(
         start = table(start, model)?;
     }
     for set in sets {
-        for assigned in assignment(description, set).map_err(|error| format!("--set {set}: {error}"))? {
+        let in_set = |error: loader::Error| format!("--set {set}: {error}");
+        let setting = epoch::in_seconds(description, set).map_err(in_set)?;
+        for assigned in assignment(description, &setting).map_err(in_set)? {
             let value = checked(description, &assigned)
                 .map_err(|misfit| format!("--set {set}: {}: {misfit}", assigned.variable.name))?;
             match start.get_mut(&assigned.variable.name).and_then(Item::as_value_mut) {
@@ -126,6 +130,22 @@ mod tests {
         let inline = written("start = { \"ship.mass\" = 1 }\n", &["ship.mass=2"]);
         assert_eq!(inline, "start = { \"ship.mass\" = 2.0 }\n");
         assert_eq!(written("\u{feff}name = \"A\"\n", &[]), "\u{feff}name = \"A\"\n");
+    }
+
+    #[test]
+    fn an_epoch_takes_a_date() {
+        let mut description = description();
+        let epoch = &mut description.variables[0];
+        epoch.name = "start.epoch".to_owned();
+        epoch.description = Some("Epoch, seconds past J2000 TDB.".to_owned());
+        if let VariableKind::Real { attributes, .. } = &mut epoch.kind {
+            *attributes = RealAttributes { unit: Some("s".to_owned()), ..RealAttributes::default() };
+        }
+        let written = |set: &str| with_start_values("", "Plant", &description, &[set.to_owned()]);
+        let text = written("Start.Epoch=2009-04-06 TDB").unwrap();
+        assert_eq!(text, "[start]\n\"start.epoch\" = 292248000.0\n");
+        let refused = written("start.epoch=2009-04-06").unwrap_err().to_string();
+        assert!(refused.contains("does not end in UTC or TDB"), "{refused}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::{
     ffi::OsString,
+    path::Path,
     process::ExitCode,
     sync::atomic::{AtomicBool, Ordering},
 };
@@ -37,18 +38,33 @@ pub struct Simulated {
     pub fault: Option<String>,
 }
 
+/// What runs in a child process.
+pub struct InChild<'a> {
+    /// The FMU.
+    pub fmu: &'a Fmu,
+    /// What the parent read from the standard input.
+    pub input_copy: Option<&'a Path>,
+    /// Longest time that an FMI call may take.
+    pub timeout_s: Option<f64>,
+}
+
 /// Runs in a child process. `tick` is shown the recording so far and the beginning of the step in progress.
 pub fn simulate(
-    fmu: &Fmu,
-    timeout_s: Option<f64>,
+    in_child: &InChild<'_>,
     points: u64,
     collector: &mut Collector,
     mut tick: impl FnMut(&Recording, Option<f64>) -> Result<(), String>,
 ) -> Simulated {
-    let mut unpacked = OsString::from("--unpacked-in=");
-    unpacked.push(fmu.folder());
+    let InChild { fmu, input_copy, timeout_s } = *in_child;
+    let option = |name: &str, path: &Path| {
+        let mut option = OsString::from(name);
+        option.push(path);
+        option
+    };
+    let own = [OsString::from("run-in-child"), option("--unpacked-in=", fmu.folder())];
+    let own = own.into_iter().chain(input_copy.map(|path| option("--input-copy=", path)));
     // After the program and `run`: the child reads the same arguments.
-    let arguments = [OsString::from("run-in-child"), unpacked].into_iter().chain(std::env::args_os().skip(2));
+    let arguments = own.chain(std::env::args_os().skip(2));
     let child = match ChildProcess::new(arguments, Limits::default(), &[]) {
         Ok(child) => child,
         Err(error) => {
@@ -218,7 +234,7 @@ fn simulation(
     link: &mut Link,
 ) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
     let fmu = Fmu::open(&arguments.unpacked_in)?;
-    let settings = Settings::of(&fmu, &arguments.run)?;
+    let settings = Settings::of(&fmu, &arguments.run, arguments.input_copy.as_deref())?;
     let (cancel, cancel_word) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
     let mut check_cancel = |_: f64| {
         if cancel_word.load(Ordering::Relaxed) != 0 {

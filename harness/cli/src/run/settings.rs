@@ -4,7 +4,7 @@ use std::path::Path;
 
 use loader::{Fmu, InputTable, Times};
 
-use crate::args::Run;
+use crate::{args::Run, epoch};
 
 /// What the arguments mean for an FMU.
 pub struct Settings {
@@ -19,14 +19,19 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Of the arguments; the error names the flag.
-    pub fn of(fmu: &Fmu, arguments: &Run) -> Result<Self, Box<dyn std::error::Error>> {
+    /// Of the arguments; the error names the flag. What `--input` names may stand in a copy.
+    pub fn of(
+        fmu: &Fmu,
+        arguments: &Run,
+        input_copy: Option<&Path>,
+    ) -> Result<Self, Box<dyn std::error::Error>> {
         let times = Times::of(fmu, arguments.start, arguments.stop, arguments.step)?;
         let mut sets = Vec::new();
         for setting in &arguments.set {
-            sets.extend(loader::parse_assignment(fmu, setting)?);
+            sets.extend(loader::parse_assignment(fmu, &epoch::in_seconds(fmu.description(), setting)?)?);
         }
-        let inputs = arguments.input.as_deref().map(|path| read_table(fmu, path)).transpose()?;
+        let inputs = arguments.input.as_deref();
+        let inputs = inputs.map(|path| read_table(fmu, path, input_copy.unwrap_or(path))).transpose()?;
         let positions = selection(fmu, &arguments.record)?.unwrap_or_else(|| loader::outputs(fmu));
         Ok(Self { times, sets, inputs, positions })
     }
@@ -39,7 +44,7 @@ fn selection(fmu: &Fmu, patterns: &[String]) -> Result<Option<Vec<usize>>, loade
     }
     let mut positions = Vec::new();
     for pattern in patterns {
-        for position in fmu.select(pattern)? {
+        for position in fmu.select_outputs(pattern)? {
             if !positions.contains(&position) {
                 positions.push(position);
             }
@@ -48,8 +53,8 @@ fn selection(fmu: &Fmu, patterns: &[String]) -> Result<Option<Vec<usize>>, loade
     Ok(Some(positions))
 }
 
-/// Reads an input table.
-fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::Error>> {
+/// Reads the input table of a path, from where it stands.
+fn read_table(fmu: &Fmu, path: &Path, at: &Path) -> Result<InputTable, Box<dyn std::error::Error>> {
     let in_file =
         |error: &dyn std::error::Error| format!("{}: {}", path.display(), loader::Error::chain(error));
     let mut reader = csv::ReaderBuilder::new()
@@ -57,7 +62,7 @@ fn read_table(fmu: &Fmu, path: &Path) -> Result<InputTable, Box<dyn std::error::
         .flexible(true)
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
-        .from_reader(files::open(path).map_err(|error| format!("{}: see --input", in_file(&error)))?);
+        .from_reader(files::open(at).map_err(|error| format!("{}: see --input", in_file(&error)))?);
     let mut rows = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| in_file(&error))?;

@@ -172,11 +172,37 @@ fn a_dash_is_the_standard_output() {
     run(&[&simulate[..], &[shown(&table)]].concat(), 0);
     let output = heliotorque(&[&simulate[..], &["-"]].concat()).output().unwrap();
     assert!(output.status.success() && output.stdout == fs::read(&table).unwrap(), "{}", text(&output));
+    let (picture, arguments) = (scratch.path().join("a.svg"), &simulate[..4]);
+    run(&[arguments, &["--plot", shown(&picture)]].concat(), 0);
+    let output = heliotorque(&[arguments, &["--plot", "-"]].concat()).output().unwrap();
+    assert!(output.status.success() && output.stdout == fs::read(&picture).unwrap(), "{}", text(&output));
+    assert!(run(&[&simulate[..], &["-", "--plot", "-"]].concat(), 1).contains("one file cannot take both"));
     let library = probe_library().unwrap();
     let pack = ["pack", "--library", shown(&library), "--model", "AllTypes", "--output", "-"];
     let output = heliotorque(&pack).current_dir(scratch.path()).output().unwrap();
     assert!(output.status.success() && output.stdout == fs::read(&fmu).unwrap());
     assert!(!scratch.path().join("-").exists());
+}
+
+#[test]
+fn a_dash_is_the_standard_input() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let (input, temporary) = (scratch.path().join("in.csv"), scratch.path().join("tmp"));
+    fs::create_dir(&temporary).unwrap();
+    let simulate = |path: &str, table: &str| {
+        fs::write(&input, table).unwrap();
+        let times = ["--stop", "8", "--step", "1", "--record", "output.integral", "--output", "-"];
+        let mut command = heliotorque(&[&["run", shown(&fmu), "--input", path], &times[..]].concat());
+        command.env("TMPDIR", &temporary).stdin(fs::File::open(&input).unwrap()).output().unwrap()
+    };
+    let table = "time,input.real\n0,0\n4,4\n";
+    let (piped, named) = (simulate("-", table), simulate(shown(&input), table));
+    assert!(piped.status.success() && piped.stdout == named.stdout, "{}", text(&piped));
+    assert!(text(&piped).lines().count() > 8, "{}", text(&piped));
+    let wrong = simulate("-", "time,input.rael\n");
+    assert_eq!(wrong.status.code(), Some(1));
+    assert!(text(&wrong).contains("-: ") && text(&wrong).contains("near it: input.real"), "{}", text(&wrong));
+    assert!(names(&temporary).is_empty(), "{:?}", names(&temporary));
 }
 
 #[test]

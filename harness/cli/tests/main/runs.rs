@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{packed, run, shown};
+use crate::{built, packed, run, shown};
 
 fn csv(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let mut reader = csv::Reader::from_path(path).unwrap();
@@ -40,6 +40,12 @@ fn a_simulation_leaves_csv_and_a_picture() {
         0,
     );
     assert!(text.contains("6 steps to 60 s"), "{text}");
+    for file in [&table, &picture] {
+        assert!(text.contains(&format!("wrote {}", file.display())), "{text}");
+    }
+    let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap().to_owned();
+    assert!(row("output.vector").contains("1, 0.002, 3"), "{text}");
+    assert!(row("output.integral").contains("120"), "{text}");
     let (header, rows) = csv(&table);
     let names = [
         "time",
@@ -88,15 +94,79 @@ fn without_files_a_summary_is_shown() {
         run(&["run", shown(&fmu), "--set", "input.text=hello", "--record", "output.text,output.real"], 0);
     assert!(text.contains("hello") && text.contains("smallest"), "{text}");
     let text = run(&["info", shown(&fmu), "--only", "channel[1].*,input.choice"], 0);
-    for part in ["channel[1].gain", "input.choice", "1 (red)", "Like the sky.", "canSerializeFMUstate"] {
+    for part in ["channel[1].gain", "input.choice", "1 (red)", "Like the sky."] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
-    assert!(!text.contains("parameter.real"));
+    // What was asked for stands alone; all there is comes without --only.
+    for part in ["parameter.real", "canSerializeFMUstate", "GUID"] {
+        assert!(!text.contains(part), "{text}");
+    }
+    let text = run(&["info", shown(&fmu), "--variables"], 0);
+    for part in ["parameter.real", "canSerializeFMUstate", "GUID", "Like the sky."] {
+        assert!(text.contains(part), "{text} lacks {part}");
+    }
     // Twice and thrice the parameter.
     let text = run(&["info", shown(&fmu), "--coefficients", "--set", "parameter.real=7 km"], 0);
     let value = |name: &str| text.lines().find(|line| line.contains(name)).unwrap().to_owned();
     assert!(value("role.calculatedFixed").contains("14000"), "{text}");
     assert!(value("role.calculatedApprox").contains("21000"), "{text}");
+}
+
+#[test]
+fn names_match_in_any_case() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let table = scratch.path().join("out.csv");
+    let simulate = ["run", shown(&fmu), "--stop", "2", "--step", "1", "--set", "INPUT.Real=2 km/s"];
+    let record = ["--record", "Output.INTEGRAL,output.Vector,OUTPUT.bool*", "--output", shown(&table)];
+    run(&[&simulate[..], &record].concat(), 0);
+    let (header, rows) = csv(&table);
+    let expected = ["time", "output.integral", "output.vector[1]", "output.vector[2]", "output.vector[3]"];
+    assert_eq!(header[..5], expected);
+    assert_eq!(header[5], "output.boolean");
+    assert!((rows[2][1] - 4000.0).abs() < 1e-8, "{rows:?}");
+    let text = run(&["info", shown(&fmu), "--only", "INPUT.CHOICE"], 0);
+    assert!(text.contains("input.choice"), "{text}");
+    // A slip of the pen still gets its neighbours.
+    let text = run(&["run", shown(&fmu), "--set", "INPUT.REEL=1"], 1);
+    assert!(text.contains("near it: input.real"), "{text}");
+}
+
+#[test]
+fn patterns_take_outputs_and_whole_vectors() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let table = scratch.path().join("out.csv");
+    let record = |names: &str| {
+        run(&["run", shown(&fmu), "--quiet", "--record", names, "--output", shown(&table)], 0);
+        csv(&table).0
+    };
+    let vector = ["output.vector[1]", "output.vector[2]", "output.vector[3]"];
+    assert_eq!(record("out*.vector")[1..], vector);
+    assert_eq!(record("output.v*or")[1..], vector);
+    // A parameter by its name or its vector's.
+    assert_eq!(record("parameter.vector,parameter.real")[4], "parameter.real");
+    let text = run(&["run", shown(&fmu), "--record", "param*.real"], 1);
+    assert!(text.contains("takes outputs only") && text.contains("named: parameter.real"), "{text}");
+}
+
+#[test]
+fn a_time_that_is_none_is_shown_so() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let (scratch, fmu) = (tempfile::tempdir().unwrap(), dist.join("MomentumPlant.fmu"));
+    let table = scratch.path().join("out.csv");
+    let names = "dump.lastTime,dump.count,torque.solar";
+    let simulate = ["run", shown(&fmu), "--stop", "600", "--step", "600", "--record", names];
+    let row = |text: &str| text.lines().find(|line| line.contains("dump.lastTime")).unwrap().to_owned();
+    let text = run(&simulate, 0);
+    assert_eq!(row(&text).matches("none").count(), 4, "{text}");
+    let text = run(&[&simulate[..], &["--output", shown(&table)]].concat(), 0);
+    assert_eq!(row(&text).matches("none").count(), 1, "{text}");
+    assert!(text.contains("wrote") && text.contains("torque.solar"), "{text}");
+    // Files keep the number, and the standard output holds the table alone.
+    assert_eq!(csv(&table).1[1][1], -1.0);
+    let output = crate::heliotorque(&[&simulate[..], &["--output", "-"]].concat()).output().unwrap();
+    assert!(output.stdout == fs::read(&table).unwrap() && !crate::text(&output).contains("wrote"));
+    let text = run(&[&simulate[..], &["--quiet", "--output", shown(&table)]].concat(), 0);
+    assert!(text.is_empty(), "{text}");
 }
 
 #[test]
@@ -125,6 +195,51 @@ fn bad_settings_name_the_variable_and_what_is_allowed() {
     }
     let text = run(&["run", shown(&fmu), "--output", "no/such/folder/out.csv"], 1);
     assert!(text.contains("no/such/folder/out.csv") && text.contains("--output"), "{text}");
+}
+
+#[test]
+fn an_angle_beyond_its_limits_is_told_in_deg() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let fmu = dist.join("MomentumPlant.fmu");
+    for (setting, expected) in [
+        ("orbit.inclination=10", "10 rad; did you mean 10deg? Allowed: 0 to 180 deg (0 to 3.141593 rad)"),
+        ("orbit.inclination=200deg", "found 200deg, allowed: 0 to 180 deg"),
+        ("orbit.inclination=1e4", "found 1e4 rad, allowed: 0 to 180 deg"),
+        ("orbit.inclination=-10", "found -10 rad, allowed: 0 to 180 deg"),
+    ] {
+        for command in [&["run"][..], &["info", "--coefficients"]] {
+            let text = run(&[command, &[shown(&fmu), "--set", setting]].concat(), 1);
+            assert!(text.contains("orbit.inclination") && text.contains(expected), "{setting}: {text}");
+        }
+    }
+    run(&["info", "--coefficients", shown(&fmu), "--set", "orbit.inclination=10deg"], 0);
+    run(&["info", "--coefficients", shown(&fmu), "--set", "orbit.inclination=3.1"], 0);
+}
+
+#[test]
+fn an_epoch_is_written_and_shown_as_a_date() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let fmu = dist.join("MomentumPlant.fmu");
+    let simulate = |setting: &str, status| {
+        let times = ["--stop", "600", "--step", "600", "--record", "start.epoch", "--set", setting];
+        run(&[&["run", shown(&fmu)], &times[..]].concat(), status)
+    };
+    let text = simulate("start.epoch=2011-04-06T00:00:00 UTC", 0);
+    // 34 leap seconds and 32.184 s after 4112.5 days.
+    assert!(text.contains("355320066.18") && text.contains("(2011-04-06T00:00:00 UTC)"), "{text}");
+    let text = simulate("Start.Epoch=2009-04-06 TDB", 0);
+    assert!(text.contains("292248000 (2009-04-05T23:58:53.8"), "{text}");
+    for (date, expected) in [
+        ("2011-04-06", "does not end in UTC or TDB"),
+        ("2011-02-29 UTC", "a day that no calendar has"),
+        ("tomorrow", "which is no date"),
+    ] {
+        let text = simulate(&format!("start.epoch={date}"), 1);
+        assert!(text.contains("start.epoch") && text.contains(expected), "{text}");
+        assert!(text.contains("2008-03-19T19:30:00 UTC") && text.contains("the units s"), "{text}");
+    }
+    let text = run(&["info", shown(&fmu), "--only", "start.epoch"], 0);
+    assert!(text.contains("292248000 (2009-04-05T23:58:53.8"), "{text}");
 }
 
 #[test]

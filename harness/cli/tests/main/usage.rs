@@ -67,6 +67,38 @@ fn failure_is_one_and_names_the_file() {
 }
 
 #[test]
+fn what_is_no_fmu_is_named() {
+    let scratch = tempfile::tempdir().unwrap();
+    let cases: [(&str, &[u8], &str); 9] = [
+        ("empty.fmu", b"", "an empty file"),
+        ("my.fmu", b"# mine\n\nname = \"A\"\n[mass_properties]\n", "a TOML file"),
+        ("table.fmu", b"\n[start]\n", "a TOML file"),
+        ("libmine.fmu", b"\x7fELF\x02\x01", "a shared library"),
+        ("mine.fmu", b"MZ\x90\0", "a shared library"),
+        ("page.fmu", b"\xef\xbb\xbf<?xml version=\"1.0\"?>", "an XML file"),
+        ("packed.fmu", b"\x1f\x8b\x08\0", "an archive of another kind"),
+        ("words.fmu", "kein Archiv, \u{e4}".as_bytes(), "it is a text file"),
+        ("cut.fmu", b"PK\x03\x04", "not a usable FMU archive"),
+    ];
+    for (name, bytes, expected) in cases {
+        let path = scratch.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        for command in ["info", "check", "run"] {
+            let text = run(&[command, shown(&path)], 1);
+            assert!(text.contains(name) && text.contains(expected), "{text}");
+            assert!(text.contains("not a usable FMU archive"), "{text}");
+        }
+    }
+    let toml = scratch.path().join("my.toml");
+    std::fs::write(&toml, "name = 1").unwrap();
+    assert!(run(&["info", shown(&toml)], 1).contains("`heliotorque check`"));
+    for command in ["info", "run"] {
+        let text = run(&[command, shown(scratch.path())], 1);
+        assert!(text.contains("it is a folder that holds no modelDescription.xml"), "{text}");
+    }
+}
+
+#[test]
 fn a_check_that_would_check_nothing_is_refused() {
     let text = run(&["check", "no/such.fmu", "--only", "xyz"], 1);
     for probe in ["\"xyz\"", "library", "locale", "instances", "--only"] {
@@ -93,9 +125,48 @@ fn a_reader_that_goes_away_changes_no_status() {
 }
 
 #[test]
+fn shells_complete_commands_and_options() {
+    for (shell, begin) in
+        [("bash", "_heliotorque()"), ("zsh", "#compdef heliotorque"), ("fish", "function __fish_heliotorque")]
+    {
+        let script = run(&["completions", shell], 0);
+        assert!(script.contains(begin), "{shell}: {script}");
+        for part in ["info", "pack", "per-plate", "coefficients", "timeline"] {
+            assert!(script.contains(part), "{shell}: {script} lacks {part}");
+        }
+        assert!(!script.contains("in-child"), "{shell}: a hidden command shows");
+        // The shell itself reads it, where it is installed.
+        let scratch = tempfile::tempdir().unwrap();
+        let file = scratch.path().join("script");
+        std::fs::write(&file, &script).unwrap();
+        let read = std::process::Command::new(shell).arg("-n").arg(&file).output();
+        assert!(read.is_err() || read.is_ok_and(|it| it.status.success()), "{shell} does not read it");
+    }
+    run(&["completions", "tcsh"], 2);
+}
+
+#[test]
+fn every_shell_takes_the_commands_of_the_readme() {
+    let readme = std::fs::read_to_string("../../README.md").unwrap();
+    let mut commands = 0;
+    for block in readme.split("```").skip(1).step_by(2) {
+        for line in
+            block.lines().skip(1).filter(|_| block.contains("\nheliotorque ") || block.contains("\ncargo "))
+        {
+            commands += 1;
+            // Outside of quotes: what zsh expands, and remarks, which it does not take from a terminal.
+            let bare: String = line.split('\'').step_by(2).collect();
+            assert!(!bare.contains(['[', ']', '*', '?', '#', '~', '^', '(', ')']), "{line}");
+            assert!(line.matches('\'').count() % 2 == 0, "{line}");
+        }
+    }
+    assert!(commands > 10, "{commands}");
+}
+
+#[test]
 fn every_command_and_flag_has_help() {
     let all = run(&["--help"], 0);
-    for command in ["info", "check", "run", "pack", "schema", "study"] {
+    for command in ["info", "check", "run", "pack", "schema", "study", "completions"] {
         assert!(all.contains(command), "{command}");
         let help = run(&[command, "--help"], 0);
         let flags: Vec<&str> = help.lines().filter(|line| line.trim_start().starts_with('-')).collect();

@@ -78,6 +78,27 @@ fn patterns_keep_declaration_order() {
 }
 
 #[test]
+fn a_name_may_be_in_another_case_where_one_has_it() {
+    let (_folder, fmu) = folder(&description());
+    let names = |pattern: &str| -> Vec<&str> {
+        let positions = fmu.select(pattern).unwrap();
+        positions.into_iter().map(|it| fmu.description().variables[it].name.as_str()).collect()
+    };
+    assert_eq!(names("Ship.MASS"), ["ship.mass"]);
+    assert_eq!(names("Position"), ["position[1]", "position[2]"]);
+    assert_eq!(names("POS*"), ["position[1]", "position[2]"]);
+    assert_eq!(names("pos*on"), ["position[1]", "position[2]"]);
+    assert_eq!(value("SHIP.mass=2cm"), Value::Real(0.02));
+    // Two that differ in case alone: only the exact name means one of them.
+    let mut twice = description();
+    twice.variables[4].name = "ship.Mass".to_owned();
+    let (_folder, fmu) = folder(&twice);
+    assert_eq!(fmu.select("ship.Mass").unwrap().len(), 1);
+    let error = fmu.select("SHIP.MASS").unwrap_err().to_string();
+    assert!(error.contains("ship.Mass") && error.contains("ship.mass"), "{error}");
+}
+
+#[test]
 fn a_wrong_name_gets_its_neighbours() {
     let (_folder, fmu) = folder(&description());
     let error = fmu.variable("ship.mas").unwrap_err().to_string();

@@ -1,0 +1,53 @@
+//! How people read a recorded variable: display unit, dates beside epochs, `none` for a time that is none.
+
+use loader::Fmu;
+use model_description::VariableKind;
+
+use crate::epoch;
+
+/// What a description says of a time that may be none.
+const NONE: &str = "; -1 ";
+/// The value that says so, in s.
+const NONE_S: f64 = -1.0;
+
+/// A recorded number's unit and form.
+pub struct Shown<'a> {
+    /// The unit it is shown in.
+    pub unit: &'a str,
+    factor: f64,
+    offset: f64,
+    may_be_none: bool,
+    is_epoch: bool,
+}
+
+impl<'a> Shown<'a> {
+    /// Of the variable of this name.
+    pub fn of(fmu: &'a Fmu, name: &str) -> Self {
+        let description = fmu.description();
+        let Some(variable) = fmu.find(name) else {
+            return Self { unit: "", factor: 1.0, offset: 0.0, may_be_none: false, is_epoch: false };
+        };
+        let own = loader::unit(description, variable).unwrap_or_default();
+        let says_none = variable.description.as_deref().is_some_and(|text| text.contains(NONE));
+        let is_time = matches!(variable.kind, VariableKind::Real { .. }) && own == "s";
+        let is_epoch = epoch::is_epoch(description, variable);
+        // Seconds stand beside a date.
+        let display = loader::display_unit(description, variable).filter(|_| !is_epoch);
+        let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
+        Self { unit, factor, offset, may_be_none: is_time && says_none, is_epoch }
+    }
+
+    /// A value in the shown unit; `None` for a time that is none.
+    pub fn value(&self, value: f64) -> Option<f64> {
+        (!self.may_be_none || value != NONE_S).then_some(self.factor * value + self.offset)
+    }
+
+    /// The text of a shown value.
+    pub fn text(&self, shown: Option<f64>) -> String {
+        let Some(shown) = shown else { return "none".to_owned() };
+        match epoch::date(shown).filter(|_| self.is_epoch) {
+            Some(date) => format!("{shown} ({date})"),
+            None => terminal::short(shown),
+        }
+    }
+}
