@@ -69,7 +69,8 @@ const KEYWORDS: &[&str] = &[
     "within",
 ];
 
-/// Predefined variables, types, operators and functions (sections 3.6.6, 3.7, 4.9, 10.3, 16).
+/// Predefined variables, types, operators and functions (sections 3.6.6, 3.7, 4.9, 10.3, 16), but for the function `vector`: it is
+/// no reserved word, and an option of paper 001 is called so.
 const BUILT_IN: &[&str] = &[
     "time",
     "Real",
@@ -124,7 +125,6 @@ const BUILT_IN: &[&str] = &[
     "ndims",
     "size",
     "scalar",
-    "vector",
     "matrix",
     "identity",
     "diagonal",

@@ -18,7 +18,7 @@ pub fn of(fmu: &Fmu) -> Option<Result<Timeline, String>> {
     if !tool.starts_with("fmi-export") || !resources.join(FILE).exists() {
         return None;
     }
-    let text = |file: &str| crate::pack::read_text(&resources.join(file));
+    let text = |file: &str| files::read_text(&resources.join(file));
     let read = || {
         let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?)
             .map_err(|error| error.to_string())?;

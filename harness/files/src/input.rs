@@ -44,6 +44,16 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Reads a text file; the error names the file, and the line that is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, String> {
+    let bytes = read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
+        format!("{}: line {line} is not UTF-8", path.display())
+    })
+}
+
 fn refuse(metadata: &Metadata) -> io::Result<()> {
     match kind(metadata) {
         None => Ok(()),

@@ -9,5 +9,5 @@ mod input;
 mod temporary;
 
 pub use destination::{Destination, Growing};
-pub use input::{kind, open, read};
+pub use input::{kind, open, read, read_text};
 pub use temporary::{Scratch, remove_temporaries};

@@ -3,7 +3,7 @@
 //! Used by `heliotorque run --plot` and by the studies. The text is SVG text, so no font is needed to draw it.
 
 mod legend;
-mod plane;
+pub mod plane;
 mod series;
 mod style;
 #[cfg(test)]
@@ -15,7 +15,6 @@ use plotters::{
     style::text_anchor::{HPos, Pos, VPos},
 };
 
-pub use plane::{PlaneChart, PlanePanel};
 pub use series::{Mark, Panel, Series};
 pub use style::COLOURS;
 use style::*;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use files::Destination;
 
-use crate::chart::{Chart, ChartError, PlaneChart};
+use crate::chart::plane::PlaneChart;
+use crate::chart::{Chart, ChartError};
 use crate::{Options, StudyError};
 
 /// The outcome of a study.

@@ -12,7 +12,7 @@ use fmi_export::{
 };
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
-use physics::guidance::system::{GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries};
+use physics::guidance::system::{self, GuidanceSettings, GuidanceState, SampleInputs, TimedEntries};
 use serde::{Deserialize, Serialize};
 
 use inputs::{Fixed, Reader};
@@ -112,7 +112,7 @@ impl Model for Guidance {
         let limit = context.variables.solver.units(values);
         let mut samples = 0;
         while state.system.due_before(step.end_s).is_some() {
-            if samples >= limit / SAMPLE_WORK {
+            if samples >= system::samples_within(limit) {
                 let reached_s = state.system.next_sample_s();
                 return Err(Failure::new(format!(
                     "the step from {} to {} s reached {reached_s} s: its samples, one a second, take more than \

@@ -11,8 +11,14 @@ use crate::bodies::Body;
 
 /// Greatest azimuth, longitude or right ascension either way, in rad.
 pub const FULL_TURN_RAD: f64 = core::f64::consts::TAU;
+/// Least azimuth, longitude or right ascension, in rad.
+pub const BACK_TURN_RAD: f64 = -FULL_TURN_RAD;
 /// Greatest elevation, latitude or declination either way, in rad.
 pub const RIGHT_ANGLE_RAD: f64 = core::f64::consts::FRAC_PI_2;
+/// Least elevation, latitude or declination, in rad.
+pub const DOWN_ANGLE_RAD: f64 = -RIGHT_ANGLE_RAD;
+/// Least angle in a half turn either way, in rad.
+pub const BACK_HALF_TURN_RAD: f64 = -core::f64::consts::PI;
 
 /// Sets of vectors under one name (Table 5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -14,6 +14,13 @@ use super::surroundings::Surroundings;
 use crate::attitude::angle_between_rad;
 use crate::numerics::scalar::Scalar;
 
+/// Height below which it counts, assumed: paper 001 prints no number of this constraint.
+pub const ALTITUDE_M: f64 = 2.0e6;
+/// Angle from the subsolar point within which it counts, assumed.
+pub const REGION_RAD: f64 = core::f64::consts::FRAC_PI_6;
+/// Least angle between -Z and the planet's centre, assumed.
+pub const CONE_RAD: f64 = core::f64::consts::FRAC_PI_2;
+
 /// The axis that must not look at the planet, body frame.
 const TOP_DECK_BODY: Vector3<f64> = Vector3::new(0.0, 0.0, -1.0);
 
@@ -80,7 +87,7 @@ impl HotPole {
         let along = sun_body.dot(&deck) * sun_body.dot(&planet_body);
         let (a, b) = (deck.dot(&planet_body) - along, sun_body.cross(&deck).dot(&planet_body));
         let c = Moving::constant(self.cone_rad.cos()) - along;
-        if a.re.hypot(b.re) < PARALLEL_RAD {
+        if libm::hypot(a.re, b.re) < PARALLEL_RAD {
             // Planet or deck on the Sun line: no turn changes the angle.
             return KeptOut { in_force: true, reached: false, ..free };
         }

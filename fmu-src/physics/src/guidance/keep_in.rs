@@ -104,7 +104,7 @@ impl KeepIn {
         // Neither a sign of zero nor rounding may show on the far side.
         let up = if up.re <= 0.0 { Moving::constant(0.0) } else { up };
         let [azimuth_limit, elevation_limit] = [self.azimuth_rad, self.elevation_rad].map(Moving::constant);
-        let at_pole = x.re.hypot(y.re) < PARALLEL_RAD;
+        let at_pole = libm::hypot(x.re, y.re) < PARALLEL_RAD;
         let beyond_azimuth = !at_pole && now.azimuth_rad.abs() > self.azimuth_rad;
         let azimuth = if beyond_azimuth {
             azimuth_limit

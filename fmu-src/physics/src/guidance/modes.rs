@@ -64,6 +64,9 @@ pub const EARTH_ACQUISITION_RATE_RAD_S: f64 = core::f64::consts::TAU / 10_800.0;
 /// Rate of the Sun search, assumed: half a degree a second. Paper 001 says slow.
 pub const SUN_SEARCH_RATE_RAD_S: f64 = 0.5 * crate::constants::DEG_RAD;
 
+/// How long the search turns about one axis, assumed: a whole turn.
+pub const SUN_SEARCH_DURATION_S: f64 = core::f64::consts::TAU / SUN_SEARCH_RATE_RAD_S;
+
 /// Parameters of the modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeSettings {

@@ -13,6 +13,9 @@ use super::surroundings::Surroundings;
 use crate::attitude::Attitude;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
+/// How far beyond a boundary counts as a violation, assumed: a degree.
+pub const MARGIN_RAD: f64 = crate::constants::DEG_RAD;
+
 /// What the monitor allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Monitor {

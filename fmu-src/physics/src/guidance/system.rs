@@ -31,8 +31,13 @@ use crate::numerics::spacing::spacing;
 /// Time between two samples, in s.
 pub const SAMPLE_INTERVAL_S: f64 = 1.0;
 
-/// Samples a step of this many microseconds of work can take: a sample costs about one, with optimal lighting a few.
-pub const SAMPLE_WORK: u32 = 4;
+/// Units of about a microsecond that a sample takes at most.
+const SAMPLE_WORK: u32 = 4;
+
+/// How many samples a step may take whose work is bounded by `limit` units of about a microsecond.
+pub fn samples_within(limit: u32) -> u32 {
+    limit / SAMPLE_WORK
+}
 
 /// Everything that parameters say.
 #[derive(Clone, Copy, Debug)]
@@ -256,7 +261,7 @@ impl GuidanceState {
         let sun_body = to_body * to_sun;
         let rate_body = to_body * sun_rate - self.command.rate_body_rad_s.cross(&sun_body);
         let [x, y, z] = [0, 1, 2].map(|i| Dual64::new(sun_body[i], rate_body[i]));
-        let across = Dual64::constant(sun_body.x.hypot(sun_body.y));
+        let across = Dual64::constant(libm::hypot(sun_body.x, sun_body.y));
         let across = if across.re > 0.0 {
             Dual64::new(across.re, (x * x.eps + y * y.eps).re / across.re)
         } else {

@@ -11,13 +11,13 @@ use toml::{Table, de::DeTable};
 use crate::{
     args::{Check, DEFAULT_TEMPLATE},
     outcome::Outcome,
-    pack::{read_text, source},
+    pack::source,
 };
 
 /// Has the models of the template's library read the file, the template's own first.
 pub fn run(arguments: &Check) -> Outcome {
     let file = arguments.subject.display().to_string();
-    let text = read_text(&arguments.subject)?;
+    let text = files::read_text(&arguments.subject)?;
     let template_path = arguments.template.as_deref().unwrap_or(Path::new(DEFAULT_TEMPLATE));
     let template = source::open_template(template_path)?;
     let binary = template.binary()?;

@@ -47,7 +47,7 @@ fn with_hint(
 pub fn run(arguments: &Pack) -> Outcome {
     let source = Source::open(arguments)?;
     let model = source.model(arguments)?;
-    let spacecraft = arguments.spacecraft.as_deref().map(read_text).transpose()?;
+    let spacecraft = arguments.spacecraft.as_deref().map(files::read_text).transpose()?;
     let file = arguments.spacecraft.as_deref().map(|path| path.display().to_string());
     let described =
         source.binary().describe(&model, file.as_deref(), spacecraft.as_deref()).map_err(|refusal| {
@@ -70,7 +70,7 @@ pub fn run(arguments: &Pack) -> Outcome {
     }
     let timeline = match &arguments.timeline {
         Some(path) => {
-            let (shown, text) = (path.display().to_string(), read_text(path)?);
+            let (shown, text) = (path.display().to_string(), files::read_text(path)?);
             let given = (shown.as_str(), text.as_str());
             let name = schedule::checked(source.binary(), &described, file.as_deref(), &setup, given)?;
             Some((name, text))
@@ -134,14 +134,4 @@ fn rename(description: &mut Description, identifier: &str) -> Result<(), String>
         identifier.clone_into(&mut co_simulation.model_identifier);
     }
     Ok(())
-}
-
-/// Reads a TOML file; the error names the line that is not UTF-8.
-pub fn read_text(path: &Path) -> Result<String, String> {
-    let bytes = files::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
-        format!("{}: line {line} is not UTF-8", path.display())
-    })
 }

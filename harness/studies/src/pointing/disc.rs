@@ -2,7 +2,8 @@
 
 use super::flight::Place;
 use super::planet::Ellipsoid;
-use crate::chart::{PlanePanel, Series};
+use crate::chart::Series;
+use crate::chart::plane::PlanePanel;
 use crate::vector::{Vector, across, cross, difference, dot, norm, unit};
 
 /// A view toward nadir: downtrack to the right, the orbit's left up.

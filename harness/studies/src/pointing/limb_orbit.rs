@@ -2,8 +2,9 @@
 
 use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, digits, flag, number};
-use super::limb::{Found, PLUS_Z, triaxial};
-use crate::chart::{Chart, Panel, PlaneChart, PlanePanel, Series};
+use super::limb_point::{Found, PLUS_Z, triaxial};
+use crate::chart::plane::{PlaneChart, PlanePanel};
+use crate::chart::{Chart, Panel, Series};
 use crate::vector::{Vector, across, angle_rad, difference, dot, norm, unit};
 use crate::{Options, Report, StudyError};
 

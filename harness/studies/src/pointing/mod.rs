@@ -7,6 +7,7 @@ mod disc;
 mod flight;
 mod limb;
 mod limb_orbit;
+mod limb_point;
 mod mosaic;
 mod planet;
 mod scans;

@@ -5,7 +5,8 @@ use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{Flown, Fmus, GEOMETRY, digits};
 use super::scans::{CASES, Case};
 use crate::case::{chosen, run_all};
-use crate::chart::{PlaneChart, Series};
+use crate::chart::Series;
+use crate::chart::plane::PlaneChart;
 use crate::vector::{Vector, angle_rad, norm};
 use crate::{Options, Report, StudyError};
 

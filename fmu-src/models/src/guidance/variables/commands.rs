@@ -31,13 +31,13 @@ pub struct BoresightVariables {
     #[input(unit = "1", start = [0.0; 3])]
     pub vector: RealVector<3>,
     /// Azimuth in the body frame, from -Y toward +X; of the antenna where an antenna is the boresight.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub azimuth: Real,
     /// Elevation in the body frame, positive toward -Z.
-    #[input(unit = "rad", display = "deg", min = -command::RIGHT_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub elevation: Real,
     /// MDIS angle: from +Z, positive sunward.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub angle: Real,
     /// Instrument of a scenario: 0 is +Z, otherwise the row of [[instruments]] in the spacecraft file.
     #[input(min = 0, max = setup.last_instrument(), start = 0)]
@@ -58,25 +58,25 @@ pub struct AimpointVariables {
     #[input(unit = "m", display = "km", start = [0.0; 3])]
     pub position: RealVector<3>,
     /// Right ascension.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub right_ascension: Real,
     /// Declination.
-    #[input(unit = "rad", display = "deg", min = -command::RIGHT_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub declination: Real,
     /// Planetocentric latitude.
-    #[input(unit = "rad", display = "deg", min = -command::RIGHT_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub latitude: Real,
     /// Longitude, east positive.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub longitude: Real,
     /// Height above the ellipsoid along the radius.
     #[input(unit = "m", display = "km", start = 0.0)]
     pub height: Real,
     /// Azimuth in the local frame, right-handed about up.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub azimuth: Real,
     /// Elevation in the local frame, toward up: away from the planet.
-    #[input(unit = "rad", display = "deg", min = -command::RIGHT_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub elevation: Real,
     /// The body of the option body, by VSOP87.
     #[input(start = AimpointBody(None))]
@@ -93,10 +93,10 @@ pub struct BodyRollVariables {
     #[input(unit = "1", start = [0.0; 3])]
     pub vector: RealVector<3>,
     /// Azimuth in the body frame, from -Y toward +X.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub azimuth: Real,
     /// Elevation in the body frame, positive toward -Z.
-    #[input(unit = "rad", display = "deg", min = -command::RIGHT_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub elevation: Real,
 }
 
@@ -110,10 +110,10 @@ pub struct ExternalRollVariables {
     #[input(unit = "1", start = [0.0; 3])]
     pub vector: RealVector<3>,
     /// Right ascension.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub right_ascension: Real,
     /// Declination.
-    #[input(unit = "rad", display = "deg", min = -command::RIGHT_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub declination: Real,
 }
 
@@ -121,7 +121,7 @@ pub struct ExternalRollVariables {
 #[derive(Variables)]
 pub struct LimbVariables {
     /// Azimuth about the local vertical, right-handed about up, in the scenario limbGeneric.
-    #[input(unit = "rad", display = "deg", min = -command::FULL_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub azimuth: Real,
     /// From where it counts.
     #[input(start = AzimuthReference(None))]

@@ -1,9 +1,9 @@
 //! Constraints, modes and hardware limits.
 
-use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use core::f64::consts::{FRAC_PI_2, PI};
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
-use physics::guidance::{boresight, downlink, keep_in, modes};
+use physics::guidance::{boresight, command, downlink, hot_pole, keep_in, modes, monitor};
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{AntennaSelect, KeepInMethod};
@@ -61,13 +61,13 @@ pub struct HotPoleVariables {
     #[parameter(tunable, start = true)]
     pub enabled: Boolean,
     /// Below this height above the ellipsoid, along the radius, it can be in force (assumed).
-    #[parameter(tunable, unit = "m", display = "km", min = 0.0, max = 1e10, start = 2.0e6)]
+    #[parameter(tunable, unit = "m", display = "km", min = 0.0, max = 1e10, start = hot_pole::ALTITUDE_M)]
     pub altitude: Real,
     /// Within this angle from the subsolar point it can be in force (assumed).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = PI / 6.0)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = hot_pole::REGION_RAD)]
     pub angle: Real,
     /// While it is in force -Z stays at least so far from the direction to the planet's centre (assumed).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = FRAC_PI_2)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = hot_pole::CONE_RAD)]
     pub cone: Real,
 }
 
@@ -81,7 +81,7 @@ pub struct MonitorVariables {
     #[parameter(tunable, unit = "s", min = 0.0, max = 1e9, start = 10.0)]
     pub persistence: Real,
     /// How far beyond the boundary counts as a violation (assumed; paper 001: not triggered by overshoot).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = PI / 180.0)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = monitor::MARGIN_RAD)]
     pub margin: Real,
 }
 
@@ -89,10 +89,10 @@ pub struct MonitorVariables {
 #[derive(Variables)]
 pub struct MdisVariables {
     /// Smallest angle from +Z: away from the Sun.
-    #[parameter(unit = "rad", display = "deg", min = -PI, max = PI, start = boresight::MDIS_RANGE_RAD[0])]
+    #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = boresight::MDIS_RANGE_RAD[0])]
     pub minimum: Real,
     /// Greatest angle from +Z: sunward.
-    #[parameter(unit = "rad", display = "deg", min = -PI, max = PI, start = boresight::MDIS_RANGE_RAD[1])]
+    #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = boresight::MDIS_RANGE_RAD[1])]
     pub maximum: Real,
     /// Angle of the camera in the scenarios mdis and doubleTarget and with the boresight option mdis; else 0.
     #[output(discrete, unit = "rad", display = "deg")]
@@ -142,6 +142,6 @@ pub struct SunSearchVariables {
     #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = modes::SUN_SEARCH_RATE_RAD_S)]
     pub rate: Real,
     /// How long about each (assumed): the default is a whole turn.
-    #[parameter(tunable, unit = "s", min = 1.0, max = 1e9, start = TAU / modes::SUN_SEARCH_RATE_RAD_S)]
+    #[parameter(tunable, unit = "s", min = 1.0, max = 1e9, start = modes::SUN_SEARCH_DURATION_S)]
     pub duration: Real,
 }

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::bodies::{Body, BodyData};
 use physics::environment::{ephemeris, time};
-use physics::guidance::lighting;
+use physics::guidance::{command, lighting};
 
 use super::choices::SubsolarMethod;
 use crate::common::choices::OrbitCenter;
@@ -111,7 +111,7 @@ pub struct EstimateVariables {
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
     /// Body rate. No law reads it yet; it is here so that an estimator connects whole.
-    #[input(unit = "rad/s", display = "deg/s", min = -PI, max = PI, start = [0.0; 3])]
+    #[input(unit = "rad/s", display = "deg/s", min = command::BACK_HALF_TURN_RAD, max = PI, start = [0.0; 3])]
     pub rate: RealVector<3>,
     /// Whether the attitude is known.
     #[input(start = true)]
