@@ -23,8 +23,9 @@ use crate::variables::{
 /// Name space of the GUIDs of this exporter.
 const NAME_SPACE: Uuid = Uuid::from_u128(0xcc931cc2_33f1_4b24_a08d_a93a9fb26fe9);
 
-/// Memory for what the digest is taken over; a larger interface takes more.
-const DIGESTED_BYTES: usize = 1 << 16;
+/// Memory for what the digest is taken over; a larger interface takes more. Large enough to be a mapping of its own, which
+/// leaves no hole in the heap.
+const DIGESTED_BYTES: usize = 1 << 18;
 
 /// Why a model cannot be described.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
