@@ -145,6 +145,43 @@ def test_a_container_of_all_three_runs(ring, tmp_path):
     assert (np.linalg.norm(stack(result, "light.torque.total", 3)[3:], axis=1) > 0.0).all()
 
 
+@pytest.fixture(scope="module")
+def pointed(heliotorque, dist, scratch):
+    """Guidance and the plant that it points at nadir, each from where the other is."""
+    plant = packed(
+        heliotorque, dist, scratch, "MomentumPlant", "pointed", "messenger.toml",
+        "attitude.source=commanded", "command.kind=attitude",
+    )
+    guidance = packed(heliotorque, dist, scratch, "Guidance", "nadir", "messenger.toml", "pointing.scenario=nadir")
+    connections = [
+        *wires("guidance.command.q", "plant.command.q", 4),
+        *wires("guidance.command.rate", "plant.command.rate", 3),
+        *wires("plant.position", "guidance.position", 3),
+        *wires("plant.velocity", "guidance.velocity", 3),
+    ]
+    return {"guidance": guidance, "plant": plant}, connections
+
+
+def assert_pointed(plant, commanded):
+    """After the first exchanges the plant stands as it is commanded to, within what a second of even turning leaves."""
+    assert np.ptp(plant, axis=0).max() > 0.1, "nothing turned"
+    assert np.abs(np.abs(np.sum(plant[4:] * commanded[4:], axis=1)) - 1.0).max() < 1e-10
+
+
+def test_guidance_points_the_plant_in_an_ssp(pointed, tmp_path):
+    components, connections = pointed
+    result = run_ssp(tmp_path, components, connections, 1.0, 60.0, outputs=elements("plant.attitude.q", 4))
+    assert_pointed(stack(result, "plant.attitude.q", 4), stack(result, "guidance.command.q", 4))
+
+
+def test_guidance_points_the_plant_in_a_container(pointed, tmp_path):
+    components, connections = pointed
+    outputs = [*elements("plant.attitude.q", 4), *elements("guidance.command.q", 4)]
+    fmu = container(tmp_path / "pointed-container.fmu", components, connections, 1.0, outputs)
+    result = simulate_fmu(fmu, stop_time=60.0, step_size=1.0, output_interval=1.0, output=outputs, validate=False)
+    assert_pointed(stack(result, "plant.attitude.q", 4), stack(result, "guidance.command.q", 4))
+
+
 def inputs_of(fmu):
     variables = read_model_description(str(fmu)).modelVariables
     return [variable for variable in variables if variable.causality == "input"]
@@ -155,6 +192,7 @@ ALL_ZERO = {
     "MomentumPlant": ("messenger.toml", ["attitude.source=commanded", "orbit.source=elements"], 600.0, "attitude.q", 4),
     "SpinPlant": ("ace.toml", ["geometry.source=inputs", "burn.plan=commanded"], 1.0, "momentum.inertial", 3),
     "DisturbanceTorque": ("messenger.toml", [], 60.0, "force.total", 3),
+    "Guidance": ("messenger.toml", [], 1.0, "command.q", 4),
 }
 
 
