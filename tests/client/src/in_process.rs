@@ -5,6 +5,7 @@
 #![allow(unsafe_code, reason = "calls the C functions")]
 
 use core::ffi::{CStr, c_char, c_int, c_void};
+use std::cell::RefCell;
 use std::ffi::CString;
 use std::sync::{Mutex, PoisonError};
 
@@ -39,15 +40,21 @@ pub struct InProcess {
 // ensures.
 unsafe impl Send for InProcess {}
 
-/// A `fmi2FMUstate`; NULL until one is taken. Once dropped, the next instance that is dropped frees it.
+/// A `fmi2FMUstate`; NULL until one is taken. Once dropped, the next instance that is dropped in the same thread frees it.
 #[derive(Debug)]
 pub struct StatePointer(FmuState);
 
 // SAFETY: a saved state belongs to no thread.
 unsafe impl Send for StatePointer {}
 
-/// States to be freed: only an instance can free them, and any instance of this program can.
-static DROPPED: Mutex<Vec<StatePointer>> = Mutex::new(Vec::new());
+thread_local! {
+    /// States to be freed: only an instance can free them, and any instance can. Of this thread alone, so that none frees what
+    /// another thread allocated.
+    static DROPPED: RefCell<Vec<StatePointer>> = const { RefCell::new(Vec::new()) };
+}
+
+/// States of threads that ended before an instance freed them.
+static LEFT: Mutex<Vec<StatePointer>> = Mutex::new(Vec::new());
 
 impl StatePointer {
     /// NULL.
@@ -64,8 +71,10 @@ impl StatePointer {
 impl Drop for StatePointer {
     fn drop(&mut self) {
         if !self.0.is_null() {
-            let mut dropped = DROPPED.lock().unwrap_or_else(PoisonError::into_inner);
-            dropped.push(Self(core::mem::replace(&mut self.0, core::ptr::null_mut())));
+            let pointer = core::mem::replace(&mut self.0, core::ptr::null_mut());
+            if DROPPED.try_with(|dropped| dropped.borrow_mut().push(Self(pointer))).is_err() {
+                LEFT.lock().unwrap_or_else(PoisonError::into_inner).push(Self(pointer));
+            }
         }
     }
 }
@@ -400,7 +409,7 @@ access! {
 impl Drop for InProcess {
     fn drop(&mut self) {
         if !self.component.is_null() {
-            let dropped = core::mem::take(&mut *DROPPED.lock().unwrap_or_else(PoisonError::into_inner));
+            let dropped = DROPPED.try_with(RefCell::take).unwrap_or_default();
             for mut state in dropped {
                 self.free_state(&mut state);
             }
