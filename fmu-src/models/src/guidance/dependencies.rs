@@ -141,7 +141,7 @@ impl Parameters {
         ];
         let monitor = knowns![monitor.enabled, monitor.persistence, monitor.margin];
         Self {
-            mode: knowns![v.start.epoch, v.start.q, body, places, zones, monitor],
+            mode: knowns![v.start.epoch, body, places, zones, monitor],
             device: knowns![v.mdis.minimum, v.mdis.maximum, v.subsolar.method],
             guided: knowns![
                 guided.science_rule,
@@ -179,7 +179,7 @@ fn command(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
     let later = &knowns![attitude, &i.scanned, v.limb.height_rate];
     let start = &knowns![attitude, &p.mode, &p.device, &p.guided, method];
     for output in [knowns![v.command.q], knowns![v.sun.azimuth, v.sun.elevation]] {
-        table.output(output, later, start);
+        table.output(output, later, knowns![start, v.start.q]);
     }
     let beginning =
         knowns![scan.frame, scan.reference, scan.rate, scan.speed, scan.duration, v.limb.height_rate];
@@ -221,11 +221,15 @@ fn devices(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
     let basic = &knowns![&i.mode, v.pointing.scenario, option, v.velocity];
     let camera = &knowns![basic, v.boresight.angle, &i.instrument, &i.aimpoint, &i.second_aimpoint];
     for output in [knowns![v.mdis.angle], knowns![v.mdis.in_range]] {
-        table.output(output, knowns![camera, &i.scanned], knowns![camera, &p.mode, &p.device]);
+        table.output(
+            output,
+            knowns![camera, &i.scanned],
+            knowns![camera, &p.mode, &p.device, v.keep_in.method],
+        );
     }
     let antenna = &knowns![basic, v.boresight.azimuth, directions(&v.aimpoint), &i.velocities];
     for output in [knowns![v.antenna.select], knowns![v.antenna.azimuth]] {
-        table.output(output, antenna, knowns![antenna, &p.mode, &p.guided]);
+        table.output(output, antenna, knowns![antenna, &p.mode, &p.guided, v.keep_in.method]);
     }
     let link = &knowns![antenna, &i.aimpoint, &i.rolls];
     let limits = knowns![v.link.sun_exclusion, v.link.beam, v.keep_in.method, v.subsolar.method];

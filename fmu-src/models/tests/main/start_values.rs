@@ -233,7 +233,7 @@ const REFUSALS: &[(&str, &str)] = &[
     ),
     (
         "[start]\n\"orbit.step\" = 2011-04-06",
-        "my.toml:+2: start.\"orbit.step\": found the time 2011-04-06, allowed: a number, a string, true or false, a list",
+        "my.toml:+2: start.\"orbit.step\": found the time 2011-04-06, allowed: a number, a string (dates stand in quotes), true or false, a list",
     ),
     (
         "[start]\n\"planetLight.nodes\" = 6.0",

@@ -133,6 +133,9 @@ impl EarthAzimuths {
 /// Least angle between Sun and Earth for a link, assumed: no paper names it.
 pub const SOLAR_EXCLUSION_RAD: f64 = 3.0 * DEG_RAD;
 
+/// Half the length of an antenna's fan in its plane (paper 001: 15 by 4 deg).
+pub const FAN_HALF_LENGTH_RAD: f64 = 7.5 * DEG_RAD;
+
 /// Half the width of an antenna's fan across its plane (paper 001: 15 by 4 deg).
 pub const BEAM_HALF_WIDTH_RAD: f64 = 2.0 * DEG_RAD;
 
@@ -153,6 +156,13 @@ pub struct Link {
     pub sun_separation_rad: f64,
     /// Whether the Earth is in the antenna's coverage, far enough from the Sun and not behind the planet.
     pub available: bool,
+}
+
+/// Whether the Earth's azimuth lies in a fan about the beam's, both in rad.
+pub fn is_on_beam(earth_azimuth_rad: f64, beam_azimuth_rad: f64) -> bool {
+    use core::f64::consts::{PI, TAU};
+    let off_rad = (earth_azimuth_rad - beam_azimuth_rad + PI).rem_euclid(TAU) - PI;
+    off_rad.abs() <= FAN_HALF_LENGTH_RAD
 }
 
 /// The link in an attitude; `None` where Sun or Earth has no direction.

@@ -76,8 +76,10 @@ pub const SCANS: [(ScanFrame, ScanLaw); 5] = [
     }),
     (ScanFrame::LvlhRotation, |basic, command, surroundings, elapsed_s| {
         let inertial_from_lvlh = lvlh_axes(surroundings, command.reference.unwrap_or_default())?;
-        let turned = rotation(command, elapsed_s) * inertial_from_lvlh.tr_mul(&basic.toward);
-        Some(Scanned { toward: inertial_from_lvlh * turned, ..*basic })
+        // The change alone is turned back: a turn by nothing then changes no bit.
+        let change = rotation(command, elapsed_s) - MovingMatrix::identity();
+        let moved = inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&basic.toward));
+        Some(Scanned { toward: basic.toward + moved, ..*basic })
     }),
 ];
 

@@ -13,7 +13,7 @@ use super::antenna::{Antenna, AntennaAzimuth};
 use super::boresight::DeviceAngle;
 use super::command::{LimbCommand, PointingCommand, ScanCommand, Scenario};
 use super::constraints::{ConstrainedPointing, Constraints};
-use super::downlink::{LinkLimits, link};
+use super::downlink::{LinkLimits, is_on_beam, link};
 use super::guided::Guided;
 use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
@@ -368,20 +368,22 @@ impl GuidanceState {
         };
         // The beam follows the Earth where a constraint moved the antenna off it.
         let beam = aimed.antenna.map(|asked| {
-            let is_moved = sun_keep_in || hot_pole;
+            let is_moved = (sun_keep_in || hot_pole) && command.scenario == Some(Scenario::Downlink);
             let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
             if is_moved { AntennaAzimuth::toward(&earth_body()) } else { asked }
         });
         let (antenna, antenna_azimuth_rad) =
             beam.map_or((Antenna::None, 0.0), |it| (it.antenna, it.azimuth_rad));
         let link = link(surroundings, &pointing, antenna, &settings.link);
+        let earth_body = SunAngles::of(&value(&pointing.to_body(&surroundings.to_earth())));
+        let is_on_beam = is_on_beam(earth_body.azimuth_rad, antenna_azimuth_rad);
         let mdis = aimed.camera(&pointing, &settings.hardware.mdis).unwrap_or(Judgement::NOTHING.mdis);
         self.judgement = Judgement {
             mdis,
             antenna,
             antenna_azimuth_rad,
             sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
-            link_available: link.is_some_and(|link| link.available),
+            link_available: is_on_beam && link.is_some_and(|link| link.available),
             reachable: aimed.reachable && is_on(&pointing, &aimed.vectors),
             degenerate: pointing.degenerate || !is_given,
             scan_active: aimed.scan_active,

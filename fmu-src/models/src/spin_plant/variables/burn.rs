@@ -21,8 +21,8 @@ pub struct BurnVariables {
     /// No pulse begins before this time.
     #[parameter(unit = "s", start = 0.0)]
     pub start: Real,
-    /// Number of the thruster, from 1 in the order of the spacecraft file. Where the file does not say, the first that tilts the
-    /// momentum and leaves the spin; 8 is ACE's IIIR.
+    /// Number of the thruster, from 1 in the order of the spacecraft file. The default is the first that tilts the momentum and
+    /// leaves the spin, pushing across the spin axis if any does: ACE's 8, IIIR.
     #[parameter(start = thruster(setup).0)]
     pub thruster: Integer,
     /// Number of the thruster that fires on odd half turns, opposite to the first; 0 = none.

@@ -576,6 +576,25 @@ fn measure(text: &str, rounds: usize) {
             break;
         }
     }
+    // Rare: a scan about the local axes of a point in space, which only another compatibility allows.
+    for aim in [4.0, 10.0, 11.0] {
+        let mut values = draw(&bench, &mut random, Subject::Scan(5));
+        for (name, value) in [
+            ("keepIn.enabled", 0.0),
+            ("hotPole.enabled", 0.0),
+            ("monitor.enabled", 0.0),
+            ("mode.request", 0.0),
+            ("estimate.valid", 1.0),
+            ("pointing.scenario", 2.0),
+            ("aimpoint.option", aim),
+            ("scan.frame", 5.0),
+        ] {
+            bench.put(&mut values, name, value);
+        }
+        bench.put_vector(&mut values, "scan.rate", &[1e-3, 2e-3, -1e-3]);
+        bench.put_vector(&mut values, "scan.duration", &[20.0, 30.0, 40.0]);
+        bench.look_at_start(&values, 0.0);
+    }
     assert!(flown > 20, "{flown} flown");
     bench.judge();
 }

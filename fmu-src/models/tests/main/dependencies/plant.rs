@@ -61,6 +61,8 @@ const CARRIERS: &[(&str, &str)] = &[
     ("momentum.body", "attitude.q"),
     ("dump.", "attitude.q"),
     ("wheel", "attitude.q"),
+    ("sun.velocityInertial", "sun.positionInertial"),
+    ("earth.velocityInertial", "earth.positionInertial"),
 ];
 
 /// Cells of light so short that they leave nothing to see.

@@ -95,11 +95,14 @@ fn redraw(bench: &Spin, random: &mut RandomNumbers, values: &mut Tables) {
 #[test]
 fn spin_plant() {
     let texts = ["", "upper radial I", "axial couple I-IV", "IIIR"];
-    let mut bench = Spin::new(SpinPlant::DEFAULT_SETUP).with_texts(&texts).with_values(&[
-        ("burn.turnsPerPulse", &[0.5, 1.0, 1.5, 2.0]),
-        ("pulse.resolution", &[0.0, 0.016, 0.032, 0.08]),
-        ("burn.oppositeThruster", &[0.0, 3.0, 8.0, 10.0]),
-    ]);
+    let mut bench = Spin::new(SpinPlant::DEFAULT_SETUP)
+        .with_carriers(&[("burn.plannedCount", "burn.plannedDuration")])
+        .with_texts(&texts)
+        .with_values(&[
+            ("burn.turnsPerPulse", &[0.5, 1.0, 1.5, 2.0]),
+            ("pulse.resolution", &[0.0, 0.016, 0.032, 0.08]),
+            ("burn.oppositeThruster", &[0.0, 3.0, 8.0, 10.0]),
+        ]);
     let mut random = RandomNumbers(3);
     let mut flown = 0;
     for round in 0..1000_usize {

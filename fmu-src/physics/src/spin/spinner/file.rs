@@ -74,15 +74,20 @@ impl Spinner {
         sum
     }
 
-    /// Index of the first thruster that tilts the momentum and leaves the spin, and of the one that pushes the other way half a
-    /// turn later, if there is one. Without any, of the first that tilts it at all.
+    /// Index of the first thruster that tilts the momentum and leaves the spin, pushing across the spin axis if any does, and
+    /// of the one that pushes the other way half a turn later, if there is one. Without any, of the first that tilts it at all.
     pub fn steering_pair(&self) -> Option<(usize, Option<usize>)> {
         const NEGLIGIBLE: f64 = 1e-6;
         let across = |k: usize| self.thrusters[k].torque_body_n_m.xy();
         let along = |k: usize| self.thrusters[k].torque_body_n_m.z.abs();
         let mut tilting = (0..self.thrusters.len()).filter(|k| across(*k).norm() > 0.0);
-        let steering = tilting.clone().find(|k| along(*k) <= NEGLIGIBLE * across(*k).norm());
-        let first = steering.or_else(|| tilting.next())?;
+        let mut steering = tilting.clone().filter(|k| along(*k) <= NEGLIGIBLE * across(*k).norm());
+        let is_radial = |k: &usize| {
+            let force = &self.thrusters[*k].force_body_n;
+            force.z.abs() <= NEGLIGIBLE * force.norm()
+        };
+        let radial = steering.clone().find(is_radial);
+        let first = radial.or_else(|| steering.next()).or_else(|| tilting.next())?;
         let opposite = (0..self.thrusters.len()).find(|k| {
             (across(*k) + across(first)).norm() <= NEGLIGIBLE * across(first).norm()
                 && along(*k) <= along(first).max(NEGLIGIBLE * across(first).norm())

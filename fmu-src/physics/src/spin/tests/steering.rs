@@ -31,9 +31,9 @@ fn a_steering_thruster_tilts_the_momentum_and_has_an_opposite() {
 }
 
 #[test]
-fn the_first_pair_of_ace_is_axial() {
+fn the_first_pair_of_ace_is_the_papers() {
     let ace = Spinner::parse("ace.toml", include_str!("../../../../resources/ace.toml")).unwrap();
     let (first, opposite) = ace.steering_pair().unwrap();
     let name = |k: usize| ace.thrusters[k].name.as_str();
-    assert_eq!((name(first), opposite.map(name)), ("IA", Some("IIA")));
+    assert_eq!((name(first), opposite.map(name)), ("IIIR", Some("IVR")));
 }
