@@ -202,6 +202,7 @@ pub const DISTURBANCE_TORQUE: &[Source] = &[
 pub const GUIDANCE: &[Source] = &[
     PAPER_001,
     PAPER_000,
+    PAPER_004,
     source(
         "attitude and rate",
         "paper 001 eqs 1 to 16 with the rates of eqs 8 to 13 along the prime axes, rotated to the body by C_B/P; every vector \
