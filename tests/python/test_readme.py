@@ -256,6 +256,10 @@ BENCHMARKS = {
     "doStep and getReal of an empty model": ["empty_step_and_get"],
     "SpinPlant, doStep of 32 ms from C": ["spin_plant_steps_32ms_in_a_burn", "spin_plant_steps_32ms_coasting"],
     "SpinPlant, the 1400 s manoeuvre in one doStep": ["spin_plant_1400s_in_one_step"],
+    "Guidance, one doStep of 1 s from C, position and velocity set each time": [
+        "guidance_step_1s_nadir", "guidance_step_1s_latitude_longitude_scan", "guidance_step_1s_orbit_phase",
+        "guidance_step_1s_optimal_lighting",
+    ],
     "solar force and torque, 8 plates and 2 panels": ["solar_8_plates_2_panels", "solar_8_plates_2_panels_rate"],
     "solar force and torque, 65, 1,000, 10,000 plates": ["solar_65_plates", "solar_1000_plates", "solar_10000_plates"],
     "albedo and infrared on 12 cells": [
