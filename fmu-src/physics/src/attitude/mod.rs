@@ -7,16 +7,22 @@
 mod angles;
 mod frame;
 mod gravity_gradient;
+mod gyrostat;
+mod gyrostat_motion;
 mod inertia;
 mod quaternion;
 mod rigid_body;
 mod rotation;
+mod wheel;
 
 pub use angles::{SunAngles, angle_between_rad, direction_from_angles};
 pub use frame::{MovingFrame, MovingUnit};
 pub use gravity_gradient::gravity_gradient_n_m;
+pub use gyrostat::{Gyrostat, GyrostatError};
+pub use gyrostat_motion::{BodyLoad, BodyMotion, GyrostatMotion};
 pub use inertia::{Inertia, InertiaError};
 pub use quaternion::Quaternion;
 pub use rigid_body::RigidBodyState;
 pub(crate) use rotation::rotation_vector;
 pub use rotation::{Attitude, QuaternionError};
+pub use wheel::{Motor, ReactionWheel, Rotor};
