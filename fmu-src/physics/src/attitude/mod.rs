@@ -1,10 +1,11 @@
-//! Quaternions, kinematics, rigid body, directions in the body frame.
+//! Quaternions, kinematics, rigid body, directions in the body frame, attitude control.
 //!
 //! An attitude quaternion is scalar-last and takes EME2000 components to body components in Wertz' passive
 //! order. Its four numbers are at the same time those of the active rotation that carries the inertial axes onto
 //! the body axes, which is how [`Attitude`] holds it.
 
 mod angles;
+pub mod control;
 mod frame;
 mod gravity_gradient;
 mod gyrostat;

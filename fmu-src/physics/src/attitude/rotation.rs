@@ -106,6 +106,23 @@ impl Attitude {
         Self::of(&(self.unit() * by.unit()))
     }
 
+    /// A vector's body components from those in the inertial frame.
+    pub fn to_body(&self, inertial: &Vector3<f64>) -> Vector3<f64> {
+        self.quaternion.body_from_inertial(inertial)
+    }
+
+    /// The rotation vector, at most pi long, that turns this attitude into `other`, in rad; its components are the
+    /// same in both frames.
+    pub fn rotation_vector_to(&self, other: &Self) -> Vector3<f64> {
+        (self.unit().inverse() * other.unit()).scaled_axis()
+    }
+
+    /// The same attitude with norm 1 to rounding, after many compositions.
+    #[must_use]
+    pub fn normalized(&self) -> Self {
+        Self { quaternion: self.quaternion.normalized() }
+    }
+
     fn of(inertial_from_body: &UnitQuaternion<f64>) -> Self {
         let q = inertial_from_body.coords;
         Self { quaternion: Quaternion([q.x, q.y, q.z, q.w]) }
