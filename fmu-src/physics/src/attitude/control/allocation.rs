@@ -145,14 +145,20 @@ impl WheelAllocator {
     /// Shares with sum over k of `shares[k]` times axis k = `vector_body`, to rounding; those of inactive wheels are 0.
     /// `shares` has as many items as there are axes.
     pub fn distribute(&self, how: Allocation, vector_body: &Vector3<f64>, shares: &mut [f64]) {
-        shares.fill(0.0);
-        let mut rest = *vector_body;
-        if how == Allocation::LeastMaximum {
-            self.share_least_maximum(vector_body, shares);
-            rest -=
-                shares.iter().zip(&self.axes_body).map(|(share, axis)| axis * *share).sum::<Vector3<f64>>();
+        match how {
+            Allocation::PseudoInverse => {
+                for (share, row) in shares.iter_mut().zip(&self.rows) {
+                    *share = row.dot(vector_body);
+                }
+            }
+            Allocation::LeastMaximum => {
+                shares.fill(0.0);
+                self.share_least_maximum(vector_body, shares);
+            }
         }
-        // After the least maximum this removes the rounding of axes that are nearly in a plane.
+        // Removes the rounding of axes that are nearly in a plane.
+        let sum: Vector3<f64> = shares.iter().zip(&self.axes_body).map(|(share, axis)| axis * *share).sum();
+        let rest = vector_body - sum;
         for (share, row) in shares.iter_mut().zip(&self.rows) {
             *share += row.dot(&rest);
         }

@@ -3,8 +3,8 @@
 //! Torque on the body over the interval that begins at a sample:
 //! T = J a + w x (J w + h) - known external torque, with the acceleration
 //! a = reference's - kd rate error - kp 2 sgn(q4) q - ki integral of 2 sgn(q4) q (Wie, "Space Vehicle Dynamics and
-//! Control", quaternion feedback), q from the reference to the estimate, h the wheels' momentum, and w the rate in the
-//! middle of the interval.
+//! Control", quaternion feedback), q from the reference to the estimate, h the wheels' momentum, and w and the total
+//! momentum in the middle of the interval, so that what a sample holds is its mean to second order.
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -129,10 +129,13 @@ impl ControllerState {
             - tracking.rate_rad_s * gains.rate_1_s
             - tracking.angle_rad * gains.proportional_1_s2
             - self.integral_rad_s * gains.integral_1_s3;
-        let momentum = inertia_body_kg_m2 * rate + wheels_body_n_m_s;
-        let middle_rate = rate + acceleration * (0.5 * settings.interval_s());
-        self.asked_body_n_m =
-            inertia_body_kg_m2 * acceleration + middle_rate.cross(&momentum) - external_body_n_m;
+        let gyroscopic = {
+            let half_s = 0.5 * settings.interval_s();
+            let middle_rate = rate + tracking.acceleration_rad_s2 * half_s;
+            let momentum = inertia_body_kg_m2 * rate + wheels_body_n_m_s;
+            middle_rate.cross(&(momentum - rate.cross(&momentum) * half_s))
+        };
+        self.asked_body_n_m = inertia_body_kg_m2 * acceleration + gyroscopic - external_body_n_m;
         self.asked_body_n_m
     }
 
