@@ -1,10 +1,9 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
-use super::flight::{
-    DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, Settings, digits, number, real,
-};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Mark, Panel, Series};
+use crate::settings::{Settings, digits, number, real};
 use crate::vector::angle_rad;
 use crate::{Options, Report, StudyError};
 
