@@ -42,6 +42,20 @@ pub const STUDIES: &[Study] = &[
         run: control::slew,
     },
     Study {
+        name: "control/safe-mode",
+        paper: "001",
+        title: "safe modes reached in a loop of Guidance and the controlled plant",
+        takes: &[Extra::Step],
+        run: control::safe_mode,
+    },
+    Study {
+        name: "control/transition",
+        paper: "001",
+        title: "from downlink to the camera at nadir under control: the estimated curves of Figures 7 and 8",
+        takes: &[Extra::Step],
+        run: control::transition,
+    },
+    Study {
         name: "momentum/table2",
         paper: "000",
         title: "number of thruster dumps in 90 days, with a picture like Figure 4",

@@ -12,6 +12,11 @@ pub(crate) fn vector_setting(name: &str, v: &Vector) -> Settings {
     (0..3).map(|i| (format!("{name}[{}]", i + 1), Value::Real(v[i]))).collect()
 }
 
+/// A quaternion's elements as settings.
+pub(crate) fn quaternion_setting(name: &str, q: &[f64; 4]) -> Settings {
+    (0..4).map(|i| (format!("{name}[{}]", i + 1), Value::Real(q[i]))).collect()
+}
+
 /// A Real as a setting.
 pub(crate) fn real(name: &str, value: f64) -> (String, Value) {
     (name.to_owned(), Value::Real(value))

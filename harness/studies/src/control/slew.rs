@@ -60,7 +60,8 @@ impl Measures {
         let Flown { slew, limits, samples } = flown;
         let error_deg = |sample: &Sample| norm(&sample.left_rad).to_degrees();
         let after = || samples.iter().filter(|sample| sample.time_s >= SLEW_S);
-        let small_from = samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
+        let small_from =
+            samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
         let sense = slew.angle_rad.signum();
         let share = |of: fn(&super::slew_flight::WheelSample) -> f64, most: &[f64]| {
             let each = samples.iter().flat_map(|sample| sample.wheels.iter().zip(most));
@@ -71,12 +72,16 @@ impl Measures {
         Self {
             settled_s: samples.get(small_from).map(|sample| sample.time_s - SLEW_S),
             ideal_s: limits.ideal_s(slew.angle_rad.abs()),
-            overshoot_deg: after().map(|sample| -sense * sample.ahead_rad(slew)).fold(0.0, f64::max).to_degrees(),
+            overshoot_deg: after()
+                .map(|sample| -sense * sample.ahead_rad(slew))
+                .fold(0.0, f64::max)
+                .to_degrees(),
             across_deg: greatest(samples.iter().map(|sample| {
                 norm(&difference(&sample.left_rad, &scaled(&slew.axis, sample.ahead_rad(slew))))
             }))
             .to_degrees(),
-            rate_deg_s: greatest(samples.iter().map(|sample| dot(&sample.rate_rad_s, &slew.axis))).to_degrees(),
+            rate_deg_s: greatest(samples.iter().map(|sample| dot(&sample.rate_rad_s, &slew.axis)))
+                .to_degrees(),
             torque: share(|wheel| wheel.torque_n_m, &limits.torque_n_m),
             momentum: share(|wheel| wheel.momentum_n_m_s, &limits.capacity_n_m_s),
             full_s: full().next().zip(full().last()),
@@ -110,7 +115,8 @@ impl Measures {
                 }
             }
             Event::Failed(wheel, _) => {
-                let stands = flown.samples.last().is_some_and(|last| last.wheels[wheel - 1].torque_n_m == 0.0);
+                let stands =
+                    flown.samples.last().is_some_and(|last| last.wheels[wheel - 1].torque_n_m == 0.0);
                 match (stands, free) {
                     (true, true) => format!("survived with {} wheels", flown.limits.axes.len() - 1),
                     (true, false) => "saturates".to_owned(),
@@ -132,7 +138,8 @@ impl Measures {
             format!("{:.4}", self.rate_deg_s),
             format!("{:.0} %", 100.0 * self.torque),
             format!("{:.0} %", 100.0 * self.momentum),
-            self.full_s.map_or_else(|| "never".to_owned(), |(from_s, to_s)| format!("{from_s:.0} to {to_s:.0}")),
+            self.full_s
+                .map_or_else(|| "never".to_owned(), |(from_s, to_s)| format!("{from_s:.0} to {to_s:.0}")),
             self.verdict(flown),
         ]
     }
@@ -174,7 +181,8 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
     report.csv(options, "slew.csv", &HEADER, rows)?;
     history(&mut report, options, &flown)?;
     for flown in &flown {
-        let file = format!("slew-{}.svg", flown.slew.label.replace(", ", "-").replace(' ', "-").to_lowercase());
+        let file =
+            format!("slew-{}.svg", flown.slew.label.replace(", ", "-").replace(' ', "-").to_lowercase());
         report.picture(options, &file, &figure(flown))?;
     }
     Ok(report)
@@ -190,9 +198,24 @@ no keep-in zone here: the slews about X and Z take the Sun off the shade.";
 /// Every sample of every flight.
 fn history(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<(), StudyError> {
     let mut header: Vec<String> = [
-        "case", "time_s", "q1", "q2", "q3", "q4", "rate_x_rad_s", "rate_y_rad_s", "rate_z_rad_s", "left_x_rad",
-        "left_y_rad", "left_z_rad", "momentum_x_n_m_s", "momentum_y_n_m_s", "momentum_z_n_m_s",
-        "torque_limited", "dumping", "dumps",
+        "case",
+        "time_s",
+        "q1",
+        "q2",
+        "q3",
+        "q4",
+        "rate_x_rad_s",
+        "rate_y_rad_s",
+        "rate_z_rad_s",
+        "left_x_rad",
+        "left_y_rad",
+        "left_z_rad",
+        "momentum_x_n_m_s",
+        "momentum_y_n_m_s",
+        "momentum_z_n_m_s",
+        "torque_limited",
+        "dumping",
+        "dumps",
     ]
     .map(str::to_owned)
     .to_vec();

@@ -11,7 +11,9 @@ pub fn figure(flown: &Flown) -> Chart {
         Series::line(label, samples.iter().map(|sample| (sample.time_s, value(sample))).collect())
     };
     let wheels = |value: &dyn Fn(&Sample, usize) -> f64| -> Vec<Series> {
-        (0..limits.axes.len()).map(|k| line(&format!("wheel {}", k + 1), &|sample| value(sample, k))).collect()
+        (0..limits.axes.len())
+            .map(|k| line(&format!("wheel {}", k + 1), &|sample| value(sample, k)))
+            .collect()
     };
     let either_way = |limit: f64| vec![-limit, limit];
     let sense = slew.angle_rad.signum();

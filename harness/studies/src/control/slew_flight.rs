@@ -1,9 +1,9 @@
 //! Slews of the controlled plant: a commanded attitude that jumps, with wheels that start near capacity or fail.
 
-use loader::{Error, Fmu, Value};
+use loader::{Error, Fmu};
 
 use super::cosimulation::{Grid, Row, Unit, fly};
-use crate::settings::{Settings, flag, number, real, vector_setting};
+use crate::settings::{Settings, flag, number, quaternion_setting, real, vector_setting};
 use crate::vector::{Vector, dot, rotated, rotation_vector, scaled};
 use crate::{Options, StudyError};
 
@@ -185,7 +185,12 @@ impl Plant {
         for k in 1..=wheels {
             outputs.extend(["torque", "momentum", "saturated"].map(|name| format!("wheel[{k}].{name}")));
         }
-        let plant = Unit::start(&self.fmu, &self.parameters(slew), &quaternion("command.q", &self.q), &outputs)?;
+        let plant = Unit::start(
+            &self.fmu,
+            &self.parameters(slew),
+            &quaternion_setting("command.q", &self.q),
+            &outputs,
+        )?;
         let ideal_s = self.limits.ideal_s(slew.angle_rad.abs());
         let grid = Grid {
             stop_s: slew.stop_s.unwrap_or_else(|| (SLEW_S + 1.4 * ideal_s + 100.0).ceil()),
@@ -226,10 +231,11 @@ impl Plant {
     /// At rest in the start attitude, which is held until the command jumps.
     fn parameters(&self, slew: &Slew) -> Settings {
         let mut parameters = vec![number("attitude.source", 3)];
-        parameters.extend(quaternion("start.q", &self.q));
+        parameters.extend(quaternion_setting("start.q", &self.q));
         if let Event::Dumped(share, _) | Event::Threshold(share, _) = slew.event {
             parameters.extend(vector_setting("dump.threshold", &[NEVER_N_M_S; 3]));
-            for (k, (capacity, axis)) in self.limits.capacity_n_m_s.iter().zip(&self.limits.axes).enumerate() {
+            for (k, (capacity, axis)) in self.limits.capacity_n_m_s.iter().zip(&self.limits.axes).enumerate()
+            {
                 // The wheels take up the opposite of the body's momentum.
                 let sense = -dot(axis, &slew.axis).signum() * slew.angle_rad.signum();
                 parameters.push(real(&format!("wheel[{}].startMomentum", k + 1), sense * share * capacity));
@@ -239,7 +245,7 @@ impl Plant {
     }
 
     fn events(&self, slew: &Slew, target: &[f64; 4], ideal_s: f64) -> Vec<(f64, Settings)> {
-        let jump = (SLEW_S, quaternion("command.q", target));
+        let jump = (SLEW_S, quaternion_setting("command.q", target));
         match slew.event {
             Event::None => vec![jump],
             Event::Dumped(_, at_s) => vec![jump, (at_s, vec![flag("dump.request", true)])],
@@ -252,9 +258,4 @@ impl Plant {
             }
         }
     }
-}
-
-/// A quaternion's elements as settings.
-fn quaternion(name: &str, q: &[f64; 4]) -> Settings {
-    (0..4).map(|i| (format!("{name}[{}]", i + 1), Value::Real(q[i]))).collect()
 }

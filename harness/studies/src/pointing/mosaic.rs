@@ -7,7 +7,7 @@ use super::scans::{CASES, Case};
 use crate::case::{chosen, run_all};
 use crate::chart::Series;
 use crate::chart::plane::PlaneChart;
-use crate::settings::{digits};
+use crate::settings::digits;
 use crate::vector::{Vector, angle_rad, norm};
 use crate::{Options, Report, StudyError};
 
