@@ -34,7 +34,7 @@ pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
     history(&mut report, options, &flown)?;
     for (chain, samples) in &flown {
         let file = format!("safe-mode-{}.svg", chain.label().replace(' ', "-"));
-        report.picture(options, &file, &figure(*chain, samples))?;
+        report.picture(options, &file, &figure(*chain, &parameters, samples))?;
     }
     Ok(report)
 }
@@ -95,12 +95,18 @@ fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)
 }
 
 /// Mode, Sun, rates and flags over time.
-fn figure(chain: Chain, samples: &[Sample]) -> Chart {
+fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
     let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
-        Series::line(label, samples.iter().map(|sample| (sample.time_s, value(sample))).collect())
+        // The first second has no command yet.
+        let points = samples.iter().skip(1).map(|sample| (sample.time_s, value(sample)));
+        Series::line(label, points.collect())
     };
     let flag = |is: bool| f64::from(u8::from(is));
     let rate = |i: usize| move |sample: &Sample| sample.rate_rad_s[i].to_degrees();
+    let mut rates = vec![line("X", &rate(0)), line("Y", &rate(1)), line("Z", &rate(2))];
+    if chain == Chain::AttitudeLost {
+        rates.extend(parameters.commanded_rates());
+    }
     let dashed = |series: Series| Series { mark: Mark::Dashed, ..series };
     Chart {
         title: format!("Safe modes: {}", chain.label()),
@@ -111,7 +117,7 @@ fn figure(chain: Chain, samples: &[Sample]) -> Chart {
                 series: vec![line("1 Operational, 2 Safe Hold, 3 Earth Acquisition", &|it| {
                     f64::from(it.mode)
                 })],
-                y_range: Some((0.7, 3.3)),
+                y_range: Some((0.0, 4.0)),
                 marks: Vec::new(),
             },
             Panel {
@@ -119,7 +125,7 @@ fn figure(chain: Chain, samples: &[Sample]) -> Chart {
                 series: vec![line("1 attitude, 2 error quaternion, 3 rate only", &|sample| {
                     f64::from(sample.command_kind)
                 })],
-                y_range: Some((0.7, 3.3)),
+                y_range: Some((0.0, 4.0)),
                 marks: Vec::new(),
             },
             Panel {
@@ -127,11 +133,7 @@ fn figure(chain: Chain, samples: &[Sample]) -> Chart {
                 series: vec![line("from -Y", &sun_angle_deg)],
                 ..Panel::default()
             },
-            Panel {
-                y_label: "rate [deg/s]".to_owned(),
-                series: vec![line("X", &rate(0)), line("Y", &rate(1)), line("Z", &rate(2))],
-                ..Panel::default()
-            },
+            Panel { y_label: "rate [deg/s]".to_owned(), series: rates, ..Panel::default() },
             Panel {
                 y_label: "valid [1]".to_owned(),
                 series: vec![

@@ -6,6 +6,7 @@ use super::safe_mode_flight::{
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
 };
 use crate::StudyError;
+use crate::chart::Series;
 use crate::vector::{Vector, across, angle_rad, dot, norm, turn};
 
 const OPERATIONAL: i32 = 1;
@@ -73,6 +74,20 @@ impl Parameters {
             margin_deg: margin.to_degrees(),
             beam_deg: beam.to_degrees(),
         })
+    }
+
+    /// What is commanded about Y while the Sun is on -Y, and about each axis in turn while it is searched for: lines over
+    /// time, in deg/s.
+    pub fn commanded_rates(&self) -> [Series; 2] {
+        let line = |label: &str, rate_rad_s: f64, from_s: f64, to_s: f64| {
+            let rate_deg_s = rate_rad_s.to_degrees();
+            Series::dashed(label, vec![(from_s, rate_deg_s), (to_s, rate_deg_s)])
+        };
+        let lost_s = TRACKER_FAILS_S + OUTAGE_S;
+        [
+            line("earthAcquisition.rate about -Y", -self.earth_acquisition_rad_s, lost_s, SUN_LOST_S),
+            line("sunSearch.rate", self.search_rad_s, SUN_LOST_S, SUN_BACK_S),
+        ]
     }
 }
 
