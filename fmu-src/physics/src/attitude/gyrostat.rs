@@ -95,7 +95,8 @@ impl Gyrostat {
 
     /// Inverse of the inertia that body and held rotors have alone, in 1/(kg m2).
     pub(super) fn inverse_inertia<'a>(&self, rotors: impl Iterator<Item = &'a Rotor>) -> Matrix3<f64> {
-        let turning = self.wheels.iter().zip(rotors).filter(|(_, rotor)| matches!(rotor, Rotor::Turning { .. }));
+        let turning =
+            self.wheels.iter().zip(rotors).filter(|(_, rotor)| matches!(rotor, Rotor::Turning { .. }));
         self.without(turning.map(|(wheel, _)| wheel)).try_inverse().unwrap_or_else(Matrix3::zeros)
     }
 

@@ -158,7 +158,9 @@ impl GyrostatMotion {
             && self.inverse_inertia.iter().all(sound)
             && self.load.is_finite()
             && self.rotors.iter().all(|it| {
-                it.rotor.is_sound() && it.next.is_none_or(|next| next.is_sound()) && it.axial.iter().all(sound)
+                it.rotor.is_sound()
+                    && it.next.is_none_or(|next| next.is_sound())
+                    && it.axial.iter().all(sound)
             })
     }
 
@@ -293,11 +295,8 @@ impl GyrostatMotion {
             for ((it, wheel), motor) in self.rotors.iter_mut().zip(gyrostat.wheels()).zip(motors) {
                 let Rotor::Turning { direction } = it.rotor else { continue };
                 let relative = it.axial[j] - wheel.inertia_kg_m2 * wheel.axis_body.dot(&rates[j]);
-                let constant = if j == 0 {
-                    motor.torque_n_m - wheel.coulomb_friction_n_m * direction
-                } else {
-                    0.0
-                };
+                let constant =
+                    if j == 0 { motor.torque_n_m - wheel.coulomb_friction_n_m * direction } else { 0.0 };
                 it.axial[j + 1] = (constant - wheel.viscous_rate_1_s() * relative) / divisor;
                 axial_largest = axial_largest.max(it.axial[j + 1].abs());
             }

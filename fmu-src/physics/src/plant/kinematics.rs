@@ -149,9 +149,8 @@ impl<'a> Kinematics<'a> {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
         let trajectory = &*self.trajectory;
         let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let window = trajectory
-            .window(configuration, time_s)
-            .unwrap_or_else(|| guided.schedule.window(epoch_s));
+        let window =
+            trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
         guided.within(window, epoch_s, |at_epoch_s| {
             if at_epoch_s == epoch_s {
                 return geometry.lines_of_sight();

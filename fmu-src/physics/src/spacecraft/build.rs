@@ -429,8 +429,9 @@ impl Builder<'_> {
             positive("inertia_kg_m2", description.inertia_kg_m2, capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S);
         let max_torque_n_m =
             positive("max_torque_n_m", description.max_torque_n_m, capacity_n_m_s / TIME_TO_CAPACITY_S);
-        let mut friction =
-            |key: &str, value: Option<f64>| value.map_or(0.0, |value| self.check.not_negative(&at.key(key), value));
+        let mut friction = |key: &str, value: Option<f64>| {
+            value.map_or(0.0, |value| self.check.not_negative(&at.key(key), value))
+        };
         Wheel {
             name: name_or_number(description.name.as_deref(), "wheel", index),
             coulomb_friction_n_m: friction("coulomb_friction_n_m", description.coulomb_friction_n_m),
@@ -442,7 +443,12 @@ impl Builder<'_> {
         }
     }
 
-    fn sun_sensor(&mut self, at: &Place, index: usize, description: &SunSensorDescription) -> MountedSunSensor {
+    fn sun_sensor(
+        &mut self,
+        at: &Place,
+        index: usize,
+        description: &SunSensorDescription,
+    ) -> MountedSunSensor {
         let half_deg = description.half_field_of_view_deg.unwrap_or(HALF_FIELD_OF_VIEW_DEG);
         MountedSunSensor {
             name: name_or_number(description.name.as_deref(), "sun sensor", index),

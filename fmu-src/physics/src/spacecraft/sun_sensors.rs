@@ -22,9 +22,10 @@ impl MountedSunSensor {
     /// Six along the body axes.
     pub fn six() -> Vec<Self> {
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let named = axes.iter().zip(["X", "Y", "Z"]).flat_map(|(axis, name)| {
-            [(format!("+{name}"), *axis), (format!("-{name}"), -axis)]
-        });
+        let named = axes
+            .iter()
+            .zip(["X", "Y", "Z"])
+            .flat_map(|(axis, name)| [(format!("+{name}"), *axis), (format!("-{name}"), -axis)]);
         let half_field_of_view_rad = HALF_FIELD_OF_VIEW_DEG.to_radians();
         named.map(|(name, axis_body)| Self { name, axis_body, half_field_of_view_rad }).collect()
     }

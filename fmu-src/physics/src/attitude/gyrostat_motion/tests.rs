@@ -89,8 +89,7 @@ fn a_free_body_turns_as_jacobi_says() {
         ((two_e * a - squared) / (b * (a - b))).sqrt(),
         ((squared - two_e * c) / (a * (a - c))).sqrt(),
     ];
-    let mut motion =
-        GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |_| unreachable!());
+    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |_| unreachable!());
     let mut worst = 0.0_f64;
     for minute in 1..=60 {
         let time_s = 60.0 * f64::from(minute);
@@ -171,7 +170,8 @@ fn a_rotor_runs_up_and_down_as_the_exponential_says() {
     let free = BodyLoad::default();
     let torque = 0.02;
     let up = [Motor { torque_n_m: torque, failed: false }];
-    let momentum = |motion: &GyrostatMotion, time_s| motion.rotor_n_m_s(&craft, 0, time_s, &motion.at(&craft, time_s));
+    let momentum =
+        |motion: &GyrostatMotion, time_s| motion.rotor_n_m_s(&craft, 0, time_s, &motion.at(&craft, time_s));
     fly(&mut motion, &craft, &up, &free, 120.0, 1.0);
     let top = (torque - friction) / damping * (1.0 - (-damping * 120.0_f64).exp());
     assert_relative_eq!(momentum(&motion, 120.0), top, max_relative = 1e-7);
@@ -204,7 +204,8 @@ fn a_rotor_runs_up_and_down_as_the_exponential_says() {
 fn a_rotor_stops_at_its_capacity_and_leaves_it() {
     let craft = craft(pyramid());
     let still = Vector3::zeros();
-    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |k| if k == 0 { 7.0 } else { 0.0 });
+    let mut motion =
+        GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |k| if k == 0 { 7.0 } else { 0.0 });
     let total = motion.momentum_inertial_n_m_s;
     let free = BodyLoad::default();
     let mut motors = [Motor::default(); 4];
@@ -256,7 +257,13 @@ fn torque_and_force_add_up() {
     let steps = 100_000;
     let step_s = time_s / f64::from(steps);
     let sum = (0..=steps).fold(Vector3::zeros(), |sum: Vector3<f64>, k| {
-        let weight = if k == 0 || k == steps { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
+        let weight = if k == 0 || k == steps {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        };
         let (sine, cosine) = angle(step_s * f64::from(k)).sin_cos();
         sum + Vector3::new(sine, 0.0, cosine) * (weight * step_s / 3.0 * 1e-3)
     });
@@ -286,7 +293,8 @@ fn long_segments_give_what_short_ones_give() {
 fn impossible_bodies_are_refused() {
     let mut heavy = pyramid();
     heavy[0].inertia_kg_m2 = 1e4;
-    let told = |wheels| Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap_err().to_string();
+    let told =
+        |wheels| Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap_err().to_string();
     assert!(told(heavy).contains("principal moment"));
     let mut none = pyramid();
     none[2].axis_body = Vector3::zeros();
