@@ -26,4 +26,4 @@ pub use quaternion::Quaternion;
 pub use rigid_body::RigidBodyState;
 pub(crate) use rotation::rotation_vector;
 pub use rotation::{Attitude, QuaternionError};
-pub use wheel::{Motor, ReactionWheel, Rotor};
+pub use wheel::{Motor, ReactionWheel, Rotor, wheel_speed_rad_s};

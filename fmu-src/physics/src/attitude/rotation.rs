@@ -55,6 +55,16 @@ impl Attitude {
         Ok(Self { quaternion: Quaternion(q.map(|x| x / norm)) })
     }
 
+    /// From a quaternion of norm 1.
+    pub fn from_unit(quaternion: Quaternion) -> Self {
+        Self { quaternion }
+    }
+
+    /// The quaternion, of norm 1 within rounding.
+    pub fn unit_quaternion(&self) -> Quaternion {
+        self.quaternion
+    }
+
     /// From the body axes as columns in inertial components.
     pub fn from_rotation(inertial_from_body: &Rotation3<f64>) -> Self {
         Self::of(&UnitQuaternion::from_rotation_matrix(inertial_from_body))

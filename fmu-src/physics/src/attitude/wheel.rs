@@ -32,10 +32,20 @@ impl ReactionWheel {
         self.coulomb_friction_n_m * sign + self.viscous_rate_1_s() * momentum_n_m_s
     }
 
+    /// Speed of the rotor relative to the body, in rad/s, at a momentum in N m s.
+    pub fn speed_rad_s(&self, momentum_n_m_s: f64) -> f64 {
+        wheel_speed_rad_s(momentum_n_m_s, self.inertia_kg_m2)
+    }
+
     /// Viscous friction over momentum, in 1/s.
     pub fn viscous_rate_1_s(&self) -> f64 {
         self.viscous_friction_n_m_s / self.inertia_kg_m2
     }
+}
+
+/// Speed of a rotor of this inertia (kg m2) at a momentum in N m s, in rad/s.
+pub fn wheel_speed_rad_s(momentum_n_m_s: f64, inertia_kg_m2: f64) -> f64 {
+    momentum_n_m_s / inertia_kg_m2
 }
 
 /// What the motor of a wheel does until something changes.

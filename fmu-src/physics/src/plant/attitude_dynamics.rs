@@ -12,12 +12,13 @@ use crate::attitude::control::{
     Allocation, ControlTarget, ControllerSettings, ControllerState, Estimate, EstimatorState, SensorHealth,
     SensorSettings, SunSensor, WheelAllocator, sensed_sun,
 };
-use crate::attitude::{Attitude, BodyLoad, BodyMotion, Gyrostat, GyrostatMotion, Motor};
+use crate::attitude::{Attitude, BodyLoad, BodyMotion, Gyrostat, GyrostatMotion, Motor, MovingFrame};
 use crate::environment::ephemeris::Ephemeris;
-use crate::momentum::{DumpEvent, DumpPolicy, DumpSpacing, Dumps};
+use crate::momentum::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, TorqueModel};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
+use crate::radiation::{Effect, ForceTorque};
 
 use super::configuration::{AttitudeSource, Command, Configuration, DynamicAttitude};
 use super::disturbance_interval::DisturbanceInterval;
@@ -110,6 +111,24 @@ pub struct Flight<'f> {
 }
 
 impl Flight<'_> {
+    /// Frame and rate that the orbit phase's own guidance commands where the flight begins; `None` without it.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn guided_start(&mut self, time_s: f64, work_limit: u32) -> Result<Option<MovingFrame>, PlantError> {
+        let mut plant = Plant::new(
+            self.prepared,
+            self.configuration,
+            self.propagator,
+            self.ephemeris,
+            self.light.as_deref_mut(),
+            |_| ExternalLoad::default(),
+            work_limit,
+        );
+        plant.prepare(time_s, time_s)?;
+        Ok(plant.guided_frame(time_s))
+    }
+
     /// The plant with the body as it turns now.
     fn plant(
         &mut self,
@@ -372,7 +391,13 @@ impl AttitudeDynamics {
     }
 
     /// The command of internal guidance, sampled anew where that is due.
-    fn guided(&mut self, flight: &mut Flight<'_>, body: &BodyMotion, time_s: f64, work_limit: u32) -> Command {
+    fn guided(
+        &mut self,
+        flight: &mut Flight<'_>,
+        body: &BodyMotion,
+        time_s: f64,
+        work_limit: u32,
+    ) -> Command {
         if let Some(command) = self.guidance
             && time_s < self.next_guidance_s - tolerance_s(time_s)
         {
@@ -380,11 +405,8 @@ impl AttitudeDynamics {
         }
         self.next_guidance_s = next_multiple_s(time_s + tolerance_s(time_s), GUIDANCE_INTERVAL_S);
         let frame = flight.plant(time_s, body, work_limit).guided_frame(time_s);
-        let held = Command {
-            attitude: self.estimate.attitude,
-            rate_body_rad_s: Vector3::zeros(),
-            since_s: time_s,
-        };
+        let held =
+            Command { attitude: self.estimate.attitude, rate_body_rad_s: Vector3::zeros(), since_s: time_s };
         let command = frame.map_or(held, |frame| Command {
             attitude: Attitude::from_rotation(&frame.inertial_from_body),
             rate_body_rad_s: frame.rate_body_rad_s,
@@ -454,11 +476,8 @@ impl AttitudeDynamics {
         for (k, wheel) in gyrostat.wheels().iter().enumerate() {
             let friction = if control.compensates_friction { wheel.friction_n_m(momentum(k)) } else { 0.0 };
             // Motor torque without the share that is asked for: friction and balance.
-            balance[k] = if turns(k) {
-                friction + (balance[k] - momentum(k)) / control.balance_time_s
-            } else {
-                0.0
-            };
+            balance[k] =
+                if turns(k) { friction + (balance[k] - momentum(k)) / control.balance_time_s } else { 0.0 };
             balance[k] = balance[k].clamp(-wheel.max_torque_n_m, wheel.max_torque_n_m);
             let most = wheel.max_torque_n_m - balance[k] * shares[k].signum();
             if shares[k].abs() > most {
@@ -527,10 +546,8 @@ impl AttitudeDynamics {
     ) -> Evaluation {
         let instant = flight.plant(time_s, body, u32::MAX).instant(time_s);
         let mut loads = self.disturbance.loads_at(time_s);
-        loads[crate::radiation::Effect::Applied] = crate::radiation::ForceTorque {
-            force_body_n: external.force_body_n,
-            torque_body_n_m: external.torque_body_n_m,
-        };
+        loads[Effect::Applied] =
+            ForceTorque { force_body_n: external.force_body_n, torque_body_n_m: external.torque_body_n_m };
         Evaluation { instant, loads }
     }
 

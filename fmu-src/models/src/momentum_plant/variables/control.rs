@@ -1,11 +1,10 @@
 //! Attitude dynamics and control: controller, sensors, what they estimate.
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
-use physics::attitude::control;
+use physics::attitude::control::Allocation;
 
 use super::super::setup::PlantSetup;
 use super::choices::WheelAllocation;
-use super::defaults;
 
 /// The controller when attitude.source is controlled.
 #[derive(Variables)]
@@ -26,14 +25,14 @@ pub struct ControlVariables {
     pub integral: Real,
     /// Greatest rate relative to the command about the eigenaxis while the attitude follows a command that jumped; 0 = no
     /// limit.
-    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = defaults::slew_rate_rad_s(setup))]
+    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = setup.control.slew_rate_rad_s)]
     pub slew_rate: Real,
     /// Greatest angular acceleration in such a turn; 0 = no limit. The default leaves half of the wheels' torque to other
     /// uses.
-    #[parameter(unit = "rad/s2", display = "deg/s2", min = 0.0, max = 10.0, start = defaults::slew_acceleration_rad_s2(setup))]
+    #[parameter(unit = "rad/s2", display = "deg/s2", min = 0.0, max = 10.0, start = setup.control.slew_acceleration_rad_s2)]
     pub slew_acceleration: Real,
     /// How torque is spread over the wheels.
-    #[parameter(start = WheelAllocation(control::Allocation::PseudoInverse))]
+    #[parameter(start = WheelAllocation(Allocation::PseudoInverse))]
     pub allocation: Choice<WheelAllocation>,
     /// Time constant with which wheels that hold more or less than their share of the momentum return to it; 0 = not at all.
     #[parameter(unit = "s", min = 0.0, max = 1e9, start = 1_000.0)]
@@ -93,11 +92,11 @@ pub struct GyroVariables {
     /// Whether they give no rate.
     #[input(start = false)]
     pub failed: Boolean,
-    /// Angle random walk, in rad per square root of a second.
-    #[parameter(unit = "1", min = 0.0, max = 0.1, start = 0.0)]
+    /// Angle random walk: standard deviation of the angle about each axis after one second.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = 0.1, start = 0.0)]
     pub noise: Real,
-    /// Rate random walk, in rad/s per square root of a second.
-    #[parameter(unit = "1", min = 0.0, max = 0.1, start = 0.0)]
+    /// Rate random walk: standard deviation by which the bias moves in one second.
+    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 0.1, start = 0.0)]
     pub drift: Real,
     /// Bias at the start, in body components.
     #[parameter(unit = "rad/s", display = "deg/s", min = -0.1, max = 0.1, start = [0.0; 3])]

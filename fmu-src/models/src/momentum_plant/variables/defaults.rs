@@ -42,31 +42,6 @@ pub fn keep_in(setup: &PlantSetup) -> SunKeepIn {
     setup.spacecraft.sun_keep_in.unwrap_or(everywhere)
 }
 
-/// What the wheels hold about each body axis at once of something of which each gives as much as this, in its unit; 0
-/// without wheels in all directions.
-fn guaranteed(setup: &PlantSetup, of_wheel: impl Fn(&Wheel) -> f64) -> f64 {
-    let wheels = setup.spacecraft.wheels.iter();
-    setup.wheel_array.as_ref().map_or(0.0, |it| it.guaranteed_threshold_n_m_s(wheels.map(of_wheel)))
-}
-
-/// Greatest rate of a turn, assumed: 0.5 deg/s, less where the wheels could not stop the body from it.
-pub fn slew_rate_rad_s(setup: &PlantSetup) -> f64 {
-    let largest_kg_m2 = largest_inertia_kg_m2(setup);
-    let most = 0.25 * guaranteed(setup, |wheel| wheel.capacity_n_m_s) / largest_kg_m2;
-    if most > 0.0 { most.min(GREATEST_SLEW_RATE_RAD_S) } else { GREATEST_SLEW_RATE_RAD_S }
-}
-
-/// Half of what the wheels' torque gives the axis of largest inertia.
-pub fn slew_acceleration_rad_s2(setup: &PlantSetup) -> f64 {
-    0.5 * guaranteed(setup, |wheel| wheel.max_torque_n_m) / largest_inertia_kg_m2(setup)
-}
-
-/// Torque of a dump: half of what the wheels can hold against; assumed without wheels.
-pub fn dump_torque_n_m(setup: &PlantSetup) -> f64 {
-    let half = 0.5 * guaranteed(setup, |wheel| wheel.max_torque_n_m);
-    if half > 0.0 { half } else { DUMP_TORQUE_WITHOUT_WHEELS_N_M }
-}
-
 /// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
 /// 000's for small wheels.
 pub fn dump_threshold_n_m_s(setup: &PlantSetup) -> [f64; 3] {

@@ -154,7 +154,7 @@ pub struct DumpVariables {
     pub guaranteed_threshold: Real,
     /// Greatest component of the thrusters' torque in controlled and free flight, where a dump lasts as long as this takes;
     /// the default is half of what the wheels can hold against.
-    #[parameter(unit = "N.m", min = 1e-9, max = 1e6, start = defaults::dump_torque_n_m(setup))]
+    #[parameter(unit = "N.m", min = 1e-9, max = 1e6, start = setup.control.dump_torque_n_m)]
     pub torque: Real,
     /// Whether thrusters are dumping.
     #[output]

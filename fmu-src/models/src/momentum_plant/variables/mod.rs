@@ -12,7 +12,8 @@ use fmi_export::{Real, RealVector, Variables};
 
 use body::{KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables, WheelVariables};
 use control::{
-    ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables, SunSensorVariables,
+    ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables,
+    SunSensorVariables,
 };
 use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,

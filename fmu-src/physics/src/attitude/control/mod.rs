@@ -18,7 +18,7 @@ pub use controller::ControllerState;
 pub use estimate::Estimate;
 pub use estimator::EstimatorState;
 pub use reference::{ControlTarget, Reference, ReferenceSample, SlewLimits};
-pub use sensors::{Gyro, SensorHealth, SensorSettings, StarTracker};
+pub use sensors::{Gyro, SensorHealth, SensorSettings, StarTracker, sample_number};
 pub use settings::{ControllerSettings, GainError};
 pub use sun_sensors::{SunSensor, sensed_sun};
 

@@ -37,6 +37,11 @@ pub struct SensorSettings {
     pub longest_without_tracker_s: f64,
 }
 
+/// Number of the sample of sensors at `rate_hz` that holds at `time_s`.
+pub fn sample_number(time_s: f64, rate_hz: f64) -> u64 {
+    ((time_s * rate_hz + 1e-6).floor() as i64) as u64
+}
+
 /// Which sensors work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SensorHealth {
