@@ -126,6 +126,22 @@ fn limits_hold_over_random_commands() {
 }
 
 #[test]
+fn a_turning_command_is_approached_about_the_eigenaxis() {
+    let (command, axis, rate) = (random_attitude(70), random_unit(71), random_unit(72) * 2e-3);
+    let target = turning(command, rate);
+    let start = command.turned(axis * -1.0);
+    // At rest relative to the command.
+    let mut reference = Reference::new(start, start.to_body(&command.to_inertial(&rate)));
+    let mut worst: f64 = 0.0;
+    for sample in fly(&mut reference, &LIMITS, &target, 600.0).iter().enumerate() {
+        let ControlTarget::Attitude { attitude, .. } = target(sample.0 as f64 * DT_S) else { unreachable!() };
+        let left = attitude.rotation_vector_to(&sample.1.attitude);
+        worst = worst.max(left.cross(&axis).norm());
+    }
+    assert!(worst < 1e-6, "{worst}");
+}
+
+#[test]
 fn a_sample_goes_on_where_the_one_before_leads() {
     let start = random_attitude(8);
     let target = turning(random_attitude(9), random(10) * 1e-3);
@@ -232,10 +248,14 @@ fn a_rate_alone_is_reached_within_the_acceleration() {
 
 #[test]
 fn a_command_that_turns_faster_than_the_slew_rate_is_caught() {
-    let limits = SlewLimits { rate_rad_s: 5e-3, acceleration_rad_s2: 1e-3 };
-    for number in 0..20 {
-        let target = turning(random_attitude(60 + number), random_unit(number) * 0.05);
-        let mut reference = Reference::new(random_attitude(90 + number), Vector3::zeros());
-        fly(&mut reference, &limits, target, 3000.0);
+    for acceleration_rad_s2 in [1e-4, 1e-3] {
+        let limits = SlewLimits { rate_rad_s: 5e-3, acceleration_rad_s2 };
+        for number in 0..20 {
+            let target = turning(random_attitude(60 + number), random_unit(number) * 0.05);
+            let mut reference = Reference::new(random_attitude(90 + number), Vector3::zeros());
+            // Half a turn at the rate that the acceleration allows, after the rate has been reached.
+            let fastest_rad_s = limits.rate_rad_s.min(0.5 * acceleration_rad_s2 / 0.05);
+            fly(&mut reference, &limits, target, 0.05 / acceleration_rad_s2 + PI / fastest_rad_s + 60.0);
+        }
     }
 }
