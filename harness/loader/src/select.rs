@@ -11,8 +11,8 @@ pub(crate) fn select(description: &Description, pattern: &str) -> Result<Vec<usi
     if found.is_empty() { Err(unknown(description, pattern)) } else { Ok(found) }
 }
 
-/// As [`select`], but a `*` takes outputs only.
-pub(crate) fn select_outputs(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
+/// As [`crate::Fmu::select`], but a `*` takes outputs only: anything else is named.
+pub fn select_outputs(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
     let mut found = select(description, pattern)?;
     let pattern = pattern.trim();
     if !pattern.contains('*') || named(description, pattern).is_some() {

@@ -15,9 +15,8 @@ use crate::finding::{Code, Finding, Lines};
 use crate::{Description, NamingConvention, validate};
 
 use fields::{Fields, words};
-use xml::{Start, Xml};
-
 pub use error::ReadError;
+pub use xml::{Start, Xml};
 
 /// What was read.
 #[derive(Clone, Debug, PartialEq)]
