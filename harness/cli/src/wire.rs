@@ -85,7 +85,7 @@ fn report(wired: &Wired) -> String {
 }
 
 /// Names by what they have in common, each once, in their order.
-fn grouped<K: Ord>(all: impl Iterator<Item = (K, String)>) -> BTreeMap<K, Vec<String>> {
+pub fn grouped<K: Ord>(all: impl Iterator<Item = (K, String)>) -> BTreeMap<K, Vec<String>> {
     let mut groups: BTreeMap<K, Vec<String>> = BTreeMap::new();
     for (key, name) in all {
         let names = groups.entry(key).or_default();

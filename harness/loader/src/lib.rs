@@ -38,7 +38,7 @@ pub use model_description::Status;
 pub use model_description::value::{Value, display_unit, unit};
 pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
-pub use select::select_outputs;
+pub use select::{select, select_outputs};
 pub use simulate::{
     Ended, Options, Simulation, Stopped, Times, outputs, set_early, simulate, simulate_into, steps_between_points,
 };

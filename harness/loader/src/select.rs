@@ -5,7 +5,7 @@ use model_description::{Causality, Description, ScalarVariable, names::similar};
 use crate::Error;
 
 /// Positions in `ModelVariables` of everything `pattern` means: see [`crate::Fmu::select`].
-pub(crate) fn select(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
+pub fn select(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
     let pattern = pattern.trim();
     let found = find(description, pattern);
     if found.is_empty() { Err(unknown(description, pattern)) } else { Ok(found) }
