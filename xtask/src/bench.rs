@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::build::{self, Built};
+use crate::dist;
 use crate::shell::{Outcome, cargo, command, need, output, root, run};
 use crate::test::compile_c;
 
@@ -14,7 +15,7 @@ const STUDY_RUNS: usize = 3;
 
 /// Kernels (Rust examples of `physics`), the C interface, a whole study.
 pub fn all() -> Outcome {
-    let built = build::dist()?;
+    let built = dist::dist()?;
     for example in EXAMPLES {
         run(&mut cargo(&["run", "--locked", "--quiet", "--release", "-p", "physics", "--example", example]))?;
     }
