@@ -73,15 +73,32 @@ fn report(wired: &Wired) -> String {
         };
         ((component(start), component(end)), name)
     })) {
-        lines.push(format!("  {from} to {to}: {}", names.join(", ")));
+        lines.push(format!("  {from} to {to}:{}", wrapped(&names)));
     }
     lines.push(format!("{} inputs left open", wired.left.len()));
     for ((component, why), names) in grouped(
         wired.left.iter().map(|left| ((left.component.clone(), left.why.clone()), vector(&left.input))),
     ) {
-        lines.push(format!("  {component}, {why}: {}", names.join(", ")));
+        lines.push(format!("  {component}, {why}:{}", wrapped(&names)));
     }
     lines.join("\n")
+}
+
+/// Names in lines that a terminal shows whole.
+pub fn wrapped(names: &[String]) -> String {
+    const WIDTH: usize = 110;
+    let mut lines = vec![String::new()];
+    for (number, name) in names.iter().enumerate() {
+        let comma = if number + 1 < names.len() { "," } else { "" };
+        let line = lines.len() - 1;
+        if !lines[line].is_empty() && lines[line].len() + name.len() > WIDTH {
+            lines.push(format!("{name}{comma}"));
+        } else {
+            let space = if lines[line].is_empty() { "" } else { " " };
+            lines[line].push_str(&format!("{space}{name}{comma}"));
+        }
+    }
+    lines.iter().map(|line| format!("\n    {line}")).collect()
 }
 
 /// Names by what they have in common, each once, in their order.

@@ -1,6 +1,6 @@
 //! Masters with a fixed communication step: Jacobi and Gauss-Seidel, and how their first exchange begins.
 
-use loader::{Error, Instance, InstanceOptions, LogMessage, Status, Times, Value};
+use loader::{Error, Instance, InstanceOptions, LogMessage, Status, Times, Value, record_instance};
 
 use crate::{
     exchange::{Ports, Signals, ports},
@@ -59,7 +59,8 @@ impl Running {
     ) -> Result<Self, Error> {
         let (ports, signals) = ports(system);
         let mut instances = Vec::with_capacity(system.parts().len());
-        for part in system.parts() {
+        for (number, part) in system.parts().iter().enumerate() {
+            record_instance(number);
             instances.push(Instance::new(&part.fmu, &part.name, options)?);
         }
         let mut running =
@@ -68,6 +69,7 @@ impl Running {
             let own = sets.iter().filter(|(of, ..)| *of == number).map(|(_, name, value)| (name, value));
             let given = part.parameters.iter().map(|(name, value)| (name, value));
             let all: Vec<(&String, &Value)> = given.chain(own).collect();
+            record_instance(number);
             let instance = &mut running.instances[number];
             let tolerance = part.fmu.description().default_experiment.and_then(|it| it.tolerance);
             instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
@@ -85,7 +87,8 @@ impl Running {
         if first == FirstExchange::Initial {
             running.settle()?;
         }
-        for instance in &mut running.instances {
+        for (number, instance) in running.instances.iter_mut().enumerate() {
+            record_instance(number);
             instance.exit_initialization_mode()?;
         }
         if first == FirstExchange::Initial {
@@ -99,7 +102,8 @@ impl Running {
         self.get_all()?;
         for _ in 0..MOST_SWEEPS {
             let before = self.signals.bits();
-            for (instance, ports) in self.instances.iter_mut().zip(&mut self.ports) {
+            for (number, (instance, ports)) in self.instances.iter_mut().zip(&mut self.ports).enumerate() {
+                record_instance(number);
                 ports.set(instance, &self.signals)?;
                 ports.get(instance, &mut self.signals)?;
             }
@@ -111,8 +115,7 @@ impl Running {
     }
 
     fn get_all(&mut self) -> Result<(), Error> {
-        let each = self.instances.iter_mut().zip(&self.ports);
-        each.into_iter().try_for_each(|(instance, ports)| ports.get(instance, &mut self.signals))
+        get_all(&mut self.instances, &self.ports, &mut self.signals)
     }
 
     /// The instances, in the system's order.
@@ -126,20 +129,21 @@ impl Running {
         let Self { instances, ports, signals, .. } = self;
         match self.master {
             Master::Jacobi => {
-                for (instance, ports) in instances.iter_mut().zip(ports.iter_mut()) {
+                for (number, (instance, ports)) in instances.iter_mut().zip(ports.iter_mut()).enumerate() {
+                    record_instance(number);
                     if zeros { ports.set_zeros(instance)? } else { ports.set(instance, signals)? }
                 }
-                for instance in instances.iter_mut() {
+                for (number, instance) in instances.iter_mut().enumerate() {
+                    record_instance(number);
                     if let Some(ended_s) = do_step(instance, time_s, step_s)? {
                         return Ok(Stepped::Ended(ended_s));
                     }
                 }
-                for (instance, ports) in instances.iter_mut().zip(ports.iter()) {
-                    ports.get(instance, signals)?;
-                }
+                get_all(instances, ports, signals)?;
             }
             Master::GaussSeidel => {
-                for (instance, ports) in instances.iter_mut().zip(ports.iter_mut()) {
+                for (number, (instance, ports)) in instances.iter_mut().zip(ports.iter_mut()).enumerate() {
+                    record_instance(number);
                     ports.set(instance, signals)?;
                     if let Some(ended_s) = do_step(instance, time_s, step_s)? {
                         return Ok(Stepped::Ended(ended_s));
@@ -153,7 +157,10 @@ impl Running {
 
     /// Terminates all components.
     pub fn terminate(&mut self) -> Result<(), Error> {
-        self.instances.iter_mut().try_for_each(Instance::terminate)
+        self.instances.iter_mut().enumerate().try_for_each(|(number, instance)| {
+            record_instance(number);
+            instance.terminate()
+        })
     }
 
     /// What the instances logged, one component after another, each message with its component's name.
@@ -167,6 +174,13 @@ impl Running {
         };
         self.instances.iter().flat_map(named).collect()
     }
+}
+
+fn get_all(instances: &mut [Instance], ports: &[Ports], signals: &mut Signals) -> Result<(), Error> {
+    instances.iter_mut().zip(ports).enumerate().try_for_each(|(number, (instance, ports))| {
+        record_instance(number);
+        ports.get(instance, signals)
+    })
 }
 
 /// Steps an instance; the time in s at which it ended by itself, if it did.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use loader::Fmu;
 use model_description::{
-    Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind, names, value,
+    Causality, Description, ScalarVariable, SimpleTypeKind, Unit, VariableKind, names, value,
 };
 
 use crate::{
@@ -228,7 +228,7 @@ fn add_connector(
             if let Some(definition) = definition
                 && !structure.units.iter().any(|it| it.name == definition.name)
             {
-                structure.units.push(definition.clone());
+                structure.units.push(Unit { display_units: Vec::new(), ..definition.clone() });
             }
             Signal::Real { unit: unit.filter(|_| definition.is_some()) }
         }

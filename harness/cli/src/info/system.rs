@@ -2,7 +2,7 @@
 
 use systems::System;
 
-use crate::wire::{grouped, vector};
+use crate::wire::{grouped, vector, wrapped};
 
 /// The tables.
 pub fn text(system: &System) -> String {
@@ -23,18 +23,12 @@ pub fn text(system: &System) -> String {
         let part = &system.parts()[number];
         (part.name.clone(), vector(&part.fmu.description().variables[position].name))
     };
-    let mut joints = terminal::table(&["from", "to", "connections"]);
-    for ((from, to), names) in grouped(system.joints().iter().map(|joint| {
+    let joined = grouped(system.joints().iter().map(|joint| {
         let ((from, output), (to, input)) = (name(joint.from), name(joint.to));
         let joined = if output == input { output } else { format!("{output} to {input}") };
-        ((from, to), joined)
-    })) {
-        joints.add_row([from, to, names.join(", ")]);
-    }
-    let mut left = terminal::table(&["component", "open inputs"]);
-    for (component, names) in grouped(open.into_iter().map(name)) {
-        left.add_row([component, names.join(", ")]);
-    }
+        (format!("{from} to {to}"), joined)
+    }));
+    let left = grouped(open.into_iter().map(name));
     let experiment = system.description().default_experiment.unwrap_or_default();
     let time = |name: &str, value: Option<f64>| value.map(|value| format!("{name} {} s", terminal::short(value)));
     let times: Vec<String> = [
@@ -45,7 +39,12 @@ pub fn text(system: &System) -> String {
     .into_iter()
     .flatten()
     .collect();
+    let lists = [(joined, format!("{} connections", system.joints().len())), (left, "open inputs".to_owned())];
     let mut text = vec![components.to_string(), format!("default experiment: {}", times.join(", "))];
-    text.extend([joints, left].iter().filter(|table| !table.is_empty()).map(ToString::to_string));
+    for (groups, title) in lists {
+        let lines: Vec<String> =
+            groups.iter().map(|(of, names)| format!("\n  {of}:{}", wrapped(names))).collect();
+        text.push(format!("{title}{}", lines.concat()));
+    }
     text.join("\n\n")
 }

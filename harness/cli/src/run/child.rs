@@ -91,7 +91,7 @@ pub fn simulate(
         &mut |calls| tick(inbox_cell.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
     );
     let Inbox { outcome, messages, .. } = inbox;
-    let name = subject.name();
+    let name = supervised.calls.instance.map_or_else(|| subject.name().to_owned(), |it| subject.named(it));
     let fault = supervised.fault().map(|fault| format!("{name}: {fault}"));
     let outcome = match (outcome, &supervised.how) {
         (Some(outcome), EndReason::Refused(why)) => outcome.and(Err(why.clone())),

@@ -83,6 +83,19 @@ impl Subject {
         &self.description().model_name
     }
 
+    /// Its name, with the component's of this number.
+    pub fn named(&self, number: usize) -> String {
+        let name = self.name();
+        match self {
+            // What the child writes is not trusted.
+            Self::System(system) => system
+                .parts()
+                .get(number)
+                .map_or_else(|| name.to_owned(), |part| format!("{name}, component {}", part.name)),
+            Self::Fmu(_) => name.to_owned(),
+        }
+    }
+
     /// The folder that it is unpacked in.
     pub fn folder(&self) -> PathBuf {
         match self {
