@@ -26,11 +26,12 @@ pub fn run(arguments: &Run) -> Outcome {
         output::check_svg_path(path)?;
     }
     let subject = Subject::open(&arguments.fmu)?;
+    subject.check_options(arguments)?;
     // Everything that can be refused without the FMU's library is refused here.
     let copy = InputCopy::of(arguments)?;
     let input_copy = copy.as_ref().map(InputCopy::path);
     let settings = Settings::of(&subject, arguments, input_copy.as_deref())?;
-    subject.check(arguments)?;
+    subject.check_libraries()?;
     let described = subject.description();
     let mut outputs = Outputs::open(arguments)?;
     let (times, positions) = (settings.times, settings.positions);

@@ -53,7 +53,8 @@ pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>
             return Err(refuse(format!("entry {name:?} is encrypted")));
         }
         // Some Windows packers write backslashes; they mean the same folders.
-        let relative = path_inside(&name).ok_or_else(|| refuse(format!("entry {name:?} leaves the folder")))?;
+        let relative =
+            path_inside(&name).ok_or_else(|| refuse(format!("entry {name:?} leaves the folder")))?;
         let target = into.join(&relative);
         let at_target = |source| Error::File { path: target.clone(), source };
         if entry.is_dir() || name.ends_with('\\') {

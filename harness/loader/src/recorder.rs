@@ -80,9 +80,9 @@ impl Collector {
         for &position in positions {
             let variable = &description.variables[position];
             recording.names.push(variable.name.clone());
-            recording.units.push(
-                model_description::value::unit(description, variable).unwrap_or_default().to_owned(),
-            );
+            recording
+                .units
+                .push(model_description::value::unit(description, variable).unwrap_or_default().to_owned());
             recording.columns.push(match variable.kind {
                 VariableKind::Real { .. } => Column::Real(Vec::new()),
                 VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {

@@ -41,9 +41,9 @@ pub fn parsed<T: std::str::FromStr>(
 ) -> Result<Option<T>, ReadError> {
     attribute(start, name)
         .map(|text| {
-            text.trim().parse().map_err(|_| {
-                refuse(start, format!("attribute `{name}`: found {text:?}, allowed: {allowed}"))
-            })
+            text.trim()
+                .parse()
+                .map_err(|_| refuse(start, format!("attribute `{name}`: found {text:?}, allowed: {allowed}")))
         })
         .transpose()
 }

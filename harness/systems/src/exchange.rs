@@ -85,9 +85,8 @@ fn group(kind: &VariableKind) -> usize {
 
 /// The ports of every component, and the signals between them, all zero.
 pub fn ports(system: &System) -> (Vec<Ports>, Signals) {
-    let variable = |(number, position): (usize, usize)| {
-        &system.parts()[number].fmu.description().variables[position]
-    };
+    let variable =
+        |(number, position): (usize, usize)| &system.parts()[number].fmu.description().variables[position];
     let mut ports: Vec<Ports> = system.parts().iter().map(|_| Ports::default()).collect();
     let mut sizes = [0; 3];
     // Every output once, those of a component side by side.

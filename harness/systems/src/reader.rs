@@ -3,11 +3,11 @@
 use model_description::{ReadError, Start, Xml};
 
 use crate::{
-    elements::{
-        attribute, boolean, enumerations, local, number, parsed, refuse, required, units, unknown,
-    },
+    elements::{attribute, boolean, enumerations, local, number, parsed, refuse, required, units, unknown},
     parameter_set,
-    structure::{Binding, Component, Connection, Connector, End, Experiment, Kind, Linear, Signal, Structure},
+    structure::{
+        Binding, Component, Connection, Connector, End, Experiment, Kind, Linear, Signal, Structure,
+    },
 };
 
 /// Type of the annotation that holds the step, which SSP has no attribute for.
@@ -224,11 +224,8 @@ fn bindings(xml: &mut Xml<'_>, start: &Start) -> Result<Vec<Binding>, ReadError>
 }
 
 fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<Experiment, ReadError> {
-    let mut experiment = Experiment {
-        start_s: number(start, "startTime")?,
-        stop_s: number(start, "stopTime")?,
-        step_s: None,
-    };
+    let mut experiment =
+        Experiment { start_s: number(start, "startTime")?, stop_s: number(start, "stopTime")?, step_s: None };
     while let Some(annotations) = xml.child(start)? {
         if local(&annotations) != "Annotations" {
             return Err(unknown(&annotations, start, "Annotations"));

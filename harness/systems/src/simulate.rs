@@ -142,9 +142,7 @@ impl<'a> HeldInputs<'a> {
     /// The values of the start, which initialization takes.
     fn at_start(&mut self, time_s: f64) -> Vec<(usize, String, Value)> {
         let columns = self.columns.iter().zip(&self.names).enumerate();
-        columns
-            .map(|(column, (of, name))| (of.0, name.clone(), self.table.value(column, time_s)))
-            .collect()
+        columns.map(|(column, (of, name))| (of.0, name.clone(), self.table.value(column, time_s))).collect()
     }
 
     fn set(&mut self, running: &mut Running, time_s: f64) -> Result<(), Error> {

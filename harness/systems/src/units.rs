@@ -50,7 +50,8 @@ mod tests {
         let radian = BaseUnit { rad: 1, ..BaseUnit::default() };
         assert!((conversion(&degree, &radian).of(180.0) - core::f64::consts::PI).abs() < 1e-15);
         // Water boils at 212 F, 373.15 K, 100 C.
-        let fahrenheit = BaseUnit { k: 1, factor: 5.0 / 9.0, offset: 459.67 * 5.0 / 9.0, ..BaseUnit::default() };
+        let fahrenheit =
+            BaseUnit { k: 1, factor: 5.0 / 9.0, offset: 459.67 * 5.0 / 9.0, ..BaseUnit::default() };
         let celsius = BaseUnit { k: 1, offset: 273.15, ..BaseUnit::default() };
         let (there, back) = (conversion(&fahrenheit, &celsius), conversion(&celsius, &fahrenheit));
         assert!((there.of(212.0) - 100.0).abs() < 1e-12);

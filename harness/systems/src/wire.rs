@@ -12,9 +12,7 @@ use crate::{
     experiment::complete,
     joint::type_name,
     merged::{Merged, merge},
-    structure::{
-        Component, Connection, Connector, End, Enumeration, Experiment, Kind, Signal, Structure,
-    },
+    structure::{Component, Connection, Connector, End, Enumeration, Experiment, Kind, Signal, Structure},
     units::shown,
 };
 
@@ -98,12 +96,12 @@ pub fn wire(
         let inputs = fmu.description().variables.iter().filter(|it| it.causality == Causality::Input);
         for input in inputs {
             match source(components, number, input) {
-                Ok((from, output)) => connect(&mut wired.structure, components, (from, output), (number, input)),
-                Err(why) => wired.left.push(Left {
-                    component: component.clone(),
-                    input: input.name.clone(),
-                    why,
-                }),
+                Ok((from, output)) => {
+                    connect(&mut wired.structure, components, (from, output), (number, input))
+                }
+                Err(why) => {
+                    wired.left.push(Left { component: component.clone(), input: input.name.clone(), why })
+                }
             }
         }
     }
@@ -136,8 +134,10 @@ fn source<'a>(
             fits((components[other].1.description(), output), (own, input)).map(|()| (other, output))
         }
         _ => {
-            let all: Vec<String> =
-                found.iter().map(|(other, output)| format!("{}.{}", components[*other].0, output.name)).collect();
+            let all: Vec<String> = found
+                .iter()
+                .map(|(other, output)| format!("{}.{}", components[*other].0, output.name))
+                .collect();
             Err(format!("two candidates: {}", all.join(", ")))
         }
     }

@@ -14,8 +14,8 @@ mod xml;
 use crate::finding::{Code, Finding, Lines};
 use crate::{Description, NamingConvention, validate};
 
-use fields::{Fields, words};
 pub use error::ReadError;
+use fields::{Fields, words};
 pub use xml::{Start, Xml};
 
 /// What was read.

@@ -7,7 +7,8 @@ use crate::wire::{grouped, vector, wrapped};
 /// The tables.
 pub fn text(system: &System) -> String {
     let structure = system.structure();
-    let mut components = terminal::table(&[structure.name.as_str(), "FMU", "model", "parameters", "open inputs"]);
+    let mut components =
+        terminal::table(&[structure.name.as_str(), "FMU", "model", "parameters", "open inputs"]);
     let open = system.open_inputs();
     for (number, part) in system.parts().iter().enumerate() {
         let source = structure.components.get(number).map_or("", |it| it.source.as_str());
@@ -30,7 +31,8 @@ pub fn text(system: &System) -> String {
     }));
     let left = grouped(open.into_iter().map(name));
     let experiment = system.description().default_experiment.unwrap_or_default();
-    let time = |name: &str, value: Option<f64>| value.map(|value| format!("{name} {} s", terminal::short(value)));
+    let time =
+        |name: &str, value: Option<f64>| value.map(|value| format!("{name} {} s", terminal::short(value)));
     let times: Vec<String> = [
         time("start", experiment.start_time),
         time("stop", experiment.stop_time),
@@ -39,7 +41,8 @@ pub fn text(system: &System) -> String {
     .into_iter()
     .flatten()
     .collect();
-    let lists = [(joined, format!("{} connections", system.joints().len())), (left, "open inputs".to_owned())];
+    let lists =
+        [(joined, format!("{} connections", system.joints().len())), (left, "open inputs".to_owned())];
     let mut text = vec![components.to_string(), format!("default experiment: {}", times.join(", "))];
     for (groups, title) in lists {
         let lines: Vec<String> =

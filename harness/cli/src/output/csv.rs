@@ -53,7 +53,11 @@ impl Exporter for Csv {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>, _described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
+    fn finish(
+        mut self: Box<Self>,
+        _described: &Description,
+        recording: &Recording,
+    ) -> Result<(), Box<dyn Error>> {
         self.update(recording)?;
         Ok(self.file.finish()?)
     }

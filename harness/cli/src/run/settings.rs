@@ -34,8 +34,10 @@ impl Settings {
             sets.extend(loader::parse_assignment(described, &epoch::in_seconds(described, setting)?)?);
         }
         let inputs = arguments.input.as_deref();
-        let inputs = inputs.map(|path| read_table(described, path, input_copy.unwrap_or(path))).transpose()?;
-        let positions = selection(described, &arguments.record)?.unwrap_or_else(|| loader::outputs(described));
+        let inputs =
+            inputs.map(|path| read_table(described, path, input_copy.unwrap_or(path))).transpose()?;
+        let positions =
+            selection(described, &arguments.record)?.unwrap_or_else(|| loader::outputs(described));
         Ok(Self { times, sets, inputs, positions })
     }
 }

@@ -44,24 +44,33 @@ impl Subject {
         })
     }
 
-    /// Refuses what only the other kind takes, and what this computer has no library for.
-    pub fn check(&self, arguments: &Run) -> Result<(), Box<dyn Error>> {
+    /// Refuses options that only the other kind takes.
+    pub fn check_options(&self, arguments: &Run) -> Result<(), String> {
+        let of_systems = [
+            (arguments.master.is_some(), "--master"),
+            (arguments.first_exchange.is_some(), "--first-exchange"),
+        ];
+        match self {
+            Self::Fmu(_) => match of_systems.iter().find(|(is_given, _)| *is_given) {
+                Some((_, option)) => {
+                    Err(format!("{option} is for a system (.ssp): an FMU alone exchanges nothing"))
+                }
+                None => Ok(()),
+            },
+            Self::System(_) if arguments.slopes => {
+                Err("--slopes is for an FMU: open inputs of a system are held over a step".to_owned())
+            }
+            Self::System(_) => Ok(()),
+        }
+    }
+
+    /// Refuses what this computer has no library for.
+    pub fn check_libraries(&self) -> Result<(), Box<dyn Error>> {
         match self {
             Self::Fmu(fmu) => {
-                for (given, option) in [
-                    (arguments.master.is_some(), "--master"),
-                    (arguments.first_exchange.is_some(), "--first-exchange"),
-                ] {
-                    if given {
-                        return Err(format!("{option} is for a system (.ssp): an FMU has no exchange").into());
-                    }
-                }
                 fmu.binary_path()?;
             }
             Self::System(system) => {
-                if arguments.slopes {
-                    return Err("--slopes is for an FMU: open inputs of a system are held over a step".into());
-                }
                 for part in system.parts() {
                     part.fmu.binary_path().map_err(|error| format!("component {}: {error}", part.name))?;
                 }

@@ -20,8 +20,9 @@ pub fn description(model: &str, items: &str, variables: &[&str]) -> String {
          </TypeDefinitions><DefaultExperiment stopTime=\"10\" stepSize=\"0.5\"/><ModelVariables>"
     );
     for (reference, line) in variables.iter().enumerate() {
-        let [causality, name, kind, attributes] =
-            *line.splitn(4, ' ').collect::<Vec<_>>() else { panic!("{line}") };
+        let [causality, name, kind, attributes] = *line.splitn(4, ' ').collect::<Vec<_>>() else {
+            panic!("{line}")
+        };
         let variability = match (causality, kind) {
             ("parameter", _) => " variability=\"fixed\"",
             (_, "Real") => "",

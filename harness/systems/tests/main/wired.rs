@@ -14,8 +14,7 @@ fn opened(folder: &std::path::Path, name: &str, text: &str) -> (String, Fmu) {
 #[test]
 fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
-    let components =
-        [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
+    let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
     let wired = wire("Pair", &components, Experiment::default(), &["giver.angle".to_owned()]).unwrap();
     let joined: Vec<String> =
         wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
@@ -85,7 +84,11 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
     let [one, two] = components;
     let wired = wire("Three", &[one.clone(), two, three], Experiment::default(), &[]).unwrap();
     assert!(wired.structure.connections.is_empty());
-    assert!(wired.left[0].why.starts_with("two candidates: one.sun.positionInertial[2], three."), "{:?}", wired.left);
+    assert!(
+        wired.left[0].why.starts_with("two candidates: one.sun.positionInertial[2], three."),
+        "{:?}",
+        wired.left
+    );
     // Names.
     assert_eq!(component_name(std::path::Path::new("dist/MomentumPlant.fmu")), "momentumPlant");
     let twice = wire("Twice", &[one.clone(), one.clone()], Experiment::default(), &[]);
@@ -101,8 +104,9 @@ fn units_are_converted_on_the_way() {
         let path = ssp(folder.path(), &Ssd { connections: connection, ..Ssd::default() }.text(), &[]);
         System::open(&path).unwrap().joints()[0].linear
     };
-    let degree =
-        linear(r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#);
+    let degree = linear(
+        r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#,
+    );
     assert!((degree.unwrap().factor * 180.0 - core::f64::consts::PI).abs() < 1e-15);
     assert_eq!(
         linear(

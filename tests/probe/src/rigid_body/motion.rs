@@ -135,7 +135,9 @@ mod tests {
         let mut motion = Motion::new(0.0, still, [0.0, 0.0, 0.05]);
         let end = motion.advance(INERTIA, 100.0);
         let angle: f64 = 0.5 * 0.05 / 500.0 * 100.0 * 100.0;
-        assert!((end.q[2] - (angle / 2.0).sin()).abs() < 1e-12 && (end.q[3] - (angle / 2.0).cos()).abs() < 1e-12);
+        assert!(
+            (end.q[2] - (angle / 2.0).sin()).abs() < 1e-12 && (end.q[3] - (angle / 2.0).cos()).abs() < 1e-12
+        );
         // The body turned left, so what stood still turns right.
         let seen = to_body(end.q, [1.0, 0.0, 0.0]);
         assert!((seen[0] - angle.cos()).abs() < 1e-12 && (seen[1] + angle.sin()).abs() < 1e-12);
