@@ -56,7 +56,8 @@ def test_ten_days_of_guidance_are_the_plants_own(dist, tmp_path):
     largest_n_m_s = np.abs(own_n_m_s).max()
     # Without dumps ten days of it are more than two wheels' worth; the first second before a command is part of the error.
     assert largest_n_m_s > 2.0
-    assert np.abs(own_n_m_s - commanded_n_m_s).max() < 1e-3 * largest_n_m_s
+    # Asked is 1e-3; the README says 2e-4.
+    assert np.abs(own_n_m_s - commanded_n_m_s).max() < 2e-4 * largest_n_m_s
 
 
 TIMELINE = """

@@ -2,6 +2,7 @@
 //! momentum they add up to.
 
 mod dependencies;
+mod dynamic;
 mod inputs;
 mod outputs;
 mod setup;
@@ -15,7 +16,9 @@ use nalgebra::Vector3;
 use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, TorqueModel, Totals};
 use physics::plant::{Evaluation, ExternalLoad, Plant, PropagatorState};
 
+use inputs::dynamics;
 use inputs::state::{Changes, PlantState, unset_places};
+use outputs::{flyable, log_dump};
 use setup::Plan;
 pub use setup::{MomentumPlant, PlantSetup};
 use variables::PlantVariables;
@@ -23,7 +26,7 @@ use variables::choices::OrbitSource;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 4;
+    const STATE_VERSION: u32 = 5;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
@@ -90,6 +93,10 @@ impl Model for MomentumPlant {
             wait(context, values, state, step.end_s)?;
             return Ok(StepEnd::at(step.end_s));
         }
+        if dynamics::is_dynamic(context, values) {
+            dynamic::step(context, values, state, step, changed.then_some(changes))?;
+            return Ok(StepEnd::at(step.end_s));
+        }
         if changed {
             state.integrator.cut(step.start_s);
         }
@@ -141,6 +148,7 @@ impl Model for MomentumPlant {
         outputs::write_plates(context, values, state, &configuration, step.end_s)?;
         let totals = state.integrator.totals(step.end_s);
         outputs::write(context, values, state, &configuration, &evaluation, &totals, step.end_s);
+        outputs::write_ideal(context, values, state, &configuration, &evaluation, &totals, step.end_s)?;
         state.configuration = Some(configuration);
         Ok(StepEnd::at(step.end_s))
     }
@@ -149,8 +157,8 @@ impl Model for MomentumPlant {
         Some(variables.solver.tolerance)
     }
 
-    fn check_state(_setup: &PlantSetup, state: &PlantState) -> Result<(), Failure> {
-        state.check()
+    fn check_state(setup: &PlantSetup, state: &PlantState) -> Result<(), Failure> {
+        state.check(setup.spacecraft.wheels.len())
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
@@ -160,7 +168,10 @@ impl Model for MomentumPlant {
         if !state.propagator.trajectory.covers(time_s) {
             return Err(Failure::new(format!("the orbit was integrated elsewhere than at {time_s:?} s")));
         }
-        if state.integrator.covers(time_s) {
+        if state.dynamics.as_ref().is_some_and(|dynamics| !dynamics.covers(time_s)) {
+            return Err(Failure::new(format!("the attitude was computed elsewhere than at {time_s:?} s")));
+        }
+        if state.dynamics.is_some() || state.integrator.covers(time_s) {
             return Ok(());
         }
         Err(Failure::new(format!("the momentum was accumulated elsewhere than at {time_s:?} s")))
@@ -180,6 +191,9 @@ fn begin(
     state: &mut PlantState,
     time_s: f64,
 ) -> Result<(), Failure> {
+    if dynamics::is_dynamic(context, values) {
+        return dynamic::begin(context, values, state, time_s);
+    }
     let configuration = inputs::configuration(context, values, state)?;
     let load = applied(context, values);
     let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
@@ -202,6 +216,7 @@ fn begin(
     let totals = state.integrator.totals(time_s);
     outputs::write_calculated(context, values, &configuration);
     outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
+    outputs::write_ideal(context, values, state, &configuration, &evaluation, &totals, time_s)?;
     state.configuration = Some(configuration);
     Ok(())
 }
@@ -215,6 +230,7 @@ fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s:
     outputs::write_plates(context, values, state, &configuration, time_s)?;
     outputs::write_calculated(context, values, &configuration);
     outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
+    outputs::write_ideal(context, values, state, &configuration, &evaluation, &totals, time_s)?;
     Ok(())
 }
 
@@ -222,25 +238,6 @@ fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s:
 fn start_totals(context: &Plan<'_>, values: &Values, evaluation: &Evaluation) -> Totals {
     let momentum_body_n_m_s = Vector3::from(values.vector(context.variables.start.momentum));
     Totals::at_start(momentum_body_n_m_s, &evaluation.instant.frame.inertial_from_body)
-}
-
-/// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
-fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<(), Failure> {
-    if !totals.is_finite() {
-        return Err(Failure::new(format!(
-            "at {time_s} s momentum.inertial, momentum.body or deltaV is no finite number; see start.momentum, torque.applied, \
-             force.applied, spacecraft.mass and spacecraft.centerOfMass"
-        )));
-    }
-    if evaluation.is_somewhere() {
-        return Ok(());
-    }
-    let spacecraft = evaluation.instant.geometry.spacecraft.position_m;
-    Err(Failure::new(format!(
-        "at {time_s} s the spacecraft at {:?} m about the orbit's centre is inside the planet or the Sun, or its position \
-         is no number; see orbit.*, sun.position and planet.radius",
-        spacecraft.as_slice()
-    )))
 }
 
 fn applied(context: &Plan<'_>, values: &Values) -> ExternalLoad {
@@ -253,12 +250,5 @@ fn applied(context: &Plan<'_>, values: &Values) -> ExternalLoad {
 /// Counts a dump and reports it.
 fn note_dump(context: &Plan<'_>, spacing: &mut DumpSpacing, event: &DumpEvent) {
     spacing.dumped(event);
-    if context.log.events_enabled() {
-        let message = format!(
-            "thruster dump: momentum {:?} -> {:?} N.m.s (body)",
-            event.before_body_n_m_s.as_slice(),
-            event.after_body_n_m_s.as_slice()
-        );
-        context.log.event(event.time_s, &message);
-    }
+    log_dump(context, event);
 }

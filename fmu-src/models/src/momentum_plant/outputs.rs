@@ -2,11 +2,16 @@
 
 use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
-use physics::attitude::{Attitude, SunAngles};
-use physics::momentum::Totals;
-use physics::plant::{Configuration, Cost, Evaluation, ExternalLoad, PanelSetting, Plant, PlantError};
+use physics::attitude::control::{sample_number, sensed_sun};
+use physics::attitude::{Attitude, BodyMotion, SunAngles, wheel_speed_rad_s};
+use physics::momentum::{DumpEvent, DumpSpacing, Dumps, Totals, WheelArray};
+use physics::plant::{
+    AttitudeDynamics, Configuration, Cost, DynamicsSettings, Evaluation, ExternalLoad, Instant, PanelSetting,
+    Plant, PlantError,
+};
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
+use super::inputs::dynamics;
 use super::inputs::state::PlantState;
 use super::setup::Plan;
 
@@ -93,8 +98,69 @@ pub fn write(
         totals.momentum_body_n_m_s(configuration.momentum.convention, rotation).into(),
     );
     values.set_vector(variables.momentum.inertial, totals.momentum_inertial_n_m_s.into());
-    write_wheels(context, values, configuration, totals, evaluation);
-    write_dumps(context, values, state);
+}
+
+/// Writes what guided and commanded flight know without dynamics: ideal wheels, dumps, sensors that see the true attitude.
+pub fn write_ideal(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    configuration: &Configuration,
+    evaluation: &Evaluation,
+    totals: &Totals,
+    time_s: f64,
+) -> Result<(), Failure> {
+    write_wheels(context, values, state, configuration, totals, evaluation);
+    write_dumps(context, values, state.integrator.dumps(), &state.spacing, false);
+    let v = context.variables;
+    let Instant { frame, sun_body, lit_fraction, .. } = &evaluation.instant;
+    values.set_vector(v.estimate.q, Attitude::from_rotation(&frame.inertial_from_body).quaternion(None));
+    values.set_vector(v.estimate.rate, frame.rate_body_rad_s.into());
+    values.set_boolean(v.estimate.valid, !values.boolean(v.star_tracker.failed));
+    let sensors = dynamics::sun_sensors(context, values)?;
+    let failed = |k: usize| v.sun_sensor.get(k).is_some_and(|sensor| values.boolean(sensor.failed));
+    let seed = values.integer(v.noise.seed).unsigned_abs().into();
+    let sample = sample_number(time_s, values.real(v.control.rate));
+    let seen = if state.waiting {
+        None
+    } else {
+        sensed_sun(&sensors, failed, sun_body, *lit_fraction, seed, sample)
+    };
+    write_sensed_sun(context, values, seen);
+    Ok(())
+}
+
+/// Writes wheels, sensors and control of controlled and free flight.
+pub fn write_dynamics(
+    context: &Plan<'_>,
+    values: &mut Values,
+    settings: &DynamicsSettings,
+    flown: &AttitudeDynamics,
+    body: &BodyMotion,
+    time_s: f64,
+) {
+    let v = context.variables;
+    for (k, wheel) in v.wheel.iter().enumerate() {
+        let momentum_n_m_s = flown.wheel_n_m_s(settings, k, time_s, body);
+        values.set_real(wheel.momentum, momentum_n_m_s);
+        values.set_real(wheel.speed, settings.gyrostat.wheels()[k].speed_rad_s(momentum_n_m_s));
+        values.set_real(wheel.torque, flown.motor_n_m(k));
+        values.set_boolean(wheel.saturated, flown.is_saturated(settings, k));
+    }
+    let estimate = flown.estimate_at(time_s);
+    values.set_vector(v.estimate.q, estimate.attitude.quaternion(None));
+    values.set_vector(v.estimate.rate, estimate.rate_body_rad_s.unwrap_or_default().into());
+    values.set_boolean(v.estimate.valid, estimate.is_valid);
+    write_sensed_sun(context, values, flown.sun_sensed_body());
+    let controlled = settings.control.is_some();
+    values.set_real(v.control.error, if controlled { flown.control_error_rad() } else { 0.0 });
+    values.set_boolean(v.control.settled, controlled && flown.is_settled());
+    values.set_boolean(v.control.saturated, flown.is_torque_limited());
+}
+
+fn write_sensed_sun(context: &Plan<'_>, values: &mut Values, seen: Option<Vector3<f64>>) {
+    values.set_vector(context.variables.sun.sensed, seen.unwrap_or_default().into());
+    values.set_boolean(context.variables.sun.sensed_valid, seen.is_some());
 }
 
 /// Writes the faces that are reported one by one; those of panels that are left out stay 0.
@@ -140,38 +206,56 @@ pub fn write_calculated(context: &Plan<'_>, values: &mut Values, configuration: 
     });
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
     let capacities_n_m_s = context.variables.wheel.iter().map(|wheel| values.real(wheel.capacity));
-    let array = context.setup.wheel_array.as_ref();
+    let array = wheels(context, values);
     let guaranteed_n_m_s = array.map_or(0.0, |it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
+}
+
+/// Distribution of momentum over the wheels; `None` unless they span all directions.
+pub fn wheels(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
+    let axes = context
+        .variables
+        .wheel
+        .iter()
+        .map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0));
+    WheelArray::new(&axes.collect::<Option<Vec<_>>>()?)
 }
 
 /// Ideal wheels hold the system's momentum less what the body's own rotation takes.
 fn write_wheels(
     context: &Plan<'_>,
     values: &mut Values,
+    state: &mut PlantState,
     configuration: &Configuration,
     totals: &Totals,
     evaluation: &Evaluation,
 ) {
-    let Some(array) = &context.setup.wheel_array else { return };
+    let Some(array) = state.wheels.get_or_insert_with(|| wheels(context, values)) else { return };
     let frame = &evaluation.instant.frame;
     let wheels_body_n_m_s = totals.wheels_body_n_m_s(&configuration.inertia_body_kg_m2, frame);
     for (number, variables) in context.variables.wheel.iter().enumerate() {
         let momentum_n_m_s = array.momentum_n_m_s(number, &wheels_body_n_m_s);
         values.set_real(variables.momentum, momentum_n_m_s);
+        values.set_real(variables.speed, wheel_speed_rad_s(momentum_n_m_s, values.real(variables.inertia)));
         values.set_boolean(variables.saturated, momentum_n_m_s.abs() > values.real(variables.capacity));
     }
 }
 
-fn write_dumps(context: &Plan<'_>, values: &mut Values, state: &PlantState) {
+/// Writes dumps, how far apart they lay, and whether one lasts.
+pub fn write_dumps(
+    context: &Plan<'_>,
+    values: &mut Values,
+    dumps: &Dumps,
+    spacing: &DumpSpacing,
+    is_active: bool,
+) {
     let dump = &context.variables.dump;
-    let dumps = state.integrator.dumps();
+    values.set_boolean(dump.active, is_active);
     values.set_integer(dump.count, dumps.count);
     values.set_real(dump.last_time, dumps.last.map_or(-1.0, |event| event.time_s));
-    values.set_real(dump.closest, state.spacing.closest_s.unwrap_or(-1.0));
+    values.set_real(dump.closest, spacing.closest_s.unwrap_or(-1.0));
     let required_s = values.real(dump.required_spacing);
-    values
-        .set_boolean(dump.too_close, state.spacing.closest_s.is_some_and(|closest_s| closest_s < required_s));
+    values.set_boolean(dump.too_close, spacing.closest_s.is_some_and(|closest_s| closest_s < required_s));
     values.set_vector(
         dump.impulse,
         dumps.last.map_or(Vector3::zeros(), |event| event.impulse_body_n_m_s()).into(),
@@ -242,4 +326,35 @@ pub fn failure(error: PlantError) -> Failure {
         _ => "",
     };
     Failure::new(format!("{error}{hint}"))
+}
+
+/// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
+pub fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<(), Failure> {
+    if !totals.is_finite() {
+        return Err(Failure::new(format!(
+            "at {time_s} s momentum.inertial, momentum.body or deltaV is no finite number; see start.momentum, torque.applied, \
+             force.applied, spacecraft.mass and spacecraft.centerOfMass"
+        )));
+    }
+    if evaluation.is_somewhere() {
+        return Ok(());
+    }
+    let spacecraft = evaluation.instant.geometry.spacecraft.position_m;
+    Err(Failure::new(format!(
+        "at {time_s} s the spacecraft at {:?} m about the orbit's centre is inside the planet or the Sun, or its position \
+         is no number; see orbit.*, sun.position and planet.radius",
+        spacecraft.as_slice()
+    )))
+}
+
+/// Reports a dump.
+pub fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
+    if context.log.events_enabled() {
+        let message = format!(
+            "thruster dump: momentum {:?} -> {:?} N.m.s (body)",
+            event.before_body_n_m_s.as_slice(),
+            event.after_body_n_m_s.as_slice()
+        );
+        context.log.event(event.time_s, &message);
+    }
 }

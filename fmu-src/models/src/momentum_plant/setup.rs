@@ -4,7 +4,7 @@ use fmi_export::{Context, Failure, SetupError};
 use nalgebra::Vector3;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
-use physics::plant::PreparedSpacecraft;
+use physics::plant::{ControlDefaults, PreparedSpacecraft};
 use physics::radiation::{SolarModel, TorquePolynomial};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
@@ -32,6 +32,9 @@ pub struct PlantSetup {
     /// Distribution of momentum over the wheels; absent unless they span all directions.
     #[serde(skip)]
     pub wheel_array: Option<WheelArray>,
+    /// Limits of turns and dumps that the wheels allow.
+    #[serde(skip)]
+    pub control: ControlDefaults,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -43,11 +46,13 @@ impl PlantSetup {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let prepared = |model| SolarModel::with_sunshade_model(&spacecraft, model).ok();
+        let wheel_array = WheelArray::new(&axes);
         Ok(Self {
+            control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
             reported_faces: crate::common::spacecraft::reported_faces(file, &spacecraft)?,
             plates: prepared(SunshadeModel::Plates),
             cylinder: prepared(SunshadeModel::Cylinder),
-            wheel_array: WheelArray::new(&axes),
+            wheel_array,
             orbit_method: OrbitMethod::default(),
             spacecraft,
         })

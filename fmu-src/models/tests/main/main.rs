@@ -4,6 +4,7 @@
 mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;
+mod dynamics;
 mod guidance;
 mod named_model;
 mod plant_changes;

@@ -1,22 +1,29 @@
-//! Quaternions, kinematics, rigid body, directions in the body frame.
+//! Quaternions, kinematics, rigid body, directions in the body frame, attitude control.
 //!
 //! An attitude quaternion is scalar-last and takes EME2000 components to body components in Wertz' passive
 //! order. Its four numbers are at the same time those of the active rotation that carries the inertial axes onto
 //! the body axes, which is how [`Attitude`] holds it.
 
 mod angles;
+pub mod control;
 mod frame;
 mod gravity_gradient;
+mod gyrostat;
+mod gyrostat_motion;
 mod inertia;
 mod quaternion;
 mod rigid_body;
 mod rotation;
+mod wheel;
 
 pub use angles::{SunAngles, angle_between_rad, direction_from_angles};
 pub use frame::{MovingFrame, MovingUnit};
 pub use gravity_gradient::gravity_gradient_n_m;
+pub use gyrostat::{Gyrostat, GyrostatError};
+pub use gyrostat_motion::{BodyLoad, BodyMotion, GyrostatMotion};
 pub use inertia::{Inertia, InertiaError};
 pub use quaternion::Quaternion;
 pub use rigid_body::RigidBodyState;
 pub(crate) use rotation::rotation_vector;
 pub use rotation::{Attitude, QuaternionError};
+pub use wheel::{Motor, ReactionWheel, Rotor, wheel_speed_rad_s};

@@ -55,6 +55,16 @@ impl Attitude {
         Ok(Self { quaternion: Quaternion(q.map(|x| x / norm)) })
     }
 
+    /// From a quaternion of norm 1.
+    pub fn from_unit(quaternion: Quaternion) -> Self {
+        Self { quaternion }
+    }
+
+    /// The quaternion, of norm 1 within rounding.
+    pub fn unit_quaternion(&self) -> Quaternion {
+        self.quaternion
+    }
+
     /// From the body axes as columns in inertial components.
     pub fn from_rotation(inertial_from_body: &Rotation3<f64>) -> Self {
         Self::of(&UnitQuaternion::from_rotation_matrix(inertial_from_body))
@@ -104,6 +114,23 @@ impl Attitude {
     /// The attitude after the rotation `by` (from this body frame to the new one).
     pub fn then(&self, by: &Self) -> Self {
         Self::of(&(self.unit() * by.unit()))
+    }
+
+    /// A vector's body components from those in the inertial frame.
+    pub fn to_body(&self, inertial: &Vector3<f64>) -> Vector3<f64> {
+        self.quaternion.body_from_inertial(inertial)
+    }
+
+    /// The rotation vector, at most pi long, that turns this attitude into `other`, in rad; its components are the
+    /// same in both frames.
+    pub fn rotation_vector_to(&self, other: &Self) -> Vector3<f64> {
+        (self.unit().inverse() * other.unit()).scaled_axis()
+    }
+
+    /// The same attitude with norm 1 to rounding, after many compositions.
+    #[must_use]
+    pub fn normalized(&self) -> Self {
+        Self { quaternion: self.quaternion.normalized() }
     }
 
     fn of(inertial_from_body: &UnitQuaternion<f64>) -> Self {

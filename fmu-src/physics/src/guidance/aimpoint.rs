@@ -145,26 +145,10 @@ fn to_body(surroundings: &Surroundings, body: Body) -> MovingVector {
 mod tests {
     //! Every option against positions and angles known by other means.
     use super::super::moving::matrix_value;
+    use super::super::scenario_tests::aimpoint as command;
     use super::super::test_orbit::TestOrbit;
     use super::*;
     use approx::assert_relative_eq;
-
-    fn command(option: AimpointOption) -> AimpointCommand {
-        AimpointCommand {
-            option: Some(option),
-            vector: Vector3::new(1.0, -2.0, 0.5),
-            position_m: Vector3::new(1e6, -2e6, 5e5),
-            velocity_m_s: Vector3::zeros(),
-            right_ascension_rad: 1.1,
-            declination_rad: -0.4,
-            latitude_rad: 0.3,
-            longitude_rad: -2.0,
-            height_m: 2e3,
-            azimuth_rad: 0.8,
-            elevation_rad: -0.6,
-            body: Some(Body::Venus),
-        }
-    }
 
     #[test]
     fn the_table_holds_every_option_once() {
@@ -191,11 +175,27 @@ mod tests {
         near(toward(Option::Vector), c.vector);
         let star = toward(Option::RightAscensionDeclination);
         near(Vector3::new(star.y.atan2(star.x), star.z.asin(), star.norm()), Vector3::new(1.1, -0.4, 1.0));
-        assert_relative_eq!(place(Option::EarthCentered), value(&s.earth) + c.position_m, epsilon = 1e-4);
-        assert_relative_eq!(place(Option::SunCentered), value(&s.sun) + c.position_m, epsilon = 1e-4);
-        assert_relative_eq!(place(Option::PlanetCentered), c.position_m, epsilon = 1e-8);
+        assert_relative_eq!(
+            place(Option::EarthCentered),
+            value(&s.earth) + command(Option::EarthCentered).position_m,
+            epsilon = 1e-4
+        );
+        assert_relative_eq!(
+            place(Option::SunCentered),
+            value(&s.sun) + command(Option::SunCentered).position_m,
+            epsilon = 1e-4
+        );
+        assert_relative_eq!(
+            place(Option::PlanetCentered),
+            command(Option::PlanetCentered).position_m,
+            epsilon = 1e-8
+        );
         let to_planet = matrix_value(&s.planet.planet_from_inertial(s.epoch_s));
-        assert_relative_eq!(to_planet * place(Option::PlanetFixed), c.position_m, epsilon = 1e-8);
+        assert_relative_eq!(
+            to_planet * place(Option::PlanetFixed),
+            command(Option::PlanetFixed).position_m,
+            epsilon = 1e-8
+        );
         let ground = to_planet * place(Option::LatitudeLongitude);
         assert_relative_eq!(ground.z.atan2(ground.x.hypot(ground.y)), 0.3, epsilon = 1e-14);
         assert_relative_eq!(ground.y.atan2(ground.x), -2.0, epsilon = 1e-14);

@@ -33,6 +33,24 @@ pub struct AntennaAzimuth {
     pub outside_rad: f64,
 }
 
+/// What an antenna's beam is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Beam {
+    /// The Earth, wherever constraints leave it.
+    AtTheEarth(AntennaAzimuth),
+    /// A commanded azimuth.
+    Commanded(AntennaAzimuth),
+}
+
+impl Beam {
+    /// Where it looks unless a constraint moves it.
+    pub fn azimuth(&self) -> &AntennaAzimuth {
+        match self {
+            Self::AtTheEarth(azimuth) | Self::Commanded(azimuth) => azimuth,
+        }
+    }
+}
+
 impl Antenna {
     /// Both antennas.
     pub const ALL: [Self; 2] = [Self::Sunshade, Self::Back];
@@ -69,6 +87,11 @@ impl AntennaAzimuth {
     /// Of the antenna nearest to a body-frame direction.
     pub fn toward(direction_body: &Vector3<f64>) -> Self {
         Self::of(SunAngles::of(direction_body).azimuth_rad)
+    }
+
+    /// How far a body-frame azimuth is from it, in rad.
+    pub fn off_rad(&self, azimuth_rad: f64) -> f64 {
+        ((azimuth_rad - self.azimuth_rad + PI).rem_euclid(TAU) - PI).abs()
     }
 
     /// Whether it is the azimuth that was asked for.

@@ -7,14 +7,12 @@ use super::hot_pole::HotPole;
 use super::keep_in::{KeepIn, KeepInMethod};
 use super::moving::{unit, value};
 use super::scenario::{PointingProgress, aim};
-use super::scenario_tests::{aimpoint, command, hardware};
+use super::scenario_tests::{FLOOR_RAD_S, SCENARIOS, STEP_S, aimpoint, command, hardware};
 use super::test_orbit::{TestOrbit, rate_error};
 use super::{Pointing, PointingVectors, Surroundings};
 use crate::attitude::SunAngles;
 use nalgebra::Vector3;
 
-const FLOOR_RAD_S: f64 = 1e-5;
-const STEP_S: f64 = 0.25;
 /// Steps over which the constrained law has to keep its form, in both directions.
 const STENCIL: [f64; 6] = [-4.0, -2.0, -1.0, 1.0, 2.0, 4.0];
 
@@ -54,7 +52,7 @@ fn form(
         found.pointing,
         [
             i8::from(found.sun_keep_in),
-            i8::from(found.hot_pole) + 2 * i8::from(found.clamped),
+            i8::from(found.hot_pole) + 2 * i8::from(found.hot_pole_reached),
             azimuth,
             elevation,
         ],
@@ -131,15 +129,7 @@ fn the_rate_is_the_derivative_with_a_constraint_in_force() {
 fn the_rate_is_the_derivative_for_every_scenario_in_a_narrow_zone() {
     let orbit = TestOrbit::new(12.0);
     let constraints = zone(KeepInMethod::Nearest);
-    for scenario in [
-        Scenario::PlusZ,
-        Scenario::Nadir,
-        Scenario::Mdis,
-        Scenario::DoubleTarget,
-        Scenario::Downlink,
-        Scenario::LimbTerminator,
-        Scenario::LimbGeneric,
-    ] {
+    for scenario in SCENARIOS.into_iter().filter(|it| *it != Scenario::Generic) {
         let command = command(scenario);
         let (worst, compared) =
             worst(&constraints, |s, elapsed_s| vectors_of(&command, s, elapsed_s), &orbit);

@@ -25,8 +25,8 @@ pub struct ConstrainedPointing {
     pub sun_keep_in: bool,
     /// Whether the attitude was turned about the Sun line.
     pub hot_pole: bool,
-    /// Whether no turn about the Sun line reaches the hot-pole cone's boundary; the attitude is then the best.
-    pub clamped: bool,
+    /// Whether the hot-pole cone is kept; where no turn about the Sun line reaches its boundary the attitude is the best.
+    pub hot_pole_reached: bool,
 }
 
 impl Constraints {
@@ -44,14 +44,19 @@ impl Constraints {
             None => (vectors.pointing()?, false),
         };
         let Some(cone) = &self.hot_pole else {
-            return Some(ConstrainedPointing { pointing, sun_keep_in, hot_pole: false, clamped: false });
+            return Some(ConstrainedPointing {
+                pointing,
+                sun_keep_in,
+                hot_pole: false,
+                hot_pole_reached: true,
+            });
         };
         let kept = cone.constrained(&pointing, surroundings);
         Some(ConstrainedPointing {
             pointing: kept.pointing,
             sun_keep_in,
             hot_pole: kept.in_force,
-            clamped: !kept.reached,
+            hot_pole_reached: kept.reached,
         })
     }
 

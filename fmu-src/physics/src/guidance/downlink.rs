@@ -10,10 +10,10 @@
 //! - where none is inside, the one nearest to a quadrant gives the antenna. The antenna looks along the quadrant's bound,
 //!   and the Sun comes as near to the asked place as the Earth there allows.
 
-use nalgebra::ComplexField;
+use nalgebra::{ComplexField, Vector3};
 
 use super::antenna::{Antenna, AntennaAzimuth, BOUND_RAD};
-use super::law::{Pointing, PointingVectors};
+use super::law::PointingVectors;
 use super::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
 use super::surroundings::Surroundings;
 use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
@@ -154,33 +154,31 @@ pub struct LinkLimits {
 pub struct Link {
     /// Angle between Sun and Earth seen from the spacecraft, in rad.
     pub sun_separation_rad: f64,
-    /// Whether the Earth is in the antenna's coverage, far enough from the Sun and not behind the planet.
+    /// Whether the Earth is in the beam's fan and the antenna's coverage, far enough from the Sun and not behind the planet.
     pub available: bool,
 }
 
-/// Whether the Earth's azimuth lies in a fan about the beam's, both in rad.
-pub fn is_on_beam(earth_azimuth_rad: f64, beam_azimuth_rad: f64) -> bool {
-    use core::f64::consts::{PI, TAU};
-    let off_rad = (earth_azimuth_rad - beam_azimuth_rad + PI).rem_euclid(TAU) - PI;
-    off_rad.abs() <= FAN_HALF_LENGTH_RAD
-}
-
-/// The link in an attitude; `None` where Sun or Earth has no direction.
+/// The link of a beam, the Earth being at `earth_body` in the body frame; `None` where Sun or Earth has no direction.
 pub fn link(
     surroundings: &Surroundings,
-    pointing: &Pointing,
-    antenna: Antenna,
+    earth_body: &Vector3<f64>,
+    beam: Option<&AntennaAzimuth>,
     limits: &LinkLimits,
 ) -> Option<Link> {
     let earth = unit(&surroundings.to_earth())?;
     let sun = unit(&surroundings.to_sun())?;
     let sun_separation_rad = angle_between_rad(&value(&sun), &value(&earth));
-    let earth_body = SunAngles::of(&value(&pointing.to_body(&earth)));
+    let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(earth_body);
     let coverage_rad = limits.coverage_rad + BOUND_RAD;
-    let covered = earth_body.elevation_rad.abs() <= coverage_rad
-        && antenna.nearest(earth_body.azimuth_rad).is_some_and(|nearest| nearest.outside_rad <= coverage_rad);
-    let available =
-        covered && sun_separation_rad > limits.sun_separation_rad && !behind_planet(surroundings, &earth);
+    let is_covered = |beam: &AntennaAzimuth| {
+        let nearest = beam.antenna.nearest(azimuth_rad);
+        elevation_rad.abs() <= coverage_rad
+            && beam.off_rad(azimuth_rad) <= FAN_HALF_LENGTH_RAD
+            && nearest.is_some_and(|nearest| nearest.outside_rad <= coverage_rad)
+    };
+    let available = beam.is_some_and(is_covered)
+        && sun_separation_rad > limits.sun_separation_rad
+        && !behind_planet(surroundings, &earth);
     Some(Link { sun_separation_rad, available })
 }
 

@@ -367,6 +367,33 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_clamp_is_up_to_half_a_degree_farther_in_the_quarter_about_the_axis() {
+        let zone = |method| KeepIn {
+            axis_body: -Vector3::y(),
+            azimuth_rad: 15.0_f64.to_radians(),
+            elevation_rad: 13.0_f64.to_radians(),
+            method,
+        };
+        let mut farthest_deg = 0.0_f64;
+        for azimuth_deg in 0..90 {
+            for elevation_deg in 0..90 {
+                let [azimuth_rad, elevation_rad] =
+                    [azimuth_deg, elevation_deg].map(|it| f64::from(it).to_radians());
+                let sun = direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
+                let off_rad = |method| {
+                    let point = zone(method).boundary_point(&fixed(sun)).unwrap();
+                    point.map(|point| angle_between_rad(&value(&point), &sun))
+                };
+                let both = off_rad(KeepInMethod::Clamp).zip(off_rad(KeepInMethod::Nearest));
+                let excess_rad = both.map_or(0.0, |(clamp, nearest)| clamp - nearest);
+                assert!(excess_rad > -1e-14);
+                farthest_deg = farthest_deg.max(excess_rad.to_degrees());
+            }
+        }
+        assert!((0.4..0.5).contains(&farthest_deg), "{farthest_deg}");
+    }
+
     /// Edge and quadrant of a boundary point; what changes at a corner or where two points are as near.
     fn edge(zone: &KeepIn, sun_body: &Vector3<f64>) -> [i8; 4] {
         let at = SunAngles::of(&(zone_from_body(&zone.axis_body) * sun_body));

@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::aimpoint::{Aim, AimKind, aimpoint};
-use super::antenna::AntennaAzimuth;
+use super::antenna::{AntennaAzimuth, Beam};
 use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
 use super::command::{BoresightOption, PointingCommand, Scenario};
 use super::downlink::{Downlink, DownlinkRequest, downlink};
@@ -53,7 +53,7 @@ pub struct Aimed {
     /// From the spacecraft to what the camera follows beside the boresight, EME2000.
     pub second: Option<MovingVector>,
     /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
-    pub antenna: Option<AntennaAzimuth>,
+    pub antenna: Option<Beam>,
     /// Whether the boresight is on the aimpoint that was asked for.
     pub reachable: bool,
     /// Whether an angle that was asked for is out of its range.
@@ -159,7 +159,7 @@ impl Reading<'_> {
             },
             mdis: boresight.mdis,
             second: None,
-            antenna: boresight.antenna,
+            antenna: boresight.antenna.map(Beam::Commanded),
             reachable: aim.reachable,
             clamped: boresight.mdis.is_some_and(|camera| !camera.in_range)
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
@@ -183,7 +183,11 @@ fn antenna_at_the_earth(r: &Reading<'_>) -> Option<Aimed> {
         vectors,
         mdis: None,
         second: None,
-        antenna: Some(AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad: 0.0 }),
+        antenna: Some(Beam::AtTheEarth(AntennaAzimuth {
+            antenna,
+            azimuth_rad: antenna_azimuth_rad,
+            outside_rad: 0.0,
+        })),
         reachable: true,
         clamped,
         scan_active: false,

@@ -21,10 +21,10 @@ use crate::bodies::Body;
 use crate::spacecraft::Instrument;
 
 /// 1e-7 of the rate, or of this.
-const FLOOR_RAD_S: f64 = 1e-5;
-const STEP_S: f64 = 0.25;
+pub(super) const FLOOR_RAD_S: f64 = 1e-5;
+pub(super) const STEP_S: f64 = 0.25;
 
-const SCENARIOS: [Scenario; 8] = [
+pub(super) const SCENARIOS: [Scenario; 8] = [
     Scenario::Generic,
     Scenario::PlusZ,
     Scenario::Nadir,
@@ -338,8 +338,8 @@ fn devices_stop_at_their_range_and_say_so() {
     antenna.boresight.option = Some(BoresightOption::PhasedArray);
     antenna.boresight.azimuth_rad = 0.2;
     let aimed = at(&antenna, 3000.0, &still).1.unwrap();
-    assert_eq!(aimed.antenna.unwrap().azimuth_rad, 0.0);
-    assert!(!aimed.antenna.unwrap().is_in_range() && aimed.mdis.is_none());
+    assert_eq!(aimed.antenna.unwrap().azimuth().azimuth_rad, 0.0);
+    assert!(!aimed.antenna.unwrap().azimuth().is_in_range() && aimed.mdis.is_none());
 }
 
 #[test]

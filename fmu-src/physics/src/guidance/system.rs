@@ -9,11 +9,11 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::antenna::{Antenna, AntennaAzimuth};
+use super::antenna::{Antenna, AntennaAzimuth, Beam};
 use super::boresight::DeviceAngle;
 use super::command::{LimbCommand, PointingCommand, ScanCommand, Scenario};
 use super::constraints::{ConstrainedPointing, Constraints};
-use super::downlink::{LinkLimits, is_on_beam, link};
+use super::downlink::{LinkLimits, link};
 use super::guided::Guided;
 use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
@@ -134,6 +134,8 @@ pub struct Judgement {
     pub sun_keep_in: bool,
     /// Whether the hot-pole keep-out did.
     pub hot_pole: bool,
+    /// Whether its cone is kept, in force or not.
+    pub hot_pole_reached: bool,
     /// Whether something that was asked for was clamped.
     pub clamped: bool,
 }
@@ -156,6 +158,14 @@ pub struct GuidanceState {
     /// The limb scenario and since when it is commanded, in s.
     limb: Option<(Scenario, f64)>,
     next_sample_s: f64,
+}
+
+/// What a sample works with.
+struct Now<'a> {
+    settings: &'a GuidanceSettings<'a>,
+    constraints: Constraints,
+    surroundings: &'a Surroundings,
+    time_s: f64,
 }
 
 impl GuidanceState {
@@ -223,13 +233,13 @@ impl GuidanceState {
         if to_sun.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
             modes.operational.keep_in = None;
         }
-        modes.watches_hot_pole &= !(self.judgement.hot_pole && self.judgement.clamped);
+        modes.watches_hot_pole &= self.judgement.hot_pole_reached;
         self.keep_clocks(&inputs.command, inputs.entries, time_s);
         match self.modes.sample(&modes, &sensed, surroundings) {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
-                    self.point(settings, &command, &constraints, surroundings, time_s);
+                    self.point(&Now { settings, constraints, surroundings, time_s }, &command);
                 }
             }
             Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
@@ -302,11 +312,7 @@ impl GuidanceState {
     /// What is commanded now: where no scenario is, the last command that gave an attitude, without its scans.
     pub fn continued(&self, command: &PointingCommand) -> PointingCommand {
         match self.law {
-            Some(law) if command.scenario.is_none() => PointingCommand {
-                scan: ScanCommand::default(),
-                limb: LimbCommand { height_rate_m_s: 0.0, ..law.limb },
-                ..law
-            },
+            Some(law) if command.scenario.is_none() => without_scans(&law),
             _ => *command,
         }
     }
@@ -334,96 +340,77 @@ impl GuidanceState {
     }
 
     /// Computes an attitude; without a direction the last law stays that gave one.
-    fn point(
-        &mut self,
-        settings: &GuidanceSettings<'_>,
-        command: &PointingCommand,
-        constraints: &Constraints,
-        surroundings: &Surroundings,
-        time_s: f64,
-    ) {
-        let mut found = self.constrained(settings, command, constraints, surroundings, time_s);
+    fn point(&mut self, now: &Now<'_>, command: &PointingCommand) {
+        let mut found = self.constrained(now, command);
         let is_given = found.is_some();
-        if is_given {
-            if self.modes.mode == Mode::Operational {
-                self.law = Some(*command);
-            }
-        } else if let Some(law) = self.law.map(|law| self.modes.mode.admitted(&law)) {
-            found = self.constrained(settings, &law, constraints, surroundings, time_s);
+        if !is_given && let Some(law) = self.law.map(|law| self.modes.mode.admitted(&without_scans(&law))) {
+            found = self.constrained(now, &law);
+        } else if is_given && self.modes.mode == Mode::Operational {
+            self.law = Some(*command);
         }
-        let Some((aimed, ConstrainedPointing { pointing, sun_keep_in, hot_pole, clamped })) = found else {
+        let Some((aimed, constrained)) = found else {
             self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING };
             return;
         };
+        let ConstrainedPointing { pointing, sun_keep_in, hot_pole, hot_pole_reached } = constrained;
         let frame = pointing.frame();
         let attitude = Attitude::from_rotation(&frame.inertial_from_body);
-        let quaternion = attitude.quaternion(Some(self.command.quaternion_at(time_s)));
+        let quaternion = attitude.quaternion(Some(self.command.quaternion_at(now.time_s)));
         self.command = GuidanceCommand {
             kind: CommandKind::Attitude,
-            since_s: time_s,
+            since_s: now.time_s,
             attitude,
             quaternion,
             rate_body_rad_s: frame.rate_body_rad_s,
             error: [0.0, 0.0, 0.0, 1.0],
         };
-        // The beam follows the Earth where a constraint moved the antenna off it.
-        let beam = aimed.antenna.map(|asked| {
-            let is_moved = (sun_keep_in || hot_pole) && command.scenario == Some(Scenario::Downlink);
-            let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
-            if is_moved { AntennaAzimuth::toward(&earth_body()) } else { asked }
+        let earth_body = value(&pointing.to_body(&now.surroundings.to_earth()));
+        let is_moved = sun_keep_in || hot_pole;
+        let beam = aimed.antenna.map(|asked| match asked {
+            // The beam follows the Earth where a constraint moved the antenna off it.
+            Beam::AtTheEarth(_) if is_moved => AntennaAzimuth::toward(&earth_body),
+            Beam::AtTheEarth(azimuth) | Beam::Commanded(azimuth) => azimuth,
         });
-        let (antenna, antenna_azimuth_rad) =
-            beam.map_or((Antenna::None, 0.0), |it| (it.antenna, it.azimuth_rad));
-        let link = link(surroundings, &pointing, antenna, &settings.link);
-        let earth_body = SunAngles::of(&value(&pointing.to_body(&surroundings.to_earth())));
-        let is_on_beam = is_on_beam(earth_body.azimuth_rad, antenna_azimuth_rad);
-        let mdis = aimed.camera(&pointing, &settings.hardware.mdis).unwrap_or(Judgement::NOTHING.mdis);
+        let link = link(now.surroundings, &earth_body, beam.as_ref(), &now.settings.link);
+        let mdis = aimed.camera(&pointing, &now.settings.hardware.mdis).unwrap_or(Judgement::NOTHING.mdis);
         self.judgement = Judgement {
             mdis,
-            antenna,
-            antenna_azimuth_rad,
+            antenna: beam.map_or(Antenna::None, |beam| beam.antenna),
+            antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
             sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
-            link_available: is_on_beam && link.is_some_and(|link| link.available),
+            link_available: link.is_some_and(|link| link.available),
             reachable: aimed.reachable && is_on(&pointing, &aimed.vectors),
             degenerate: pointing.degenerate || !is_given,
             scan_active: aimed.scan_active,
             sun_keep_in,
             hot_pole,
-            clamped: clamped || aimed.clamped || !mdis.in_range,
+            hot_pole_reached,
+            clamped: !hot_pole_reached || aimed.clamped || !mdis.in_range,
         };
     }
 
     /// The vectors of a command and the attitude within the constraints; `None` where something has no direction.
     fn constrained(
         &mut self,
-        settings: &GuidanceSettings<'_>,
+        now: &Now<'_>,
         command: &PointingCommand,
-        constraints: &Constraints,
-        surroundings: &Surroundings,
-        time_s: f64,
     ) -> Option<(Aimed, ConstrainedPointing)> {
-        let aimed = self.aimed(settings, command, surroundings, time_s)?;
-        let constrained = constraints.applied(&aimed.vectors, surroundings)?;
+        let aimed = self.aimed(now, command)?;
+        let constrained = now.constraints.applied(&aimed.vectors, now.surroundings)?;
         Some((aimed, constrained))
     }
 
     /// The vectors that the command asks for.
-    fn aimed(
-        &mut self,
-        settings: &GuidanceSettings<'_>,
-        command: &PointingCommand,
-        surroundings: &Surroundings,
-        time_s: f64,
-    ) -> Option<Aimed> {
+    fn aimed(&mut self, now: &Now<'_>, command: &PointingCommand) -> Option<Aimed> {
         if command.scenario == Some(Scenario::OrbitPhase) {
-            return Some(self.orbit_phase(&settings.orbit_phase, surroundings));
+            return Some(self.orbit_phase(&now.settings.orbit_phase, now.surroundings));
         }
         let progress = PointingProgress {
-            scan_elapsed_s: self.scan_since_s.map(|since_s| time_s - since_s),
-            limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| time_s - since_s),
+            scan_elapsed_s: self.scan_since_s.map(|since_s| now.time_s - since_s),
+            limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
             downlink_sun_body: SunAngles::default(),
         };
-        aim(command, &settings.hardware, surroundings, &progress)
+        aim(command, &now.settings.hardware, now.surroundings, &progress)
     }
 
     /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
@@ -436,7 +423,7 @@ impl GuidanceState {
             vectors: pointing.vectors(),
             mdis: None,
             second: None,
-            antenna: is_downlink.then(|| AntennaAzimuth::toward(&earth_body())),
+            antenna: is_downlink.then(|| Beam::AtTheEarth(AntennaAzimuth::toward(&earth_body()))),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
             clamped: false,
             scan_active: false,
@@ -491,8 +478,15 @@ impl Judgement {
         scan_active: false,
         sun_keep_in: false,
         hot_pole: false,
+        hot_pole_reached: true,
         clamped: false,
     };
+}
+
+/// A command that goes on after its end: its scans do not.
+fn without_scans(command: &PointingCommand) -> PointingCommand {
+    let limb = LimbCommand { height_rate_m_s: 0.0, ..command.limb };
+    PointingCommand { scan: ScanCommand::default(), limb, ..*command }
 }
 
 /// Whether the boresight is on the aimpoint, within what rounding leaves.

@@ -133,7 +133,7 @@ impl DumpSpacing {
 
 impl Dumps {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub(super) fn is_sound(&self) -> bool {
+    pub(crate) fn is_sound(&self) -> bool {
         let event = |event: &DumpEvent| {
             let numbers =
                 event.before_body_n_m_s.iter().chain(&event.after_body_n_m_s).chain([&event.time_s]);
@@ -142,7 +142,7 @@ impl Dumps {
         self.count >= 0 && self.last.as_ref().is_none_or(event) && self.window.0.abs() <= GREATEST_IN_STATE
     }
 
-    pub(super) fn with(self, event: DumpEvent) -> Self {
+    pub(crate) fn with(self, event: DumpEvent) -> Self {
         let (from_s, count) = self.window;
         // Written so that a restored NaN begins anew.
         let goes_on = event.time_s - from_s < DUMP_WINDOW_S;
@@ -150,7 +150,7 @@ impl Dumps {
         Self { count: self.count.saturating_add(1), last: Some(event), window }
     }
 
-    pub(super) fn check(&self) -> Result<(), TooManyDumps> {
+    pub(crate) fn check(&self) -> Result<(), TooManyDumps> {
         let (from_s, count) = self.window;
         let to_s = self.last.map_or(from_s, |event| event.time_s);
         if count < MOST_DUMPS_IN_WINDOW { Ok(()) } else { Err(TooManyDumps { from_s, to_s }) }

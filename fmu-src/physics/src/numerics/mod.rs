@@ -1,10 +1,12 @@
-//! Numerical tools: Chebyshev segments, quadrature, roots, integrator with dense output, the scalar of the kernels.
+//! Numerical tools: Chebyshev segments, quadrature, roots, integrator with dense output, random draws, the
+//! scalar of the kernels.
 
 pub mod adaptive;
 pub mod chebyshev;
 pub mod collocation;
 pub mod events;
 pub mod intervals;
+pub mod noise;
 pub mod quadrature;
 pub mod roots;
 pub mod scalar;

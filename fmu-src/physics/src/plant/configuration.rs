@@ -25,6 +25,28 @@ pub enum AttitudeSource {
     Guided(Guided),
     /// A command, followed ideally.
     Commanded(Command),
+    /// A body that turns as its dynamics say.
+    Dynamic(DynamicAttitude),
+}
+
+impl AttitudeSource {
+    /// The orbit phase's own guidance, followed ideally or as a command to the controller.
+    pub fn guided(&self) -> Option<&Guided> {
+        match self {
+            Self::Guided(guided) => Some(guided),
+            Self::Commanded(_) => None,
+            Self::Dynamic(dynamic) => dynamic.guided.as_ref(),
+        }
+    }
+}
+
+/// An attitude that is known up to now, and what it is to follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DynamicAttitude {
+    /// The attitude now, going on at the present rate.
+    pub motion: Command,
+    /// The orbit phase's own guidance; absent where commands come from elsewhere.
+    pub guided: Option<Guided>,
 }
 
 /// A commanded attitude, turning on at a constant rate.

@@ -130,6 +130,21 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         Evaluation { instant, loads }
     }
 
+    /// Where everything is and how the body stands at `time_s`.
+    pub fn instant(&mut self, time_s: f64) -> Instant {
+        self.kinematics.instant(time_s)
+    }
+
+    /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.
+    pub(super) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+        self.kinematics.smooth_until(start_s, limit_s)
+    }
+
+    /// Frame and rate that guidance commands at `time_s`; `None` where there is none.
+    pub(super) fn guided_frame(&mut self, time_s: f64) -> Option<MovingFrame> {
+        self.kinematics.guided_frame(time_s)
+    }
+
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
         self.kinematics.trajectory.time_since_periapsis_s(self.kinematics.configuration, time_s)

@@ -6,14 +6,14 @@
 
 use crate::attitude::MovingFrame;
 use crate::environment::ephemeris::Ephemeris;
-use crate::guidance::Activity;
+use crate::guidance::{Activity, Guided, GuidedAttitude};
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::first_change_s;
 use crate::numerics::spacing::spacing;
 
-use super::configuration::{AttitudeSource, Configuration};
+use super::configuration::{AttitudeSource, Command, Configuration};
 use super::error::PlantError;
 use super::geometry::Geometry;
 use super::instant::{Instant, Regime};
@@ -119,40 +119,54 @@ impl<'a> Kinematics<'a> {
 
     /// Body frame and rate, and the form of the law they come from.
     fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> LawAt {
+        let held = |command: &Command| LawAt {
+            frame: command.frame_at(time_s),
+            window_since_s: f64::NEG_INFINITY,
+            downlink: false,
+            slewing: false,
+            margins: [f64::INFINITY; 2],
+            until_s: f64::INFINITY,
+        };
         match &self.configuration.attitude {
             AttitudeSource::Guided(guided) => {
-                let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-                let trajectory = &*self.trajectory;
-                let epoch_s = time_s + configuration.epoch_minus_time_s;
-                let window = trajectory
-                    .window(configuration, time_s)
-                    .unwrap_or_else(|| guided.schedule.window(epoch_s));
-                let guided = guided.within(window, epoch_s, |at_epoch_s| {
-                    if at_epoch_s == epoch_s {
-                        return geometry.lines_of_sight();
-                    }
-                    let at_s = at_epoch_s - configuration.epoch_minus_time_s;
-                    let spacecraft = trajectory.state_at_window_start(configuration, at_s);
-                    Geometry::at(configuration, ephemeris, at_s, spacecraft).lines_of_sight()
-                });
+                let guided = self.guided(guided, time_s, geometry);
                 LawAt {
                     frame: guided.frame,
                     window_since_s: guided.window.since_s,
                     downlink: guided.window.activity == Activity::Downlink,
                     slewing: guided.slewing,
                     margins: guided.margins,
-                    until_s: guided.until_s - configuration.epoch_minus_time_s,
+                    until_s: guided.until_s - self.configuration.epoch_minus_time_s,
                 }
             }
-            AttitudeSource::Commanded(command) => LawAt {
-                frame: command.frame_at(time_s),
-                window_since_s: f64::NEG_INFINITY,
-                downlink: false,
-                slewing: false,
-                margins: [f64::INFINITY; 2],
-                until_s: f64::INFINITY,
-            },
+            AttitudeSource::Commanded(command) => held(command),
+            AttitudeSource::Dynamic(dynamic) => held(&dynamic.motion),
         }
+    }
+
+    /// What the orbit phase's own guidance commands at `time_s`.
+    fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
+        let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
+        let trajectory = &*self.trajectory;
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let window =
+            trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
+        guided.within(window, epoch_s, |at_epoch_s| {
+            if at_epoch_s == epoch_s {
+                return geometry.lines_of_sight();
+            }
+            let at_s = at_epoch_s - configuration.epoch_minus_time_s;
+            let spacecraft = trajectory.state_at_window_start(configuration, at_s);
+            Geometry::at(configuration, ephemeris, at_s, spacecraft).lines_of_sight()
+        })
+    }
+
+    /// Frame and rate that guidance commands at `time_s`; `None` where there is none.
+    pub fn guided_frame(&mut self, time_s: f64) -> Option<MovingFrame> {
+        let configuration = self.configuration;
+        let guided = configuration.attitude.guided()?;
+        let geometry = self.geometry(time_s);
+        Some(self.guided(guided, time_s, &geometry).frame)
     }
 
     /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.

@@ -14,7 +14,10 @@
 //! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
+mod attitude_dynamics;
 mod configuration;
+mod control_defaults;
+mod disturbance_interval;
 mod error;
 mod evaluation;
 mod geometry;
@@ -30,10 +33,12 @@ mod stored_heat;
 mod trajectory;
 mod work;
 
+pub use attitude_dynamics::{AttitudeDynamics, Control, DynamicsInputs, DynamicsSettings, Flight, Tracked};
 pub use configuration::{
-    AttitudeSource, Command, Configuration, EphemerisSource, Motion, PanelSetting, SunLight,
+    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, Motion, PanelSetting, SunLight,
     orbit_from_elements,
 };
+pub use control_defaults::ControlDefaults;
 pub use error::PlantError;
 pub use evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
 pub use geometry::Geometry;

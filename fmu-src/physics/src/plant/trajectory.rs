@@ -11,7 +11,7 @@ use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::roots;
 use crate::numerics::spacing::spacing;
 
-use super::configuration::{AttitudeSource, Configuration, Motion};
+use super::configuration::{Configuration, Motion};
 use super::geometry;
 
 /// Two passages closer together than this part of a revolution are one, found twice.
@@ -115,7 +115,7 @@ impl Trajectory {
 
     /// The schedule's window at `time_s` where it follows an integrated orbit, in the schedule's time scale.
     pub(super) fn window(&self, configuration: &Configuration, time_s: f64) -> Option<Window> {
-        let AttitudeSource::Guided(guided) = &configuration.attitude else { return None };
+        let guided = configuration.attitude.guided()?;
         if self.orbit.is_none() || !guided.schedule.period_s.is_finite() {
             return None;
         }
@@ -240,10 +240,7 @@ impl Periapses {
 }
 
 fn every(configuration: &Configuration) -> i64 {
-    match &configuration.attitude {
-        AttitudeSource::Guided(guided) => i64::from(guided.schedule.every.max(1)),
-        AttitudeSource::Commanded(_) => 1,
-    }
+    configuration.attitude.guided().map_or(1, |guided| i64::from(guided.schedule.every.max(1)))
 }
 
 /// Position times velocity: it rises through zero at periapsis.

@@ -11,7 +11,8 @@ use super::build_thermal::{
 use super::checker::Checker;
 use super::description::{
     CylinderDescription, Description, InstrumentDescription, MassDescription, OpticsDescription,
-    PanelDescription, PlanetMapDescription, PlateDescription, SunshadeDescription, WheelDescription,
+    PanelDescription, PlanetMapDescription, PlateDescription, SunSensorDescription, SunshadeDescription,
+    WheelDescription,
 };
 use super::document::Document;
 use super::error::SpacecraftError;
@@ -23,8 +24,9 @@ use super::place::Place;
 use super::planet_map::{HOTTEST_K, MOST_BELTS, PlanetCell, PlanetMap};
 use super::spelling::nearest;
 use super::start::{StartEntry, start_entries};
+use super::sun_sensors::{HALF_FIELD_OF_VIEW_DEG, MountedSunSensor};
 use super::surface::{Cylinder, Plate, Sunshade, SunshadeModel};
-use super::wheels::Wheel;
+use super::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
 
 /// How far absorptivity + specular + diffuse may be off 1.
 const OPTICS_SUM_TOLERANCE: f64 = 1e-9;
@@ -44,6 +46,8 @@ pub struct Spacecraft {
     pub panels: Vec<Panel>,
     /// Reaction wheels.
     pub wheels: Vec<Wheel>,
+    /// Sun sensors.
+    pub sun_sensors: Vec<MountedSunSensor>,
     /// Instruments that are pointed.
     pub instruments: Vec<Instrument>,
     /// Magnitude of each body component of the momentum at which thrusters dump it, in N m s.
@@ -139,6 +143,10 @@ impl Builder<'_> {
             sunshade: description.sunshade.as_ref().map(|s| self.sunshade(&root.key("sunshade"), s)),
             panels: self.list(&root.key("panels"), description.panels.as_deref(), Self::panel),
             wheels: self.list(&root.key("wheels"), description.wheels.as_deref(), Self::wheel),
+            sun_sensors: match description.sun_sensors.as_deref() {
+                Some(sensors) => self.list(&root.key("sun_sensors"), Some(sensors), Self::sun_sensor),
+                None => MountedSunSensor::six(),
+            },
             instruments: self.list(
                 &root.key("instruments"),
                 description.instruments.as_deref(),
@@ -169,7 +177,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Two plates, the shade's among them, two panels, wheels or instruments with one name could not be told apart.
+    /// Two plates, the shade's among them, two panels, wheels, Sun sensors or instruments with one name could not be told apart.
     fn distinct_names(&mut self, description: &Description) {
         let root = Place::root();
         let plate = |plate: &PlateDescription| plate.name.clone();
@@ -186,11 +194,15 @@ impl Builder<'_> {
             named(&root.key("panels"), description.panels.as_deref(), "panel", |panel| panel.name.clone());
         let wheels =
             named(&root.key("wheels"), description.wheels.as_deref(), "wheel", |wheel| wheel.name.clone());
+        let sensors =
+            named(&root.key("sun_sensors"), description.sun_sensors.as_deref(), "sun sensor", |sensor| {
+                sensor.name.clone()
+            });
         let instruments =
             named(&root.key("instruments"), description.instruments.as_deref(), "instrument", |instrument| {
                 Some(instrument.name.clone())
             });
-        for list in [plates, panels, wheels, instruments] {
+        for list in [plates, panels, wheels, sensors, instruments] {
             let mut known: BTreeMap<String, (Place, bool)> = BTreeMap::new();
             for (at, name, is_given) in list {
                 match known.get(&name) {
@@ -409,10 +421,39 @@ impl Builder<'_> {
     }
 
     fn wheel(&mut self, at: &Place, index: usize, description: &WheelDescription) -> Wheel {
+        let capacity_n_m_s = self.check.positive(&at.key("capacity_n_m_s"), description.capacity_n_m_s);
+        let mut positive = |key: &str, value: Option<f64>, otherwise: f64| {
+            value.map_or(otherwise, |value| self.check.positive(&at.key(key), value))
+        };
+        let inertia_kg_m2 =
+            positive("inertia_kg_m2", description.inertia_kg_m2, capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S);
+        let max_torque_n_m =
+            positive("max_torque_n_m", description.max_torque_n_m, capacity_n_m_s / TIME_TO_CAPACITY_S);
+        let mut friction = |key: &str, value: Option<f64>| {
+            value.map_or(0.0, |value| self.check.not_negative(&at.key(key), value))
+        };
         Wheel {
             name: name_or_number(description.name.as_deref(), "wheel", index),
+            coulomb_friction_n_m: friction("coulomb_friction_n_m", description.coulomb_friction_n_m),
+            viscous_friction_n_m_s: friction("viscous_friction_n_m_s", description.viscous_friction_n_m_s),
             axis_body: self.check.unit_vector(&at.key("axis"), description.axis),
-            capacity_n_m_s: self.check.positive(&at.key("capacity_n_m_s"), description.capacity_n_m_s),
+            capacity_n_m_s,
+            inertia_kg_m2,
+            max_torque_n_m,
+        }
+    }
+
+    fn sun_sensor(
+        &mut self,
+        at: &Place,
+        index: usize,
+        description: &SunSensorDescription,
+    ) -> MountedSunSensor {
+        let half_deg = description.half_field_of_view_deg.unwrap_or(HALF_FIELD_OF_VIEW_DEG);
+        MountedSunSensor {
+            name: name_or_number(description.name.as_deref(), "sun sensor", index),
+            axis_body: self.check.unit_vector(&at.key("axis"), description.axis),
+            half_field_of_view_rad: self.check.angle(&at.key("half_field_of_view_deg"), half_deg, 0.0, 180.0),
         }
     }
 

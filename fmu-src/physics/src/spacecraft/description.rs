@@ -31,6 +31,8 @@ pub(crate) struct Description {
     /// Reaction wheels.
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub wheels: Option<Vec<WheelDescription>>,
+    /// Sun sensors; left out, six along the body axes.
+    pub sun_sensors: Option<Vec<SunSensorDescription>>,
     /// Instruments fixed in the body frame, which Guidance points by their number from 1.
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub instruments: Option<Vec<InstrumentDescription>>,
@@ -265,6 +267,32 @@ pub(crate) struct WheelDescription {
     /// Greatest momentum of the rotor, in N m s.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub capacity_n_m_s: f64,
+    /// Moment of inertia of the rotor about its axis, in kg m2; left out, that which reaches the capacity at 6000 rpm.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub inertia_kg_m2: Option<f64>,
+    /// Greatest torque of the motor, in N m; left out, that which reaches the capacity from rest in 100 s.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub max_torque_n_m: Option<f64>,
+    /// Coulomb friction, in N m; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub coulomb_friction_n_m: Option<f64>,
+    /// Viscous friction, in N m per rad/s; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub viscous_friction_n_m_s: Option<f64>,
+}
+
+/// A Sun sensor.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SunSensorDescription {
+    /// Name for messages; numbered unless given.
+    pub name: Option<String>,
+    /// Unit vector of its axis, body frame.
+    pub axis: [f64; 3],
+    /// Half the field of view, from the axis, in deg; 60 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(max = 180.0), extend("exclusiveMinimum" = 0)))]
+    pub half_field_of_view_deg: Option<f64>,
 }
 
 /// An instrument.

@@ -25,6 +25,7 @@ mod reader;
 mod schema;
 mod spelling;
 mod start;
+mod sun_sensors;
 mod surface;
 mod thermal;
 mod thruster;
@@ -49,6 +50,7 @@ pub use schema::schema;
 pub(crate) use spelling::nearest;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
+pub use sun_sensors::MountedSunSensor;
 pub use surface::{Cylinder, Plate, Sunshade, SunshadeModel};
 pub use thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,

@@ -1,4 +1,4 @@
-//! Reaction wheels: their axes and what each can hold.
+//! Reaction wheels: their axes, and what each can hold and exert.
 
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -12,7 +12,20 @@ pub struct Wheel {
     pub axis_body: Vector3<f64>,
     /// Greatest momentum of the rotor about its axis, in N m s.
     pub capacity_n_m_s: f64,
+    /// Moment of inertia of the rotor about its axis, in kg m2.
+    pub inertia_kg_m2: f64,
+    /// Greatest torque of the motor, in N m.
+    pub max_torque_n_m: f64,
+    /// Coulomb friction, in N m.
+    pub coulomb_friction_n_m: f64,
+    /// Viscous friction, in N m per rad/s.
+    pub viscous_friction_n_m_s: f64,
 }
+
+/// Speed at the capacity, from which a rotor's inertia follows where the file gives none: 6000 rpm, assumed.
+pub const SPEED_AT_CAPACITY_RAD_S: f64 = 6000.0 * core::f64::consts::TAU / 60.0;
+/// How long a motor takes from rest to the capacity where the file gives no torque: 100 s, assumed.
+pub const TIME_TO_CAPACITY_S: f64 = 100.0;
 
 /// Dump thresholds paper 000 states beside the capacity of each of four wheels, both in N m s; it does not publish
 /// the wheels' axes.

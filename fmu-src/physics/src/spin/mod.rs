@@ -8,7 +8,6 @@ pub mod damper;
 pub mod forecast;
 pub mod geometry;
 pub mod motion;
-pub mod noise;
 pub mod nutation;
 pub mod outputs;
 pub mod plant;

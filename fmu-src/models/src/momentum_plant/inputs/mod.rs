@@ -1,6 +1,7 @@
 //! From parameters and inputs to the physics' configuration; refuses what cannot be flown, by name.
 
 pub mod center;
+pub mod dynamics;
 pub mod state;
 
 use fmi_export::{Failure, Values};
@@ -15,7 +16,7 @@ use physics::environment::paper004::KeplerPlanet;
 use physics::environment::time;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
-    self, Configuration, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
+    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
 };
 use physics::spacecraft::{PanelControl, SunshadeModel};
 
@@ -23,7 +24,7 @@ use self::center::Center;
 use self::state::PlantState;
 use super::setup::Plan;
 use super::variables::PlantVariables;
-use super::variables::choices::{AttitudeSource, DumpReinitTo, OrbitDynamics, OrbitSource, PanelTilt};
+use super::variables::choices::{DumpReinitTo, OrbitDynamics, OrbitSource, PanelTilt};
 use crate::common::choices::EphemerisSource;
 use crate::common::spacecraft::inertia_body_kg_m2;
 
@@ -87,7 +88,7 @@ pub fn refreshed(
     Ok(Configuration {
         epoch_minus_time_s,
         center: body,
-        attitude: attitude(variables, values, state, body, &orbit)?,
+        attitude: attitude(context, values, state, body, &orbit)?,
         orbit,
         motion: motion(variables, values, &data),
         ephemeris: ephemeris(&center, variables, values, state)?,
@@ -226,31 +227,28 @@ fn ephemeris(
 }
 
 fn attitude(
-    variables: &PlantVariables,
+    context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
     center: Body,
     orbit: &TwoBodyOrbit,
 ) -> Result<plant::AttitudeSource, Failure> {
-    match values.choice(variables.attitude.source) {
-        Some(AttitudeSource::Commanded) => Ok(plant::AttitudeSource::Commanded(state.command)),
-        Some(AttitudeSource::Guided) | None => {
-            let period_s = if center.is_planet() { orbit.period_s() } else { f64::INFINITY };
-            let elevation_limit_rad = values.real(variables.keep_in.elevation);
-            variables
-                .guided
-                .read(values, orbit.periapsis_epoch_s(0), period_s, elevation_limit_rad)
-                .map(plant::AttitudeSource::Guided)
-        }
-        Some(AttitudeSource::Controlled) => Err(refused("controlled")),
-        Some(AttitudeSource::Free) => Err(refused("free")),
+    let variables = context.variables;
+    let guided = || {
+        let period_s = if center.is_planet() { orbit.period_s() } else { f64::INFINITY };
+        let elevation_limit_rad = values.real(variables.keep_in.elevation);
+        variables.guided.read(values, orbit.periapsis_epoch_s(0), period_s, elevation_limit_rad)
+    };
+    let guides_itself = dynamics::guides_itself(context, values);
+    if dynamics::is_dynamic(context, values) {
+        let guided = if guides_itself { Some(guided()?) } else { None };
+        return Ok(plant::AttitudeSource::Dynamic(DynamicAttitude { motion: state.command, guided }));
     }
-}
-
-fn refused(item: &str) -> Failure {
-    Failure::new(format!(
-        "attitude.source = {item} is not in this version of MomentumPlant; allowed are guided (1) and commanded (2)"
-    ))
+    if guides_itself {
+        guided().map(plant::AttitudeSource::Guided)
+    } else {
+        Ok(plant::AttitudeSource::Commanded(state.command))
+    }
 }
 
 fn settings(variables: &PlantVariables, values: &Values) -> Settings {

@@ -6,10 +6,13 @@ use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
 use physics::guidance::system::CommandKind as Kind;
-use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals};
-use physics::plant::{Command, Configuration, PropagatorState, RadiationSolver};
+use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals, WheelArray};
+use physics::plant::{
+    AttitudeDynamics, Command, Configuration, DynamicsSettings, PropagatorState, RadiationSolver,
+};
 use serde::{Deserialize, Serialize};
 
+use super::dynamics::guides_itself;
 use crate::common::choices::{CommandKind, EphemerisSource, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::choices::{AttitudeSource, OrbitSource};
@@ -21,8 +24,10 @@ pub struct PlantState {
     pub start_s: f64,
     /// The orbit and the stretch of flight at hand.
     pub propagator: PropagatorState,
-    /// Momentum, delta-v and dumps.
+    /// Momentum, delta-v and dumps of guided and commanded flight.
     pub integrator: MomentumIntegrator,
+    /// Body, wheels, sensors and control of controlled and free flight.
+    pub dynamics: Option<AttitudeDynamics>,
     /// Whether the flight waits for inputs that are not set yet: nothing acts, and the attitude is held.
     pub waiting: bool,
     /// Whether the warning was given which inputs are not set yet.
@@ -37,6 +42,8 @@ pub struct PlantState {
     orbit_inputs: [[f64; 3]; 2],
     /// Inputs and tunables that light and heat depend on, beside command and orbit, at the last change.
     light_inputs: Vec<f64>,
+    /// Other tunables at the last change.
+    tunables: [f64; 8],
     /// `dump.request` at the last step.
     pub request: Request,
     /// Time between dumps.
@@ -50,6 +57,12 @@ pub struct PlantState {
     /// Cache of what light and heat need; absent where direct sunlight is all there is.
     #[serde(skip)]
     pub light: Option<RadiationSolver>,
+    /// Cache of what parameters say about dynamics and control.
+    #[serde(skip)]
+    pub dynamics_settings: Option<DynamicsSettings>,
+    /// Cache of the distribution of momentum over ideal wheels; none unless they span all directions.
+    #[serde(skip)]
+    pub wheels: Option<Option<WheelArray>>,
 }
 
 /// What a change of inputs and tunables touches.
@@ -59,6 +72,15 @@ pub struct Changes {
     pub orbit: bool,
     /// Light and heat are no longer what they were going to be.
     pub light: bool,
+    /// Mass or thresholds are others.
+    pub tunables: bool,
+}
+
+impl Changes {
+    /// Whether there is one that the configuration follows.
+    pub fn any(self) -> bool {
+        self.orbit || self.light || self.tunables
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -83,15 +105,22 @@ impl Request {
 
 impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
-    pub fn check(&self) -> Result<(), Failure> {
+    pub fn check(&self, wheels: usize) -> Result<(), Failure> {
         let finite = |x: &f64| x.is_finite();
         let CommandInputs { q, rate, error, .. } = &self.command_inputs;
         let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
         let times = [&self.start_s, &self.orbit_since_s];
         let parts = [
-            ("the times and inputs", inputs.chain(&self.light_inputs).chain(times).all(finite)),
+            (
+                "the times and inputs",
+                inputs.chain(&self.light_inputs).chain(&self.tunables).chain(times).all(finite),
+            ),
             ("the command", self.command.is_sound()),
             ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
+            (
+                "body, wheels, sensors and control",
+                self.dynamics.as_ref().is_none_or(|dynamics| dynamics.is_sound(wheels)),
+            ),
             ("the orbit, light and heat", self.propagator.is_sound()),
         ];
         match parts.iter().find(|(_, is_sound)| !is_sound) {
@@ -112,6 +141,7 @@ impl PlantState {
             start_s,
             propagator: PropagatorState::default(),
             integrator: MomentumIntegrator::new(start_s, Totals::default()),
+            dynamics: None,
             waiting: !unset_places(context, values).is_empty(),
             said_unset: false,
             command: Command { attitude, rate_body_rad_s, since_s: start_s },
@@ -120,11 +150,14 @@ impl PlantState {
             orbit_since_s: start_s,
             orbit_inputs: orbit_inputs(context, values),
             light_inputs: light_inputs(context, values).collect(),
+            tunables: tunables(context, values),
             request: Request::default(),
             spacing: DumpSpacing::default(),
             ephemeris: Ephemeris::default(),
             configuration: None,
             light: None,
+            dynamics_settings: None,
+            wheels: None,
         };
         if is_commanded(context, values) {
             state.take_command(context, values, start_s)?;
@@ -160,7 +193,23 @@ impl PlantState {
             self.light_inputs.clear();
             self.light_inputs.extend(light_inputs(context, values));
         }
-        Ok(Changes { orbit: moved, light: lit || moved || commanded })
+        let now = tunables(context, values);
+        let tuned = std::mem::replace(&mut self.tunables, now) != now;
+        // A command moves light through the attitude, which in dynamics does not jump.
+        let turned = commanded && self.dynamics.is_none();
+        Ok(Changes { orbit: moved, light: lit || moved || turned, tunables: tuned })
+    }
+
+    /// The command that stands at the start of a flight with dynamics; until one comes `attitude` is held.
+    pub fn take_first_command(
+        &mut self,
+        context: &Plan<'_>,
+        values: &Values,
+        attitude: Attitude,
+        time_s: f64,
+    ) -> Result<(), Failure> {
+        self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
+        if is_commanded(context, values) { self.take_command(context, values, time_s) } else { Ok(()) }
     }
 
     fn take_command(&mut self, context: &Plan<'_>, values: &Values, time_s: f64) -> Result<(), Failure> {
@@ -168,14 +217,15 @@ impl PlantState {
         let quaternion = |name: &str, q| {
             Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
         };
-        let held = self.command.attitude_at(time_s);
+        let estimate = self.dynamics.as_ref().map(|dynamics| dynamics.estimate_at(time_s).attitude);
+        let held = estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
         let (attitude, rate) = match values.choice(context.variables.command.kind).map(|it| it.0) {
             Some(Kind::None) => (held, [0.0; 3]),
             Some(Kind::RateOnly) => (held, rate),
             Some(Kind::ErrorQuaternion) if self.turned_out => (held, rate),
             Some(Kind::ErrorQuaternion) if is_zero(&error) => (held, [0.0; 3]),
             Some(Kind::ErrorQuaternion) => {
-                self.turned_out = true;
+                self.turned_out = self.dynamics.is_none();
                 (held.then(&quaternion("command.error", error)?.inverse()), rate)
             }
             Some(Kind::Attitude) | None if is_zero(&q) => (held, [0.0; 3]),
@@ -243,9 +293,11 @@ pub fn unset_places(context: &Plan<'_>, values: &Values) -> Vec<&'static str> {
     unset.map(|(_, _, name)| *name).collect()
 }
 
-/// Whether the attitude follows the inputs `command.*`.
+/// Whether the attitude follows or tracks the inputs `command.*`.
 fn is_commanded(context: &Plan<'_>, values: &Values) -> bool {
-    matches!(values.choice(context.variables.attitude.source), Some(AttitudeSource::Commanded))
+    let source = values.choice(context.variables.attitude.source);
+    matches!(source, Some(AttitudeSource::Commanded | AttitudeSource::Controlled))
+        && !guides_itself(context, values)
 }
 
 impl CommandInputs {
@@ -275,6 +327,12 @@ impl CommandInputs {
 fn orbit_inputs(context: &Plan<'_>, values: &Values) -> [[f64; 3]; 2] {
     let orbit = &context.variables.orbit;
     [values.vector(orbit.position), values.vector(orbit.velocity)]
+}
+
+fn tunables(context: &Plan<'_>, values: &Values) -> [f64; 8] {
+    let v = context.variables;
+    let ([a, b, c], [d, e, f]) = (values.vector(v.dump.threshold), values.vector(v.dump.target));
+    [values.real(v.spacecraft.mass), values.real(v.dump.reinit_fraction), a, b, c, d, e, f]
 }
 
 fn light_inputs<'a>(context: &'a Plan<'_>, values: &'a Values) -> impl Iterator<Item = f64> + 'a {

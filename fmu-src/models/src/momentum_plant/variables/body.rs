@@ -63,17 +63,52 @@ pub struct PanelVariables {
     pub angle_actual: Real,
 }
 
-/// One reaction wheel. In guided and commanded flight the wheels hold the system momentum less the body's own.
+/// One reaction wheel. In guided and commanded flight the wheels hold the system momentum less the body's own; there friction
+/// and torque play no part.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct WheelVariables {
     /// Greatest spin momentum the wheel can hold.
     #[parameter(unit = "N.m.s", min = 0.0, max = 1e12, start = setup.spacecraft.wheels[index].capacity_n_m_s)]
     pub capacity: Real,
-    /// Spin momentum about the wheel's axis; stays 0 unless the wheels' axes span all directions.
+    /// Spin axis in the body frame, of any length; positive speed is right-handed about it.
+    #[parameter(unit = "1", min = -1e6, max = 1e6, start = setup.spacecraft.wheels[index].axis_body.into())]
+    pub axis: RealVector<3>,
+    /// Moment of inertia of the rotor about its axis.
+    #[parameter(unit = "kg.m2", min = 1e-12, max = 1e12, start = setup.spacecraft.wheels[index].inertia_kg_m2)]
+    pub inertia: Real,
+    /// Greatest torque of the motor.
+    #[parameter(unit = "N.m", min = 0.0, max = 1e12, start = setup.spacecraft.wheels[index].max_torque_n_m)]
+    pub max_torque: Real,
+    /// Coulomb friction.
+    #[parameter(unit = "N.m", min = 0.0, max = 1e12, start = setup.spacecraft.wheels[index].coulomb_friction_n_m)]
+    pub coulomb_friction: Real,
+    /// Viscous friction, in N m per rad/s.
+    #[parameter(unit = "N.m.s", min = 0.0, max = 1e12, start = setup.spacecraft.wheels[index].viscous_friction_n_m_s)]
+    pub viscous_friction: Real,
+    /// Whether the rotor is fixed to the body.
+    #[parameter(start = false)]
+    pub locked: Boolean,
+    /// Spin momentum at the start, relative to the body, in controlled and free flight.
+    #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = 0.0)]
+    pub start_momentum: Real,
+    /// Torque of the motor on the rotor along the axis in free flight, held over the step; limited to maxTorque.
+    #[input(unit = "N.m", start = 0.0)]
+    pub torque_command: Real,
+    /// Whether the motor gives no torque, in controlled and free flight; friction stays.
+    #[input(start = false)]
+    pub failed: Boolean,
+    /// Spin momentum about the wheel's axis relative to the body; in guided and commanded flight 0 unless the wheels' axes
+    /// span all directions.
     #[output(unit = "N.m.s", nominal = 1.0)]
     pub momentum: Real,
-    /// Whether the wheel would have to hold more than its capacity.
+    /// Speed of the rotor relative to the body.
+    #[output(unit = "rad/s", display = "rpm", nominal = 100.0)]
+    pub speed: Real,
+    /// Torque of the motor on the rotor; 0 in guided and commanded flight.
+    #[output(unit = "N.m", nominal = 1e-3)]
+    pub torque: Real,
+    /// Whether the wheel is at its capacity, in guided and commanded flight whether it would have to hold more.
     #[output]
     pub saturated: Boolean,
 }

@@ -1,6 +1,7 @@
 //! The plant's choices.
 
 use fmi_export::Enumeration;
+use physics::attitude::control::Allocation;
 use physics::environment::frames::Frame;
 use physics::momentum::Convention;
 use physics::spacecraft;
@@ -14,10 +15,29 @@ pub enum AttitudeSource {
     Guided = 1,
     /// Follows the command inputs ideally.
     Commanded = 2,
-    /// Rigid body and wheels under an internal controller; not in this version.
+    /// Rigid body and wheels under an internal controller that tracks a command.
     Controlled = 3,
-    /// Rigid body and wheels driven by wheel-torque inputs; not in this version.
+    /// Rigid body and wheels driven by wheel-torque inputs.
     Free = 4,
+}
+
+/// Where commands come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum CommandSource {
+    /// The inputs `command.*`.
+    Inputs = 1,
+    /// The orbit phase's own guidance, sampled once a second in controlled flight.
+    Guidance = 2,
+}
+
+enumeration_of! {
+    /// How torque is spread over the wheels.
+    WheelAllocation(Allocation) {
+        /// Smallest sum of squares.
+        pseudoInverse = 1 => PseudoInverse,
+        /// Smallest largest torque.
+        leastMaximum = 2 => LeastMaximum,
+    }
 }
 
 /// Origin of the orbit.

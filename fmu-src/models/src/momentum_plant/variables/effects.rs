@@ -102,6 +102,10 @@ pub struct SolverVariables {
     /// shortened until it holds.
     #[parameter(unit = "1", min = 1e-12, max = 1.0, start = 1e-5)]
     pub disturbance_tolerance: Real,
+    /// In controlled and free flight, over how long force and torque of all effects are taken as linear in time, the body
+    /// turning on at its present rate; intervals end at its multiples and where light changes abruptly.
+    #[parameter(unit = "s", min = 1e-3, max = 600.0, start = 1.0)]
+    pub dynamics_step: Real,
     #[group(name = "")]
     pub work: WorkLimit,
 }
@@ -121,7 +125,7 @@ pub struct MomentumVariables {
     pub inertial: RealVector<3>,
 }
 
-/// Thruster dumps, taken as instantaneous.
+/// Thruster dumps, in guided and commanded flight taken as instantaneous.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct DumpVariables {
@@ -148,6 +152,13 @@ pub struct DumpVariables {
     /// and the distribution of wheel[k].momentum; 0 without wheels in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
     #[calculated_parameter(unit = "N.m.s")]
     pub guaranteed_threshold: Real,
+    /// Greatest component of the thrusters' torque in controlled and free flight, where a dump lasts as long as this takes;
+    /// the default is half of what the wheels can hold against.
+    #[parameter(unit = "N.m", min = 1e-9, max = 1e6, start = setup.control.dump_torque_n_m)]
+    pub torque: Real,
+    /// Whether thrusters are dumping.
+    #[output]
+    pub active: Boolean,
     /// Whether two dumps lay closer together than dump.requiredSpacing.
     #[output]
     pub too_close: Boolean,

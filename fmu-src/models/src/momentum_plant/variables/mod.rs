@@ -2,6 +2,7 @@
 
 mod body;
 pub mod choices;
+mod control;
 pub mod defaults;
 mod effects;
 mod motion;
@@ -10,6 +11,10 @@ mod surroundings;
 use fmi_export::{Real, RealVector, Variables};
 
 use body::{KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables, WheelVariables};
+use control::{
+    ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables,
+    SunSensorVariables,
+};
 use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
@@ -59,6 +64,18 @@ pub struct PlantVariables {
     pub panel: Vec<PanelVariables>,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
+    #[group]
+    pub control: ControlVariables,
+    #[group]
+    pub estimate: EstimateVariables,
+    #[group]
+    pub star_tracker: StarTrackerVariables,
+    #[group]
+    pub gyro: GyroVariables,
+    #[group(count = setup.spacecraft.sun_sensors.len())]
+    pub sun_sensor: Vec<SunSensorVariables>,
+    #[group]
+    pub noise: NoiseVariables,
     #[group]
     pub keep_in: KeepInVariables,
     #[group]

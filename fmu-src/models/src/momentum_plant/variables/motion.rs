@@ -7,7 +7,7 @@ use physics::bodies::Body;
 use physics::environment::frames::Frame;
 use physics::guidance::system;
 
-use super::choices::{AttitudeSource, OrbitDynamics, OrbitFrame, OrbitSource};
+use super::choices::{AttitudeSource, CommandSource, OrbitDynamics, OrbitFrame, OrbitSource};
 use super::defaults;
 use crate::common::choices::{CommandKind, OrbitCenter};
 
@@ -26,10 +26,13 @@ pub struct AttitudeVariables {
     pub rate: RealVector<3>,
 }
 
-/// The command followed when attitude.source is commanded.
+/// The command followed when attitude.source is commanded, tracked when it is controlled.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct CommandVariables {
+    /// Where commands come from in commanded and controlled flight.
+    #[parameter(start = CommandSource::Inputs)]
+    pub source: Choice<CommandSource>,
     /// What the command gives. A command takes effect when any of the inputs it gives changes, and is propagated from then
     /// on. The attitude is held without rate while this is none, or while the quaternion it gives is all zero.
     #[input(start = CommandKind(system::CommandKind::Attitude))]
@@ -41,7 +44,8 @@ pub struct CommandVariables {
     #[input(unit = "rad/s", display = "deg/s", start = [0.0; 3])]
     pub rate: RealVector<3>,
     /// Error quaternion, scalar last: from the commanded to the actual body frame, so that A(error) takes the boresight to
-    /// the sensed Sun (paper 001, eq 25). It is turned out once, when command.kind becomes errorQuaternion.
+    /// the sensed Sun (paper 001, eq 25). In commanded flight it is turned out once, when command.kind becomes
+    /// errorQuaternion; in controlled flight whenever it changes.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub error: RealVector<4>,
 }
@@ -53,10 +57,15 @@ pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
     pub epoch: Real,
-    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it.
+    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. With internal
+    /// guidance a controlled flight starts as guided, unless this is another than the identity.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
-    /// System momentum at the start, body frame.
+    /// Body rate at the start in controlled and free flight; with internal guidance as for start.q.
+    #[parameter(unit = "rad/s", display = "deg/s", min = -1e3, max = 1e3, start = [0.0; 3])]
+    pub rate: RealVector<3>,
+    /// System momentum at the start, body frame. In controlled and free flight it follows from start.rate and
+    /// wheel[k].startMomentum instead.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub momentum: RealVector<3>,
 }

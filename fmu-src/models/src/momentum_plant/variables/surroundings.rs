@@ -80,6 +80,12 @@ pub struct SunVariables {
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", nominal = 1.0)]
     pub lit_fraction: Real,
+    /// Unit vector to the Sun, body frame, as the Sun sensors give it; 0 where none sees it.
+    #[output(unit = "1", nominal = 1.0)]
+    pub sensed: RealVector<3>,
+    /// Whether a Sun sensor sees it.
+    #[output]
+    pub sensed_valid: Boolean,
     /// Distance from the Sun.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub distance: Real,

@@ -309,7 +309,8 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         let sun = Vector3::from(sun);
         let aside = Vector3::from(random.direction());
         // Behind the planet's limb, near the Sun, or anywhere.
-        let earth = match random.whole(0, 2) as i32 {
+        let place_of_earth = random.whole(0, 2) as i32;
+        let earth = match place_of_earth {
             0 => {
                 let across = place.cross(&aside).normalize() * (2.44e6 / radius_m * random.between(0.9, 1.1));
                 (across - place).normalize() * 1.5e11
@@ -318,7 +319,9 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
             _ => aside * 1.5e11,
         };
         bench.put_vector(values, "earth.position", earth.as_slice());
-        bench.put(values, "boresight.option", random.whole(3, 4));
+        // A commanded beam seldom lies on an Earth near the Sun.
+        let beam = if place_of_earth == 1 { 3.0 } else { random.whole(3, 4) };
+        bench.put(values, "boresight.option", beam);
         bench.put(values, "link.sunExclusion", random.between(0.0, 0.1));
         bench.put(values, "link.beam", random.between(0.0, 0.5));
     }

@@ -4,7 +4,7 @@ use models::Guidance;
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{FREE, PLACED, quaternion, set_vector, to_inertial, with};
+use super::{FREE, Flight, PLACED, quaternion, set_vector, to_inertial, with};
 
 const AT_VECTOR: &[(&str, f64)] =
     &[("pointing.scenario", 2.0), ("aimpoint.option", 1.0), ("aimpoint.vector[3]", 1.0)];
@@ -135,6 +135,45 @@ fn camera_and_antenna_stop_at_their_bounds() {
         assert_eq!(flight.integer("antenna.select"), select);
         assert_eq!(flight.boolean("constraint.clamped"), asked_deg != found_deg);
     }
+}
+
+#[test]
+fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
+    let named = NamedModel::<Guidance>::shipped();
+    let off = [("hotPole.enabled", 0.0)];
+    let toward = |flight: &Flight<'_>, place: Vector3<f64>| to_inertial(flight).inverse() * place.normalize();
+    let craft = Vector3::new(3e6, 1e6, 2e6);
+    // The Earth is 157 deg from the Sun: asked at 100 deg it leaves the Sun outside the zone.
+    let antenna =
+        [("pointing.scenario", 6.0), ("boresight.option", 4.0), ("boresight.azimuth", 100_f64.to_radians())];
+    let flight = named.fly(0.0, &with(&[PLACED, &off, &antenna])).unwrap();
+    let earth = toward(&flight, Vector3::new(-9e10, 5e10, -3e9) - craft);
+    assert!(flight.boolean("constraint.sunKeepIn") && flight.boolean("link.available"));
+    assert!((flight.real("antenna.azimuth") - earth.x.atan2(-earth.y)).abs() < 1e-12);
+    assert!((flight.real("antenna.azimuth").to_degrees() - 100.0).abs() > 20.0, "the zone moved it");
+    // +Z along the local horizon, the camera at nadir.
+    let mut clamped = 0;
+    for azimuth_deg in (0..360).step_by(30) {
+        let targets = [
+            ("pointing.scenario", 5.0),
+            ("aimpoint.option", 9.0),
+            ("aimpoint.azimuth", f64::from(azimuth_deg).to_radians()),
+            ("aimpoint.elevation", -1.0),
+            ("secondAimpoint.option", 12.0),
+        ];
+        let flight = named.fly(0.0, &with(&[PLACED, &off, &targets])).unwrap();
+        let nadir = toward(&flight, -craft);
+        let wanted_deg = (-nadir.y).atan2(nadir.z).to_degrees();
+        let in_range = (-50.0..=40.0).contains(&wanted_deg);
+        assert_eq!(flight.boolean("mdis.inRange"), in_range, "{azimuth_deg}: {wanted_deg}");
+        let found_deg = flight.real("mdis.angle").to_degrees();
+        assert!(
+            !in_range || (found_deg - wanted_deg).abs() < 1e-10,
+            "{azimuth_deg}: {found_deg} {wanted_deg}"
+        );
+        clamped += u32::from(flight.boolean("constraint.sunKeepIn"));
+    }
+    assert!(clamped > 3, "{clamped}");
 }
 
 #[test]

@@ -235,7 +235,21 @@ fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
         let earth = value(&pointing.to_body(&unit(&around.to_earth()).unwrap()));
         let axis = fixed(earth.cross(&Vector3::z()).normalize());
         let pointing = pointing.turned(&axis, Moving::constant(degrees(off_deg)));
-        let found = link(&around, &pointing, antenna, &limits).unwrap();
+        let earth = value(&pointing.to_body(&around.to_earth()));
+        let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
+        let beam = |off_deg: f64| AntennaAzimuth {
+            antenna,
+            azimuth_rad: azimuth_rad + degrees(off_deg),
+            outside_rad: 0.0,
+        };
+        let found = link(&around, &earth, Some(&beam(0.0)), &limits).unwrap();
+        // A fan of 15 deg, and none at all.
+        for (beam_off_deg, reaches) in [(7.4, true), (-7.4, true), (7.6, false), (-7.6, false), (360.0, true)]
+        {
+            let off = link(&around, &earth, Some(&beam(beam_off_deg)), &limits).unwrap();
+            assert_eq!(off.available, expected && reaches, "{beam_off_deg}");
+        }
+        assert!(!link(&around, &earth, None, &limits).unwrap().available);
         assert_eq!(found.available, expected, "{position} {theta_deg} {off_deg} {antenna:?}");
         assert!((found.sun_separation_rad - degrees(theta_deg)).abs() < 1e-12);
     }

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 use super::directions::Directions;
 use super::sound::{are_moderate, is_moderate, is_unit};
 use crate::attitude::{RigidBodyState, angle_between_rad};
+use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
     crossing::{Crossing, Pole},
     crossing_detector::CrossingDetector,
     motion::Motion,
-    noise::{Channel, normal},
     nutation::Spin,
     spinner::Spinner,
     tracker::{NutationEstimator, picket_of, searched},

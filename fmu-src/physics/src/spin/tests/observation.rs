@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 
 use super::{ace, directions, paper_start};
 use crate::attitude::angle_between_rad;
+use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
     geometry::L1Ephemeris,
-    noise::{Channel, normal},
     nutation::period_variation_s,
     outputs::Outputs,
     plant::{Commands, Directions, Plant, Sampling},

@@ -1,0 +1,200 @@
+//! Controlled and free flight: the attitude follows from torque, wheels and controller.
+
+use fmi_export::{Failure, InputsOverTime, Step, Values};
+use nalgebra::Vector3;
+use physics::attitude::Attitude;
+use physics::guidance::system::CommandKind as Kind;
+use physics::momentum::{DumpEvent, Totals};
+use physics::plant::{
+    AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, Flight, PropagatorState, Tracked,
+};
+
+use super::inputs::state::{Changes, PlantState};
+use super::inputs::{self, dynamics};
+use super::outputs::{self, flyable, log_dump};
+use super::setup::Plan;
+use super::variables::choices::OrbitSource;
+use crate::common::choices::CommandKind;
+
+/// What one stretch of flight needs besides the state.
+struct Stretch<'a> {
+    context: &'a Plan<'a>,
+    values: &'a Values,
+    over_time: InputsOverTime<'a>,
+    tracked: Tracked,
+}
+
+impl Stretch<'_> {
+    /// Hands the inputs of the stretch to `use_them`.
+    fn with_inputs<T>(&self, use_them: impl FnOnce(&DynamicsInputs<'_>) -> T) -> T {
+        let (context, values) = (self.context, self.values);
+        let (wheels, sensors) = (&context.variables.wheel, &context.variables.sun_sensor);
+        use_them(&DynamicsInputs {
+            tracked: self.tracked,
+            wheel_torque_n_m: &|k| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.torque_command)),
+            wheel_failed: &|k| wheels.get(k).is_some_and(|wheel| values.boolean(wheel.failed)),
+            sun_sensor_failed: &|k| sensors.get(k).is_some_and(|sensor| values.boolean(sensor.failed)),
+            health: dynamics::health(context, values),
+            external: &|time_s| dynamics::external(context, values, self.over_time, time_s),
+        })
+    }
+}
+
+/// What the controller tracks.
+fn tracked(context: &Plan<'_>, values: &Values, state: &PlantState) -> Tracked {
+    if dynamics::guides_itself(context, values) {
+        return Tracked::Guidance;
+    }
+    match values.choice(context.variables.command.kind) {
+        Some(CommandKind(Kind::RateOnly)) => Tracked::Rate(state.command.rate_body_rad_s),
+        _ => Tracked::Attitude(state.command),
+    }
+}
+
+/// The flight begins at `time_s`.
+pub fn begin(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    time_s: f64,
+) -> Result<(), Failure> {
+    let mut configuration = inputs::configuration(context, values, state)?;
+    let settings = dynamics::settings(context, values, &configuration)?;
+    state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
+    state.light = inputs::light(context, values, &configuration)?;
+    let (mut attitude, is_default) = dynamics::start_attitude(context, values)?;
+    let mut rate_body_rad_s = Vector3::from(values.vector(context.variables.start.rate));
+    if is_default && dynamics::guides_itself(context, values) {
+        let guided = flight(context, state, &mut configuration)?
+            .guided_start(time_s, settings.work_limit)
+            .map_err(outputs::failure)?;
+        if let Some(frame) = guided {
+            attitude = Attitude::from_rotation(&frame.inertial_from_body);
+            rate_body_rad_s = frame.rate_body_rad_s;
+        }
+    }
+    let wheels = &context.variables.wheel;
+    let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
+    state.dynamics = Some(AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held));
+    state.take_first_command(context, values, attitude, time_s)?;
+    outputs::write_calculated(context, values, &configuration);
+    // The sample at the start is taken anew by the first step, with its inputs.
+    let begun = state.dynamics.clone();
+    let over_time = InputsOverTime::held();
+    let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
+    if let Some(mut shown) = state.dynamics.take() {
+        let mut flight = flight(context, state, &mut configuration)?;
+        stretch
+            .with_inputs(|inputs| {
+                let silent = &mut |_: &DumpEvent| {};
+                shown.take_due(&settings, &mut flight, inputs, settings.work_limit, silent)
+            })
+            .map_err(outputs::failure)?;
+        state.dynamics = Some(shown);
+    }
+    show(context, values, state, &mut configuration, &settings, over_time, time_s)?;
+    state.dynamics = begun;
+    state.configuration = Some(configuration);
+    state.dynamics_settings = Some(settings);
+    Ok(())
+}
+
+/// One step, under the configuration so far where nothing changed that it depends on.
+pub fn step(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    step: &Step<'_>,
+    changes: Option<Changes>,
+) -> Result<(), Failure> {
+    let kept = changes.is_none_or(|changes| !changes.any());
+    let known = state.configuration.take().zip(state.dynamics_settings.take()).filter(|_| kept);
+    let (mut configuration, settings) = match known {
+        Some(known) => known,
+        None => {
+            let configuration = inputs::configuration(context, values, state)?;
+            outputs::write_calculated(context, values, &configuration);
+            let settings = dynamics::settings(context, values, &configuration)?;
+            (configuration, settings)
+        }
+    };
+    if state.light.is_none() {
+        state.light = inputs::light(context, values, &configuration)?;
+    }
+    let Some(mut flown) = state.dynamics.take() else {
+        return Err(Failure::new(
+            "the state holds no attitude dynamics: it belongs to another attitude.source",
+        ));
+    };
+    if let Some(changes) = changes {
+        flown.cut(step.start_s, changes.any());
+        if changes.any() {
+            state.propagator.cut(&configuration, step.start_s, true);
+        }
+        if changes.orbit && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
+        {
+            state.propagator.move_to(&configuration, step.start_s).map_err(outputs::failure)?;
+        }
+    }
+    if state.request.rises(values.boolean(context.variables.dump.request)) {
+        let target = Vector3::from(values.vector(context.variables.dump.target));
+        flown.cut(step.start_s, false);
+        let event = flown.dump_to(&settings, target);
+        log_dump(context, &event);
+    }
+    let over_time = step.inputs;
+    let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
+    let mut flight = flight(context, state, &mut configuration)?;
+    stretch
+        .with_inputs(|inputs| {
+            flown.advance(&settings, &mut flight, inputs, step.end_s, |event| log_dump(context, event))
+        })
+        .map_err(outputs::failure)?;
+    state.dynamics = Some(flown);
+    show(context, values, state, &mut configuration, &settings, over_time, step.end_s)?;
+    state.configuration = Some(configuration);
+    state.dynamics_settings = Some(settings);
+    Ok(())
+}
+
+fn flight<'f>(
+    context: &'f Plan<'_>,
+    state: &'f mut PlantState,
+    configuration: &'f mut Configuration,
+) -> Result<Flight<'f>, Failure> {
+    Ok(Flight {
+        prepared: context.setup.prepared_spacecraft(configuration.sunshade)?,
+        configuration,
+        propagator: &mut state.propagator,
+        ephemeris: &mut state.ephemeris,
+        light: state.light.as_mut(),
+    })
+}
+
+/// Writes every output at `time_s`.
+fn show(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    configuration: &mut Configuration,
+    settings: &DynamicsSettings,
+    over_time: InputsOverTime<'_>,
+    time_s: f64,
+) -> Result<(), Failure> {
+    let Some(flown) = state.dynamics.take() else { return Ok(()) };
+    let body = flown.body(settings, time_s);
+    let [external, _] = dynamics::external(context, values, over_time, time_s);
+    let evaluation = flown.evaluation(&mut flight(context, state, configuration)?, &body, external, time_s);
+    let totals = Totals {
+        momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
+        delta_v_inertial_m_s: body.delta_v_inertial_m_s,
+        ..Totals::default()
+    };
+    flyable(&evaluation, &totals, time_s)?;
+    outputs::write_plates(context, values, state, configuration, time_s)?;
+    outputs::write(context, values, state, configuration, &evaluation, &totals, time_s);
+    outputs::write_dumps(context, values, flown.dumps(), flown.spacing(), flown.is_dumping(time_s));
+    outputs::write_dynamics(context, values, settings, &flown, &body, time_s);
+    state.dynamics = Some(flown);
+    Ok(())
+}

@@ -1,0 +1,58 @@
+//! Controlled and free flight: rigid body, wheels, controller, sensors.
+
+mod control;
+mod momentum;
+mod refusals;
+mod sensors;
+
+use models::MomentumPlant;
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+
+use super::named_model::{NamedInstance, NamedModel};
+
+type Flight<'a> = NamedInstance<'a, MomentumPlant>;
+type Start<'a> = &'a [(&'a str, f64)];
+
+/// Nothing acts.
+const DARK: Start<'_> = &[("solar.flux", 0.0), ("gravityGradient.enabled", 0.0)];
+const CONTROLLED: Start<'_> = &[("attitude.source", 3.0)];
+const FREE: Start<'_> = &[("attitude.source", 4.0)];
+/// The orbit phase's own guidance.
+const GUIDANCE: Start<'_> = &[("command.source", 2.0)];
+
+fn with<'a>(parts: &[Start<'a>]) -> Vec<(&'a str, f64)> {
+    parts.iter().flat_map(|part| part.iter().copied()).collect()
+}
+
+/// Body to inertial, from the output quaternion.
+fn to_inertial(flight: &Flight<'_>) -> UnitQuaternion<f64> {
+    let q = [1, 2, 3, 4].map(|i| flight.real(&format!("attitude.q[{i}]")));
+    UnitQuaternion::from_quaternion(Quaternion::new(q[3], q[0], q[1], q[2]))
+}
+
+fn inertia() -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9))
+}
+
+/// Spin axes of the shipped spacecraft.
+fn axes(flight: &Flight<'_>) -> Vec<Vector3<f64>> {
+    (1..=4).map(|k| flight.vector(&format!("wheel[{k}].axis")).normalize()).collect()
+}
+
+/// C(q) transposed applied to J w + sum of h a, from the outputs.
+fn formed_momentum(flight: &Flight<'_>) -> Vector3<f64> {
+    let wheels = axes(flight).into_iter().enumerate();
+    let held: Vector3<f64> =
+        wheels.map(|(k, axis)| axis * flight.real(&format!("wheel[{}].momentum", k + 1))).sum();
+    to_inertial(flight) * (inertia() * flight.vector("attitude.rate") + held)
+}
+
+fn set_quaternion(flight: &mut Flight<'_>, name: &str, attitude: &UnitQuaternion<f64>) {
+    for (i, value) in attitude.coords.iter().enumerate() {
+        flight.set(&format!("{name}[{}]", i + 1), *value);
+    }
+}
+
+fn fly<'a>(named: &'a NamedModel<MomentumPlant>, parts: &[Start<'_>]) -> Flight<'a> {
+    named.fly(0.0, &with(parts)).unwrap()
+}

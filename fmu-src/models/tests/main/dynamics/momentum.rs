@@ -1,0 +1,100 @@
+//! What is conserved, and what the guided flight says.
+
+use super::super::named_model::{NamedModel, assert_same};
+use super::{CONTROLLED, DARK, FREE, GUIDANCE, Start, fly, formed_momentum, inertia, with};
+use models::MomentumPlant;
+use nalgebra::Vector3;
+
+const SPINNING: Start<'_> = &[
+    ("start.rate[1]", 1e-3),
+    ("start.rate[2]", -2e-3),
+    ("start.rate[3]", 1.5e-3),
+    ("wheel[1].startMomentum", 2.0),
+    ("wheel[2].startMomentum", -1.0),
+    ("wheel[4].startMomentum", 0.5),
+];
+
+#[test]
+fn momentum_is_kept_over_a_day_of_control() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut flight = fly(&named, &[CONTROLLED, DARK, SPINNING]);
+    let start = flight.vector("momentum.inertial");
+    assert!(start.norm() > 1.0);
+    let mut worst = 0.0_f64;
+    for minute in 1..=1440 {
+        flight.step_to(60.0 * f64::from(minute)).unwrap();
+        let [formed, told] = [formed_momentum(&flight), flight.vector("momentum.inertial")];
+        worst = worst.max((formed - told).norm()).max((told - start).norm());
+    }
+    assert!(worst < 1e-12 * start.norm(), "{worst:e}");
+    // It holds its attitude: the wheels have what the body had.
+    assert!(flight.vector("attitude.rate").norm() < 1e-9, "{}", flight.vector("attitude.rate"));
+}
+
+#[test]
+fn energy_is_kept_with_locked_wheels() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let locked = [1, 2, 3, 4].map(|k| format!("wheel[{k}].locked"));
+    let locked: Vec<(&str, f64)> = locked.iter().map(|name| (name.as_str(), 1.0)).collect();
+    let mut flight = fly(&named, &[FREE, DARK, &SPINNING[..3], &locked]);
+    let energy = |rate: Vector3<f64>| 0.5 * rate.dot(&(inertia() * rate));
+    let start = energy(flight.vector("attitude.rate"));
+    flight.fly_to(86_400.0, 600.0).unwrap();
+    let now = energy(flight.vector("attitude.rate"));
+    assert!((now / start - 1.0).abs() < 1e-10, "{:e}", now / start - 1.0);
+}
+
+#[test]
+fn ten_days_of_control_add_up_to_what_guided_flight_does() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let slewing: Start<'_> = &[("guided.slewRate", 2e-3)];
+    let mut controlled = fly(&named, &[CONTROLLED, GUIDANCE, slewing]);
+    let h = controlled.vector("momentum.body");
+    let start = [("start.momentum[1]", h.x), ("start.momentum[2]", h.y), ("start.momentum[3]", h.z)];
+    let mut guided = fly(&named, &[slewing, &start]);
+    let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
+    for step in 1..=2400 {
+        let time_s = 360.0 * f64::from(step);
+        controlled.step_to(time_s).unwrap();
+        guided.step_to(time_s).unwrap();
+        let [a, b] = [&controlled, &guided].map(|flight| flight.vector("momentum.inertial"));
+        largest = largest.max(b.norm());
+        worst = worst.max((a - b).norm());
+    }
+    println!("{worst} of {largest}");
+    assert!(worst < 0.01 * largest, "{worst} of {largest}");
+}
+
+#[test]
+fn how_the_flight_is_cut_changes_no_bit() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let noisy: Start<'_> = &[
+        ("starTracker.noise[1]", 1e-5),
+        ("starTracker.noise[2]", 2e-5),
+        ("starTracker.noise[3]", 1e-5),
+        ("gyro.noise", 1e-6),
+        ("gyro.drift", 1e-8),
+        ("sunSensor[4].noise", 1e-3),
+        ("wheel[1].coulombFriction", 1e-3),
+        ("wheel[2].viscousFriction", 1e-5),
+        ("planetLight.enabled", 1.0),
+        ("thermal.enabled", 1.0),
+    ];
+    let start = with(&[CONTROLLED, GUIDANCE, noisy, SPINNING]);
+    let ends_at = |step_s: f64| {
+        let mut flight = named.fly(-0.3, &start).unwrap();
+        flight.fly_to(120.0, step_s).unwrap();
+        flight
+    };
+    let whole = ends_at(1000.0);
+    for step_s in [0.02, 0.013, 1.0, 7.0] {
+        assert_same(&whole, &ends_at(step_s));
+    }
+    // Saved and gone on from anywhere.
+    let mut flight = named.fly(-0.3, &start).unwrap();
+    for time_s in [0.0, 0.017, 5.5, 33.333, 120.0] {
+        flight = flight.restored();
+        flight.step_to(time_s).unwrap();
+    }
+    assert_same(&whole, &flight);
+}

@@ -1,0 +1,175 @@
+//! Reference attitude that follows a command within a slew rate and an acceleration limit.
+//!
+//! At each sample the motion relative to the command, a rotation vector e and a rate v, is turned toward the command
+//! about the eigenaxis: with p = e + v dt/2 (where half of the motion already under way leads), the next relative rate
+//! is -p/|p| times min(slew rate, a (sqrt(dt^2 + 2|p|/a) - dt)). That is the greatest rate from which constant
+//! decelerations of at most a, each held for a sample, still stop at the command: there is no overshoot, and near the
+//! end the law is linear, p/dt, and reaches the command in two samples. What the command's own rotation takes of the
+//! acceleration (rate x relative rate) is set aside beforehand.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::rotation::Attitude;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+
+/// Angle from the command below which the reference becomes the command, in rad.
+const CAUGHT_RAD: f64 = 1e-10;
+
+/// What the controller is to follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ControlTarget {
+    /// An attitude that turns at a rate.
+    Attitude {
+        /// EME2000 to commanded frame, at the sample.
+        attitude: Attitude,
+        /// Its rate in its own axes, in rad/s.
+        rate_body_rad_s: Vector3<f64>,
+    },
+    /// A rate in body axes; the attitude is free.
+    RateOnly {
+        /// In rad/s.
+        rate_body_rad_s: Vector3<f64>,
+    },
+}
+
+/// Limits of the reference's motion; 0 means none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlewLimits {
+    /// Greatest rate relative to the command, in rad/s.
+    pub rate_rad_s: f64,
+    /// Greatest acceleration, in rad/s2.
+    pub acceleration_rad_s2: f64,
+}
+
+/// The reference at a sample, and its acceleration up to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReferenceSample {
+    /// EME2000 to reference frame.
+    pub attitude: Attitude,
+    /// In the reference's axes, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// Derivative of the rate in the reference's axes, in rad/s2.
+    pub acceleration_body_rad_s2: Vector3<f64>,
+}
+
+/// The reference attitude at the next sample.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// EME2000 to reference frame.
+    pub attitude: Attitude,
+    /// In the reference's axes, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// Whether it has reached the command.
+    pub is_settled: bool,
+}
+
+impl SlewLimits {
+    /// Both limits, with infinity for none.
+    fn or_infinite(&self) -> (f64, f64) {
+        let or_infinite = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
+        (or_infinite(self.rate_rad_s), or_infinite(self.acceleration_rad_s2))
+    }
+}
+
+impl Reference {
+    /// At an attitude and a rate, on the way to whatever is commanded.
+    pub fn new(attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
+        Self { attitude, rate_body_rad_s, is_settled: false }
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.attitude.is_rotation() && self.rate_body_rad_s.iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+    }
+
+    /// The reference at this sample; moves on to the next, `interval_s` later.
+    pub fn step(&mut self, target: &ControlTarget, limits: &SlewLimits, interval_s: f64) -> ReferenceSample {
+        let (slew_rad_s, acceleration_rad_s2) = limits.or_infinite();
+        let change_rad_s = match target {
+            ControlTarget::RateOnly { rate_body_rad_s } => {
+                let wanted = rate_body_rad_s - self.rate_body_rad_s;
+                let greatest = acceleration_rad_s2 * interval_s;
+                self.is_settled = wanted.norm() <= greatest;
+                if self.is_settled { wanted } else { wanted * (greatest / wanted.norm()) }
+            }
+            ControlTarget::Attitude { attitude, rate_body_rad_s } => {
+                let from_command = attitude.rotation_vector_to(&self.attitude);
+                let command_rate = self.attitude.to_body(&attitude.to_inertial(rate_body_rad_s));
+                let relative_rate = self.rate_body_rad_s - command_rate;
+                let has_no_limit = slew_rad_s.is_infinite() && acceleration_rad_s2.is_infinite();
+                let angle = relative_rate.norm() * interval_s;
+                let is_caught = from_command.norm() <= CAUGHT_RAD
+                    && angle <= CAUGHT_RAD.min(acceleration_rad_s2 * interval_s * interval_s);
+                self.is_settled = has_no_limit || is_caught;
+                if self.is_settled {
+                    self.attitude = *attitude;
+                    self.rate_body_rad_s = *rate_body_rad_s;
+                    Vector3::zeros()
+                } else {
+                    Approach { from_command, relative_rate, command_rate, interval_s }
+                        .change_rad_s(slew_rad_s, acceleration_rad_s2)
+                }
+            }
+        };
+        let now = ReferenceSample {
+            attitude: self.attitude,
+            rate_body_rad_s: self.rate_body_rad_s,
+            acceleration_body_rad_s2: change_rad_s / interval_s,
+        };
+        let mean_rate = self.rate_body_rad_s + change_rad_s * 0.5;
+        self.attitude = self.attitude.propagated(mean_rate, interval_s).normalized();
+        self.rate_body_rad_s += change_rad_s;
+        now
+    }
+}
+
+/// Motion of the reference relative to the command, in the reference's axes.
+struct Approach {
+    /// Rotation vector from the command to the reference, in rad.
+    from_command: Vector3<f64>,
+    /// In rad/s.
+    relative_rate: Vector3<f64>,
+    /// In rad/s.
+    command_rate: Vector3<f64>,
+    interval_s: f64,
+}
+
+impl Approach {
+    /// Change of the reference's rate over the interval, in rad/s.
+    fn change_rad_s(&self, slew_rad_s: f64, acceleration_rad_s2: f64) -> Vector3<f64> {
+        let dt = self.interval_s;
+        let turning = self.command_rate.norm();
+        let (slew_rad_s, braking_rad_s2) = if turning > 0.0 && acceleration_rad_s2.is_finite() {
+            let half = 0.5 * acceleration_rad_s2;
+            (slew_rad_s.min(half / turning), acceleration_rad_s2 - half.min(turning * slew_rad_s))
+        } else {
+            (slew_rad_s, acceleration_rad_s2)
+        };
+        let ahead = self.from_command + self.relative_rate * (0.5 * dt);
+        let distance = ahead.norm();
+        // a (sqrt(dt^2 + 2 d/a) - dt), which also serves a = infinity.
+        let stopping = 2.0 * distance / (dt + (dt * dt + 2.0 * distance / braking_rad_s2).sqrt());
+        let wanted =
+            if distance > 0.0 { ahead * (-stopping.min(slew_rad_s) / distance) } else { Vector3::zeros() };
+        let change = wanted - self.relative_rate;
+        // The command's rate, fixed in its own frame, moves in the reference's axes.
+        let carried = self.command_rate.cross(&self.relative_rate) * dt;
+        limited_sum(&change, &carried, acceleration_rad_s2 * dt)
+    }
+}
+
+/// `carried` plus as much of `change` as keeps the sum within `greatest`.
+fn limited_sum(change: &Vector3<f64>, carried: &Vector3<f64>, greatest: f64) -> Vector3<f64> {
+    let sum = change + carried;
+    if sum.norm() <= greatest {
+        return sum;
+    }
+    let room = greatest * greatest - carried.norm_squared();
+    if room <= 0.0 {
+        return sum * (greatest / sum.norm());
+    }
+    let (square, cross) = (change.norm_squared(), change.dot(carried));
+    let part = ((cross * cross + square * room).sqrt() - cross) / square;
+    carried + change * part.min(1.0)
+}

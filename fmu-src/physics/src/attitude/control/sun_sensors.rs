@@ -1,0 +1,62 @@
+//! Sun sensors with a conical field of view, and the direction of the Sun that they give together.
+
+use core::f64::consts::FRAC_PI_3;
+
+use nalgebra::Vector3;
+
+use crate::attitude::angles::angle_between_rad;
+use crate::numerics::noise::{Channel, normal_vector};
+
+/// One Sun sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunSensor {
+    /// Unit vector of the boresight.
+    pub axis_body: Vector3<f64>,
+    /// Half angle of the cone in which it sees the Sun, in rad.
+    pub half_field_of_view_rad: f64,
+    /// Standard deviation of the measured direction about each of two axes across it, in rad.
+    pub noise_rad: f64,
+}
+
+impl SunSensor {
+    /// Six sensors along +X, -X, +Y, -Y, +Z, -Z without noise. Paper 001 says that there are six and nothing else of
+    /// them: half a field of view of 60 deg is an assumption; 54.74 deg (a cube's corner) would cover the sphere.
+    pub fn six() -> [Self; 6] {
+        let sensor = |axis_body| Self { axis_body, half_field_of_view_rad: FRAC_PI_3, noise_rad: 0.0 };
+        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+        [x, -x, y, -y, z, -z].map(sensor)
+    }
+
+    /// Whether the Sun is in its field of view.
+    pub fn sees(&self, sun_body: &Vector3<f64>) -> bool {
+        angle_between_rad(&self.axis_body, sun_body) <= self.half_field_of_view_rad
+    }
+
+    /// What it measures of the unit vector `sun_body`.
+    fn measured(&self, number: usize, sun_body: &Vector3<f64>, seed: u64, sample: u64) -> Vector3<f64> {
+        if self.noise_rad == 0.0 {
+            return *sun_body;
+        }
+        let channel = Channel::SunSensorDirection(u16::try_from(number).unwrap_or(u16::MAX));
+        let drawn = normal_vector(seed, channel, sample) * self.noise_rad;
+        (sun_body + drawn - sun_body * sun_body.dot(&drawn)).normalize()
+    }
+}
+
+/// Unit mean of what those sensors measure that work and see the Sun; `None` where none does, or the Sun is eclipsed
+/// entirely. `sun_body` is a unit vector.
+pub fn sensed_sun(
+    sensors: &[SunSensor],
+    failed: impl Fn(usize) -> bool,
+    sun_body: &Vector3<f64>,
+    lit_fraction: f64,
+    seed: u64,
+    sample: u64,
+) -> Option<Vector3<f64>> {
+    if lit_fraction <= 0.0 {
+        return None;
+    }
+    let seeing = sensors.iter().enumerate().filter(|(k, sensor)| !failed(*k) && sensor.sees(sun_body));
+    let sum: Vector3<f64> = seeing.map(|(k, sensor)| sensor.measured(k, sun_body, seed, sample)).sum();
+    sum.try_normalize(0.0)
+}

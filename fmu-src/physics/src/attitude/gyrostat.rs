@@ -1,0 +1,108 @@
+//! Gyrostat: a rigid body with reaction wheels, and what follows from its momentum.
+//!
+//! Equations: H = J w + sum of h a, in body components, J with the rotors in it; with p = h + I a.w for every rotor that
+//! turns, H - sum of p a - sum of held h a = (J - sum of I a a^T) w.
+
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+use super::wheel::{ReactionWheel, Rotor};
+
+/// A rigid body with reaction wheels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gyrostat {
+    inertia_body_kg_m2: Matrix3<f64>,
+    wheels: Vec<ReactionWheel>,
+}
+
+/// Why there is no such body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GyrostatError {
+    /// A rotor without inertia.
+    #[error("wheel[{wheel}].inertia is {found} kg m2, allowed: above 0")]
+    Rotor {
+        /// 1-based.
+        wheel: usize,
+        /// In kg m2.
+        found: f64,
+    },
+    /// An axis of no direction.
+    #[error("wheel[{wheel}].axis is {found:?}, allowed: any vector but zero")]
+    Axis {
+        /// 1-based.
+        wheel: usize,
+        /// What was found.
+        found: [f64; 3],
+    },
+    /// The body less its rotors.
+    #[error(
+        "the inertia less that of the rotors about their axes has the principal moment {found} kg m2, allowed: above 0; \
+         spacecraft.inertia includes the rotors"
+    )]
+    Body {
+        /// The smallest, in kg m2.
+        found: f64,
+    },
+}
+
+impl Gyrostat {
+    /// `inertia_body_kg_m2` is about the centre of mass and includes the rotors; axes may have any length.
+    ///
+    /// # Errors
+    /// A rotor without inertia or axis, or rotors with more inertia than the whole.
+    pub fn new(
+        inertia_body_kg_m2: Matrix3<f64>,
+        mut wheels: Vec<ReactionWheel>,
+    ) -> Result<Self, GyrostatError> {
+        for (index, wheel) in wheels.iter_mut().enumerate() {
+            let (number, found) = (index + 1, wheel.inertia_kg_m2);
+            if !(found.is_finite() && found > 0.0) {
+                return Err(GyrostatError::Rotor { wheel: number, found });
+            }
+            let found = wheel.axis_body.into();
+            let axis = wheel.axis_body.try_normalize(0.0).filter(|axis| axis.iter().all(|x| x.is_finite()));
+            wheel.axis_body = axis.ok_or(GyrostatError::Axis { wheel: number, found })?;
+        }
+        let body = Self { inertia_body_kg_m2, wheels };
+        let turning = body.wheels.iter().filter(|wheel| !wheel.locked);
+        let found = SymmetricEigen::new(body.without(turning)).eigenvalues.min();
+        if found > 0.0 { Ok(body) } else { Err(GyrostatError::Body { found }) }
+    }
+
+    /// Inertia about the centre of mass with the rotors in it, body frame, in kg m2.
+    pub fn inertia_body_kg_m2(&self) -> &Matrix3<f64> {
+        &self.inertia_body_kg_m2
+    }
+
+    /// The wheels, axes of length 1.
+    pub fn wheels(&self) -> &[ReactionWheel] {
+        &self.wheels
+    }
+
+    /// Sum over the wheels of a scalar along each axis, body frame.
+    pub fn along_axes(&self, of_wheel: impl Fn(usize) -> f64) -> Vector3<f64> {
+        let wheels = self.wheels.iter().enumerate();
+        wheels.fold(Vector3::zeros(), |sum, (k, wheel)| sum + wheel.axis_body * of_wheel(k))
+    }
+
+    /// Total momentum at a body rate, the rotors holding these momenta relative to the body, body frame, in N m s.
+    pub fn momentum_body_n_m_s(
+        &self,
+        rate_body_rad_s: &Vector3<f64>,
+        rotors_n_m_s: impl Fn(usize) -> f64,
+    ) -> Vector3<f64> {
+        self.inertia_body_kg_m2 * rate_body_rad_s + self.along_axes(rotors_n_m_s)
+    }
+
+    /// Inverse of the inertia that body and held rotors have alone, in 1/(kg m2).
+    pub(super) fn inverse_inertia<'a>(&self, rotors: impl Iterator<Item = &'a Rotor>) -> Matrix3<f64> {
+        let turning =
+            self.wheels.iter().zip(rotors).filter(|(_, rotor)| matches!(rotor, Rotor::Turning { .. }));
+        self.without(turning.map(|(wheel, _)| wheel)).try_inverse().unwrap_or_else(Matrix3::zeros)
+    }
+
+    fn without<'a>(&self, wheels: impl Iterator<Item = &'a ReactionWheel>) -> Matrix3<f64> {
+        wheels.fold(self.inertia_body_kg_m2, |rest, wheel| {
+            rest - wheel.axis_body * wheel.axis_body.transpose() * wheel.inertia_kg_m2
+        })
+    }
+}

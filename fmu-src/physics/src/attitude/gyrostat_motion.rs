@@ -1,0 +1,502 @@
+//! Motion of a rigid body with reaction wheels, as a Taylor series in time that is exact to rounding within a segment.
+//!
+//! Equations: dH/dt = T in inertial components; in the body dm/dt = T - w x m, m = A(q) H; dq/dt = q w / 2; for every rotor
+//! that turns dp/dt = u - f ([`super::wheel`]); w from m and p ([`super::gyrostat`]).
+//! Method: all of it is quadratic, so the coefficients follow from one another by Cauchy products. The total momentum is a
+//! state of its own, which torque alone changes (Gauss-Legendre quadrature over the segment), and the body's momentum is
+//! taken from it at the start of every segment: without torque it stays the same number. A segment ends where the series
+//! would no longer be exact to rounding, where a rotor comes to rest, to its capacity or breaks away, or at the given limit.
+//! Order: up to 10 in time, as many as rounding asks for.
+//! Error measure: the last two terms of attitude, momentum and rotors relative to their size, 1e-17.
+//! Reference: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, I.8; Hughes, Spacecraft Attitude
+//! Dynamics, ch. 6 (gyrostat).
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use super::gyrostat::Gyrostat;
+use super::quaternion::Quaternion;
+use super::wheel::{Motor, ReactionWheel, Rotor};
+use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+
+/// Highest order of the series.
+const ORDER: usize = 10;
+/// Coefficients.
+const TERMS: usize = ORDER + 1;
+/// Terms below this share of the whole are rounding.
+const ROUNDING: f64 = 1e-17;
+/// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
+    (0.5, 0.444_444_444_444_444_4),
+    (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
+];
+
+/// What acts on the body over a segment, body frame, linear in time from its start on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyLoad {
+    /// Torque about the centre of mass in N m, and its slope in N m/s.
+    pub torque_body_n_m: [Vector3<f64>; 2],
+    /// Acceleration by forces other than gravity in m/s2, and its slope in m/s3.
+    pub acceleration_body_m_s2: [Vector3<f64>; 2],
+}
+
+impl BodyLoad {
+    /// Whether nothing acts.
+    fn is_zero(&self) -> bool {
+        *self == Self::default()
+    }
+
+    fn after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
+        [self.torque_body_n_m, self.acceleration_body_m_s2].map(|[start, slope]| start + slope * elapsed_s)
+    }
+
+    fn is_finite(&self) -> bool {
+        let vectors = self.torque_body_n_m.iter().chain(&self.acceleration_body_m_s2);
+        vectors.flatten_all().all(|x| x.abs() <= GREATEST_IN_STATE)
+    }
+}
+
+/// The components of vectors one after the other.
+trait Components<'a> {
+    fn flatten_all(self) -> impl Iterator<Item = &'a f64>;
+}
+
+impl<'a, I: Iterator<Item = &'a Vector3<f64>>> Components<'a> for I {
+    fn flatten_all(self) -> impl Iterator<Item = &'a f64> {
+        self.flat_map(|vector| vector.iter())
+    }
+}
+
+/// The body at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyMotion {
+    /// EME2000 to body.
+    pub attitude: Quaternion,
+    /// Angular rate, body frame, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// Total angular momentum, EME2000, in N m s.
+    pub momentum_inertial_n_m_s: Vector3<f64>,
+    /// Velocity change by forces other than gravity since the start, EME2000, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+}
+
+/// One rotor over a segment.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct RotorMotion {
+    rotor: Rotor,
+    /// How it moves after the end, if that is why the segment ends.
+    next: Option<Rotor>,
+    /// Series of h + I a.w, in N m s; unused while it is held.
+    axial: [f64; TERMS],
+}
+
+/// Motion over one segment: its state and dense output.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GyrostatMotion {
+    start_s: f64,
+    end_s: f64,
+    order: usize,
+    attitude: [[f64; 4]; TERMS],
+    rate: [Vector3<f64>; TERMS],
+    momentum_body: [Vector3<f64>; TERMS],
+    rotors: Vec<RotorMotion>,
+    inverse_inertia: Matrix3<f64>,
+    load: BodyLoad,
+    momentum_inertial_n_m_s: Vector3<f64>,
+    delta_v_inertial_m_s: Vector3<f64>,
+}
+
+impl GyrostatMotion {
+    /// At `time_s`, in this attitude and at this rate, the rotors holding these momenta relative to the body.
+    pub fn new(
+        gyrostat: &Gyrostat,
+        time_s: f64,
+        attitude: Quaternion,
+        rate_body_rad_s: &Vector3<f64>,
+        rotors_n_m_s: impl Fn(usize) -> f64,
+    ) -> Self {
+        let momentum_body = gyrostat.momentum_body_n_m_s(rate_body_rad_s, &rotors_n_m_s);
+        let mut motion = Self {
+            start_s: time_s,
+            end_s: time_s,
+            order: 0,
+            attitude: [[0.0; 4]; TERMS],
+            rate: [Vector3::zeros(); TERMS],
+            momentum_body: [Vector3::zeros(); TERMS],
+            rotors: Vec::with_capacity(gyrostat.wheels().len()),
+            inverse_inertia: Matrix3::zeros(),
+            load: BodyLoad::default(),
+            momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
+            delta_v_inertial_m_s: Vector3::zeros(),
+        };
+        motion.attitude[0] = attitude.0;
+        motion.rate[0] = *rate_body_rad_s;
+        motion.rotors.extend(gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
+            let held_n_m_s = rotors_n_m_s(k);
+            let mut axial = [0.0; TERMS];
+            axial[0] = held_n_m_s + wheel.inertia_kg_m2 * wheel.axis_body.dot(rate_body_rad_s);
+            RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial }
+        }));
+        motion.inverse_inertia = gyrostat.inverse_inertia(motion.rotors.iter().map(|it| &it.rotor));
+        motion
+    }
+
+    /// Whether its numbers can come from a flight of a body with so many wheels; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, wheels: usize) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let vectors = self.rate.iter().chain(&self.momentum_body);
+        let totals = [&self.momentum_inertial_n_m_s, &self.delta_v_inertial_m_s];
+        let norm: f64 = self.attitude[0].iter().map(|x| x * x).sum();
+        self.rotors.len() == wheels
+            && self.order < TERMS
+            && [self.start_s, self.end_s].iter().all(sound)
+            && self.start_s <= self.end_s
+            && (norm - 1.0).abs() < 1e-9
+            && self.attitude.iter().flatten().all(sound)
+            && vectors.chain(totals).flatten_all().all(sound)
+            && self.inverse_inertia.iter().all(sound)
+            && self.load.is_finite()
+            && self.rotors.iter().all(|it| {
+                it.rotor.is_sound()
+                    && it.next.is_none_or(|next| next.is_sound())
+                    && it.axial.iter().all(sound)
+            })
+    }
+
+    /// Up to where the motion is known, in s.
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// Since when the present segment lasts, in s.
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// Forgets the motion beyond `time_s`: what acts changes there.
+    pub fn cut(&mut self, time_s: f64) {
+        if time_s < self.end_s {
+            self.end_s = time_s.max(self.start_s);
+            self.rotors.iter_mut().for_each(|it| it.next = None);
+        }
+    }
+
+    /// The body at `time_s` within the segment.
+    pub fn at(&self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
+        let elapsed_s = time_s - self.start_s;
+        let attitude = self.attitude_after(elapsed_s);
+        let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s);
+        let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
+        let rest = momentum_body
+            - gyrostat.along_axes(|k| match self.rotors[k].rotor {
+                Rotor::Turning { .. } => polynomial(&self.rotors[k].axial[..=self.order], elapsed_s),
+                Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
+            });
+        BodyMotion {
+            attitude,
+            rate_body_rad_s: self.inverse_inertia * rest,
+            momentum_inertial_n_m_s,
+            delta_v_inertial_m_s,
+        }
+    }
+
+    /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
+    pub fn rotor_n_m_s(&self, gyrostat: &Gyrostat, k: usize, time_s: f64, motion: &BodyMotion) -> f64 {
+        let (wheel, it) = (&gyrostat.wheels()[k], &self.rotors[k]);
+        match it.rotor {
+            Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
+            Rotor::Turning { .. } => {
+                let axial = polynomial(&it.axial[..=self.order], time_s - self.start_s);
+                axial - wheel.inertia_kg_m2 * wheel.axis_body.dot(&motion.rate_body_rad_s)
+            }
+        }
+    }
+
+    /// Whether rotor `k` (0-based) is held at its capacity by the motor.
+    pub fn is_saturated(&self, gyrostat: &Gyrostat, k: usize) -> bool {
+        let wheel = &gyrostat.wheels()[k];
+        let held = matches!(self.rotors[k].rotor, Rotor::Held { momentum_n_m_s } if momentum_n_m_s != 0.0);
+        held && !wheel.locked
+    }
+
+    /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
+    /// the present end on).
+    pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
+        let start_s = self.end_s;
+        let motion = self.at(gyrostat, start_s);
+        for k in 0..self.rotors.len() {
+            let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, &motion);
+            let (wheel, it) = (&gyrostat.wheels()[k], &mut self.rotors[k]);
+            let carried = wheel.inertia_kg_m2 * wheel.axis_body.dot(&motion.rate_body_rad_s);
+            let (rotor, relative_n_m_s) = match it.next.take() {
+                Some(Rotor::Held { momentum_n_m_s }) => (Rotor::Held { momentum_n_m_s }, momentum_n_m_s),
+                Some(turning) => (turning, relative_n_m_s),
+                None => (it.rotor, relative_n_m_s),
+            };
+            let at_capacity = relative_n_m_s.abs() >= wheel.capacity_n_m_s * (1.0 - 4.0 * f64::EPSILON);
+            let turns = matches!(rotor, Rotor::Turning { .. });
+            let pushed_on = !motors[k].failed && motors[k].torque_n_m * relative_n_m_s > 0.0;
+            it.rotor = if turns && at_capacity && pushed_on {
+                Rotor::Held { momentum_n_m_s: relative_n_m_s }
+            } else {
+                rotor
+            };
+            it.axial[0] = relative_n_m_s + carried;
+        }
+        (self.start_s, self.load) = (start_s, *load);
+        self.momentum_inertial_n_m_s = motion.momentum_inertial_n_m_s;
+        self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
+        self.attitude[0] = motion.attitude.0;
+        self.momentum_body[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
+        let longest_s = limit_s - start_s;
+        self.build(gyrostat, motors, longest_s);
+        // Each round sets at least one more rotor free.
+        for _ in 0..self.rotors.len() {
+            if !self.release(gyrostat, motors) {
+                break;
+            }
+            self.build(gyrostat, motors, longest_s);
+        }
+        let converged_s = self.converged_s(longest_s);
+        let event_s = self.first_event_s(gyrostat, motors, converged_s);
+        self.end_s = if event_s < longest_s { start_s + event_s } else { limit_s };
+    }
+
+    /// Computes the coefficients, as many as count within `longest_s`.
+    fn build(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) {
+        self.inverse_inertia = gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor));
+        let scale = self.momentum_scale_n_m_s();
+        let (mut power, mut small) = (1.0, 0);
+        self.order = 0;
+        loop {
+            let j = self.order;
+            self.rate[j] = self.rate_term(gyrostat, j);
+            if j == ORDER || small == 2 {
+                break;
+            }
+            power *= longest_s;
+            let divisor = (j + 1) as f64;
+            let mut momentum_rate = self.load.torque_body_n_m.get(j).copied().unwrap_or_default();
+            let mut attitude_rate = [0.0; 4];
+            for i in 0..=j {
+                let rate = &self.rate[j - i];
+                momentum_rate += self.momentum_body[i].cross(rate);
+                let [x, y, z, w] = self.attitude[i];
+                attitude_rate[0] += w * rate.x + y * rate.z - z * rate.y;
+                attitude_rate[1] += w * rate.y + z * rate.x - x * rate.z;
+                attitude_rate[2] += w * rate.z + x * rate.y - y * rate.x;
+                attitude_rate[3] -= x * rate.x + y * rate.y + z * rate.z;
+            }
+            self.momentum_body[j + 1] = momentum_rate / divisor;
+            self.attitude[j + 1] = attitude_rate.map(|x| 0.5 * x / divisor);
+            let mut axial_largest = 0.0_f64;
+            let rates = &self.rate;
+            for ((it, wheel), motor) in self.rotors.iter_mut().zip(gyrostat.wheels()).zip(motors) {
+                let Rotor::Turning { direction } = it.rotor else { continue };
+                let relative = it.axial[j] - wheel.inertia_kg_m2 * wheel.axis_body.dot(&rates[j]);
+                let constant =
+                    if j == 0 { motor.torque_n_m - wheel.coulomb_friction_n_m * direction } else { 0.0 };
+                it.axial[j + 1] = (constant - wheel.viscous_rate_1_s() * relative) / divisor;
+                axial_largest = axial_largest.max(it.axial[j + 1].abs());
+            }
+            let attitude_largest = self.attitude[j + 1].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let momentum_largest = self.momentum_body[j + 1].amax().max(axial_largest);
+            let is_small = attitude_largest * power < ROUNDING && momentum_largest * power < ROUNDING * scale;
+            small = if is_small { small + 1 } else { 0 };
+            self.order += 1;
+        }
+    }
+
+    /// Coefficient of the rate from those of momentum and rotors.
+    fn rate_term(&self, gyrostat: &Gyrostat, j: usize) -> Vector3<f64> {
+        let wheels = gyrostat.wheels().iter().zip(&self.rotors);
+        let rest = wheels.fold(self.momentum_body[j], |rest, (wheel, it)| match it.rotor {
+            Rotor::Turning { .. } => rest - wheel.axis_body * it.axial[j],
+            Rotor::Held { momentum_n_m_s } if j == 0 => rest - wheel.axis_body * momentum_n_m_s,
+            Rotor::Held { .. } => rest,
+        });
+        self.inverse_inertia * rest
+    }
+
+    /// What momenta are compared with, in N m s.
+    fn momentum_scale_n_m_s(&self) -> f64 {
+        let rotors = self.rotors.iter().map(|it| it.axial[0].abs()).fold(0.0, f64::max);
+        // Of a body at rest every change counts.
+        self.momentum_body[0].amax().max(rotors).max(1e-6)
+    }
+
+    /// How long the series is exact to rounding, at most `longest_s`, in s.
+    fn converged_s(&self, longest_s: f64) -> f64 {
+        if self.order < ORDER {
+            return longest_s;
+        }
+        let scale = self.momentum_scale_n_m_s();
+        let mut shortest_s = longest_s;
+        for j in [ORDER - 1, ORDER] {
+            let attitude = self.attitude[j].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let axial = self.rotors.iter().map(|it| it.axial[j].abs()).fold(0.0, f64::max);
+            let share = attitude.max(self.momentum_body[j].amax().max(axial) / scale);
+            if share * shortest_s.powi(j as i32) > ROUNDING {
+                shortest_s = (ROUNDING / share).powf(1.0 / j as f64);
+            }
+        }
+        shortest_s
+    }
+
+    /// What drives a held rotor off its speed at the start, along its axis, as a polynomial in time, in N m.
+    fn drive_n_m(&self, wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64) -> [f64; TERMS] {
+        let mut drive = [0.0; TERMS];
+        for (j, term) in drive.iter_mut().enumerate().take(self.order) {
+            let acceleration = self.rate[j + 1] * ((j + 1) as f64);
+            *term = -wheel.inertia_kg_m2 * wheel.axis_body.dot(&acceleration);
+        }
+        drive[0] += motor.torque_n_m - wheel.friction_n_m(held_n_m_s);
+        drive
+    }
+
+    /// Sets held rotors free that motor and body drive off; whether there was one.
+    fn release(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) -> bool {
+        let mut released = false;
+        for k in 0..self.rotors.len() {
+            let (wheel, motor) = (&gyrostat.wheels()[k], &motors[k]);
+            let Rotor::Held { momentum_n_m_s } = self.rotors[k].rotor else { continue };
+            let drive = self.drive_n_m(wheel, motor, momentum_n_m_s)[0];
+            if wheel.locked || !is_driven_off(wheel, motor, momentum_n_m_s, drive) {
+                continue;
+            }
+            released = true;
+            let at_rest = momentum_n_m_s == 0.0;
+            let direction = if at_rest { 1.0_f64.copysign(drive) } else { momentum_n_m_s.signum() };
+            let it = &mut self.rotors[k];
+            it.rotor = Rotor::Turning { direction };
+        }
+        released
+    }
+
+    /// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is told.
+    fn first_event_s(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) -> f64 {
+        let mut first: Option<(usize, f64, Rotor)> = None;
+        for k in 0..self.rotors.len() {
+            let until_s = first.map_or(longest_s, |(_, at_s, _)| at_s);
+            if let Some((at_s, rotor)) = self.event(&gyrostat.wheels()[k], &motors[k], k, until_s) {
+                first = Some((k, at_s, rotor));
+            }
+        }
+        let Some((k, at_s, rotor)) = first else { return longest_s };
+        self.rotors[k].next = Some(rotor);
+        // Time always goes on.
+        at_s.max(longest_s * 1e-9)
+    }
+
+    /// When rotor `k` changes how it moves within `longest_s`, and to what.
+    fn event(&self, wheel: &ReactionWheel, motor: &Motor, k: usize, longest_s: f64) -> Option<(f64, Rotor)> {
+        let it = &self.rotors[k];
+        match it.rotor {
+            Rotor::Held { .. } if wheel.locked => None,
+            Rotor::Held { momentum_n_m_s } => {
+                let drive = self.drive_n_m(wheel, motor, momentum_n_m_s);
+                let at_rest = momentum_n_m_s == 0.0;
+                let friction = wheel.coulomb_friction_n_m;
+                // What is left until it is driven off, and the way it goes then.
+                let ways = if at_rest { [1.0, -1.0] } else { [momentum_n_m_s.signum(); 2] };
+                let exits = ways.into_iter().filter_map(|way| {
+                    let left = if at_rest { plus(&drive, friction, -way) } else { plus(&drive, 0.0, way) };
+                    let at_s = self.falls_below_zero_s(&left, longest_s)?;
+                    Some((at_s, Rotor::Turning { direction: way }))
+                });
+                exits.min_by(|(a_s, _), (b_s, _)| a_s.total_cmp(b_s))
+            }
+            Rotor::Turning { direction } => {
+                let mut relative = it.axial;
+                for (term, rate) in relative.iter_mut().zip(&self.rate).take(self.order + 1) {
+                    *term -= wheel.inertia_kg_m2 * wheel.axis_body.dot(rate);
+                }
+                let rests_s = (wheel.coulomb_friction_n_m > 0.0)
+                    .then(|| self.falls_below_zero_s(&plus(&relative, 0.0, direction), longest_s))
+                    .flatten();
+                let limit = wheel.capacity_n_m_s;
+                let sign = 1.0_f64.copysign(motor.torque_n_m);
+                let is_driven = !motor.failed && motor.torque_n_m != 0.0;
+                let full_s = is_driven
+                    .then(|| self.falls_below_zero_s(&plus(&relative, limit, -sign), longest_s))
+                    .flatten();
+                match (rests_s, full_s) {
+                    (Some(at_s), full_s) if full_s.is_none_or(|full_s| at_s <= full_s) => {
+                        Some((at_s, Rotor::Held { momentum_n_m_s: 0.0 }))
+                    }
+                    (_, Some(at_s)) => Some((at_s, Rotor::Held { momentum_n_m_s: sign * limit })),
+                    _ => None,
+                }
+            }
+        }
+    }
+
+    /// When a polynomial of the segment first falls through zero within `longest_s`.
+    fn falls_below_zero_s(&self, terms: &[f64; TERMS], longest_s: f64) -> Option<f64> {
+        let terms = &terms[..=self.order];
+        let mut swing = 0.0;
+        for term in terms.iter().skip(1).rev() {
+            swing = (swing + term.abs()) * longest_s;
+        }
+        if terms[0] > swing {
+            return None;
+        }
+        let fit = Segment::<1, { TERMS + 1 }>::fit(0.0, longest_s, |at_s| [polynomial(terms, at_s)].into());
+        let falls = |at_s: &f64| slope(terms, *at_s) < 0.0;
+        fit.sign_changes(0.0, longest_s).iter().find(falls)
+    }
+
+    fn attitude_after(&self, elapsed_s: f64) -> Quaternion {
+        let mut sum = self.attitude[self.order];
+        for terms in self.attitude[..self.order].iter().rev() {
+            for (x, term) in sum.iter_mut().zip(terms) {
+                *x = *x * elapsed_s + term;
+            }
+        }
+        Quaternion(sum).normalized()
+    }
+
+    /// Total momentum and velocity change, inertial.
+    fn totals_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
+        let mut totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
+        if !self.load.is_zero() {
+            for (node, weight) in GAUSS {
+                let at_s = node * elapsed_s;
+                let attitude = self.attitude_after(at_s);
+                for (total, load) in totals.iter_mut().zip(self.load.after(at_s)) {
+                    *total += attitude.inertial_from_body(&load) * (weight * elapsed_s);
+                }
+            }
+        }
+        totals
+    }
+}
+
+/// Whether a held rotor is driven off its speed by `drive_n_m`.
+fn is_driven_off(wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64, drive_n_m: f64) -> bool {
+    if held_n_m_s == 0.0 {
+        drive_n_m.abs() > wheel.coulomb_friction_n_m
+    } else {
+        motor.failed || motor.torque_n_m * held_n_m_s <= 0.0 || drive_n_m * held_n_m_s < 0.0
+    }
+}
+
+fn polynomial(terms: &[f64], at: f64) -> f64 {
+    terms.iter().rev().fold(0.0, |sum, term| sum * at + term)
+}
+
+fn slope(terms: &[f64], at: f64) -> f64 {
+    let terms = terms.iter().enumerate().skip(1).rev();
+    terms.fold(0.0, |sum, (j, term)| sum * at + term * j as f64)
+}
+
+/// `sign * terms + constant`.
+fn plus(terms: &[f64; TERMS], constant: f64, sign: f64) -> [f64; TERMS] {
+    let mut result = terms.map(|term| sign * term);
+    result[0] += constant;
+    result
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,305 @@
+//! Against closed forms: Jacobi's elliptic functions for the free body, exponentials for a rotor under friction, and the
+//! invariants.
+
+use approx::assert_relative_eq;
+use nalgebra::Matrix3;
+
+use super::*;
+use crate::attitude::ReactionWheel;
+
+const INERTIA: [f64; 3] = [199.6, 507.1, 484.9];
+
+fn wheel(axis_body: Vector3<f64>) -> ReactionWheel {
+    ReactionWheel {
+        axis_body,
+        inertia_kg_m2: 0.0127,
+        max_torque_n_m: 0.075,
+        capacity_n_m_s: 8.0,
+        coulomb_friction_n_m: 0.0,
+        viscous_friction_n_m_s: 0.0,
+        locked: false,
+    }
+}
+
+fn pyramid() -> Vec<ReactionWheel> {
+    let c = (1.0f64 / 3.0).sqrt();
+    [(c, c), (c, -c), (-c, -c), (-c, c)].iter().map(|&(x, z)| wheel(Vector3::new(x, c, z))).collect()
+}
+
+fn craft(wheels: Vec<ReactionWheel>) -> Gyrostat {
+    Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap()
+}
+
+/// Flies on to `end_s` in pieces of at most `piece_s`.
+fn fly(
+    motion: &mut GyrostatMotion,
+    craft: &Gyrostat,
+    motors: &[Motor],
+    load: &BodyLoad,
+    end_s: f64,
+    piece_s: f64,
+) -> usize {
+    let mut segments = 0;
+    while motion.end_s() < end_s {
+        let next_s = ((motion.end_s() / piece_s + 1e-9).floor() + 1.0) * piece_s;
+        motion.advance(craft, motors, load, next_s.min(end_s));
+        segments += 1;
+        assert!(segments < 10_000_000);
+    }
+    segments
+}
+
+/// Jacobi's sn, cn, dn by the arithmetic-geometric mean (Abramowitz and Stegun, 16.4).
+fn jacobi(u: f64, m: f64) -> [f64; 3] {
+    let (mut a, mut b, mut c) = (vec![1.0], (1.0 - m).sqrt(), vec![m.sqrt()]);
+    while c.last().unwrap().abs() > 1e-17 && a.len() < 30 {
+        let last = *a.last().unwrap();
+        c.push(0.5 * (last - b));
+        a.push(0.5 * (last + b));
+        b = (last * b).sqrt();
+    }
+    let n = a.len() - 1;
+    let mut phi = 2f64.powi(n as i32) * a[n] * u;
+    let mut before = phi;
+    for k in (1..=n).rev() {
+        before = phi;
+        phi = 0.5 * (phi + (c[k] / a[k] * phi.sin()).asin());
+    }
+    let _ = before;
+    [phi.sin(), phi.cos(), (1.0 - m * phi.sin().powi(2)).sqrt()]
+}
+
+#[test]
+fn a_free_body_turns_as_jacobi_says() {
+    // I1 < I3 < I2: about the axes of least and greatest inertia, momentum nearer to the greatest.
+    let craft = craft(Vec::new());
+    let [i1, i2, i3] = INERTIA;
+    // Axes ordered a (greatest), b (middle), c (least): y, z, x; starts in the plane of a and c.
+    let (a, b, c) = (i2, i3, i1);
+    let rate = Vector3::new(0.004, 0.03, 0.0);
+    let energy = 0.5 * (c * rate.x * rate.x + a * rate.y * rate.y);
+    let squared = (c * rate.x).powi(2) + (a * rate.y).powi(2);
+    // Landau and Lifshitz, Mechanics, section 37, with I1 < I2 < I3 as c, b, a and M^2 > 2 E b.
+    let two_e = 2.0 * energy;
+    assert!(squared > two_e * b);
+    let tau = ((a - b) * (squared - two_e * c) / (a * b * c)).sqrt();
+    let m = (b - c) * (two_e * a - squared) / ((a - b) * (squared - two_e * c));
+    let sizes = [
+        ((two_e * a - squared) / (c * (a - c))).sqrt(),
+        ((two_e * a - squared) / (b * (a - b))).sqrt(),
+        ((squared - two_e * c) / (a * (a - c))).sqrt(),
+    ];
+    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |_| unreachable!());
+    let mut worst = 0.0_f64;
+    for minute in 1..=60 {
+        let time_s = 60.0 * f64::from(minute);
+        fly(&mut motion, &craft, &[], &BodyLoad::default(), time_s, 0.02);
+        let found = motion.at(&craft, time_s);
+        let [sn, cn, dn] = jacobi(tau * time_s, m);
+        // c = x, b = z, a = y is a left-handed order: the middle axis runs the other way.
+        let expected = Vector3::new(sizes[0] * cn, sizes[2] * dn, -sizes[1] * sn);
+        worst = worst.max((found.rate_body_rad_s - expected).norm() / expected.norm());
+        // The attitude's two angles about the momentum follow from momentum in the body; the third from its rate there.
+        let momentum = found.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
+        let in_body = Vector3::new(c * expected.x, a * expected.y, b * expected.z);
+        worst = worst.max((momentum - in_body).norm() / in_body.norm());
+    }
+    assert!(worst < 1e-10, "{worst:e}");
+    // The turn about the momentum: its rate is M (I_c w_c^2 + I_b w_b^2) / (I_c^2 w_c^2 + I_b^2 w_b^2), by Simpson's rule.
+    let norm = squared.sqrt();
+    let precession = |time_s: f64| {
+        let [sn, cn, _] = jacobi(tau * time_s, m);
+        let (x, z) = (sizes[0] * cn, sizes[1] * sn);
+        norm * (c * x * x + b * z * z) / ((c * x).powi(2) + (b * z).powi(2))
+    };
+    let steps = 200_000;
+    let step_s = 3600.0 / f64::from(steps);
+    let sum: f64 = (0..=steps)
+        .map(|k| {
+            let weight = match k {
+                0 => 1.0,
+                k if k == steps => 1.0,
+                k if k % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            weight * precession(step_s * f64::from(k))
+        })
+        .sum();
+    let turned = sum * step_s / 3.0;
+    // Angle of the body's axis a about the momentum.
+    let motion_end = motion.at(&craft, 3600.0);
+    let along = motion.momentum_inertial_n_m_s.normalize();
+    let angle = |q: &Quaternion| {
+        let axis = q.inertial_from_body(&Vector3::y());
+        let x = along.cross(&Vector3::z()).normalize();
+        axis.dot(&along.cross(&x)).atan2(axis.dot(&x))
+    };
+    let found = angle(&motion_end.attitude) - angle(&Quaternion::IDENTITY);
+    let difference = (found - turned).sin().asin();
+    assert!(difference.abs() < 1e-9, "{difference:e}");
+}
+
+#[test]
+fn momentum_and_energy_are_kept_for_a_day() {
+    let mut locked = pyramid();
+    locked.iter_mut().for_each(|wheel| wheel.locked = true);
+    let craft = craft(locked);
+    let rate = Vector3::new(2e-3, -1e-3, 3e-3);
+    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |_| 0.0);
+    let energy = |motion: &BodyMotion| {
+        0.5 * motion.rate_body_rad_s.dot(&(craft.inertia_body_kg_m2() * motion.rate_body_rad_s))
+    };
+    let first = motion.at(&craft, 0.0);
+    fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::default(), 86_400.0, 0.02);
+    let last = motion.at(&craft, 86_400.0);
+    assert_eq!(last.momentum_inertial_n_m_s, first.momentum_inertial_n_m_s);
+    assert_relative_eq!(energy(&last), energy(&first), max_relative = 1e-10);
+    let formed = last.attitude.inertial_from_body(&craft.momentum_body_n_m_s(&last.rate_body_rad_s, |_| 0.0));
+    assert_relative_eq!(formed, first.momentum_inertial_n_m_s, max_relative = 1e-12);
+}
+
+#[test]
+fn a_rotor_runs_up_and_down_as_the_exponential_says() {
+    // On a body so heavy that it does not turn.
+    let mut one = wheel(Vector3::z());
+    (one.coulomb_friction_n_m, one.viscous_friction_n_m_s) = (2e-3, 3e-5);
+    let (friction, damping) = (one.coulomb_friction_n_m, one.viscous_friction_n_m_s / one.inertia_kg_m2);
+    let craft = Gyrostat::new(Matrix3::from_diagonal_element(1e9), vec![one]).unwrap();
+    let still = Vector3::zeros();
+    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |_| 0.0);
+    let free = BodyLoad::default();
+    let torque = 0.02;
+    let up = [Motor { torque_n_m: torque, failed: false }];
+    let momentum =
+        |motion: &GyrostatMotion, time_s| motion.rotor_n_m_s(&craft, 0, time_s, &motion.at(&craft, time_s));
+    fly(&mut motion, &craft, &up, &free, 120.0, 1.0);
+    let top = (torque - friction) / damping * (1.0 - (-damping * 120.0_f64).exp());
+    assert_relative_eq!(momentum(&motion, 120.0), top, max_relative = 1e-7);
+    // Down without motor: h + c / k decays, to rest at k t = ln(1 + k h / c), and stays there.
+    let off = [Motor { torque_n_m: 0.0, failed: true }];
+    let rest_s = 120.0 + (1.0 + damping * top / friction).ln() / damping;
+    fly(&mut motion, &craft, &off, &free, 200.0, 1.0);
+    let expected = (top + friction / damping) * (-damping * 80.0_f64).exp() - friction / damping;
+    assert_relative_eq!(momentum(&motion, 200.0), expected, max_relative = 1e-7);
+    while motion.end_s() < rest_s + 10.0 {
+        let (start_s, before) = (motion.end_s(), momentum(&motion, motion.end_s()));
+        motion.advance(&craft, &off, &free, (start_s + 1e-9).floor() + 1.0);
+        if before > 1e-9 && momentum(&motion, motion.end_s()).abs() < 1e-9 {
+            assert!((motion.end_s() - rest_s).abs() < 1e-4, "{} {rest_s}", motion.end_s());
+        }
+    }
+    assert_eq!(momentum(&motion, motion.end_s()), 0.0);
+    // Friction holds less than itself, and lets go above.
+    let weak = [Motor { torque_n_m: 0.9 * friction, failed: false }];
+    let end_s = motion.end_s() + 10.0;
+    fly(&mut motion, &craft, &weak, &free, end_s, 1.0);
+    assert_eq!(momentum(&motion, end_s), 0.0);
+    let strong = [Motor { torque_n_m: -1.1 * friction, failed: false }];
+    fly(&mut motion, &craft, &strong, &free, end_s + 10.0, 1.0);
+    let expected = -0.1 * friction / damping * (1.0 - (-damping * 10.0_f64).exp());
+    assert_relative_eq!(momentum(&motion, end_s + 10.0), expected, max_relative = 1e-6);
+}
+
+#[test]
+fn a_rotor_stops_at_its_capacity_and_leaves_it() {
+    let craft = craft(pyramid());
+    let still = Vector3::zeros();
+    let mut motion =
+        GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |k| if k == 0 { 7.0 } else { 0.0 });
+    let total = motion.momentum_inertial_n_m_s;
+    let free = BodyLoad::default();
+    let mut motors = [Motor::default(); 4];
+    motors[0].torque_n_m = 0.075;
+    fly(&mut motion, &craft, &motors, &free, 60.0, 0.02);
+    let at = motion.at(&craft, 60.0);
+    assert_eq!(motion.rotor_n_m_s(&craft, 0, 60.0, &at), 8.0);
+    assert!(motion.is_saturated(&craft, 0));
+    // The body took what the wheel took, and turns on freely once the wheel is full.
+    let relative = at.attitude.inertial_from_body(
+        &craft.momentum_body_n_m_s(&at.rate_body_rad_s, |k| motion.rotor_n_m_s(&craft, k, 60.0, &at)),
+    );
+    assert_relative_eq!(relative, total, max_relative = 1e-12);
+    motors[0].torque_n_m = -0.075;
+    fly(&mut motion, &craft, &motors, &free, 61.0, 0.02);
+    let at = motion.at(&craft, 61.0);
+    let left = motion.rotor_n_m_s(&craft, 0, 61.0, &at);
+    assert!((left - (8.0 - 0.075)).abs() < 1e-4 && !motion.is_saturated(&craft, 0), "{left}");
+}
+
+#[test]
+fn torque_and_force_add_up() {
+    // About one axis the angle under constant torque is known; force turns with the body.
+    let craft = craft(pyramid());
+    let still = Vector3::zeros();
+    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |_| 0.0);
+    let (torque, slope) = (0.05, 1e-4);
+    // The rotors' own axial momentum stays: the body turns as if they had no inertia along it.
+    let inertia = INERTIA[1] - 4.0 * 0.0127 / 3.0;
+    let rate = |t: f64| (torque * t + 0.5 * slope * t * t) / inertia;
+    let angle = |t: f64| (0.5 * torque * t * t + slope * t.powi(3) / 6.0) / inertia;
+    let mut time_s: f64 = 0.0;
+    while time_s < 100.0 {
+        let load = BodyLoad {
+            torque_body_n_m: [Vector3::y() * (torque + slope * time_s), Vector3::y() * slope],
+            acceleration_body_m_s2: [Vector3::z() * 1e-3, Vector3::zeros()],
+        };
+        motion.advance(&craft, &[Motor::default(); 4], &load, time_s + 0.5);
+        time_s = motion.end_s();
+    }
+    let at = motion.at(&craft, time_s);
+    assert_relative_eq!(at.rate_body_rad_s, Vector3::y() * rate(time_s), max_relative = 1e-12);
+    assert_relative_eq!(
+        Vector3::from_row_slice(&at.attitude.0[..3]),
+        Vector3::y() * (0.5 * angle(time_s)).sin(),
+        max_relative = 1e-12
+    );
+    // By Simpson's rule over the known angle.
+    let steps = 100_000;
+    let step_s = time_s / f64::from(steps);
+    let sum = (0..=steps).fold(Vector3::zeros(), |sum: Vector3<f64>, k| {
+        let weight = if k == 0 || k == steps {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        };
+        let (sine, cosine) = angle(step_s * f64::from(k)).sin_cos();
+        sum + Vector3::new(sine, 0.0, cosine) * (weight * step_s / 3.0 * 1e-3)
+    });
+    assert_relative_eq!(at.delta_v_inertial_m_s, sum, max_relative = 1e-11);
+}
+
+#[test]
+fn long_segments_give_what_short_ones_give() {
+    let mut wheels = pyramid();
+    wheels.iter_mut().for_each(|wheel| wheel.viscous_friction_n_m_s = 1e-4);
+    let craft = craft(wheels);
+    let rate = Vector3::new(0.02, -0.03, 0.05);
+    let motors = [0.01, -0.02, 0.03, 0.005].map(|torque_n_m| Motor { torque_n_m, failed: false });
+    let fly_in = |piece_s: f64| {
+        let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |k| k as f64 - 1.0);
+        fly(&mut motion, &craft, &motors, &BodyLoad::default(), 50.0, piece_s);
+        motion.at(&craft, 50.0)
+    };
+    let (short, long) = (fly_in(0.01), fly_in(10.0));
+    assert_relative_eq!(short.rate_body_rad_s, long.rate_body_rad_s, max_relative = 1e-12);
+    for (a, b) in short.attitude.0.iter().zip(long.attitude.0) {
+        assert!((a - b).abs() < 1e-13, "{a} {b}");
+    }
+}
+
+#[test]
+fn impossible_bodies_are_refused() {
+    let mut heavy = pyramid();
+    heavy[0].inertia_kg_m2 = 1e4;
+    let told =
+        |wheels| Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap_err().to_string();
+    assert!(told(heavy).contains("principal moment"));
+    let mut none = pyramid();
+    none[2].axis_body = Vector3::zeros();
+    assert!(told(none).contains("wheel[3].axis"));
+    let mut light = pyramid();
+    light[1].inertia_kg_m2 = 0.0;
+    assert!(told(light).contains("wheel[2].inertia"));
+}

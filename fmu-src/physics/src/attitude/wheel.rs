@@ -1,0 +1,93 @@
+//! Reaction wheel: axis, rotor, motor and friction, and whether the rotor turns or is held.
+//!
+//! Equations, along the spin axis a with the rotor's speed W relative to the body and h = I W:
+//! d/dt (h + I a.w) = u - f, f = c sign(h) + v W.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// One reaction wheel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReactionWheel {
+    /// Unit vector of the spin axis; positive speed is right-handed about it.
+    pub axis_body: Vector3<f64>,
+    /// Moment of inertia of the rotor about its axis, in kg m2.
+    pub inertia_kg_m2: f64,
+    /// Greatest torque of the motor, in N m.
+    pub max_torque_n_m: f64,
+    /// Greatest momentum of the rotor relative to the body, in N m s.
+    pub capacity_n_m_s: f64,
+    /// Coulomb friction, in N m.
+    pub coulomb_friction_n_m: f64,
+    /// Viscous friction, in N m per rad/s.
+    pub viscous_friction_n_m_s: f64,
+    /// Whether the rotor is fixed to the body.
+    pub locked: bool,
+}
+
+impl ReactionWheel {
+    /// Friction on the rotor at `momentum_n_m_s` relative to the body, along the axis, in N m; none at rest.
+    pub fn friction_n_m(&self, momentum_n_m_s: f64) -> f64 {
+        let sign = if momentum_n_m_s == 0.0 { 0.0 } else { momentum_n_m_s.signum() };
+        self.coulomb_friction_n_m * sign + self.viscous_rate_1_s() * momentum_n_m_s
+    }
+
+    /// Speed of the rotor relative to the body, in rad/s, at a momentum in N m s.
+    pub fn speed_rad_s(&self, momentum_n_m_s: f64) -> f64 {
+        wheel_speed_rad_s(momentum_n_m_s, self.inertia_kg_m2)
+    }
+
+    /// Viscous friction over momentum, in 1/s.
+    pub fn viscous_rate_1_s(&self) -> f64 {
+        self.viscous_friction_n_m_s / self.inertia_kg_m2
+    }
+}
+
+/// Speed of a rotor of this inertia (kg m2) at a momentum in N m s, in rad/s.
+pub fn wheel_speed_rad_s(momentum_n_m_s: f64, inertia_kg_m2: f64) -> f64 {
+    momentum_n_m_s / inertia_kg_m2
+}
+
+/// What the motor of a wheel does until something changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Motor {
+    /// Torque on the rotor along the axis, in N m, within what the motor can give.
+    pub torque_n_m: f64,
+    /// Whether there is no motor: nothing limits the rotor's momentum either.
+    pub failed: bool,
+}
+
+/// How a rotor moves.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Rotor {
+    /// Under motor and friction; Coulomb friction opposes `direction`, +1 or -1.
+    Turning {
+        /// Sign of the speed.
+        direction: f64,
+    },
+    /// At constant speed relative to the body: locked, held by Coulomb friction at rest, or by the motor at the capacity.
+    Held {
+        /// Momentum relative to the body, in N m s.
+        momentum_n_m_s: f64,
+    },
+}
+
+impl Rotor {
+    /// Of `wheel` at the start, with this momentum relative to the body.
+    pub fn at_start(wheel: &ReactionWheel, momentum_n_m_s: f64) -> Self {
+        let at_rest = momentum_n_m_s == 0.0 && wheel.coulomb_friction_n_m > 0.0;
+        if wheel.locked || at_rest {
+            Self::Held { momentum_n_m_s }
+        } else {
+            Self::Turning { direction: 1.0_f64.copysign(momentum_n_m_s) }
+        }
+    }
+
+    /// Whether it can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        match self {
+            Self::Turning { direction } => direction.abs() == 1.0,
+            Self::Held { momentum_n_m_s } => momentum_n_m_s.is_finite(),
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Limits of control where the user gives none: what the wheels of a spacecraft allow.
+
+use crate::constants::DEG_RAD;
+use crate::momentum::WheelArray;
+use crate::spacecraft::{Spacecraft, Wheel};
+
+/// Greatest rate of a turn, assumed.
+const GREATEST_SLEW_RATE_RAD_S: f64 = 0.5 * DEG_RAD;
+/// Torque of a dump of a spacecraft without wheels, in N m, assumed.
+const TORQUE_WITHOUT_WHEELS_N_M: f64 = 0.05;
+
+/// Limits of turns and dumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlDefaults {
+    /// Rate of a turn in rad/s: half a degree a second, less where it would take more than a quarter of what the wheels hold.
+    pub slew_rate_rad_s: f64,
+    /// Acceleration of a turn in rad/s2: half of what the wheels' torque gives the axis of largest inertia; 0 without wheels
+    /// in all directions.
+    pub slew_acceleration_rad_s2: f64,
+    /// Torque of a dump in N m: half of what the wheels can hold against.
+    pub dump_torque_n_m: f64,
+}
+
+impl ControlDefaults {
+    /// Of a spacecraft with these wheels.
+    pub fn of(spacecraft: &Spacecraft, wheels: Option<&WheelArray>) -> Self {
+        let guaranteed = |of_wheel: fn(&Wheel) -> f64| {
+            let each = spacecraft.wheels.iter().map(of_wheel);
+            wheels.map_or(0.0, |array| array.guaranteed_threshold_n_m_s(each))
+        };
+        let largest_kg_m2 = spacecraft.mass_properties.inertia_body_kg_m2.diagonal().max();
+        let momentum_n_m_s = guaranteed(|wheel| wheel.capacity_n_m_s);
+        let torque_n_m = guaranteed(|wheel| wheel.max_torque_n_m);
+        let fastest_rad_s = 0.25 * momentum_n_m_s / largest_kg_m2;
+        Self {
+            slew_rate_rad_s: if momentum_n_m_s > 0.0 {
+                fastest_rad_s.min(GREATEST_SLEW_RATE_RAD_S)
+            } else {
+                GREATEST_SLEW_RATE_RAD_S
+            },
+            slew_acceleration_rad_s2: 0.5 * torque_n_m / largest_kg_m2,
+            dump_torque_n_m: if torque_n_m > 0.0 { 0.5 * torque_n_m } else { TORQUE_WITHOUT_WHEELS_N_M },
+        }
+    }
+}
