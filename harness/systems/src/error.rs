@@ -39,12 +39,18 @@ pub enum Error {
         /// The component.
         component: String,
         /// What is wrong with its FMU.
-        source: loader::Error,
+        source: Box<loader::Error>,
     },
     /// What is to be wired cannot be.
     #[error("{0}")]
     Wire(String),
     /// An FMI call, a value, the times of a run; the component's name is the instance's.
     #[error(transparent)]
-    Run(#[from] loader::Error),
+    Run(Box<loader::Error>),
+}
+
+impl From<loader::Error> for Error {
+    fn from(error: loader::Error) -> Self {
+        Self::Run(Box::new(error))
+    }
 }

@@ -40,7 +40,7 @@ impl Package {
         loader::unpack(path, temporary.path(), Limits::default()).map_err(|error| match error {
             loader::Error::Archive { path, what } => Error::Archive { path, what },
             loader::Error::File { path, source } => Error::File { path, source },
-            other => Error::Run(other),
+            other => other.into(),
         })?;
         let folder = temporary.path().to_owned();
         Ok(Self { source: path.to_owned(), folder, _temporary: Some(temporary) })

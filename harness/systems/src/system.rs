@@ -185,10 +185,10 @@ fn open_fmus(
             fmus.push(fmus[same].clone());
             continue;
         }
-        let refuse = |source| Error::Component {
+        let refuse = |error| Error::Component {
             path: package.source.clone(),
             component: component.name.clone(),
-            source,
+            source: Box::new(error),
         };
         let folder = package.fmu_folder(&component.source).map_err(|error| match error {
             Error::Structure { what, .. } => {
