@@ -4,6 +4,7 @@ use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::control::{sample_number, sensed_sun};
 use physics::attitude::{Attitude, BodyMotion, SunAngles, wheel_speed_rad_s};
+use physics::environment::time;
 use physics::momentum::{DumpEvent, DumpSpacing, Dumps, Totals, WheelArray};
 use physics::plant::{
     AttitudeDynamics, Configuration, Cost, DynamicsSettings, Evaluation, ExternalLoad, Instant, PanelSetting,
@@ -28,6 +29,7 @@ pub fn write(
     let variables = context.variables;
     let Evaluation { instant, loads } = evaluation;
     let rotation = &instant.frame.inertial_from_body;
+    values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
     values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
     values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
 

@@ -435,14 +435,19 @@ impl AttitudeDynamics {
             Tracked::Guidance => return,
         };
         let momentum = |k: usize| self.motion.rotor_n_m_s(gyrostat, k, time_s, body);
-        let wheels_body_n_m_s = gyrostat.along_axes(momentum);
+        let axial = |k: usize| {
+            let wheel = &gyrostat.wheels()[k];
+            let carried = if wheel.locked { 0.0 } else { wheel.carried_n_m_s(&body.rate_body_rad_s) };
+            momentum(k) + carried
+        };
+        let rotors_body_n_m_s = gyrostat.along_axes(axial);
         let external_body_n_m = self.dump.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m);
         let torque_body_n_m = self.controller.sample(
             &control.controller,
-            gyrostat.inertia_body_kg_m2(),
+            gyrostat.carrier_body_kg_m2(),
             &target,
             &self.estimate,
-            &wheels_body_n_m_s,
+            &rotors_body_n_m_s,
             &external_body_n_m,
         );
         let motors = &self.motors;
