@@ -578,7 +578,7 @@ impl AttitudeDynamics {
         self.sun_sensed_body
     }
 
-    /// Angle between estimated and reference attitude at the last sample, in rad.
+    /// Angle between estimated and commanded attitude at the last sample, in rad.
     pub fn control_error_rad(&self) -> f64 {
         self.controller.attitude_error_rad()
     }

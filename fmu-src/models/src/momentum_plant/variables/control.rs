@@ -40,10 +40,10 @@ pub struct ControlVariables {
     /// Whether the motors make up for the wheels' friction, which the controller knows.
     #[parameter(start = true)]
     pub friction_compensation: Boolean,
-    /// Angle between estimated attitude and the reference that the slew limits make of the command, at the last sample.
+    /// Angle between the estimated and the commanded attitude at the last sample; 0 where only a rate is commanded.
     #[output(unit = "rad", display = "deg", nominal = 1e-4)]
     pub error: Real,
-    /// Whether that reference has come to the command.
+    /// Whether the reference that the slew limits make of the command has come to it.
     #[output]
     pub settled: Boolean,
     /// Whether the wheels could not give the torque that was asked for at the last sample.
