@@ -4,7 +4,9 @@ use models::MomentumPlant;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::NamedModel;
-use super::{CONTROLLED, DARK, FREE, Flight, Start, fly, formed_momentum, inertia, set_quaternion, to_inertial};
+use super::{
+    CONTROLLED, DARK, FREE, Flight, Start, fly, formed_momentum, inertia, set_quaternion, to_inertial,
+};
 
 const WHEELS: std::ops::RangeInclusive<usize> = 1..=4;
 
@@ -24,7 +26,8 @@ fn a_slew_settles_within_its_limits() {
             let mut flight = fly(&named, &[CONTROLLED, &[("control.allocation", allocation)]]);
             let target = UnitQuaternion::new(axis * 60_f64.to_radians());
             set_quaternion(&mut flight, "command.q", &target);
-            let (rate_limit, acceleration) = (flight.real("control.slewRate"), flight.real("control.slewAcceleration"));
+            let (rate_limit, acceleration) =
+                (flight.real("control.slewRate"), flight.real("control.slewAcceleration"));
             let (mut before, mut settled_s) = (Vector3::zeros(), None);
             for second in 1..=600 {
                 flight.step_to(f64::from(second)).unwrap();
@@ -117,7 +120,11 @@ fn a_forced_saturation_is_flagged_and_a_dump_recovers() {
     assert!(flight.boolean("dump.active") && flight.integer("dump.count") == 1);
     flight.fly_to(2_000.0, 10.0).unwrap();
     assert!(!flight.boolean("dump.active") && !any_wheel(&flight, "saturated"));
-    assert!(off(&flight, &UnitQuaternion::identity()) < 1e-5, "{}", off(&flight, &UnitQuaternion::identity()));
+    assert!(
+        off(&flight, &UnitQuaternion::identity()) < 1e-5,
+        "{}",
+        off(&flight, &UnitQuaternion::identity())
+    );
     // The body turned during the dump, by which the target in the body is missed.
     assert!(flight.vector("momentum.body").norm() < 0.2, "{}", flight.vector("momentum.body"));
     assert!((formed_momentum(&flight) - flight.vector("momentum.inertial")).norm() < 1e-12);
@@ -181,7 +188,11 @@ fn a_failed_wheel_is_survived() {
         assert_eq!(flight.real("wheel[2].torque"), 0.0);
         // A torque that changes by d a second leaves d over the integral gain: here friction that dies away at v / I.
         let slope = (1.6e-3 + 1e-3) * 1e-5 / flight.real("wheel[2].inertia");
-        assert!(off(&flight, &target) < slope / (199.6 * 0.1 * 0.1_f64.powi(3)), "{:e}", off(&flight, &target));
+        assert!(
+            off(&flight, &target) < slope / (199.6 * 0.1 * 0.1_f64.powi(3)),
+            "{:e}",
+            off(&flight, &target)
+        );
         // Friction has brought it to rest.
         flight.fly_to(4_000.0, 60.0).unwrap();
         assert_eq!(flight.real("wheel[2].momentum"), 0.0);
@@ -226,7 +237,11 @@ fn free_wheels_turn_the_body_as_their_torque_says() {
     let expected = -0.01 * 4.0 / 3_f64.sqrt() * 100.0 / (inertia()[(1, 1)] - rotors);
     let rate = flight.vector("attitude.rate");
     assert!((rate - Vector3::y() * expected).norm() < 1e-12 * expected.abs(), "{rate} {expected}");
-    assert!((flight.real("wheel[1].speed") * flight.real("wheel[1].inertia") - flight.real("wheel[1].momentum")).abs() < 1e-12);
+    assert!(
+        (flight.real("wheel[1].speed") * flight.real("wheel[1].inertia") - flight.real("wheel[1].momentum"))
+            .abs()
+            < 1e-12
+    );
     // More than the motor gives is not given.
     flight.set("wheel[1].torqueCommand", 1.0);
     flight.step_to(100.02).unwrap();

@@ -9,7 +9,11 @@ use super::{CONTROLLED, FREE, Start, with};
 fn what_cannot_be_controlled_is_refused_by_name() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let cases: [(Start<'_>, Start<'_>, &str); 11] = [
-        (FREE, &[("wheel[3].axis[1]", 0.0), ("wheel[3].axis[2]", 0.0), ("wheel[3].axis[3]", 0.0)], "wheel[3].axis"),
+        (
+            FREE,
+            &[("wheel[3].axis[1]", 0.0), ("wheel[3].axis[2]", 0.0), ("wheel[3].axis[3]", 0.0)],
+            "wheel[3].axis",
+        ),
         (FREE, &[("wheel[2].inertia", 1e4)], "spacecraft.inertia"),
         (FREE, &[("start.momentum[1]", 1.0)], "start.momentum"),
         (FREE, &[("momentum.convention", 2.0)], "momentum.convention"),

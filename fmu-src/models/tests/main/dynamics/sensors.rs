@@ -24,14 +24,18 @@ const NOISE: Start<'_> = &[
 fn without_noise_everything_is_seen_as_it_is() {
     let named = NamedModel::<MomentumPlant>::shipped();
     for source in [1.0, 2.0, 3.0, 4.0] {
-        let mut flight = fly(&named, &[&[("attitude.source", source), ("start.rate[3]", 1e-3 * (source - 2.0).max(0.0))]]);
+        let mut flight =
+            fly(&named, &[&[("attitude.source", source), ("start.rate[3]", 1e-3 * (source - 2.0).max(0.0))]]);
         flight.fly_to(50.0, 0.5).unwrap();
         let angle = estimate(&flight).angle_to(&to_inertial(&flight));
         // Propagated from the sample before at its rate.
         assert!(angle < 1e-7, "{source}: {angle:e}");
         assert!((flight.vector("estimate.rate") - flight.vector("attitude.rate")).norm() < 1e-5);
         let sun = (flight.vector("sun.sensed") - flight.vector("sun.direction")).norm();
-        assert!(flight.boolean("estimate.valid") && flight.boolean("sun.sensedValid") && sun < 1e-4, "{source}: {sun:e}");
+        assert!(
+            flight.boolean("estimate.valid") && flight.boolean("sun.sensedValid") && sun < 1e-4,
+            "{source}: {sun:e}"
+        );
     }
 }
 
@@ -120,9 +124,10 @@ fn no_sun_is_sensed_in_the_shadow() {
     assert!(!flight.boolean("sun.sensedValid"));
     let [place, speed] = ["position", "velocity"].map(|name| flight.vector(name));
     let names = ["orbit.position", "orbit.velocity"];
-    let given = names.iter().zip([place, speed]).flat_map(|(name, vector)| {
-        (0..3).map(move |i| (format!("{name}[{}]", i + 1), vector[i]))
-    });
+    let given = names
+        .iter()
+        .zip([place, speed])
+        .flat_map(|(name, vector)| (0..3).map(move |i| (format!("{name}[{}]", i + 1), vector[i])));
     let given: Vec<(String, f64)> = given.collect();
     let mut start: Vec<(&str, f64)> = given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let epoch_s = guided.real("epoch");
