@@ -1,0 +1,125 @@
+//! Packing the shipped systems: their FMUs with start values of their own, wired by the command line.
+//!
+//! What a system needs stands in its FMUs, because not every tool applies parameters of an SSP.
+
+use std::path::{Path, PathBuf};
+
+use crate::build::Built;
+use crate::shell::{Outcome, command, root, run};
+
+/// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
+/// lead the Sun out of its zone.
+const GUIDED_AT_START: [&str; 4] = [
+    "start.q[1]=0.4133464981480585",
+    "start.q[2]=0.895282817659325",
+    "start.q[3]=0.1473540549832279",
+    "start.q[4]=0.07681231250728458",
+];
+
+/// An FMU of a system: component, model, whether it is one of the probe's, spacecraft, start values, whether it starts in the
+/// attitude that guidance commands.
+struct Component {
+    name: &'static str,
+    model: &'static str,
+    is_probe: bool,
+    spacecraft: Option<&'static str>,
+    start: &'static [&'static str],
+    starts_guided: bool,
+}
+
+/// A system: file, stop and step of its default experiment, components, further outputs that its connectors show.
+struct System {
+    file: &'static str,
+    stop: &'static str,
+    step: &'static str,
+    components: &'static [Component],
+    outputs: &'static str,
+}
+
+const SYSTEMS: &[System] = &[
+    // A day about Mercury: science attitude, downlink after every second periapsis.
+    System {
+        file: "MessengerLoop.ssp",
+        stop: "1d",
+        step: "1s",
+        components: &[
+            Component {
+                name: "guidance",
+                model: "Guidance",
+                is_probe: false,
+                spacecraft: Some("messenger.toml"),
+                start: &["pointing.scenario=orbitPhase"],
+                starts_guided: true,
+            },
+            Component {
+                name: "plant",
+                model: "MomentumPlant",
+                is_probe: false,
+                spacecraft: Some("messenger.toml"),
+                start: &["attitude.source=controlled"],
+                starts_guided: true,
+            },
+        ],
+        outputs: "plant.attitude.q,plant.attitude.rate,plant.momentum.body,plant.momentum.inertial,plant.dump.count,\
+                  guidance.mode.active",
+    },
+    // Half a day of a small body that light and the gravity gradient turn.
+    System {
+        file: "DisturbanceLoop.ssp",
+        stop: "12h",
+        step: "10s",
+        components: &[
+            Component {
+                name: "disturbance",
+                model: "DisturbanceTorque",
+                is_probe: false,
+                spacecraft: Some("messenger-thermal.toml"),
+                start: &[],
+                starts_guided: false,
+            },
+            Component {
+                name: "body",
+                model: "RigidBody",
+                is_probe: true,
+                spacecraft: None,
+                start: &[],
+                starts_guided: false,
+            },
+        ],
+        outputs: "body.attitude.q,body.attitude.rate",
+    },
+];
+
+/// Packs every shipped system into `dist/`.
+pub fn pack(built: &Built, scratch: &Path) -> Outcome {
+    for system in SYSTEMS {
+        let mut fmus = Vec::new();
+        for component in system.components {
+            let fmu = pack_component(built, component, scratch)?;
+            fmus.push(format!("{}={}", component.name, fmu.display()));
+        }
+        run(command(&built.heliotorque)
+            .arg("wire")
+            .args(fmus)
+            .args(["--stop", system.stop, "--step", system.step, "--outputs", system.outputs, "--quiet"])
+            .arg("--output")
+            .arg(root().join("dist").join(system.file)))?;
+    }
+    Ok(())
+}
+
+fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Result<PathBuf, String> {
+    let fmu = scratch.join(format!("{}.fmu", component.name));
+    let library = if component.is_probe { &built.probe } else { &built.library };
+    let mut pack = command(&built.heliotorque);
+    pack.args(["pack", "--model", component.model, "--library"]).arg(library);
+    if let Some(spacecraft) = component.spacecraft {
+        pack.arg("--spacecraft").arg(root().join("fmu-src").join("resources").join(spacecraft));
+    }
+    let attitude = GUIDED_AT_START.iter().filter(|_| component.starts_guided);
+    for start in component.start.iter().chain(attitude) {
+        pack.args(["--set", start]);
+    }
+    run(pack.arg("--output").arg(&fmu))?;
+    Ok(fmu)
+}
