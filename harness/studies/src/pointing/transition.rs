@@ -113,7 +113,7 @@ quaternions of Figure 7 and the azimuth and elevation of Mercury in Figure 8 can
 unspecified. Chosen: 2009-04-09 03:36 TDB, when the Earth is 33 deg from the Sun, and a true anomaly of 215 deg at the
 start, where the paper's eight hours of downlink about apoapsis end; elsewhere on this orbit the slew is anything up to
 180 deg. The paper puts azimuth -33 deg into the +X,+Y quadrant; by its own angles it is in the -X,-Y quadrant. The
-estimated curves need a controller and are not drawn. Camera follows: its angle is commanded anew every second, so that
+estimated curves are those of control/transition. Camera follows: its angle is commanded anew every second, so that
 the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.";
 
 fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
