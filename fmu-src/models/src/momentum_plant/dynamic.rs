@@ -127,8 +127,10 @@ pub fn step(
         ));
     };
     if let Some(changes) = changes {
-        flown.cut(step.start_s, changes.any());
-        if changes.any() {
+        // On a disturbed orbit the mass tells where the spacecraft goes.
+        let loads_change = changes.light || changes.mass;
+        flown.cut(step.start_s, loads_change);
+        if loads_change {
             state.propagator.cut(&configuration, step.start_s, true);
         }
         if changes.orbit && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))

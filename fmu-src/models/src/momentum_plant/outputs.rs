@@ -143,9 +143,10 @@ pub fn write_dynamics(
     for (k, wheel) in v.wheel.iter().enumerate() {
         let momentum_n_m_s = flown.wheel_n_m_s(settings, k, time_s, body);
         values.set_real(wheel.momentum, momentum_n_m_s);
-        values.set_real(wheel.speed, settings.gyrostat.wheels()[k].speed_rad_s(momentum_n_m_s));
+        let flown_wheel = &settings.gyrostat.wheels()[k];
+        values.set_real(wheel.speed, flown_wheel.speed_rad_s(momentum_n_m_s));
         values.set_real(wheel.torque, flown.motor_n_m(k));
-        values.set_boolean(wheel.saturated, flown.is_saturated(settings, k));
+        values.set_boolean(wheel.saturated, flown_wheel.is_saturated(momentum_n_m_s));
     }
     let estimate = flown.estimate_at(time_s);
     values.set_vector(v.estimate.q, estimate.attitude.quaternion(None));

@@ -556,11 +556,6 @@ impl AttitudeDynamics {
         self.motion.rotor_n_m_s(&settings.gyrostat, k, time_s, body)
     }
 
-    /// Whether wheel `k` (0-based) is at its capacity.
-    pub fn is_saturated(&self, settings: &DynamicsSettings, k: usize) -> bool {
-        self.motion.is_saturated(&settings.gyrostat, k)
-    }
-
     /// Torque of the motor of wheel `k` (0-based), in N m.
     pub fn motor_n_m(&self, k: usize) -> f64 {
         self.motors[k].torque_n_m
