@@ -33,7 +33,7 @@ fn every_shipped_fmu_passes_every_probe() {
 fn the_probe_models_pass_every_probe() {
     let Some(library) = built("HELIOTORQUE_PROBE_LIBRARY") else { return };
     let base = tempfile::tempdir().unwrap();
-    for model in ["Empty", "AllTypes"] {
+    for model in ["Empty", "AllTypes", "RigidBody"] {
         let fmu = crate::shared_library::folder(base.path(), model, &library);
         assert_eq!(shortcomings(&fmu), Vec::<String>::new(), "{model}");
     }

@@ -19,6 +19,7 @@ const CRATES: &[&str] = &[
     "harness/conformance",
     "harness/studies",
     "harness/planner",
+    "harness/systems",
     "harness/cli",
 ];
 

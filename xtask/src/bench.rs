@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::build::{self, Built};
+use crate::dist;
 use crate::shell::{Outcome, cargo, command, need, output, root, run};
 use crate::test::compile_c;
 
@@ -11,10 +12,12 @@ use crate::test::compile_c;
 const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
 /// The study is simulated this often; the median counts.
 const STUDY_RUNS: usize = 3;
+/// The system is simulated this often; the median counts.
+const SYSTEM_RUNS: usize = 3;
 
-/// Kernels (Rust examples of `physics`), the C interface, a whole study.
+/// Kernels (Rust examples of `physics`), the C interface, a system, a whole study.
 pub fn all() -> Outcome {
-    let built = build::dist()?;
+    let built = dist::dist()?;
     for example in EXAMPLES {
         run(&mut cargo(&["run", "--locked", "--quiet", "--release", "-p", "physics", "--example", example]))?;
     }
@@ -28,7 +31,29 @@ pub fn all() -> Outcome {
             .args([orbiter, messenger])
             .current_dir(&scratch))?;
     }
+    system(&built)?;
     study(&built)
+}
+
+/// Guidance and plant in a loop of 20 ms: simulated over elapsed time, the start of the process with it.
+fn system(built: &Built) -> Outcome {
+    const SPAN_S: f64 = 20_000.0;
+    let mut seconds = Vec::new();
+    for _ in 0..SYSTEM_RUNS {
+        let begin = Instant::now();
+        output(
+            command(&built.heliotorque)
+                .arg("run")
+                .arg(root().join("dist").join("MessengerLoop.ssp"))
+                .args(["--quiet", "--step", "20ms", "--every", "600", "--record", "plant.momentum.body"])
+                .args(["--stop", &SPAN_S.to_string(), "--output", "-"]),
+        )?;
+        seconds.push(begin.elapsed().as_secs_f64());
+    }
+    seconds.sort_by(f64::total_cmp);
+    let fast = SPAN_S / seconds[SYSTEM_RUNS / 2];
+    println!("bench messenger_loop_50_hz_over_real_time {fast:.0} times");
+    Ok(())
 }
 
 /// Folders as an FMU's `resources/`, with two spacecraft whose surfaces give off heat.

@@ -1,16 +1,8 @@
-//! Building the library and the command line, and packing the shipped FMUs.
+//! Building the library and the command line.
 
 use std::path::PathBuf;
 
-use crate::shell::{self, Outcome, cargo, command, root, run, target};
-
-/// Model name and the shipped spacecraft it is packed with.
-const SHIPPED: &[(&str, &str)] = &[
-    ("MomentumPlant", "messenger.toml"),
-    ("SpinPlant", "ace.toml"),
-    ("DisturbanceTorque", "messenger-thermal.toml"),
-    ("Guidance", "messenger.toml"),
-];
+use crate::shell::{self, cargo, root, run, target};
 
 /// What a build leaves.
 pub struct Built {
@@ -35,26 +27,6 @@ pub fn build() -> Result<Built, String> {
         library: library("fmu", "heliotorque"),
         probe: library("release", "probe"),
     })
-}
-
-/// Builds, then packs every shipped FMU into `dist/`.
-pub fn dist() -> Result<Built, String> {
-    let built = build()?;
-    pack(&built)?;
-    Ok(built)
-}
-
-fn pack(built: &Built) -> Outcome {
-    for (model, spacecraft) in SHIPPED {
-        run(command(&built.heliotorque)
-            .args(["pack", "--model", model, "--library"])
-            .arg(&built.library)
-            .arg("--spacecraft")
-            .arg(root().join("fmu-src").join("resources").join(spacecraft))
-            .arg("--output")
-            .arg(root().join("dist").join(format!("{model}.fmu"))))?;
-    }
-    Ok(())
 }
 
 /// The environment in which tests find what was built.

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::build::{self, Built};
+use crate::dist;
 use crate::shell::{Outcome, available, command, root, run, target};
 use crate::test;
 use crate::test::compile_c_with;
@@ -176,7 +177,7 @@ fn writes() -> Outcome {
     if !available("gcc") || !cfg!(target_os = "linux") {
         return skipped("failing writes", "gcc on Linux");
     }
-    let built = build::dist()?;
+    let built = dist::dist()?;
     let scratch = build::scratch("writes")?;
     let full_disk = scratch.join("full_disk.so");
     run(command("gcc")

@@ -2,11 +2,13 @@
 
 mod bench;
 mod build;
+mod dist;
 mod locale;
 mod long;
 mod notices;
 mod python;
 mod shell;
+mod systems;
 mod test;
 
 use std::process::ExitCode;
@@ -24,7 +26,7 @@ cargo xtask <task>
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
           HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
-  dist    build and pack every shipped FMU into dist/
+  dist    build and pack every shipped FMU and system into dist/
   bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
   notices write anew what licences the linked crates have, after Cargo.lock has changed
 ";
@@ -40,7 +42,7 @@ fn main() -> ExitCode {
             Err(format!("unknown option `{}` of test; there is --long", option.unwrap_or_default()))
         }
         "test" => test::all(),
-        "dist" => build::dist().map(|_| ()),
+        "dist" => dist::dist().map(|_| ()),
         "bench" => bench::all(),
         "notices" => notices::write(),
         "" | "help" | "--help" | "-h" => {
@@ -59,7 +61,7 @@ fn main() -> ExitCode {
 }
 
 fn demo() -> Outcome {
-    let built = build::dist()?;
+    let built = dist::dist()?;
     let folder = shell::root().join("dist").join("demo");
     shell::run(
         shell::command(&built.heliotorque)

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built};
 use crate::shell::{Outcome, cargo, command, need, root, run};
-use crate::{locale, python, shell};
+use crate::{dist, locale, python, shell};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
@@ -32,7 +32,7 @@ pub fn all() -> Outcome {
     } else {
         eprintln!("skipped: lints (no `cargo clippy` on this machine)");
     }
-    let built = build::dist()?;
+    let built = dist::dist()?;
     let mut environment = build::test_environment(&built).to_vec();
     environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
     if std::env::var_os(DRAWS).is_none() {

@@ -8,7 +8,7 @@ use crate::{
     args::{Arguments, Command, SchemaKind},
     check, completions, info, interrupt,
     outcome::Outcome,
-    pack, plan, run as simulation, study,
+    pack, plan, run as simulation, study, wire,
 };
 
 // JSON Schemas, kept in step with their readers by tests of `physics`.
@@ -30,6 +30,7 @@ pub fn run() -> Outcome {
         Command::Check(arguments) => check::run(&arguments),
         Command::Probe(arguments) => check::run_probe(&arguments),
         Command::Run(arguments) => simulation::run(&arguments),
+        Command::Wire(arguments) => wire::run(&arguments),
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema(arguments) => {

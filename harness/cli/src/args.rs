@@ -13,6 +13,16 @@ Example:
   heliotorque check my.toml                                  what is wrong with it, by line
   heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
 
+const RUN_EXAMPLE: &str = "\
+Example:
+  heliotorque run dist/MomentumPlant.fmu --stop 10d --record 'momentum.body*' --plot momentum.svg
+  heliotorque run dist/MessengerLoop.ssp --stop 1d --record plant.attitude.q --output loop.csv";
+
+const WIRE_EXAMPLE: &str = "\
+Example:
+  heliotorque wire guidance=dist/Guidance.fmu plant=MyCraft.fmu > loop.ssp
+  heliotorque run loop.ssp --stop 1d --set plant.attitude.source=commanded";
+
 const COMPLETIONS_EXAMPLE: &str = "\
 Example:
   heliotorque completions bash > ~/.local/share/bash-completion/completions/heliotorque
@@ -31,12 +41,16 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Show what an FMU is, what it takes and gives, and what its sunshade and wheels come to
+    /// Show what an FMU is, what it takes and gives, and what its sunshade and wheels come to; or what a system joins
     Info(Info),
-    /// Check an FMU, or a spacecraft before it is packed
+    /// Check an FMU, a system, or a spacecraft before it is packed
     Check(Check),
-    /// Run an FMU from start to stop
+    /// Run an FMU, or a system of FMUs (SSP), from start to stop
+    #[command(after_help = RUN_EXAMPLE)]
     Run(Run),
+    /// Connect FMUs by the names and units of their variables: a system (SSP) that any tool for SSP runs
+    #[command(after_help = WIRE_EXAMPLE)]
+    Wire(Wire),
     /// Make an FMU of your own spacecraft; nothing is compiled
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),
@@ -61,7 +75,7 @@ pub enum Command {
 /// `heliotorque info`.
 #[derive(Debug, Args)]
 pub struct Info {
-    /// The FMU: an .fmu file or the folder it was unpacked into
+    /// The FMU, an .fmu file or the folder it was unpacked into; or a system, an .ssp file
     pub fmu: PathBuf,
     /// List the variables too
     #[arg(long)]
@@ -82,7 +96,7 @@ pub struct Info {
 /// `heliotorque check`.
 #[derive(Debug, Args)]
 pub struct Check {
-    /// The FMU, an .fmu file or the folder it was unpacked into; or a spacecraft, a .toml file
+    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; or a spacecraft, a .toml file
     pub subject: PathBuf,
     /// For a spacecraft only: the FMU whose library shall read it, as for `pack`; otherwise dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
@@ -153,7 +167,8 @@ pub struct RunInChild {
 /// `heliotorque run`.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// The FMU: an .fmu file or the folder it was unpacked into
+    /// The FMU, an .fmu file or the folder it was unpacked into; or a system, an .ssp file, whose variables are named
+    /// component.variable
     pub fmu: PathBuf,
     /// Start time, in s or with a unit (s, min, h, d); otherwise the FMU's default
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
@@ -169,6 +184,12 @@ pub struct Run {
     /// ('start.epoch=2011-04-06T00:00:00 UTC')
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// For a system: in which order its components step; otherwise jacobi
+    #[arg(long, value_enum)]
+    pub master: Option<MasterKind>,
+    /// For a system: what connected inputs are in the first step; otherwise initial
+    #[arg(long, value_enum, value_name = "VALUES")]
+    pub first_exchange: Option<FirstExchangeKind>,
     /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows continuous inputs are
     /// interpolated linearly and discrete ones held; two rows at one time make a jump; - is the standard input
     #[arg(long, value_name = "CSV")]
@@ -197,6 +218,52 @@ pub struct Run {
     #[arg(long)]
     pub log: bool,
     /// Show no progress bar and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `--master`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum MasterKind {
+    /// All components take the values of the step's beginning
+    #[value(name = "jacobi")]
+    Jacobi,
+    /// Each component takes what those before it gave at the step's end
+    #[value(name = "gaussSeidel")]
+    GaussSeidel,
+}
+
+/// `--first-exchange`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum FirstExchangeKind {
+    /// The outputs at the start
+    Initial,
+    /// Zero, as for FMPy
+    Zeros,
+}
+
+/// `heliotorque wire`.
+#[derive(Debug, Args)]
+pub struct Wire {
+    /// The FMUs, in the order in which they step: A.fmu is component a, or name=A.fmu
+    #[arg(required = true, num_args = 1.., value_name = "FMU")]
+    pub fmus: Vec<String>,
+    /// List these outputs too, for tools that show only connectors: component.variable, vectors, patterns with *
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub outputs: Vec<String>,
+    /// Name of the system; otherwise the file's
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Stop time of the default experiment, in s or with a unit: 1d; otherwise the earliest of the FMUs
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
+    pub stop: Option<f64>,
+    /// Communication step of the default experiment, in s or with a unit; otherwise the smallest of the FMUs
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
+    pub step: Option<f64>,
+    /// The SSP to write; otherwise, and for -, the standard output, where that is no terminal
+    #[arg(long, short, value_name = "SSP")]
+    pub output: Option<PathBuf>,
+    /// Say nothing of what was connected and left open
     #[arg(long, short)]
     pub quiet: bool,
 }

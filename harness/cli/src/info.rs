@@ -1,4 +1,6 @@
-//! `heliotorque info`: what an FMU is, takes and gives.
+//! `heliotorque info`: what an FMU is, takes and gives; what a system joins.
+
+mod system;
 
 use std::process::ExitCode;
 
@@ -6,11 +8,15 @@ use loader::Fmu;
 use model_description::{
     Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind,
 };
+use systems::System;
 
 use crate::{args::Info, coefficients, epoch, outcome::Outcome, timeline};
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
+    if systems::is_system(&arguments.fmu) {
+        return of_system(arguments);
+    }
     let fmu = Fmu::open(&arguments.fmu)?;
     if arguments.coefficients {
         terminal::print(&coefficients::text(&fmu, &arguments.set)?)?;
@@ -39,6 +45,32 @@ pub fn run(arguments: &Info) -> Outcome {
         text.extend(enumerations(description, &positions));
         text
     };
+    terminal::print(&text.join("\n\n"))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Prints what a system joins, and its variables where they are asked for.
+fn of_system(arguments: &Info) -> Outcome {
+    if arguments.coefficients {
+        return Err("--coefficients is for an FMU, and this is a system".into());
+    }
+    let system = System::open(&arguments.fmu)?;
+    let description = system.description();
+    let mut text = Vec::new();
+    let mut positions = Vec::new();
+    for pattern in &arguments.only {
+        positions.extend(loader::select(description, pattern)?);
+    }
+    if arguments.only.is_empty() {
+        text.push(system::text(&system));
+        if arguments.variables {
+            positions.extend(0..description.variables.len());
+        }
+    }
+    if !positions.is_empty() {
+        text.push(variables(description, &positions));
+        text.extend(enumerations(description, &positions));
+    }
     terminal::print(&text.join("\n\n"))?;
     Ok(ExitCode::SUCCESS)
 }

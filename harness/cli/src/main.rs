@@ -19,6 +19,7 @@ mod plan;
 mod run;
 mod study;
 mod timeline;
+mod wire;
 
 use std::process::ExitCode;
 

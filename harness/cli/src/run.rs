@@ -1,8 +1,8 @@
-//! `heliotorque run`: runs an FMU in a process of its own, records, writes, draws.
+//! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
 
 use std::{process::ExitCode, time::Instant};
 
-use loader::{Collector, Ended, Fmu, LogMessage};
+use loader::{Collector, Ended, LogMessage};
 
 use crate::{
     args::{Run, RunInChild},
@@ -14,24 +14,28 @@ use crate::{
 mod child;
 mod input_copy;
 mod settings;
+mod subject;
 
 use input_copy::InputCopy;
 use settings::Settings;
+use subject::Subject;
 
-/// Runs the FMU in a child process.
+/// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     if let Some(path) = &arguments.plot {
         output::check_svg_path(path)?;
     }
-    let fmu = Fmu::open(&arguments.fmu)?;
+    let subject = Subject::open(&arguments.fmu)?;
+    subject.check_options(arguments)?;
     // Everything that can be refused without the FMU's library is refused here.
     let copy = InputCopy::of(arguments)?;
     let input_copy = copy.as_ref().map(InputCopy::path);
-    let settings = Settings::of(&fmu, arguments, input_copy.as_deref())?;
-    fmu.binary_path()?;
+    let settings = Settings::of(&subject, arguments, input_copy.as_deref())?;
+    subject.check_libraries()?;
+    let described = subject.description();
     let mut outputs = Outputs::open(arguments)?;
     let (times, positions) = (settings.times, settings.positions);
-    let mut collector = Collector::new(&fmu, &positions);
+    let mut collector = Collector::new(described, &positions);
     let every = loader::steps_between_points(&times, arguments.every)?;
     let points = times.steps().div_ceil(every).saturating_add(1);
     collector.fits(points)?;
@@ -39,7 +43,7 @@ pub fn run(arguments: &Run) -> Outcome {
     let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
     let in_child =
-        child::InChild { fmu: &fmu, input_copy: input_copy.as_deref(), timeout_s: arguments.timeout };
+        child::InChild { subject: &subject, input_copy: input_copy.as_deref(), timeout_s: arguments.timeout };
     let simulated = child::simulate(&in_child, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
@@ -58,14 +62,14 @@ pub fn run(arguments: &Run) -> Outcome {
         Ok(ended) => ended,
         Err(error) => {
             // What was simulated until then is worth keeping.
-            let kept = outputs.leave(&fmu, recording);
+            let kept = outputs.leave(described, recording);
             let rows = recording.times_s.len();
             let kept: String =
                 kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect();
             return Err(format!("{error}{kept}").into());
         }
     };
-    outputs.finish(&fmu, recording)?;
+    outputs.finish(described, recording)?;
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
         let (last, elapsed) = (terminal::short(last_s), elapsed.as_secs_f64());
@@ -74,7 +78,8 @@ pub fn run(arguments: &Run) -> Outcome {
     match ended {
         Ended::AtStop => {}
         Ended::ByItself => {
-            terminal::note(&format!("the FMU ended by itself at {} s", terminal::short(last_s)));
+            let (name, last) = (subject.name(), terminal::short(last_s));
+            terminal::note(&format!("{name} ended by itself at {last} s"));
         }
         Ended::Cancelled => {
             let last = terminal::short(last_s);

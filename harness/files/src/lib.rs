@@ -5,9 +5,11 @@
 //! [`remove_temporaries`], which a signal handler calls.
 
 mod destination;
+mod entries;
 mod input;
 mod temporary;
 
 pub use destination::{Destination, Growing};
+pub use entries::Entries;
 pub use input::{kind, open, read, read_text};
 pub use temporary::{Scratch, remove_temporaries};

@@ -35,8 +35,43 @@ const RESTRICTING: [Condition; 4] = [
     Condition::InputOrTunable,
 ];
 
-/// For every value reference, by base type and sorted: which of the table's conditions it meets.
-pub(crate) struct AccessTable([Vec<(u32, Conditions)>; 4]);
+/// For every value reference, by base type: which of the table's conditions it meets.
+pub(crate) struct AccessTable([Table; 4]);
+
+/// One base type: rows sorted by reference; where the references are dense, a place for each from the first one on.
+#[derive(Default)]
+struct Table {
+    rows: Vec<(u32, Conditions)>,
+    first: u32,
+    dense: Vec<Option<Conditions>>,
+}
+
+/// Places that a dense table may have for each row.
+const PLACES_PER_ROW: usize = 4;
+
+impl Table {
+    fn new(rows: Vec<(u32, Conditions)>) -> Self {
+        let (Some((first, _)), Some((last, _))) = (rows.first().copied(), rows.last().copied()) else {
+            return Self::default();
+        };
+        let places = (last - first) as usize + 1;
+        let mut dense = Vec::new();
+        if places <= PLACES_PER_ROW * rows.len() {
+            dense.resize(places, None);
+            for (reference, conditions) in &rows {
+                dense[(reference - first) as usize] = Some(*conditions);
+            }
+        }
+        Self { rows, first, dense }
+    }
+
+    fn met(&self, reference: u32) -> Option<Conditions> {
+        if self.dense.is_empty() {
+            return self.rows.binary_search_by_key(&reference, |row| row.0).ok().map(|at| self.rows[at].1);
+        }
+        self.dense.get(reference.checked_sub(self.first)? as usize).copied().flatten()
+    }
+}
 
 impl AccessTable {
     pub fn of(description: &Description) -> Self {
@@ -67,11 +102,10 @@ impl AccessTable {
                 alias
             });
         }
-        Self(tables)
+        Self(tables.map(Table::new))
     }
 
     pub fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
-        let table = &self.0[base as usize];
-        table.binary_search_by_key(&reference, |row| row.0).ok().map(|at| table[at].1)
+        self.0[base as usize].met(reference)
     }
 }

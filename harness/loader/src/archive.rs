@@ -53,7 +53,8 @@ pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>
             return Err(refuse(format!("entry {name:?} is encrypted")));
         }
         // Some Windows packers write backslashes; they mean the same folders.
-        let relative = inside(&name).ok_or_else(|| refuse(format!("entry {name:?} leaves the folder")))?;
+        let relative =
+            path_inside(&name).ok_or_else(|| refuse(format!("entry {name:?} leaves the folder")))?;
         let target = into.join(&relative);
         let at_target = |source| Error::File { path: target.clone(), source };
         if entry.is_dir() || name.ends_with('\\') {
@@ -104,8 +105,8 @@ fn copy(from: &mut impl Read, to: &mut impl Write) -> Result<u64, CopyError> {
     }
 }
 
-/// The entry's path below the folder, or `None` if it leaves it.
-fn inside(name: &str) -> Option<PathBuf> {
+/// A path below a folder, or `None` if it leaves it.
+pub fn path_inside(name: &str) -> Option<PathBuf> {
     if name.contains('\0') {
         return None;
     }

@@ -8,8 +8,8 @@ use std::sync::{
 use model_description::call_table::Function;
 
 /// The words of a [`CallRecord`]: the call in progress (0: none), how many were begun, the last one begun, its
-/// arguments.
-pub const CALL_RECORD_WORDS: usize = 5;
+/// arguments, which instance they are made to.
+pub const CALL_RECORD_WORDS: usize = 6;
 
 /// Where the calls of this process are recorded.
 pub type CallRecord = [AtomicU64; CALL_RECORD_WORDS];
@@ -47,6 +47,14 @@ pub(crate) const LOADING: u64 = Function::ALL.len() as u64 + 1;
 const LOADING_TEXT: &str = "loading the shared library";
 const DO_STEP: u64 = number("fmi2DoStep");
 
+/// From now on calls are recorded as made to this instance, counted from 0; with one alone nothing needs to be said.
+#[inline]
+pub fn record_instance(number: usize) {
+    if let Some([.., instance]) = RECORD.get() {
+        instance.store(number as u64 + 1, Ordering::Relaxed);
+    }
+}
+
 /// A call in progress, until it is dropped.
 pub(crate) struct CallInProgress(Option<&'static CallRecord>);
 
@@ -60,7 +68,7 @@ pub(crate) fn enter(number: u64) -> CallInProgress {
 #[inline]
 pub(crate) fn enter_with(number: u64, times_s: [f64; 2]) -> CallInProgress {
     let record = RECORD.get().copied();
-    if let Some([in_progress, begun, last, first_time, second_time]) = record {
+    if let Some([in_progress, begun, last, first_time, second_time, _]) = record {
         first_time.store(times_s[0].to_bits(), Ordering::Relaxed);
         second_time.store(times_s[1].to_bits(), Ordering::Relaxed);
         last.store(number, Ordering::Relaxed);
@@ -86,11 +94,13 @@ pub struct RecordedCalls {
     pub in_progress: Option<String>,
     /// The call begun last.
     pub last: Option<String>,
+    /// The instance, counted from 0, where one was named.
+    pub instance: Option<usize>,
 }
 
 /// Reads the record of another process.
 pub fn recorded_calls(record: &CallRecord) -> RecordedCalls {
-    let [in_progress, _, last, first_time, second_time] = record;
+    let [in_progress, _, last, first_time, second_time, instance] = record;
     let [first_s, second_s] =
         [first_time, second_time].map(|time| f64::from_bits(time.load(Ordering::Relaxed)));
     let call = |number: u64| match number {
@@ -106,6 +116,7 @@ pub fn recorded_calls(record: &CallRecord) -> RecordedCalls {
     RecordedCalls {
         in_progress: call(in_progress.load(Ordering::Acquire)),
         last: call(last.load(Ordering::Relaxed)),
+        instance: usize::try_from(instance.load(Ordering::Relaxed)).ok().and_then(|it| it.checked_sub(1)),
     }
 }
 
@@ -118,7 +129,7 @@ pub fn call_in_progress(record: &CallRecord) -> Option<(u64, u64)> {
 
 /// Where the last step begins, in s.
 pub fn step_begin_s(record: &CallRecord) -> Option<f64> {
-    let [_, _, last, first_time, _] = record;
+    let [_, _, last, first_time, ..] = record;
     (last.load(Ordering::Relaxed) == DO_STEP).then(|| f64::from_bits(first_time.load(Ordering::Relaxed)))
 }
 

@@ -216,11 +216,6 @@ impl Fmu {
             None => select::select(self.description(), pattern),
         }
     }
-
-    /// As [`Fmu::select`], but a `*` takes outputs only: anything else is named.
-    pub fn select_outputs(&self, pattern: &str) -> Result<Vec<usize>, Error> {
-        select::select_outputs(self.description(), pattern)
-    }
 }
 
 /// Folders under `binaries/` that may hold the library for this computer, best first.

@@ -1,8 +1,8 @@
 //! Inputs over time: a table of rows, interpolated where the variable is continuous.
 
-use model_description::{Causality, ScalarVariable, Variability, VariableKind};
+use model_description::{Causality, Description, ScalarVariable, Variability, VariableKind};
 
-use crate::{Error, Fmu, Value, parse_value};
+use crate::{Error, Value, parse_value};
 
 /// Values of inputs (and tunable parameters) over time.
 ///
@@ -24,7 +24,11 @@ struct InputColumn {
 
 impl InputTable {
     /// Builds a table from texts, as read from a file: `header` starts with `time`, every row has its length.
-    pub fn parse<S: AsRef<str>>(fmu: &Fmu, header: &[S], rows: &[Vec<S>]) -> Result<Self, Error> {
+    pub fn parse<S: AsRef<str>>(
+        description: &Description,
+        header: &[S],
+        rows: &[Vec<S>],
+    ) -> Result<Self, Error> {
         let wrong = |what: String| Error::Inputs(what);
         let Some((time, names)) = header.split_first() else {
             return Err(wrong("it is empty; the first line names its columns: time,<input>,...".to_owned()));
@@ -36,9 +40,9 @@ impl InputTable {
             .iter()
             .map(|name| {
                 let name = name.as_ref().trim();
-                let position = crate::select::named(fmu.description(), name)
-                    .ok_or_else(|| crate::select::unknown(fmu.description(), name))?;
-                let variable = &fmu.description().variables[position];
+                let position = crate::select::named(description, name)
+                    .ok_or_else(|| crate::select::unknown(description, name))?;
+                let variable = &description.variables[position];
                 check_settable(variable)?;
                 Ok((position, variable))
             })
@@ -79,7 +83,7 @@ impl InputTable {
             }
             table.times_s.push(time_s);
             for ((column, (_, variable)), cell) in table.columns.iter_mut().zip(&variables).zip(&row[1..]) {
-                let value = parse_value(fmu.description(), variable, cell.as_ref())
+                let value = parse_value(description, variable, cell.as_ref())
                     .map_err(|error| wrong(format!("line {line}: {error}")))?;
                 column.values.push(value);
             }

@@ -24,10 +24,10 @@ mod uri;
 mod values;
 
 pub use abi::{Binary, Callbacks, Described, SharedWords, set_locale};
-pub use archive::{Limits, unpack};
+pub use archive::{Limits, path_inside, unpack};
 pub use call_record::{
-    CALL_RECORD_WORDS, CallRecord, RecordedCalls, call_in_progress, record_calls, recorded_calls,
-    step_begin_s,
+    CALL_RECORD_WORDS, CallRecord, RecordedCalls, call_in_progress, record_calls, record_instance,
+    recorded_calls, step_begin_s,
 };
 pub use checker::Checking;
 pub use error::{CallError, Error, Outcome};
@@ -38,8 +38,10 @@ pub use model_description::Status;
 pub use model_description::value::{Value, display_unit, unit};
 pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
+pub use select::{select, select_outputs};
 pub use simulate::{
-    Ended, Options, Simulation, Stopped, Times, outputs, simulate, simulate_into, steps_between_points,
+    Ended, Options, Simulation, Stopped, Times, outputs, set_early, simulate, simulate_into,
+    steps_between_points,
 };
 pub use status::LogMessage;
 pub use uri::file_uri;

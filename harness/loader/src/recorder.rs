@@ -1,8 +1,8 @@
 //! Takes the rows of a recording from an instance, and bounds how many there may be.
 
-use model_description::VariableKind;
+use model_description::{Description, VariableKind};
 
-use crate::{CallError, Column, Error, Fmu, Instance, Recording, error::Outcome};
+use crate::{Column, Error, Fmu, Instance, Recording};
 
 /// Most that a recording may take, in bytes: about ten million points of a dozen Reals.
 const MAX_BYTES: u64 = 1_000_000_000;
@@ -50,10 +50,10 @@ struct Group {
 }
 
 /// The recorded variables by base type: Reals, Integers, Booleans, Strings.
-fn groups(fmu: &Fmu, positions: &[usize]) -> [Group; 4] {
+fn groups(description: &Description, positions: &[usize]) -> [Group; 4] {
     let mut groups: [Group; 4] = Default::default();
     for (column, &position) in positions.iter().enumerate() {
-        let variable = &fmu.description().variables[position];
+        let variable = &description.variables[position];
         let group = match variable.kind {
             VariableKind::Real { .. } => 0,
             VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
@@ -75,14 +75,14 @@ pub struct Collector {
 
 impl Collector {
     /// For the variables at these positions in `ModelVariables`.
-    pub fn new(fmu: &Fmu, positions: &[usize]) -> Self {
+    pub fn new(description: &Description, positions: &[usize]) -> Self {
         let mut recording = Recording::default();
         for &position in positions {
-            let variable = &fmu.description().variables[position];
+            let variable = &description.variables[position];
             recording.names.push(variable.name.clone());
-            recording.units.push(
-                model_description::value::unit(fmu.description(), variable).unwrap_or_default().to_owned(),
-            );
+            recording
+                .units
+                .push(model_description::value::unit(description, variable).unwrap_or_default().to_owned());
             recording.columns.push(match variable.kind {
                 VariableKind::Real { .. } => Column::Real(Vec::new()),
                 VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
@@ -92,7 +92,7 @@ impl Collector {
                 VariableKind::String { .. } => Column::Text(Vec::new()),
             });
         }
-        Self { recording, columns: groups(fmu, positions).map(|group| group.columns), text_bytes: 0 }
+        Self { recording, columns: groups(description, positions).map(|group| group.columns), text_bytes: 0 }
     }
 
     /// Refuses more points than memory is given for, before anything is simulated.
@@ -163,7 +163,7 @@ pub(crate) struct Reader {
 
 impl Reader {
     pub fn new(fmu: &Fmu, positions: &[usize]) -> Self {
-        let groups = groups(fmu, positions);
+        let groups = groups(fmu.description(), positions);
         let [reals, integers, booleans, _] = std::array::from_fn(|group| groups[group].columns.len());
         Self { groups, reals: vec![0.0; reals], integers: vec![0; integers], booleans: vec![0; booleans] }
     }
@@ -174,7 +174,7 @@ impl Reader {
         if !reals.columns.is_empty() {
             instance.get_reals(&reals.references, &mut self.reals)?;
             if let Some(at) = self.reals.iter().position(|value| value.is_nan()) {
-                return Err(nan(instance, reals.references[at], time_s));
+                return Err(instance.not_a_number(reals.references[at], time_s));
             }
         }
         let texts = if strings.columns.is_empty() {
@@ -191,18 +191,4 @@ impl Reader {
         let Self { reals, integers, booleans, .. } = self;
         rows.take(&Row { time_s, reals, integers, booleans, texts: &texts })
     }
-}
-
-fn nan(instance: &Instance, reference: u32, time_s: f64) -> Error {
-    let variables = &instance.fmu().description().variables;
-    let is_it = |kind: &VariableKind| matches!(kind, VariableKind::Real { .. });
-    let variable = variables.iter().find(|it| it.value_reference == reference && is_it(&it.kind));
-    let name = variable.map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone());
-    Error::Call(Box::new(CallError {
-        fmu: instance.fmu().name().to_owned(),
-        instance: instance.name().to_owned(),
-        call: format!("fmi2GetReal({name})"),
-        outcome: Outcome::NotANumber(time_s),
-        messages: crate::instance::last(instance.messages()),
-    }))
 }

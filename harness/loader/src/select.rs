@@ -5,14 +5,14 @@ use model_description::{Causality, Description, ScalarVariable, names::similar};
 use crate::Error;
 
 /// Positions in `ModelVariables` of everything `pattern` means: see [`crate::Fmu::select`].
-pub(crate) fn select(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
+pub fn select(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
     let pattern = pattern.trim();
     let found = find(description, pattern);
     if found.is_empty() { Err(unknown(description, pattern)) } else { Ok(found) }
 }
 
-/// As [`select`], but a `*` takes outputs only.
-pub(crate) fn select_outputs(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
+/// As [`crate::Fmu::select`], but a `*` takes outputs only: anything else is named.
+pub fn select_outputs(description: &Description, pattern: &str) -> Result<Vec<usize>, Error> {
     let mut found = select(description, pattern)?;
     let pattern = pattern.trim();
     if !pattern.contains('*') || named(description, pattern).is_some() {

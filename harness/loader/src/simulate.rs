@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use model_description::call_table::Condition;
-use model_description::{Causality, Initial, Variability, rules};
+use model_description::{Causality, Description, Initial, ScalarVariable, Variability, rules};
 
 use crate::{
     Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Value,
@@ -99,7 +99,13 @@ impl Times {
         let start_s = start_s.or(default.start_time).unwrap_or(0.0);
         let stop_s = stop_s.or(default.stop_time).unwrap_or(start_s + 1.0);
         let step_s = step_s.or(default.step_size).unwrap_or((stop_s - start_s) / 100.0);
-        let times = Self { start_s, stop_s, step_s };
+        let times = Self::new(start_s, stop_s, step_s)?;
+        times.fit(fmu)?;
+        Ok(times)
+    }
+
+    /// Of what makes a run.
+    pub fn new(start_s: f64, stop_s: f64, step_s: f64) -> Result<Self, Error> {
         if !start_s.is_finite() || !stop_s.is_finite() || stop_s <= start_s {
             return Err(Error::Times(format!(
                 "the stop time {stop_s} s must be later than the start time {start_s} s: see --start and --stop"
@@ -114,14 +120,21 @@ impl Times {
                 "a step of {step_s} s is too small for a run from {start_s} s to {stop_s} s: see --step"
             )));
         }
+        Ok(Self { start_s, stop_s, step_s })
+    }
+
+    /// Refuses steps of two sizes for an FMU that takes one.
+    pub fn fit(&self, fmu: &Fmu) -> Result<(), Error> {
+        let Self { start_s, stop_s, step_s } = *self;
+        let steps = (stop_s - start_s) / step_s;
         let fixed = !fmu.co_simulation()?.can_handle_variable_communication_step_size;
-        if fixed && (reachable - reachable.round()).abs() > 1e-9 * reachable.max(1.0) {
+        if fixed && (steps - steps.round()).abs() > 1e-9 * steps.max(1.0) {
             return Err(Error::Times(format!(
                 "the FMU takes steps of one size only, and {step_s} s does not divide the run from {start_s} s \
                  to {stop_s} s: see --step and --stop"
             )));
         }
-        Ok(times)
+        Ok(())
     }
 
     /// Number of steps.
@@ -144,8 +157,8 @@ impl Times {
 /// Communication points are `start + k*step`; the last step ends at the stop time. Inputs are set at the start
 /// of each step, and only if their value changed. A recorded Real that is NaN is an error.
 pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Simulation, Box<Stopped>> {
-    let positions = options.record.take().unwrap_or_else(|| outputs(fmu));
-    let mut collector = Collector::new(fmu, &positions);
+    let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
+    let mut collector = Collector::new(fmu.description(), &positions);
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
     let every = steps_between_points(&times, options.record_every_s)?;
     collector.fits(times.steps().div_ceil(every).saturating_add(1))?;
@@ -164,7 +177,7 @@ pub fn simulate_into(
 ) -> Result<(Ended, Vec<LogMessage>), Error> {
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
     let every = steps_between_points(&times, options.record_every_s)?;
-    let positions = options.record.take().unwrap_or_else(|| outputs(fmu));
+    let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
     let mut reader = Reader::new(fmu, &positions);
     let mut instance = Instance::new(fmu, "run", &options.instance)?;
     let mut record = |instance: &mut Instance, time_s: f64| reader.read(instance, time_s, rows);
@@ -193,13 +206,13 @@ fn run_steps(
     let tolerance = fmu.description().default_experiment.and_then(|default| default.tolerance);
     instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
     for (name, value) in &options.sets {
-        if set_early(fmu, name)? {
+        if set_early(fmu.variable(name)?)? {
             instance.set(name, value)?;
         }
     }
     instance.enter_initialization_mode()?;
     for (name, value) in &options.sets {
-        if !set_early(fmu, name)? {
+        if !set_early(fmu.variable(name)?)? {
             instance.set(name, value)?;
         }
     }
@@ -246,21 +259,23 @@ fn run_steps(
 }
 
 /// Positions of all outputs in `ModelVariables`.
-pub fn outputs(fmu: &Fmu) -> Vec<usize> {
-    let variables = &fmu.description().variables;
+pub fn outputs(description: &Description) -> Vec<usize> {
+    let variables = &description.variables;
     (0..variables.len()).filter(|&position| variables[position].causality == Causality::Output).collect()
 }
 
 /// Whether the variable is set right after instantiation (else: in initialization mode).
-fn set_early(fmu: &Fmu, name: &str) -> Result<bool, Error> {
-    let variable = fmu.variable(name)?;
+///
+/// # Errors
+/// A variable that cannot be set.
+pub fn set_early(variable: &ScalarVariable) -> Result<bool, Error> {
     let initial = rules::effective_initial(variable);
     let settable = variable.variability != Variability::Constant
         && (variable.causality == Causality::Input
             || matches!(initial, Some(Initial::Exact | Initial::Approx)));
     if !settable {
         return Err(Error::Value {
-            variable: name.to_owned(),
+            variable: variable.name.clone(),
             what: "it cannot be set: only parameters, inputs and start values can".to_owned(),
         });
     }
@@ -270,7 +285,7 @@ fn set_early(fmu: &Fmu, name: &str) -> Result<bool, Error> {
 /// Sets inputs from a table, each only when it changes.
 struct InputSetter<'a> {
     table: &'a InputTable,
-    variables: Vec<&'a model_description::ScalarVariable>,
+    variables: Vec<&'a ScalarVariable>,
     last: Vec<Option<Value>>,
     slopes: bool,
     references: Vec<u32>,

@@ -2,7 +2,7 @@
 
 use model_description::{Description, ScalarVariable, SimpleTypeKind, VariableKind, value};
 
-use crate::{Error, Fmu, Value, select};
+use crate::{Error, Value, select};
 
 /// Reads `text` as a value of `variable`, see [`value::read`].
 pub fn parse_value(description: &Description, variable: &ScalarVariable, text: &str) -> Result<Value, Error> {
@@ -11,8 +11,8 @@ pub fn parse_value(description: &Description, variable: &ScalarVariable, text: &
 }
 
 /// Reads `name=value`, or `vector=a,b,c` for a vector whose elements are `vector[1]`, `vector[2]`, ….
-pub fn parse_assignment(fmu: &Fmu, text: &str) -> Result<Vec<(String, Value)>, Error> {
-    let described = assignment(fmu.description(), text)?;
+pub fn parse_assignment(description: &Description, text: &str) -> Result<Vec<(String, Value)>, Error> {
+    let described = assignment(description, text)?;
     Ok(described.into_iter().map(|set| (set.variable.name.clone(), set.value)).collect())
 }
 

@@ -18,7 +18,8 @@ pub struct ReadError {
 }
 
 impl ReadError {
-    pub(super) fn new(code: Code, line: u32, element: &str, message: String) -> Self {
+    /// Of an element in a line.
+    pub fn new(code: Code, line: u32, element: &str, message: String) -> Self {
         Self { code, line, element: element.to_owned(), message }
     }
 }

@@ -14,10 +14,9 @@ mod xml;
 use crate::finding::{Code, Finding, Lines};
 use crate::{Description, NamingConvention, validate};
 
-use fields::{Fields, words};
-use xml::{Start, Xml};
-
 pub use error::ReadError;
+use fields::{Fields, words};
+pub use xml::{Start, Xml};
 
 /// What was read.
 #[derive(Clone, Debug, PartialEq)]

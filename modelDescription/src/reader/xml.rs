@@ -18,15 +18,19 @@ const MAX_ATTRIBUTES: usize = 64;
 const MAX_WARNINGS: usize = 1000;
 
 /// A start tag.
-pub(super) struct Start {
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Name with its prefix.
     pub name: String,
+    /// Line, 1-based.
     pub line: u32,
+    /// Attributes as they stand, without entities.
     pub attributes: Vec<(String, String)>,
     empty: bool,
 }
 
 /// The document as a stream of start tags.
-pub(super) struct Xml<'a> {
+pub struct Xml<'a> {
     reader: Reader<&'a [u8]>,
     text: &'a str,
     counted: usize,
@@ -36,6 +40,10 @@ pub(super) struct Xml<'a> {
 }
 
 impl<'a> Xml<'a> {
+    /// Of a whole file.
+    ///
+    /// # Errors
+    /// Larger than any real file, not UTF-8, characters that XML does not allow.
     pub fn new(bytes: &'a [u8]) -> Result<Self, ReadError> {
         if bytes.len() > MAX_BYTES {
             let message = format!("the file has {} bytes; allowed are {MAX_BYTES}", bytes.len());
@@ -53,6 +61,9 @@ impl<'a> Xml<'a> {
     }
 
     /// The root element, after the XML declaration.
+    ///
+    /// # Errors
+    /// XML that is not well-formed or nested too deep.
     pub fn root(&mut self) -> Result<Start, ReadError> {
         loop {
             let (line, event) = self.next("")?;
@@ -75,6 +86,9 @@ impl<'a> Xml<'a> {
     }
 
     /// The next child of `parent`, or `None` at its end tag.
+    ///
+    /// # Errors
+    /// XML that is not well-formed or nested too deep.
     pub fn child(&mut self, parent: &Start) -> Result<Option<Start>, ReadError> {
         if parent.empty {
             return Ok(None);
@@ -103,6 +117,9 @@ impl<'a> Xml<'a> {
     }
 
     /// Reads past everything inside `start`.
+    ///
+    /// # Errors
+    /// XML that is not well-formed or nested too deep.
     pub fn skip(&mut self, start: &Start) -> Result<(), ReadError> {
         if start.empty {
             return Ok(());
@@ -128,6 +145,9 @@ impl<'a> Xml<'a> {
     }
 
     /// Checks that nothing but comments follows the root element; gives the warnings.
+    ///
+    /// # Errors
+    /// XML that is not well-formed or nested too deep.
     pub fn finish(mut self) -> Result<Vec<Finding>, ReadError> {
         loop {
             let (line, event) = self.next("")?;
@@ -143,6 +163,7 @@ impl<'a> Xml<'a> {
         }
     }
 
+    /// Keeps a warning; [`Xml::finish`] gives them.
     pub fn warn(&mut self, code: Code, line: u32, element: &str, message: String) {
         if self.warnings.len() < MAX_WARNINGS {
             self.warnings.push(Finding { code, subject: format!("<{element}>"), line: Some(line), message });

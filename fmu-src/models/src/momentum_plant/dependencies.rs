@@ -159,6 +159,7 @@ pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
 
 /// Orbit and attitude, Sun and Earth as they are seen.
 fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: &Start) {
+    table.output(v.epoch, knowns![], v.start.epoch);
     let (orbit, gm) = (&v.orbit, v.planet.gravitational_parameter);
     for axis in 0..3 {
         let [position, velocity] = [orbit.position, orbit.velocity].map(|vector| vector.element(axis));

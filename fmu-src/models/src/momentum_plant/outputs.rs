@@ -4,6 +4,7 @@ use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::control::{sample_number, sensed_sun};
 use physics::attitude::{Attitude, BodyMotion, SunAngles, wheel_speed_rad_s};
+use physics::environment::time;
 use physics::momentum::{DumpEvent, DumpSpacing, Dumps, Totals, WheelArray};
 use physics::plant::{
     AttitudeDynamics, Configuration, Cost, DynamicsSettings, Evaluation, ExternalLoad, Instant, PanelSetting,
@@ -28,6 +29,7 @@ pub fn write(
     let variables = context.variables;
     let Evaluation { instant, loads } = evaluation;
     let rotation = &instant.frame.inertial_from_body;
+    values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
     values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
     values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
 
@@ -270,7 +272,14 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     }
     let variables = context.variables;
     let convention = state.configuration.as_ref()?.momentum.convention;
-    let torque_body = Vector3::from(values.vector(variables.torque.total));
+    let mut torque_body = Vector3::from(values.vector(variables.torque.total));
+    if let Some(flown) = state.dynamics.as_ref().filter(|_| values.boolean(variables.dump.active)) {
+        torque_body = flown.with_dump_body_n_m(&torque_body);
+    }
+    if let Some(element) = variables.attitude.q.index_of(output) {
+        let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
+        return Some(attitude.quaternion_rate(&values.vector(variables.attitude.rate).into())[element]);
+    }
     if let Some(axis) = variables.momentum.body.index_of(output) {
         let [momentum_body, rate_body] = [variables.momentum.body, variables.attitude.rate]
             .map(|handle| Vector3::from(values.vector(handle)));

@@ -11,6 +11,8 @@ use super::wheel::{ReactionWheel, Rotor};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gyrostat {
     inertia_body_kg_m2: Matrix3<f64>,
+    /// Without the rotors about their axes that can turn.
+    carrier_body_kg_m2: Matrix3<f64>,
     wheels: Vec<ReactionWheel>,
 }
 
@@ -62,15 +64,20 @@ impl Gyrostat {
             let axis = wheel.axis_body.try_normalize(0.0).filter(|axis| axis.iter().all(|x| x.is_finite()));
             wheel.axis_body = axis.ok_or(GyrostatError::Axis { wheel: number, found })?;
         }
-        let body = Self { inertia_body_kg_m2, wheels };
-        let turning = body.wheels.iter().filter(|wheel| !wheel.locked);
-        let found = SymmetricEigen::new(body.without(turning)).eigenvalues.min();
+        let mut body = Self { inertia_body_kg_m2, carrier_body_kg_m2: inertia_body_kg_m2, wheels };
+        body.carrier_body_kg_m2 = body.without(body.wheels.iter().filter(|wheel| !wheel.locked));
+        let found = SymmetricEigen::new(body.carrier_body_kg_m2).eigenvalues.min();
         if found > 0.0 { Ok(body) } else { Err(GyrostatError::Body { found }) }
     }
 
     /// Inertia about the centre of mass with the rotors in it, body frame, in kg m2.
     pub fn inertia_body_kg_m2(&self) -> &Matrix3<f64> {
         &self.inertia_body_kg_m2
+    }
+
+    /// The same without the rotors about their axes that can turn: what the motors' torque accelerates.
+    pub fn carrier_body_kg_m2(&self) -> &Matrix3<f64> {
+        &self.carrier_body_kg_m2
     }
 
     /// The wheels, axes of length 1.

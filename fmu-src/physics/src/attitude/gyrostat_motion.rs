@@ -135,7 +135,7 @@ impl GyrostatMotion {
         motion.rotors.extend(gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
             let held_n_m_s = rotors_n_m_s(k);
             let mut axial = [0.0; TERMS];
-            axial[0] = held_n_m_s + wheel.inertia_kg_m2 * wheel.axis_body.dot(rate_body_rad_s);
+            axial[0] = held_n_m_s + wheel.carried_n_m_s(rate_body_rad_s);
             RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial }
         }));
         motion.inverse_inertia = gyrostat.inverse_inertia(motion.rotors.iter().map(|it| &it.rotor));
@@ -208,11 +208,12 @@ impl GyrostatMotion {
             Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             Rotor::Turning { .. } => {
                 let axial = polynomial(&it.axial[..=self.order], time_s - self.start_s);
-                axial - wheel.inertia_kg_m2 * wheel.axis_body.dot(&motion.rate_body_rad_s)
+                axial - wheel.carried_n_m_s(&motion.rate_body_rad_s)
             }
         }
     }
 
+    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
     /// the present end on).
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
@@ -221,7 +222,7 @@ impl GyrostatMotion {
         for k in 0..self.rotors.len() {
             let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, &motion);
             let (wheel, it) = (&gyrostat.wheels()[k], &mut self.rotors[k]);
-            let carried = wheel.inertia_kg_m2 * wheel.axis_body.dot(&motion.rate_body_rad_s);
+            let carried = wheel.carried_n_m_s(&motion.rate_body_rad_s);
             let (rotor, relative_n_m_s) = match it.next.take() {
                 Some(Rotor::Held { momentum_n_m_s }) => (Rotor::Held { momentum_n_m_s }, momentum_n_m_s),
                 Some(turning) => (turning, relative_n_m_s),
@@ -287,7 +288,7 @@ impl GyrostatMotion {
             let rates = &self.rate;
             for ((it, wheel), motor) in self.rotors.iter_mut().zip(gyrostat.wheels()).zip(motors) {
                 let Rotor::Turning { direction } = it.rotor else { continue };
-                let relative = it.axial[j] - wheel.inertia_kg_m2 * wheel.axis_body.dot(&rates[j]);
+                let relative = it.axial[j] - wheel.carried_n_m_s(&rates[j]);
                 let constant =
                     if j == 0 { motor.torque_n_m - wheel.coulomb_friction_n_m * direction } else { 0.0 };
                 it.axial[j + 1] = (constant - wheel.viscous_rate_1_s() * relative) / divisor;
@@ -342,12 +343,13 @@ impl GyrostatMotion {
         let mut drive = [0.0; TERMS];
         for (j, term) in drive.iter_mut().enumerate().take(self.order) {
             let acceleration = self.rate[j + 1] * ((j + 1) as f64);
-            *term = -wheel.inertia_kg_m2 * wheel.axis_body.dot(&acceleration);
+            *term = -wheel.carried_n_m_s(&acceleration);
         }
         drive[0] += motor.torque_n_m - wheel.friction_n_m(held_n_m_s);
         drive
     }
 
+    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// Sets held rotors free that motor and body drive off; whether there was one.
     fn release(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) -> bool {
         let mut released = false;
@@ -367,6 +369,7 @@ impl GyrostatMotion {
         released
     }
 
+    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is told.
     fn first_event_s(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) -> f64 {
         let mut first: Option<(usize, f64, Rotor)> = None;
@@ -403,7 +406,7 @@ impl GyrostatMotion {
             Rotor::Turning { direction } => {
                 let mut relative = it.axial;
                 for (term, rate) in relative.iter_mut().zip(&self.rate).take(self.order + 1) {
-                    *term -= wheel.inertia_kg_m2 * wheel.axis_body.dot(rate);
+                    *term -= wheel.carried_n_m_s(rate);
                 }
                 let rests_s = (wheel.coulomb_friction_n_m > 0.0)
                     .then(|| self.falls_below_zero_s(&plus(&relative, 0.0, direction), longest_s))

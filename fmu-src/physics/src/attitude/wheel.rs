@@ -40,6 +40,11 @@ impl ReactionWheel {
         !self.locked && momentum_n_m_s.abs() >= self.capacity_n_m_s * (1.0 - AT_CAPACITY)
     }
 
+    /// What the rotor has of the body's rotation along its axis, I a.w, in N m s.
+    pub fn carried_n_m_s(&self, rate_body_rad_s: &Vector3<f64>) -> f64 {
+        self.inertia_kg_m2 * self.axis_body.dot(rate_body_rad_s)
+    }
+
     /// Speed of the rotor relative to the body, in rad/s, at a momentum in N m s.
     pub fn speed_rad_s(&self, momentum_n_m_s: f64) -> f64 {
         wheel_speed_rad_s(momentum_n_m_s, self.inertia_kg_m2)

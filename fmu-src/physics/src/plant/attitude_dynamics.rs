@@ -435,14 +435,19 @@ impl AttitudeDynamics {
             Tracked::Guidance => return,
         };
         let momentum = |k: usize| self.motion.rotor_n_m_s(gyrostat, k, time_s, body);
-        let wheels_body_n_m_s = gyrostat.along_axes(momentum);
+        let axial = |k: usize| {
+            let wheel = &gyrostat.wheels()[k];
+            let carried = if wheel.locked { 0.0 } else { wheel.carried_n_m_s(&body.rate_body_rad_s) };
+            momentum(k) + carried
+        };
+        let rotors_body_n_m_s = gyrostat.along_axes(axial);
         let external_body_n_m = self.dump.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m);
         let torque_body_n_m = self.controller.sample(
             &control.controller,
-            gyrostat.inertia_body_kg_m2(),
+            gyrostat.carrier_body_kg_m2(),
             &target,
             &self.estimate,
-            &wheels_body_n_m_s,
+            &rotors_body_n_m_s,
             &external_body_n_m,
         );
         let motors = &self.motors;
@@ -573,7 +578,7 @@ impl AttitudeDynamics {
         self.sun_sensed_body
     }
 
-    /// Angle between estimated and reference attitude at the last sample, in rad.
+    /// Angle between estimated and commanded attitude at the last sample, in rad.
     pub fn control_error_rad(&self) -> f64 {
         self.controller.attitude_error_rad()
     }
@@ -596,6 +601,11 @@ impl AttitudeDynamics {
     /// Time between dumps.
     pub fn spacing(&self) -> &DumpSpacing {
         &self.spacing
+    }
+
+    /// The torque with `others_body_n_m` of everything else, in N m, while thrusters are dumping.
+    pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
+        self.dump.map_or(*others_body_n_m, |dump| others_body_n_m + dump.torque_body_n_m)
     }
 
     /// Whether thrusters are dumping.

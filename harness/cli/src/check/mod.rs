@@ -5,6 +5,7 @@
 
 mod child;
 mod spacecraft;
+mod system;
 
 use std::{process::ExitCode, time::Instant};
 
@@ -33,7 +34,7 @@ impl Section {
     }
 }
 
-/// Checks an FMU or a spacecraft and prints the report.
+/// Checks an FMU, a system or a spacecraft and prints the report.
 pub fn run(arguments: &Check) -> Outcome {
     if arguments.subject.extension().is_some_and(|extension| extension == "toml") {
         return match (arguments.is_static, &arguments.only) {
@@ -41,6 +42,13 @@ pub fn run(arguments: &Check) -> Outcome {
             (true, _) => Err("--static is for an FMU: a spacecraft is only read".into()),
             (false, Some(_)) => Err("--only is for an FMU: a spacecraft has no probes".into()),
         };
+    }
+    if systems::is_system(&arguments.subject) {
+        if arguments.only.is_some() || arguments.template.is_some() {
+            return Err("--only and --template are for an FMU or a spacecraft, and this is a system".into());
+        }
+        let findings = system::findings(&arguments.subject);
+        return report(arguments, &[Section { title: "system".to_owned(), findings }]);
     }
     if arguments.template.is_some() {
         return Err("--template is for a spacecraft (.toml): an FMU is checked by its own library".into());

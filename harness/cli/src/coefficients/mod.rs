@@ -21,7 +21,10 @@ struct Row {
 pub fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
     let mut sets = Vec::new();
     for setting in settings {
-        sets.extend(loader::parse_assignment(fmu, &epoch::in_seconds(fmu.description(), setting)?)?);
+        sets.extend(loader::parse_assignment(
+            fmu.description(),
+            &epoch::in_seconds(fmu.description(), setting)?,
+        )?);
     }
     let mut instance = started(fmu, &sets)?;
     let mut parts = spacecraft::tables(fmu, &sets, &mut instance)?;

@@ -10,7 +10,8 @@ use std::{
 };
 
 use files::Growing;
-use loader::{Column, Fmu, Recording};
+use loader::{Column, Recording};
+use model_description::Description;
 
 use super::exporter::Exporter;
 
@@ -52,12 +53,16 @@ impl Exporter for Csv {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>, _fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>> {
+    fn finish(
+        mut self: Box<Self>,
+        _described: &Description,
+        recording: &Recording,
+    ) -> Result<(), Box<dyn Error>> {
         self.update(recording)?;
         Ok(self.file.finish()?)
     }
 
-    fn leave(mut self: Box<Self>, _fmu: &Fmu, recording: &Recording) -> Option<PathBuf> {
+    fn leave(mut self: Box<Self>, _described: &Description, recording: &Recording) -> Option<PathBuf> {
         let _ = self.update(recording);
         self.file.leave()
     }

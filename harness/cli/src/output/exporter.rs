@@ -2,7 +2,8 @@
 
 use std::{error::Error, path::PathBuf};
 
-use loader::{Fmu, Recording};
+use loader::Recording;
+use model_description::Description;
 
 /// An output of a run in one format.
 pub trait Exporter {
@@ -12,9 +13,9 @@ pub trait Exporter {
     }
 
     /// Writes the complete recording and gives the file its name.
-    fn finish(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>>;
+    fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>>;
 
     /// After a simulation that failed: keeps the recording so far under the name of a file in progress, and gives that
     /// name if there is one. What cannot be kept is left out: the simulation's own error is the one to report.
-    fn leave(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Option<PathBuf>;
+    fn leave(self: Box<Self>, described: &Description, recording: &Recording) -> Option<PathBuf>;
 }

@@ -12,7 +12,8 @@ use std::{
 };
 
 use files::Destination;
-use loader::{Fmu, Recording};
+use loader::Recording;
+use model_description::Description;
 
 use crate::args::Run;
 use csv::Csv;
@@ -67,10 +68,10 @@ impl Outputs {
     }
 
     /// Completes every output and says what was written and the last values.
-    pub fn finish(self, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>> {
-        self.exporters.into_iter().try_for_each(|output| output.finish(fmu, recording))?;
+    pub fn finish(self, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
+        self.exporters.into_iter().try_for_each(|output| output.finish(described, recording))?;
         if self.says_last {
-            terminal::note(&last_values(fmu, recording));
+            terminal::note(&last_values(described, recording));
             for file in &self.files {
                 terminal::note(&format!("wrote {}", file.display()));
             }
@@ -79,7 +80,7 @@ impl Outputs {
     }
 
     /// Keeps what there is after a simulation that failed; the names of the files in progress.
-    pub fn leave(self, fmu: &Fmu, recording: &Recording) -> Vec<PathBuf> {
-        self.exporters.into_iter().filter_map(|output| output.leave(fmu, recording)).collect()
+    pub fn leave(self, described: &Description, recording: &Recording) -> Vec<PathBuf> {
+        self.exporters.into_iter().filter_map(|output| output.leave(described, recording)).collect()
     }
 }

@@ -1,7 +1,6 @@
 //! How people read a recorded variable: display unit, dates beside epochs, `none` for a time that is none.
 
-use loader::Fmu;
-use model_description::VariableKind;
+use model_description::{Description, ScalarVariable, VariableKind};
 
 use crate::epoch;
 
@@ -9,6 +8,11 @@ use crate::epoch;
 const NONE: &str = "; -1 ";
 /// The value that says so, in s.
 const NONE_S: f64 = -1.0;
+
+/// The variable of this name.
+pub fn find<'a>(description: &'a Description, name: &str) -> Option<&'a ScalarVariable> {
+    description.variables.iter().find(|variable| variable.name == name)
+}
 
 /// A recorded number's unit and form.
 pub struct Shown<'a> {
@@ -22,9 +26,8 @@ pub struct Shown<'a> {
 
 impl<'a> Shown<'a> {
     /// Of the variable of this name.
-    pub fn of(fmu: &'a Fmu, name: &str) -> Self {
-        let description = fmu.description();
-        let Some(variable) = fmu.find(name) else {
+    pub fn of(description: &'a Description, name: &str) -> Self {
+        let Some(variable) = find(description, name) else {
             return Self { unit: "", factor: 1.0, offset: 0.0, may_be_none: false, is_epoch: false };
         };
         let own = loader::unit(description, variable).unwrap_or_default();

@@ -2,7 +2,8 @@
 
 use std::{error::Error, path::PathBuf};
 
-use loader::{Fmu, Recording};
+use loader::Recording;
+use model_description::Description;
 
 use super::{exporter::Exporter, shown::Shown};
 
@@ -13,17 +14,17 @@ const LAST_ROWS: usize = 24;
 pub struct Summary;
 
 impl Exporter for Summary {
-    fn finish(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>> {
-        Ok(terminal::print(&summary(fmu, recording))?)
+    fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
+        Ok(terminal::print(&summary(described, recording))?)
     }
 
-    fn leave(self: Box<Self>, _fmu: &Fmu, _recording: &Recording) -> Option<PathBuf> {
+    fn leave(self: Box<Self>, _described: &Description, _recording: &Recording) -> Option<PathBuf> {
         None
     }
 }
 
 /// First, smallest, largest and last value of everything recorded.
-fn summary(fmu: &Fmu, recording: &Recording) -> String {
+fn summary(described: &Description, recording: &Recording) -> String {
     let mut table = terminal::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
     for (name, column) in recording.names.iter().zip(&recording.columns) {
         if let loader::Column::Text(texts) = column {
@@ -38,7 +39,7 @@ fn summary(fmu: &Fmu, recording: &Recording) -> String {
             ]);
             continue;
         }
-        let shown = Shown::of(fmu, name);
+        let shown = Shown::of(described, name);
         let values: Vec<Option<f64>> = column.numbers().into_iter().map(|value| shown.value(value)).collect();
         let text = |value: Option<&Option<f64>>| shown.text(value.copied().unwrap_or(Some(f64::NAN)));
         table.add_row([
@@ -54,10 +55,10 @@ fn summary(fmu: &Fmu, recording: &Recording) -> String {
 }
 
 /// The last value of everything recorded, a vector in a row.
-pub fn last_values(fmu: &Fmu, recording: &Recording) -> String {
+pub fn last_values(described: &Description, recording: &Recording) -> String {
     let mut rows: Vec<(&str, &str, Vec<String>)> = Vec::new();
     for (name, column) in recording.names.iter().zip(&recording.columns) {
-        let shown = Shown::of(fmu, name);
+        let shown = Shown::of(described, name);
         let text = match column {
             loader::Column::Text(texts) => texts.last().cloned().unwrap_or_default(),
             column => shown.text(column.numbers().last().map_or(Some(f64::NAN), |value| shown.value(*value))),

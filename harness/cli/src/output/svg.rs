@@ -6,11 +6,11 @@ use std::{
 };
 
 use files::Destination;
-use loader::{Column, Fmu, Recording};
-use model_description::Causality;
+use loader::{Column, Recording};
+use model_description::{Causality, Description};
 use studies::chart::{COLOURS, Chart, Panel, Series};
 
-use super::exporter::Exporter;
+use super::{exporter::Exporter, shown::find};
 
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
@@ -54,16 +54,16 @@ impl Svg {
 }
 
 impl Exporter for Svg {
-    fn finish(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Result<(), Box<dyn Error>> {
-        let svg = chart(fmu, recording).to_svg()?;
+    fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
+        let svg = chart(described, recording).to_svg()?;
         Ok(self.0.fill(|file| file.write_all(svg.as_bytes()))?)
     }
 
-    fn leave(self: Box<Self>, fmu: &Fmu, recording: &Recording) -> Option<PathBuf> {
+    fn leave(self: Box<Self>, described: &Description, recording: &Recording) -> Option<PathBuf> {
         if recording.times_s.is_empty() {
             return None;
         }
-        let svg = chart(fmu, recording).to_svg().ok()?;
+        let svg = chart(described, recording).to_svg().ok()?;
         let mut file = self.0.grow(&[]).ok()?;
         file.append(svg.as_bytes()).ok()?;
         file.leave()
@@ -71,7 +71,7 @@ impl Exporter for Svg {
 }
 
 /// The chart of a recording.
-fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
+fn chart(described: &Description, recording: &Recording) -> Chart {
     let span_s = match (recording.times_s.first(), recording.times_s.last()) {
         (Some(first_s), Some(last_s)) => last_s - first_s,
         _ => 0.0,
@@ -80,11 +80,11 @@ fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
         TIME_UNITS.into_iter().find(|(from_s, _, _)| span_s >= *from_s).unwrap_or((0.0, "s", 1.0));
     let mut panels: Vec<(String, Panel)> = Vec::new();
     let mut left_out = 0;
-    for (name, column) in drawn(fmu, recording) {
+    for (name, column) in drawn(described, recording) {
         let vector = &group(name);
-        let variable = fmu.find(name);
-        let display = variable.and_then(|variable| loader::display_unit(fmu.description(), variable));
-        let own = variable.and_then(|variable| loader::unit(fmu.description(), variable)).unwrap_or_default();
+        let variable = find(described, name);
+        let display = variable.and_then(|variable| loader::display_unit(described, variable));
+        let own = variable.and_then(|variable| loader::unit(described, variable)).unwrap_or_default();
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
         let points = recording.times_s.iter().zip(column.numbers());
         let points = points.map(|(time_s, value)| (time_s / seconds, factor * value + offset)).collect();
@@ -117,18 +117,18 @@ fn chart(fmu: &Fmu, recording: &Recording) -> Chart {
         terminal::note(&format!("{limit} and leaves out {left_out} variables: see --record"));
     }
     Chart {
-        title: fmu.name().to_owned(),
+        title: described.model_name.clone(),
         x_label: format!("time [{time_unit}]"),
         panels: panels.into_iter().map(|(_, panel)| panel).collect(),
     }
 }
 
 /// The columns worth drawing: no texts, and no inputs that nobody used, unless there is nothing else.
-fn drawn<'a>(fmu: &Fmu, recording: &'a Recording) -> Vec<(&'a str, &'a Column)> {
+fn drawn<'a>(described: &Description, recording: &'a Recording) -> Vec<(&'a str, &'a Column)> {
     let columns = recording.names.iter().map(String::as_str).zip(&recording.columns);
     let numbers: Vec<_> = columns.filter(|(_, column)| !matches!(column, Column::Text(_))).collect();
     let unused = |name: &str, column: &Column| {
-        fmu.find(name).is_some_and(|variable| variable.causality == Causality::Input)
+        find(described, name).is_some_and(|variable| variable.causality == Causality::Input)
             && column.numbers().iter().all(|value| *value == 0.0)
     };
     let used: Vec<_> = numbers.iter().copied().filter(|(name, column)| !unused(name, column)).collect();
@@ -160,7 +160,8 @@ mod tests {
             units: vec![String::new(); columns.len()],
             columns: columns.iter().map(|(_, last)| Column::Real(vec![0.0, *last])).collect(),
         };
-        let chart = chart(&Fmu::open(folder.path()).unwrap(), &recording);
+        let fmu = loader::Fmu::open(folder.path()).unwrap();
+        let chart = chart(fmu.description(), &recording);
         let labels = |panel: Panel| panel.series.into_iter().map(|series| series.label).collect();
         chart.panels.into_iter().map(labels).collect()
     }

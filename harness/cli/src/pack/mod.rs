@@ -9,7 +9,6 @@ mod picture;
 mod schedule;
 pub mod source;
 mod start;
-mod writer;
 
 use std::{
     path::{Path, PathBuf},
@@ -19,11 +18,10 @@ use std::{
 use loader::{Binary, Described};
 use model_description::Description;
 
-use files::Destination;
+use files::{Destination, Entries};
 
 use crate::{args::Pack, outcome::Outcome};
 use source::Source;
-use writer::Entries;
 
 /// A refusal, with the model that takes the file if there is another.
 fn with_hint(

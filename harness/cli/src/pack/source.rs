@@ -2,9 +2,9 @@
 
 use std::{fs, path::Path, path::PathBuf, sync::Arc};
 
+use ::files::Entries;
 use loader::{Binary, Described, Fmu};
 
-use super::writer::Entries;
 use crate::args::Pack;
 
 /// The licences of this project and of the crates it links, for FMUs packed from its own library.

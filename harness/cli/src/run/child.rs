@@ -7,11 +7,12 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use loader::{
-    Collector, Ended, Error, Fmu, InstanceOptions, LogMessage, Options, Recording, Row, Rows, Status,
-};
+use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status};
 
-use super::settings::Settings;
+use super::{
+    settings::Settings,
+    subject::{Given, Subject},
+};
 use crate::{
     args::RunInChild,
     child::{BYTES_FORWARDED, Bounds, ChildProcess, EndReason, Limits, Link, Payload, push_text},
@@ -40,8 +41,8 @@ pub struct Simulated {
 
 /// What runs in a child process.
 pub struct InChild<'a> {
-    /// The FMU.
-    pub fmu: &'a Fmu,
+    /// The FMU or system.
+    pub subject: &'a Subject,
     /// What the parent read from the standard input.
     pub input_copy: Option<&'a Path>,
     /// Longest time that an FMI call may take.
@@ -55,13 +56,13 @@ pub fn simulate(
     collector: &mut Collector,
     mut tick: impl FnMut(&Recording, Option<f64>) -> Result<(), String>,
 ) -> Simulated {
-    let InChild { fmu, input_copy, timeout_s } = *in_child;
+    let InChild { subject, input_copy, timeout_s } = *in_child;
     let option = |name: &str, path: &Path| {
         let mut option = OsString::from(name);
         option.push(path);
         option
     };
-    let own = [OsString::from("run-in-child"), option("--unpacked-in=", fmu.folder())];
+    let own = [OsString::from("run-in-child"), option("--unpacked-in=", &subject.folder())];
     let own = own.into_iter().chain(input_copy.map(|path| option("--input-copy=", path)));
     // After the program and `run`: the child reads the same arguments.
     let arguments = own.chain(std::env::args_os().skip(2));
@@ -84,13 +85,13 @@ pub fn simulate(
             if forwarded <= BYTES_FORWARDED {
                 terminal::note(line);
             } else if before <= BYTES_FORWARDED {
-                terminal::note(&format!("{}: what else it prints is left out", fmu.name()));
+                terminal::note(&format!("{}: what else it prints is left out", subject.name()));
             }
         },
         &mut |calls| tick(inbox_cell.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
     );
     let Inbox { outcome, messages, .. } = inbox;
-    let name = fmu.name();
+    let name = supervised.calls.instance.map_or_else(|| subject.name().to_owned(), |it| subject.named(it));
     let fault = supervised.fault().map(|fault| format!("{name}: {fault}"));
     let outcome = match (outcome, &supervised.how) {
         (Some(outcome), EndReason::Refused(why)) => outcome.and(Err(why.clone())),
@@ -233,27 +234,20 @@ fn simulation(
     arguments: &RunInChild,
     link: &mut Link,
 ) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
-    let fmu = Fmu::open(&arguments.unpacked_in)?;
-    let settings = Settings::of(&fmu, &arguments.run, arguments.input_copy.as_deref())?;
+    let subject = Subject::open(&arguments.unpacked_in)?;
+    let settings = Settings::of(&subject, &arguments.run, arguments.input_copy.as_deref())?;
     let (cancel, cancel_word) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
     let mut check_cancel = |_: f64| {
         if cancel_word.load(Ordering::Relaxed) != 0 {
             cancel.store(true, Ordering::Relaxed);
         }
     };
-    let run = &arguments.run;
-    let options = Options {
-        start_s: run.start,
-        stop_s: run.stop,
-        step_s: run.step,
-        record_every_s: run.every,
+    let given = Given {
         sets: settings.sets,
         inputs: settings.inputs.as_ref(),
-        input_derivatives: run.slopes,
-        record: Some(settings.positions),
-        instance: InstanceOptions { logging: run.log, ..InstanceOptions::default() },
-        progress: Some(&mut check_cancel),
-        cancel: Some(&cancel),
+        positions: settings.positions,
+        progress: &mut check_cancel,
+        cancel: &cancel,
     };
-    Ok(loader::simulate_into(&fmu, options, &mut RowSender(link))?)
+    Ok(subject.simulate_into(&arguments.run, given, &mut RowSender(link))?)
 }

@@ -298,6 +298,12 @@ impl Instance {
         self.finish(function, answer, |symbol| format!("{symbol}({kind})"))
     }
 
+    /// That a Real which was read at a time in s is NaN.
+    pub fn not_a_number(&self, reference: u32, time_s: f64) -> Error {
+        let call = self.call_text(Function::GetReal.symbol(), &[reference], BaseType::Real);
+        self.failure(call, Outcome::NotANumber(time_s))
+    }
+
     fn allow(&self, function: Function) -> Result<(), Error> {
         self.checker
             .allow(function)
@@ -385,7 +391,7 @@ impl Instance {
 const REASONS: [&str; 3] = ["logStatusDiscard", "logStatusError", "logStatusFatal"];
 
 /// The messages that an error shows.
-pub(crate) fn last(mut messages: Vec<LogMessage>) -> Vec<LogMessage> {
+fn last(mut messages: Vec<LogMessage>) -> Vec<LogMessage> {
     messages.split_off(messages.len().saturating_sub(MESSAGES_SHOWN))
 }
 

@@ -6,7 +6,7 @@ use crate::{description, folder};
 
 fn assigned(text: &str) -> Result<Vec<(String, Value)>, String> {
     let (_folder, fmu) = folder(&description());
-    parse_assignment(&fmu, text).map_err(|error| error.to_string())
+    parse_assignment(fmu.description(), text).map_err(|error| error.to_string())
 }
 
 fn value(text: &str) -> Value {

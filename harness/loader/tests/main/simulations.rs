@@ -42,7 +42,7 @@ fn an_input_table_drives_the_simulation() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     // u = t up to 4, then 4; a step of 0.5 holds u over each step unless slopes are given.
     let table = InputTable::parse(
-        &fmu,
+        fmu.description(),
         &["time", "input.real", "input.integer"],
         &[vec!["0", "0", "1"], vec!["4", "4", "2"], vec!["8", "4", "3"]],
     )
@@ -119,7 +119,7 @@ fn fault_at_3_s(fmu: &loader::Fmu, fault: &str) -> InputTable {
     let variable = fmu.variable("fault").unwrap();
     let item = loader::parse_value(fmu.description(), variable, fault).unwrap();
     let rows = [vec!["0".to_owned(), "1".to_owned()], vec!["3".to_owned(), item.to_string()]];
-    InputTable::parse(fmu, &["time".to_owned(), "fault".to_owned()], &rows).unwrap()
+    InputTable::parse(fmu.description(), &["time".to_owned(), "fault".to_owned()], &rows).unwrap()
 }
 
 #[test]

@@ -8,7 +8,7 @@ fn table(rows: &[&[&str]]) -> Result<InputTable, String> {
     let (_folder, fmu) = folder(&description());
     let (header, rows) = rows.split_first().unwrap();
     let rows: Vec<Vec<&str>> = rows.iter().map(|row| row.to_vec()).collect();
-    InputTable::parse(&fmu, header, &rows).map_err(|error| error.to_string())
+    InputTable::parse(fmu.description(), header, &rows).map_err(|error| error.to_string())
 }
 
 fn number(table: &InputTable, column: usize, time_s: f64) -> f64 {

@@ -13,14 +13,14 @@ pub struct ControlVariables {
     /// Samples of sensors and controller a second, in free flight of the sensors alone.
     #[parameter(unit = "Hz", min = 0.1, max = 1_000.0, start = 50.0)]
     pub rate: Real,
-    /// Bandwidth of the attitude loop, assumed: no paper prints the gains. Torque is inertia times (bandwidth^2 times the
-    /// error angle + 2 damping bandwidth times the error of rate).
+    /// Bandwidth w of the attitude loop, assumed: no paper prints the gains. With damping d and integral c its poles are those
+    /// of (s^2 + 2 d w s + w^2)(s + c w).
     #[parameter(unit = "rad/s", min = 1e-5, max = 1e3, start = 0.1)]
     pub bandwidth: Real,
     /// Damping ratio of the attitude loop.
     #[parameter(unit = "1", min = 0.01, max = 100.0, start = 0.8)]
     pub damping: Real,
-    /// Integral gain as a share of the bandwidth; 0 = none.
+    /// Pole of the integral part as a share of the bandwidth; 0 = no integral part.
     #[parameter(unit = "1", min = 0.0, max = 10.0, start = 0.1)]
     pub integral: Real,
     /// Greatest rate relative to the command about the eigenaxis while the attitude follows a command that jumped; 0 = no
@@ -40,10 +40,10 @@ pub struct ControlVariables {
     /// Whether the motors make up for the wheels' friction, which the controller knows.
     #[parameter(start = true)]
     pub friction_compensation: Boolean,
-    /// Angle between estimated attitude and the reference that the slew limits make of the command, at the last sample.
+    /// Angle between the estimated and the commanded attitude at the last sample; 0 where only a rate is commanded.
     #[output(unit = "rad", display = "deg", nominal = 1e-4)]
     pub error: Real,
-    /// Whether that reference has come to the command.
+    /// Whether the reference that the slew limits make of the command has come to it.
     #[output]
     pub settled: Boolean,
     /// Whether the wheels could not give the torque that was asked for at the last sample.

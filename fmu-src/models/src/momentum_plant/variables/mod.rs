@@ -94,6 +94,9 @@ pub struct PlantVariables {
     pub heliocentric: HeliocentricVariables,
     #[group]
     pub solver: SolverVariables,
+    /// Present epoch, seconds past J2000 TDB.
+    #[output(unit = "s", display = "d", nominal = 1e8)]
+    pub epoch: Real,
     /// Acceleration by the forces listed here, without gravity, in EME2000.
     #[output(unit = "m/s2", display = "nm/s2", nominal = 1e-7)]
     pub acceleration: RealVector<3>,

@@ -1,1 +1,63 @@
-//! refusals
+//! What cannot be flown is refused by name.
+
+use models::MomentumPlant;
+
+use super::super::named_model::NamedModel;
+use super::{CONTROLLED, FREE, Start, with};
+
+#[test]
+fn what_cannot_be_controlled_is_refused_by_name() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let cases: [(Start<'_>, Start<'_>, &str); 10] = [
+        (
+            FREE,
+            &[("wheel[3].axis[1]", 0.0), ("wheel[3].axis[2]", 0.0), ("wheel[3].axis[3]", 0.0)],
+            "wheel[3].axis",
+        ),
+        (FREE, &[("wheel[2].inertia", 1e4)], "spacecraft.inertia"),
+        (FREE, &[("start.momentum[1]", 1.0)], "start.momentum"),
+        (FREE, &[("momentum.convention", 2.0)], "momentum.convention"),
+        (FREE, &[("wheel[1].startMomentum", 8.5)], "wheel[1].startMomentum"),
+        (FREE, &[("wheel[1].locked", 1.0), ("wheel[1].startMomentum", 0.5)], "wheel[1].startMomentum"),
+        (FREE, &[("sunSensor[2].axis[1]", 0.0)], "sunSensor[2].axis"),
+        (CONTROLLED, &[("wheel[1].locked", 1.0), ("wheel[2].locked", 1.0)], "wheel[k].axis"),
+        (CONTROLLED, &[("control.bandwidth", 200.0)], "control.bandwidth"),
+        (CONTROLLED, &[("control.rate", 0.1), ("control.bandwidth", 1.0)], "control.bandwidth"),
+    ];
+    for (source, bad, named_in_it) in cases {
+        let told = match named.fly(0.0, &with(&[source, bad])) {
+            Ok(_) => panic!("{bad:?} flies"),
+            Err(failure) => failure.to_string(),
+        };
+        let says_what_is_allowed = told.contains("allowed") || told.contains("stable below");
+        assert!(told.contains(named_in_it) && says_what_is_allowed, "{bad:?}: {told}");
+        // Nothing of it matters without dynamics.
+        if !bad.iter().any(|(name, _)| name.starts_with("sunSensor")) {
+            named.fly(0.0, bad).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_torn_state_is_refused_or_flies_on() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut flight = named.fly(0.0, &with(&[CONTROLLED])).unwrap();
+    flight.step_to(1.0).unwrap();
+    let bytes = flight.state_bytes();
+    let mut refused = 0;
+    for at in (0..bytes.len()).step_by(17) {
+        for flip in [0x80_u8, 0x7f] {
+            let mut torn = bytes.clone();
+            torn[at] ^= flip;
+            match flight.with_state(&torn) {
+                None => refused += 1,
+                Some(mut other) => {
+                    if other.step_to(1.03).is_ok() {
+                        assert_eq!(other.not_finite(), None, "byte {at}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(refused > 20, "{refused}");
+}

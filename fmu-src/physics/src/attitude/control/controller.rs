@@ -89,7 +89,8 @@ impl ControllerState {
     /// frame. Without a rate in the estimate it is zero and the integral is kept.
     ///
     /// `wheels_body_n_m_s` is the wheels' momentum relative to the body, `external_body_n_m` an external torque that is
-    /// known beforehand.
+    /// known beforehand. What the body feels of motors is exact with the inertia without the rotors' axial parts and the
+    /// wheels' momentum with theirs; with the inertia of the body and its rotors the acceleration is off by their ratio.
     #[allow(clippy::too_many_arguments, reason = "what a sample reads: settings, command, measurements")]
     pub fn sample(
         &mut self,

@@ -1,11 +1,11 @@
 //! Reference attitude that follows a command within a slew rate and an acceleration limit.
 //!
 //! At each sample the motion relative to the command, a rotation vector e and a rate v, is turned toward the command
-//! about the eigenaxis: with p = e + v dt/2 (where half of the motion already under way leads), the next relative rate
-//! is -p/|p| times min(slew rate, a (sqrt(dt^2 + 2|p|/a) - dt)). That is the greatest rate from which constant
-//! decelerations of at most a, each held for a sample, still stop at the command: there is no overshoot, and near the
-//! end the law is linear, p/dt, and reaches the command in two samples. What the command's own rotation takes of the
-//! acceleration (rate x relative rate) is set aside beforehand.
+//! about the eigenaxis: with p = e + v dt/2 (where half of the motion already under way leads), the wanted relative rate
+//! is -p/|p| times min(slew rate, a (sqrt(T^2 + 2|p|/a) - T)), which solves v^2/2a + v T = |p|: braking never needs more
+//! than a, and near the end the rate is |p|/T. The rate follows the wanted one with a lag of T/5 (overdamped, no
+//! overshoot), so that the small jumps of a command that is itself sampled ask for little torque. What the command's own
+//! rotation takes of the acceleration (rate x relative rate) is set aside beforehand.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,13 @@ use crate::attitude::rotation::Attitude;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// Angle from the command below which the reference becomes the command, in rad.
-const CAUGHT_RAD: f64 = 1e-10;
+const CAUGHT_RAD: f64 = 1e-9;
+/// Angle and rate from the command, in rad and rad/s, below which the reference counts as settled.
+const SETTLED: f64 = 1e-5;
+/// Time constant T of the approach, in samples.
+const APPROACH_SAMPLES: f64 = 50.0;
+/// Time constant of the rate, in samples; below a fourth of the approach's for no overshoot.
+const LAG_SAMPLES: f64 = 10.0;
 
 /// What the controller is to follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +66,7 @@ pub struct Reference {
     pub attitude: Attitude,
     /// In the reference's axes, in rad/s.
     pub rate_body_rad_s: Vector3<f64>,
-    /// Whether it has reached the command.
+    /// Whether it has reached the command, within 1e-5 rad and 1e-5 rad/s.
     pub is_settled: bool,
 }
 
@@ -98,11 +104,12 @@ impl Reference {
                 let command_rate = self.attitude.to_body(&attitude.to_inertial(rate_body_rad_s));
                 let relative_rate = self.rate_body_rad_s - command_rate;
                 let has_no_limit = slew_rad_s.is_infinite() && acceleration_rad_s2.is_infinite();
-                let angle = relative_rate.norm() * interval_s;
-                let is_caught = from_command.norm() <= CAUGHT_RAD
-                    && angle <= CAUGHT_RAD.min(acceleration_rad_s2 * interval_s * interval_s);
-                self.is_settled = has_no_limit || is_caught;
-                if self.is_settled {
+                let (angle, rate) = (from_command.norm(), relative_rate.norm());
+                let caught_rad_s = CAUGHT_RAD / (APPROACH_SAMPLES * interval_s);
+                let is_caught =
+                    angle <= CAUGHT_RAD && rate <= caught_rad_s.min(acceleration_rad_s2 * interval_s);
+                self.is_settled = has_no_limit || is_caught || (angle <= SETTLED && rate <= SETTLED);
+                if has_no_limit || is_caught {
                     self.attitude = *attitude;
                     self.rate_body_rad_s = *rate_body_rad_s;
                     Vector3::zeros()
@@ -146,13 +153,20 @@ impl Approach {
         } else {
             (slew_rad_s, acceleration_rad_s2)
         };
+        // Without a limit of the acceleration there is nothing to spread.
+        let (approach_s, part) = if acceleration_rad_s2.is_finite() {
+            (APPROACH_SAMPLES * dt, LAG_SAMPLES.recip())
+        } else {
+            (dt, 1.0)
+        };
         let ahead = self.from_command + self.relative_rate * (0.5 * dt);
         let distance = ahead.norm();
-        // a (sqrt(dt^2 + 2 d/a) - dt), which also serves a = infinity.
-        let stopping = 2.0 * distance / (dt + (dt * dt + 2.0 * distance / braking_rad_s2).sqrt());
+        // a (sqrt(T^2 + 2 d/a) - T), which also serves a = infinity.
+        let root_s = (approach_s * approach_s + 2.0 * distance / braking_rad_s2).sqrt();
+        let stopping = 2.0 * distance / (approach_s + root_s);
         let wanted =
             if distance > 0.0 { ahead * (-stopping.min(slew_rad_s) / distance) } else { Vector3::zeros() };
-        let change = wanted - self.relative_rate;
+        let change = (wanted - self.relative_rate) * part;
         // The command's rate, fixed in its own frame, moves in the reference's axes.
         let carried = self.command_rate.cross(&self.relative_rate) * dt;
         limited_sum(&change, &carried, acceleration_rad_s2 * dt)

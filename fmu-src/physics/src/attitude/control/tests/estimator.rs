@@ -304,6 +304,25 @@ fn without_both_nothing_is_known_until_a_fix() {
 }
 
 #[test]
+fn the_first_fix_after_an_outage_of_both_is_taken_as_it_is() {
+    let settings = noisy();
+    let attitude = random_attitude(8);
+    let mut state = EstimatorState::new(&settings, attitude);
+    for sample in 0..1000_u64 {
+        state.sample(&settings, ALL, &attitude, &Vector3::zeros(), sample);
+    }
+    // The body turns while nothing measures.
+    let turned = attitude.turned(Vector3::new(0.4, -0.3, 0.2));
+    state.sample(&settings, NONE, &turned, &Vector3::zeros(), 1000);
+    for sample in 1001..1006 {
+        let estimate = state.sample(&settings, ALL, &turned, &Vector3::zeros(), sample);
+        assert_eq!(estimate.is_valid, sample == 1005);
+        let error = estimate.attitude.rotation_vector_to(&turned).norm();
+        assert_eq!(error < 5.0 * settings.star_tracker.noise_rad.norm(), estimate.is_valid, "{error}");
+    }
+}
+
+#[test]
 fn a_restored_state_goes_on_to_the_bit() {
     let settings = noisy();
     let mut motion = Motion::new(9);

@@ -2,8 +2,10 @@
 
 mod allocation;
 mod closed_loop;
+mod degraded;
 mod estimator;
 mod reference;
+mod rig;
 mod settings;
 mod sun_sensors;
 

@@ -48,9 +48,9 @@ fn a_rest_to_rest_slew_takes_the_time_of_the_trapezoid() {
         let settled_s = (samples.len() - 10) as f64 * DT_S;
         let (v, a) = (LIMITS.rate_rad_s, LIMITS.acceleration_rad_s2);
         let expected_s = if angle > v * v / a { angle / v + v / a } else { 2.0 * (angle / a).sqrt() };
-        // The end zone costs some samples.
+        // The approach has a time constant of 1 s.
         assert!(settled_s >= expected_s - DT_S, "{angle}: {settled_s} {expected_s}");
-        assert!(settled_s <= expected_s * 1.01 + 12.0 * DT_S, "{angle}: {settled_s} {expected_s}");
+        assert!(settled_s <= expected_s + 8.0, "{angle}: {settled_s} {expected_s}");
         // It turns about the eigenaxis only, and never turns back.
         for pair in samples.windows(2) {
             let along = pair[0].rate_body_rad_s.dot(&axis)
@@ -70,11 +70,16 @@ fn turn_sign(samples: &[ReferenceSample], axis: &Vector3<f64>) -> f64 {
 }
 
 #[test]
-fn a_settled_reference_is_the_command() {
+fn a_reference_that_has_caught_the_command_is_the_command() {
     let (start, rate) = (random_attitude(4), Vector3::new(1e-3, -5e-4, 8e-4));
     let target = turning(start.turned(Vector3::new(0.3, -0.8, 0.2)), rate);
     let mut reference = Reference::new(start, Vector3::zeros());
-    let settled = fly(&mut reference, &LIMITS, &target, 600.0).len();
+    let mut settled = fly(&mut reference, &LIMITS, &target, 600.0).len();
+    // Four powers of ten closer in 25 s, with a time constant of 1.4 s at the end.
+    for _ in 0..1250 {
+        reference.step(&target(settled as f64 * DT_S), &LIMITS, DT_S);
+        settled += 1;
+    }
     for sample in settled..settled + 5000 {
         let wanted = target(sample as f64 * DT_S);
         let found = reference.step(&wanted, &LIMITS, DT_S);
@@ -118,6 +123,22 @@ fn limits_hold_over_random_commands() {
     }
     // Half a turn at 5e-3 rad/s takes 678 s, and 740 s are left.
     assert!(settled == 60, "{settled} have settled");
+}
+
+#[test]
+fn a_turning_command_is_approached_about_the_eigenaxis() {
+    let (command, axis, rate) = (random_attitude(70), random_unit(71), random_unit(72) * 2e-3);
+    let target = turning(command, rate);
+    let start = command.turned(axis * -1.0);
+    // At rest relative to the command.
+    let mut reference = Reference::new(start, start.to_body(&command.to_inertial(&rate)));
+    let mut worst: f64 = 0.0;
+    for sample in fly(&mut reference, &LIMITS, &target, 600.0).iter().enumerate() {
+        let ControlTarget::Attitude { attitude, .. } = target(sample.0 as f64 * DT_S) else { unreachable!() };
+        let left = attitude.rotation_vector_to(&sample.1.attitude);
+        worst = worst.max(left.cross(&axis).norm());
+    }
+    assert!(worst < 1e-6, "{worst}");
 }
 
 #[test]
@@ -165,18 +186,33 @@ fn no_limits_follow_at_once_and_one_limit_alone_holds() {
     let samples = fly(&mut reference, &acceleration_only, |_| hold(end), 1000.0);
     let settled_s = (samples.len() - 10) as f64 * DT_S;
     let expected_s = 2.0 * (angle / 1e-3).sqrt();
-    assert!((settled_s - expected_s).abs() <= 12.0 * DT_S, "{settled_s} {expected_s}");
+    assert!(settled_s >= expected_s && settled_s <= expected_s + 8.0, "{settled_s} {expected_s}");
 }
 
 #[test]
-fn a_small_change_of_the_command_is_caught_in_two_samples() {
-    let start = random_attitude(30);
+fn small_jumps_of_a_command_ask_for_little_acceleration() {
+    // What guidance sampled each second leaves of a command that accelerates by 1e-6 rad/s2.
+    let (start, axis, acceleration) = (random_attitude(30), random_unit(31), 1e-6);
     let mut reference = Reference::new(start, Vector3::zeros());
     fly(&mut reference, &LIMITS, |_| hold(start), 10.0);
-    let rate = Vector3::new(1e-7, -2e-7, 1e-7);
-    let target = turning(start.turned(Vector3::new(2e-9, 1e-9, 0.0)), rate);
-    let settled = fly(&mut reference, &LIMITS, target, 1.0).len() - 10;
-    assert!(settled <= 4, "{settled}");
+    let (mut most, mut mean): (f64, f64) = (0.0, 0.0);
+    for sample in 0..5000_u32 {
+        let time_s = f64::from(sample) * DT_S;
+        let (sampled_s, rate) = (time_s.floor(), axis * (acceleration * time_s.floor()));
+        let angle = axis * (0.5 * acceleration * sampled_s * sampled_s) + rate * (time_s - sampled_s);
+        let target = ControlTarget::Attitude { attitude: start.turned(angle), rate_body_rad_s: rate };
+        let found = reference.step(&target, &LIMITS, DT_S);
+        assert!(reference.is_settled, "{sample}");
+        if sample >= 2500 {
+            most = most.max(found.acceleration_body_rad_s2.norm());
+            mean += found.acceleration_body_rad_s2.dot(&axis) / 2500.0;
+        }
+        let exact = start.turned(axis * (0.5 * acceleration * time_s * time_s));
+        assert!(found.attitude.rotation_vector_to(&exact).norm() < 2.0 * acceleration);
+    }
+    // A tenth of the limit; on average that of the command.
+    assert!(most < 0.1 * LIMITS.acceleration_rad_s2, "{most}");
+    assert_relative_eq!(mean, acceleration, max_relative = 0.02);
 }
 
 #[test]
@@ -212,10 +248,14 @@ fn a_rate_alone_is_reached_within_the_acceleration() {
 
 #[test]
 fn a_command_that_turns_faster_than_the_slew_rate_is_caught() {
-    let limits = SlewLimits { rate_rad_s: 5e-3, acceleration_rad_s2: 1e-3 };
-    for number in 0..20 {
-        let target = turning(random_attitude(60 + number), random_unit(number) * 0.05);
-        let mut reference = Reference::new(random_attitude(90 + number), Vector3::zeros());
-        fly(&mut reference, &limits, target, 3000.0);
+    for acceleration_rad_s2 in [1e-4, 1e-3] {
+        let limits = SlewLimits { rate_rad_s: 5e-3, acceleration_rad_s2 };
+        for number in 0..20 {
+            let target = turning(random_attitude(60 + number), random_unit(number) * 0.05);
+            let mut reference = Reference::new(random_attitude(90 + number), Vector3::zeros());
+            // Half a turn at the rate that the acceleration allows, after the rate has been reached.
+            let fastest_rad_s = limits.rate_rad_s.min(0.5 * acceleration_rad_s2 / 0.05);
+            fly(&mut reference, &limits, target, 0.05 / acceleration_rad_s2 + PI / fastest_rad_s + 60.0);
+        }
     }
 }

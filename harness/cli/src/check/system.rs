@@ -1,0 +1,28 @@
+//! `heliotorque check` of a system: that it can be read, fits its FMUs, and has their libraries.
+
+use std::path::Path;
+
+use conformance::Finding;
+use systems::System;
+
+/// What is found of a system; its FMUs are checked one by one by themselves.
+pub fn findings(path: &Path) -> Vec<Finding> {
+    let system = match System::open(path) {
+        Ok(system) => system,
+        Err(error) => return vec![Finding::bad(loader::Error::chain(&error))],
+    };
+    let (parts, joints, open) = (system.parts(), system.joints(), system.open_inputs());
+    let mut findings = vec![Finding::good(format!(
+        "{} components and {} connections fit their FMUs, {} inputs are open",
+        parts.len(),
+        joints.len(),
+        open.len()
+    ))];
+    for part in parts {
+        findings.push(match part.fmu.binary_path() {
+            Ok(_) => Finding::good(format!("component {} has a library for this computer", part.name)),
+            Err(error) => Finding::bad(format!("component {}: {error}", part.name)),
+        });
+    }
+    findings
+}

@@ -1,0 +1,53 @@
+//! `heliotorque info` of a system: its components, what is connected, what is open.
+
+use systems::System;
+
+use crate::wire::{grouped, vector, wrapped};
+
+/// The tables.
+pub fn text(system: &System) -> String {
+    let structure = system.structure();
+    let mut components =
+        terminal::table(&[structure.name.as_str(), "FMU", "model", "parameters", "open inputs"]);
+    let open = system.open_inputs();
+    for (number, part) in system.parts().iter().enumerate() {
+        let source = structure.components.get(number).map_or("", |it| it.source.as_str());
+        components.add_row([
+            part.name.clone(),
+            source.to_owned(),
+            part.fmu.name().to_owned(),
+            part.parameters.len().to_string(),
+            open.iter().filter(|input| input.0 == number).count().to_string(),
+        ]);
+    }
+    let name = |(number, position): (usize, usize)| {
+        let part = &system.parts()[number];
+        (part.name.clone(), vector(&part.fmu.description().variables[position].name))
+    };
+    let joined = grouped(system.joints().iter().map(|joint| {
+        let ((from, output), (to, input)) = (name(joint.from), name(joint.to));
+        let joined = if output == input { output } else { format!("{output} to {input}") };
+        (format!("{from} to {to}"), joined)
+    }));
+    let left = grouped(open.into_iter().map(name));
+    let experiment = system.description().default_experiment.unwrap_or_default();
+    let time =
+        |name: &str, value: Option<f64>| value.map(|value| format!("{name} {} s", terminal::short(value)));
+    let times: Vec<String> = [
+        time("start", experiment.start_time),
+        time("stop", experiment.stop_time),
+        time("step", experiment.step_size),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let lists =
+        [(joined, format!("{} connections", system.joints().len())), (left, "open inputs".to_owned())];
+    let mut text = vec![components.to_string(), format!("default experiment: {}", times.join(", "))];
+    for (groups, title) in lists {
+        let lines: Vec<String> =
+            groups.iter().map(|(of, names)| format!("\n  {of}:{}", wrapped(names))).collect();
+        text.push(format!("{title}{}", lines.concat()));
+    }
+    text.join("\n\n")
+}

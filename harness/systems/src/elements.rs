@@ -1,0 +1,142 @@
+//! Elements of SSP files, read by their local names: attributes by type, definitions that several files share.
+
+use model_description::{BaseUnit, Code, EnumerationItem, ReadError, Start, Unit, Xml};
+
+use crate::structure::Enumeration;
+
+/// The name without its prefix.
+pub fn local(start: &Start) -> &str {
+    start.name.rsplit_once(':').map_or(start.name.as_str(), |(_, name)| name)
+}
+
+/// A refusal at an element.
+pub fn refuse(start: &Start, message: String) -> ReadError {
+    ReadError::new(Code::Malformed, start.line, &start.name, message)
+}
+
+/// A refusal of an element that does not belong where it stands.
+pub fn unknown(child: &Start, parent: &Start, allowed: &str) -> ReadError {
+    refuse(child, format!("found in <{}>, allowed there: {allowed}", parent.name))
+}
+
+/// An attribute.
+pub fn attribute<'a>(start: &'a Start, name: &str) -> Option<&'a str> {
+    start.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+}
+
+/// An attribute that has to be there and not empty.
+pub fn required(start: &Start, name: &str) -> Result<String, ReadError> {
+    match attribute(start, name) {
+        Some(value) if !value.is_empty() => Ok(value.to_owned()),
+        Some(_) => Err(refuse(start, format!("attribute `{name}` is empty"))),
+        None => Err(refuse(start, format!("attribute `{name}` is missing"))),
+    }
+}
+
+/// An attribute as a value of a type.
+pub fn parsed<T: std::str::FromStr>(
+    start: &Start,
+    name: &str,
+    allowed: &str,
+) -> Result<Option<T>, ReadError> {
+    attribute(start, name)
+        .map(|text| {
+            text.trim()
+                .parse()
+                .map_err(|_| refuse(start, format!("attribute `{name}`: found {text:?}, allowed: {allowed}")))
+        })
+        .transpose()
+}
+
+/// A finite number.
+pub fn number(start: &Start, name: &str) -> Result<Option<f64>, ReadError> {
+    const ALLOWED: &str = "a finite number";
+    match parsed::<f64>(start, name, ALLOWED)? {
+        Some(number) if !number.is_finite() => {
+            Err(refuse(start, format!("attribute `{name}`: found {number}, allowed: {ALLOWED}")))
+        }
+        found => Ok(found),
+    }
+}
+
+/// A whole number.
+pub fn integer(start: &Start, name: &str) -> Result<Option<i32>, ReadError> {
+    parsed(start, name, "a whole number of 32 bits")
+}
+
+/// `true`, `false`, `1` or `0`.
+pub fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadError> {
+    match attribute(start, name).map(str::trim) {
+        None => Ok(None),
+        Some("true" | "1") => Ok(Some(true)),
+        Some("false" | "0") => Ok(Some(false)),
+        Some(text) => {
+            Err(refuse(start, format!("attribute `{name}`: found {text:?}, allowed: true, false, 1, 0")))
+        }
+    }
+}
+
+/// Reads `Units`.
+pub fn units(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Unit>, ReadError> {
+    let mut units: Vec<Unit> = Vec::new();
+    while let Some(element) = xml.child(parent)? {
+        if local(&element) != "Unit" {
+            return Err(unknown(&element, parent, "Unit"));
+        }
+        let name = required(&element, "name")?;
+        let mut base = None;
+        while let Some(child) = xml.child(&element)? {
+            if local(&child) == "BaseUnit" {
+                base = Some(base_unit(&child)?);
+            }
+            xml.skip(&child)?;
+        }
+        if base.is_none() {
+            return Err(refuse(&element, format!("unit {name:?} has no BaseUnit")));
+        }
+        units.push(Unit { name, base, display_units: Vec::new() });
+    }
+    Ok(units)
+}
+
+fn base_unit(start: &Start) -> Result<BaseUnit, ReadError> {
+    let exponent = |name: &str| Ok::<i32, ReadError>(integer(start, name)?.unwrap_or(0));
+    let factor = number(start, "factor")?.unwrap_or(1.0);
+    if factor == 0.0 {
+        return Err(refuse(start, "attribute `factor`: found 0, allowed: any other number".to_owned()));
+    }
+    Ok(BaseUnit {
+        kg: exponent("kg")?,
+        m: exponent("m")?,
+        s: exponent("s")?,
+        a: exponent("A")?,
+        k: exponent("K")?,
+        mol: exponent("mol")?,
+        cd: exponent("cd")?,
+        rad: exponent("rad")?,
+        factor,
+        offset: number(start, "offset")?.unwrap_or(0.0),
+    })
+}
+
+/// Reads `Enumerations`.
+pub fn enumerations(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Enumeration>, ReadError> {
+    let mut enumerations = Vec::new();
+    while let Some(element) = xml.child(parent)? {
+        if local(&element) != "Enumeration" {
+            return Err(unknown(&element, parent, "Enumeration"));
+        }
+        let mut items = Vec::new();
+        let name = required(&element, "name")?;
+        while let Some(child) = xml.child(&element)? {
+            if local(&child) == "Item" {
+                let value = integer(&child, "value")?
+                    .ok_or_else(|| refuse(&child, "attribute `value` is missing".to_owned()))?;
+                items.push(EnumerationItem { name: required(&child, "name")?, value, description: None });
+            }
+            xml.skip(&child)?;
+        }
+        enumerations.push(Enumeration { name, items });
+    }
+    Ok(enumerations)
+}

@@ -1,0 +1,56 @@
+//! What can be wrong with a system, each with file, place, what was found and what is allowed.
+
+use std::path::PathBuf;
+
+/// Any failure of a system.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file or folder cannot be read or written.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// Which one.
+        path: PathBuf,
+        /// What the system reports.
+        source: std::io::Error,
+    },
+    /// The archive is no usable SSP.
+    #[error("{}: not a usable SSP archive: {what}", path.display())]
+    Archive {
+        /// The archive.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// The description of the system cannot be used.
+    #[error("{}: {file}: {what}", path.display())]
+    Structure {
+        /// The SSP.
+        path: PathBuf,
+        /// The file in it.
+        file: String,
+        /// Line and element, what was found, what is allowed.
+        what: String,
+    },
+    /// A component's FMU cannot be used.
+    #[error("{}: component {component:?}: {source}", path.display())]
+    Component {
+        /// The SSP.
+        path: PathBuf,
+        /// The component.
+        component: String,
+        /// What is wrong with its FMU.
+        source: Box<loader::Error>,
+    },
+    /// What is to be wired cannot be.
+    #[error("{0}")]
+    Wire(String),
+    /// An FMI call, a value, the times of a run; the component's name is the instance's.
+    #[error(transparent)]
+    Run(Box<loader::Error>),
+}
+
+impl From<loader::Error> for Error {
+    fn from(error: loader::Error) -> Self {
+        Self::Run(Box::new(error))
+    }
+}

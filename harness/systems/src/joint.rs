@@ -1,0 +1,206 @@
+//! Connections held against the FMUs they join: names, roles, types, items, units.
+
+use loader::Fmu;
+use model_description::{Causality, ScalarVariable, VariableKind, names::similar, value};
+
+use crate::{
+    structure::{Connection, Connector, End, Kind, Linear, Signal, Structure},
+    units::{self, base, conversion, is_same_dimension},
+};
+
+/// A connection between two variables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Component and position in its `ModelVariables` of the output.
+    pub from: (usize, usize),
+    /// Component and position of the input.
+    pub to: (usize, usize),
+    /// What the value goes through, if anything.
+    pub linear: Option<Linear>,
+}
+
+/// The name of a variable's base type.
+pub fn type_name(variable: &ScalarVariable) -> &'static str {
+    match variable.kind {
+        VariableKind::Real { .. } => "Real",
+        VariableKind::Integer { .. } => "Integer",
+        VariableKind::Boolean { .. } => "Boolean",
+        VariableKind::String { .. } => "String",
+        VariableKind::Enumeration { .. } => "Enumeration",
+    }
+}
+
+/// A list of near names for a refusal.
+pub fn near<'a>(name: &str, all: impl Iterator<Item = &'a str> + Clone) -> String {
+    let found = similar(name, all.clone());
+    let shown: Vec<&str> = if found.is_empty() { all.take(12).collect() } else { found };
+    if shown.is_empty() { "none".to_owned() } else { shown.join(", ") }
+}
+
+/// Holds a component's connectors against its FMU.
+pub fn check_connector(structure: &Structure, fmu: &Fmu, connector: &Connector) -> Result<(), String> {
+    let name = &connector.name;
+    let description = fmu.description();
+    let Some(variable) = fmu.find(name) else {
+        let names = description.variables.iter().map(|variable| variable.name.as_str());
+        let model = fmu.name();
+        return Err(format!("{model} has no variable of that name, near it: {}", near(name, names)));
+    };
+    let expected = match connector.kind {
+        Kind::Input => Causality::Input,
+        Kind::Output => Causality::Output,
+        Kind::Parameter => Causality::Parameter,
+        Kind::CalculatedParameter => Causality::CalculatedParameter,
+        Kind::Inout => return Err("found kind inout, allowed for an FMU: input, output".to_owned()),
+    };
+    if variable.causality != expected {
+        let word = connector.kind.word();
+        return Err(format!("found kind {word}, the variable is of causality {:?}", variable.causality));
+    }
+    let Some(signal) = &connector.signal else { return Ok(()) };
+    if signal.word() != type_name(variable) {
+        return Err(format!("found type {}, the variable is {}", signal.word(), type_name(variable)));
+    }
+    match signal {
+        Signal::Real { unit: Some(unit) } => {
+            let own = value::unit(description, variable);
+            if own == Some(unit) {
+                return Ok(());
+            }
+            let Some(found) = base(unit, &[&structure.units, &description.units]) else {
+                return Err(format!(
+                    "found unit {unit:?}, which is not defined, allowed: {}",
+                    units::shown(own)
+                ));
+            };
+            let own_base = own.and_then(|own| base(own, &[&description.units]));
+            if own_base.is_some_and(|own| !is_same_dimension(&own, &found)) {
+                let own = units::shown(own);
+                return Err(format!("found unit {unit:?}, which measures something else than {own}"));
+            }
+            Ok(())
+        }
+        Signal::Enumeration { name } if !structure.enumerations.iter().any(|it| it.name == *name) => {
+            let all = structure.enumerations.iter().map(|it| it.name.as_str());
+            Err(format!("found Enumeration {name:?}, which is not defined, allowed: {}", near(name, all)))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// One end of a connection: component, position, variable, connector.
+struct Joined<'a> {
+    at: (usize, usize),
+    fmu: &'a Fmu,
+    variable: &'a ScalarVariable,
+    connector: &'a Connector,
+}
+
+fn find<'a>(structure: &'a Structure, fmus: &'a [Fmu], end: &End, kind: Kind) -> Result<Joined<'a>, String> {
+    let Some(name) = &end.component else {
+        let connector = &end.connector;
+        return Err(format!(
+            "found the system's own connector {connector:?}, allowed: connectors of components"
+        ));
+    };
+    let Some(number) = structure.components.iter().position(|component| component.name == *name) else {
+        let all = structure.components.iter().map(|component| component.name.as_str());
+        return Err(format!("there is no component {name:?}, allowed: {}", near(name, all)));
+    };
+    let component = &structure.components[number];
+    let fmu = &fmus[number];
+    let Some(connector) = component.connectors.iter().find(|it| it.name == end.connector) else {
+        let all = component.connectors.iter().map(|it| it.name.as_str());
+        let near = near(&end.connector, all);
+        return Err(format!("component {name:?} has no connector {:?}, near it: {near}", end.connector));
+    };
+    if connector.kind != kind {
+        let (found, allowed) = (connector.kind.word(), kind.word());
+        let place = if kind == Kind::Output { "start" } else { "end" };
+        return Err(format!("at its {place} found {end} of kind {found}, allowed: {allowed}"));
+    }
+    let position = fmu.position(&end.connector).unwrap_or_default();
+    Ok(Joined { at: (number, position), fmu, variable: &fmu.description().variables[position], connector })
+}
+
+/// Holds a connection against the FMUs.
+pub fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Joint, String> {
+    let start = find(structure, fmus, &connection.start, Kind::Output)?;
+    let end = find(structure, fmus, &connection.end, Kind::Input)?;
+    let (one, other) = (type_name(start.variable), type_name(end.variable));
+    if one != other {
+        return Err(format!("found type {one} at its start and {other} at its end, allowed: one type"));
+    }
+    if one == "String" {
+        return Err("found type String, allowed: Real, Integer, Boolean, Enumeration".to_owned());
+    }
+    if let Some(text) = foreign_item(&start, &end) {
+        return Err(text);
+    }
+    if one != "Real" && connection.transformation.is_some() {
+        return Err(format!("found a LinearTransformation of type {one}, allowed: Real"));
+    }
+    let linear = if one == "Real" { linear(structure, connection, &start, &end)? } else { Linear::IDENTITY };
+    Ok(Joint { from: start.at, to: end.at, linear: (linear != Linear::IDENTITY).then_some(linear) })
+}
+
+/// An item of the output's Enumeration that the input's does not have.
+fn foreign_item(start: &Joined<'_>, end: &Joined<'_>) -> Option<String> {
+    let allowed = value::items(end.fmu.description(), end.variable);
+    let items = value::items(start.fmu.description(), start.variable);
+    let foreign =
+        items.iter().find(|item| !allowed.iter().any(|it| it.value == item.value && it.name == item.name))?;
+    let allowed: Vec<String> = allowed.iter().map(|it| format!("{} {}", it.value, it.name)).collect();
+    Some(format!(
+        "the output may be item {} {}, which the input does not have, allowed: {}",
+        foreign.value,
+        foreign.name,
+        allowed.join(", ")
+    ))
+}
+
+/// What a Real goes through from variable to variable: to the connector's unit, to the other connector's unit, through the
+/// connection's own transformation, to the other variable's unit.
+fn linear(
+    structure: &Structure,
+    connection: &Connection,
+    start: &Joined<'_>,
+    end: &Joined<'_>,
+) -> Result<Linear, String> {
+    let own = |it: &Joined<'_>| value::unit(it.fmu.description(), it.variable).map(str::to_owned);
+    let shown = |it: &Joined<'_>| match &it.connector.signal {
+        Some(Signal::Real { unit: Some(unit) }) => Some(unit.clone()),
+        _ => own(it),
+    };
+    let between = |from: (Option<String>, &Joined<'_>), to: (Option<String>, &Joined<'_>)| {
+        let ((Some(from), of), (Some(to), at)) = (from, to) else { return Ok(Linear::IDENTITY) };
+        if from == to {
+            return Ok(Linear::IDENTITY);
+        }
+        let base = |name: &str, it: &Joined<'_>| {
+            base(name, &[&structure.units, &it.fmu.description().units])
+                .ok_or_else(|| format!("unit {name:?} is not defined, so it cannot be converted"))
+        };
+        let (one, other) = (base(&from, of)?, base(&to, at)?);
+        if !is_same_dimension(&one, &other) {
+            return Err(format!(
+                "found unit {from:?} at its start and {to:?} at its end, allowed: units of one dimension"
+            ));
+        }
+        Ok(conversion(&one, &other))
+    };
+    let converted = if connection.suppress_unit_conversion {
+        Linear::IDENTITY
+    } else {
+        between((shown(start), start), (shown(end), end))?
+    };
+    let transformation = connection.transformation.unwrap_or(Linear::IDENTITY);
+    if connection.transformation.is_some() && converted != Linear::IDENTITY {
+        return Err("found a LinearTransformation between different units, which the standard does not \
+                    put in order, allowed: suppressUnitConversion=\"true\" or equal units"
+            .to_owned());
+    }
+    let first = between((own(start), start), (shown(start), start))?;
+    let last = between((shown(end), end), (own(end), end))?;
+    Ok(first.then(converted).then(transformation).then(last))
+}

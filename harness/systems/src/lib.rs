@@ -1,0 +1,44 @@
+//! Systems of FMUs in SSP 1.0: read, checked, written, wired and simulated.
+//!
+//! [`System::open`] unpacks an SSP and holds it against its FMUs; [`simulate_into`] runs it with a fixed communication step;
+//! [`wire`] makes one of FMUs by the names of their variables. FMUs are loaded and called through `loader`.
+
+mod elements;
+mod error;
+mod exchange;
+mod experiment;
+mod joint;
+mod master;
+mod merged;
+mod package;
+mod parameter_set;
+mod parameters;
+mod reader;
+mod recorder;
+mod simulate;
+mod structure;
+mod system;
+mod units;
+mod wire;
+mod writer;
+
+pub use error::Error;
+pub use joint::Joint;
+pub use master::{FirstExchange, Master};
+pub use package::is_system;
+pub use simulate::{Options, simulate_into};
+pub use structure::{
+    Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Linear, Parameter,
+    ParameterSet, SSD_FILE, Signal, Structure, Written,
+};
+pub use system::{Part, System};
+pub use wire::{Left, Wired, component_name, wire};
+pub use writer::to_xml;
+
+/// Reads the bytes of a `SystemStructure.ssd`.
+///
+/// # Errors
+/// XML that is not well-formed, and what cannot be simulated here.
+pub fn read_structure(bytes: &[u8]) -> Result<Structure, model_description::ReadError> {
+    reader::read(bytes)
+}

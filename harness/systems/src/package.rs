@@ -1,0 +1,116 @@
+//! An SSP on disk: unpacked without trusting it, its FMUs unpacked in place of their files.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use files::Scratch;
+use loader::Limits;
+use percent_encoding::percent_decode_str;
+
+use crate::{error::Error, structure::SSD_FILE};
+
+/// Whether a path is that of a system and not of an FMU: an `.ssp` file, or a folder with a description of one.
+pub fn is_system(path: &Path) -> bool {
+    path.extension().is_some_and(|it| it.eq_ignore_ascii_case("ssp")) || path.join(SSD_FILE).is_file()
+}
+
+/// An unpacked SSP.
+#[derive(Debug)]
+pub struct Package {
+    /// What it was opened from.
+    pub source: PathBuf,
+    /// Where it is unpacked.
+    pub folder: PathBuf,
+    // Removed with the package.
+    _temporary: Option<Scratch>,
+}
+
+impl Package {
+    /// Unpacks an `.ssp` file, or takes the folder that one was unpacked into.
+    pub fn open(path: &Path) -> Result<Self, Error> {
+        let at_path = |source| Error::File { path: path.to_owned(), source };
+        if std::fs::metadata(path).map_err(at_path)?.is_dir() {
+            let folder = std::path::absolute(path).map_err(at_path)?;
+            return Ok(Self { source: path.to_owned(), folder, _temporary: None });
+        }
+        let temporary = Scratch::new("heliotorque-")
+            .map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
+        loader::unpack(path, temporary.path(), Limits::default()).map_err(|error| match error {
+            loader::Error::Archive { path, what } => Error::Archive { path, what },
+            loader::Error::File { path, source } => Error::File { path, source },
+            other => other.into(),
+        })?;
+        let folder = temporary.path().to_owned();
+        Ok(Self { source: path.to_owned(), folder, _temporary: Some(temporary) })
+    }
+
+    /// A file of the SSP.
+    pub fn read(&self, relative: &str) -> Result<Vec<u8>, Error> {
+        let refuse = |what: String| self.structure(relative, what);
+        let path = self.path(relative).map_err(refuse)?;
+        files::read(&path).map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound if relative == SSD_FILE => Error::Archive {
+                path: self.source.clone(),
+                what: format!("it holds no {SSD_FILE}, so it is no system"),
+            },
+            io::ErrorKind::NotFound => refuse(format!("there is no such file in the SSP{}", self.listed())),
+            _ => Error::File { path, source: error },
+        })
+    }
+
+    /// Where a file of the SSP is; `source` is a relative URI.
+    pub fn path(&self, source: &str) -> Result<PathBuf, String> {
+        let decoded = percent_decode_str(source).decode_utf8_lossy();
+        let inside = loader::path_inside(&decoded).ok_or_else(|| {
+            format!("found {source:?}, allowed: a path in the SSP such as resources/plant.fmu")
+        })?;
+        Ok(self.folder.join(inside))
+    }
+
+    /// The folder that an FMU of the SSP is unpacked into: where its file was.
+    pub fn fmu_folder(&self, source: &str) -> Result<PathBuf, Error> {
+        let refuse = |what: String| self.structure(SSD_FILE, what);
+        let path = self.path(source).map_err(refuse)?;
+        if path.is_dir() {
+            return Ok(path);
+        }
+        if !path.is_file() {
+            return Err(refuse(format!("{source:?} is not in the SSP{}", self.listed())));
+        }
+        let into = path.with_extension("unpacked");
+        let failed = |path: &Path| {
+            let path = path.to_owned();
+            move |source| Error::File { path, source }
+        };
+        std::fs::create_dir(&into).map_err(failed(&into))?;
+        loader::unpack(&path, &into, Limits::default())
+            .map_err(|error| refuse(format!("{source:?}: {}", reason(&error))))?;
+        std::fs::remove_file(&path).map_err(failed(&path))?;
+        std::fs::rename(&into, &path).map_err(failed(&into))?;
+        Ok(path)
+    }
+
+    /// A refusal of what stands in a file of the SSP.
+    pub fn structure(&self, file: &str, what: String) -> Error {
+        Error::Structure { path: self.source.clone(), file: file.to_owned(), what }
+    }
+
+    /// What is in the resources, for refusals.
+    fn listed(&self) -> String {
+        let entries = std::fs::read_dir(self.folder.join("resources")).into_iter().flatten().flatten();
+        let mut names: Vec<String> =
+            entries.map(|entry| format!("resources/{}", entry.file_name().to_string_lossy())).collect();
+        names.sort();
+        if names.is_empty() { String::new() } else { format!(", allowed: {}", names.join(", ")) }
+    }
+}
+
+/// What is wrong with an archive, without the path of the copy that was looked at.
+fn reason(error: &loader::Error) -> String {
+    match error {
+        loader::Error::Archive { what, .. } => format!("not a usable FMU archive: {what}"),
+        other => loader::Error::chain(other),
+    }
+}

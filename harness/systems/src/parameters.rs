@@ -1,0 +1,121 @@
+//! Parameter bindings of a system as values of its FMUs' variables.
+
+use loader::{Fmu, Value};
+use model_description::{ScalarVariable, Unit, value};
+
+use crate::{
+    joint::{near, type_name},
+    structure::{Parameter, ParameterSet, Structure, Written},
+    units::{base, conversion, is_same_dimension, shown},
+};
+
+/// A value of a component's variable, by the component's number.
+pub type Assigned = (usize, String, Value);
+
+/// The values of a parameter set. `component` is where the binding stands; a system's parameters name theirs.
+pub fn values(
+    structure: &Structure,
+    fmus: &[Fmu],
+    component: Option<usize>,
+    prefix: &str,
+    set: &ParameterSet,
+) -> Result<Vec<Assigned>, (u32, String)> {
+    let mut found = Vec::new();
+    for parameter in &set.parameters {
+        let name = format!("{prefix}{}", parameter.name);
+        let refuse = |what: String| (parameter.line, format!("parameter {name:?}: {what}"));
+        let (number, name) = match component {
+            Some(number) => (number, name.as_str()),
+            None => owner(structure, &name).ok_or_else(|| {
+                let all = structure.components.iter().map(|it| it.name.as_str());
+                refuse(format!("found no component before the name, allowed: one of {}", near(&name, all)))
+            })?,
+        };
+        let fmu = &fmus[number];
+        let variable = fmu.find(name).ok_or_else(|| {
+            let names = fmu.description().variables.iter().map(|variable| variable.name.as_str());
+            refuse(format!("{} has no variable {name:?}, near it: {}", fmu.name(), near(name, names)))
+        })?;
+        let value = read(fmu, variable, parameter, &[&set.units, &structure.units]).map_err(refuse)?;
+        found.push((number, variable.name.clone(), value));
+    }
+    Ok(found)
+}
+
+/// The component whose name begins a parameter's, and the rest of the name.
+fn owner<'a>(structure: &Structure, name: &'a str) -> Option<(usize, &'a str)> {
+    let rest = |component: &str| name.strip_prefix(component)?.strip_prefix('.');
+    let named = structure.components.iter().enumerate();
+    named
+        .filter_map(|(number, it)| rest(&it.name).map(|rest| (it.name.len(), number, rest)))
+        .max_by_key(|(length, ..)| *length)
+        .map(|(_, number, rest)| (number, rest))
+}
+
+fn read(
+    fmu: &Fmu,
+    variable: &ScalarVariable,
+    parameter: &Parameter,
+    units: &[&[Unit]],
+) -> Result<Value, String> {
+    loader::set_early(variable).map_err(|error| error.to_string())?;
+    let description = fmu.description();
+    let mismatch = |found: &str| format!("found type {found}, allowed: {}", type_name(variable));
+    let value = match &parameter.value {
+        Written::Real { value, unit } if type_name(variable) == "Real" => {
+            Value::Real(in_own_unit(fmu, variable, *value, unit.as_deref(), units)?)
+        }
+        Written::Integer(value) if type_name(variable) == "Integer" => Value::Integer(*value),
+        Written::Boolean(value) if type_name(variable) == "Boolean" => Value::Boolean(*value),
+        Written::Text(value) if type_name(variable) == "String" => Value::Text(value.clone()),
+        Written::Enumeration(name) if type_name(variable) == "Enumeration" => {
+            let items = value::items(description, variable);
+            let item = items.iter().find(|item| item.name == *name).ok_or_else(|| {
+                let all = items.iter().map(|item| item.name.as_str());
+                format!("found item {name:?}, allowed: {}", near(name, all))
+            })?;
+            Value::Integer(item.value)
+        }
+        Written::Real { .. } => return Err(mismatch("Real")),
+        Written::Integer(_) => return Err(mismatch("Integer")),
+        Written::Boolean(_) => return Err(mismatch("Boolean")),
+        Written::Text(_) => return Err(mismatch("String")),
+        Written::Enumeration(_) => return Err(mismatch("Enumeration")),
+    };
+    value::check(description, variable, &value).map_err(|misfit| misfit.to_string())?;
+    Ok(value)
+}
+
+/// A number in the variable's own unit. Units are those of the files, of the FMU, and the FMU's display units.
+fn in_own_unit(
+    fmu: &Fmu,
+    variable: &ScalarVariable,
+    number: f64,
+    unit: Option<&str>,
+    lists: &[&[Unit]],
+) -> Result<f64, String> {
+    let description = fmu.description();
+    let own = value::unit(description, variable);
+    let (Some(unit), Some(own)) = (unit, own) else {
+        return match unit {
+            Some(unit) if unit != "1" => Err(format!("found unit {unit:?}, allowed: {}", shown(own))),
+            _ => Ok(number),
+        };
+    };
+    if unit == own {
+        return Ok(number);
+    }
+    let definition = description.units.iter().find(|it| it.name == own);
+    let all: Vec<&[Unit]> = lists.iter().copied().chain([description.units.as_slice()]).collect();
+    if let (Some(found), Some(own_base)) = (base(unit, &all), definition.and_then(|it| it.base)) {
+        if !is_same_dimension(&found, &own_base) {
+            return Err(format!("found unit {unit:?}, which measures something else than {own:?}"));
+        }
+        return Ok(conversion(&found, &own_base).of(number));
+    }
+    let displays = definition.map(|it| it.display_units.as_slice()).unwrap_or_default();
+    match displays.iter().find(|display| display.name == unit) {
+        Some(display) => Ok((number - display.offset) / display.factor),
+        None => Err(format!("found unit {unit:?}, which is not defined, allowed: {own}, units of the files")),
+    }
+}

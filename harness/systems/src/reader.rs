@@ -1,0 +1,247 @@
+//! Reads `SystemStructure.ssd` (SSP 1.0, section 5). What cannot be simulated here is refused by its name.
+
+use model_description::{ReadError, Start, Xml};
+
+use crate::{
+    elements::{attribute, boolean, enumerations, local, number, parsed, refuse, required, units, unknown},
+    parameter_set,
+    structure::{
+        Binding, Component, Connection, Connector, End, Experiment, Kind, Linear, Signal, Structure,
+    },
+};
+
+/// Type of the annotation that holds the step, which SSP has no attribute for.
+pub const STEP_ANNOTATION: &str = "heliotorque";
+/// The only type of component that is simulated.
+const FMU_TYPE: &str = "application/x-fmu-sharedlibrary";
+/// The only type of parameters that is read.
+const SSV_TYPE: &str = "application/x-ssp-parameter-set";
+const CONNECTOR_TYPES: &str = "Real, Integer, Boolean, String, Enumeration, Binary";
+
+/// Reads the bytes of a file.
+pub fn read(bytes: &[u8]) -> Result<Structure, ReadError> {
+    let mut xml = Xml::new(bytes)?;
+    let root = xml.root()?;
+    if local(&root) != "SystemStructureDescription" {
+        let message = "found at the root, allowed: SystemStructureDescription of SSP 1.0".to_owned();
+        return Err(refuse(&root, message));
+    }
+    let version = required(&root, "version")?;
+    if !version.starts_with("1.") {
+        return Err(refuse(&root, format!("attribute `version`: found {version:?}, allowed: 1.0")));
+    }
+    let mut structure = Structure { name: required(&root, "name")?, ..Structure::default() };
+    let mut has_system = false;
+    while let Some(child) = xml.child(&root)? {
+        match local(&child) {
+            "System" => {
+                has_system = true;
+                system(&mut xml, &child, &mut structure)?;
+            }
+            "Enumerations" => structure.enumerations = enumerations(&mut xml, &child)?,
+            "Units" => structure.units = units(&mut xml, &child)?,
+            "DefaultExperiment" => structure.experiment = experiment(&mut xml, &child)?,
+            "Annotations" => xml.skip(&child)?,
+            _ => {
+                let allowed = "System, Enumerations, Units, DefaultExperiment, Annotations";
+                return Err(unknown(&child, &root, allowed));
+            }
+        }
+    }
+    if !has_system {
+        return Err(refuse(&root, "has no System".to_owned()));
+    }
+    xml.finish()?;
+    Ok(structure)
+}
+
+fn system(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result<(), ReadError> {
+    while let Some(child) = xml.child(start)? {
+        match local(&child) {
+            "Elements" => elements(xml, &child, structure)?,
+            "Connections" => {
+                while let Some(element) = xml.child(&child)? {
+                    if local(&element) != "Connection" {
+                        return Err(unknown(&element, &child, "Connection"));
+                    }
+                    structure.connections.push(connection(xml, &element)?);
+                }
+            }
+            "ParameterBindings" => structure.bindings = bindings(xml, &child)?,
+            // A connection that uses one is refused; alone they mean nothing.
+            "Connectors" => xml.skip(&child)?,
+            "SignalDictionaries" => {
+                return Err(refuse(&child, "signal dictionaries are not simulated here".to_owned()));
+            }
+            "ElementGeometry" | "SystemGeometry" | "GraphicalElements" | "Annotations" => xml.skip(&child)?,
+            _ => {
+                let allowed = "Connectors, ParameterBindings, Elements, Connections, geometry, Annotations";
+                return Err(unknown(&child, start, allowed));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn elements(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result<(), ReadError> {
+    while let Some(child) = xml.child(start)? {
+        match local(&child) {
+            "Component" => structure.components.push(component(xml, &child)?),
+            "System" => {
+                let name = attribute(&child, "name").unwrap_or_default();
+                let message = format!("system {name:?} stands in a system, allowed: components alone");
+                return Err(refuse(&child, message));
+            }
+            _ => return Err(unknown(&child, start, "Component")),
+        }
+    }
+    Ok(())
+}
+
+fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
+    let name = required(start, "name")?;
+    for (key, allowed) in [("type", &[FMU_TYPE][..]), ("implementation", &["any", "CoSimulation"])] {
+        if let Some(found) = attribute(start, key).filter(|found| !allowed.contains(found)) {
+            let allowed = allowed.join(", ");
+            let message = format!("component {name:?}: {key} {found:?} is not simulated, allowed: {allowed}");
+            return Err(refuse(start, message));
+        }
+    }
+    let source = required(start, "source")?;
+    let mut component = Component { name, source, line: start.line, ..Component::default() };
+    while let Some(child) = xml.child(start)? {
+        match local(&child) {
+            "Connectors" => {
+                while let Some(element) = xml.child(&child)? {
+                    if local(&element) != "Connector" {
+                        return Err(unknown(&element, &child, "Connector"));
+                    }
+                    component.connectors.push(connector(xml, &element)?);
+                }
+            }
+            "ParameterBindings" => component.bindings = bindings(xml, &child)?,
+            "ElementGeometry" | "Annotations" => xml.skip(&child)?,
+            _ => {
+                let allowed = "Connectors, ParameterBindings, ElementGeometry, Annotations";
+                return Err(unknown(&child, start, allowed));
+            }
+        }
+    }
+    Ok(component)
+}
+
+fn connector(xml: &mut Xml<'_>, start: &Start) -> Result<Connector, ReadError> {
+    let name = required(start, "name")?;
+    let word = required(start, "kind")?;
+    let Some((kind, _)) = Kind::WORDS.into_iter().find(|(_, known)| *known == word) else {
+        let allowed = Kind::WORDS.map(|(_, word)| word).join(", ");
+        let message = format!("connector {name:?}: found kind {word:?}, allowed: {allowed}");
+        return Err(refuse(start, message));
+    };
+    let mut signal = None;
+    while let Some(child) = xml.child(start)? {
+        match local(&child) {
+            "Real" => {
+                signal = Some(Signal::Real { unit: attribute(&child, "unit").map(str::to_owned) });
+            }
+            "Integer" => signal = Some(Signal::Integer),
+            "Boolean" => signal = Some(Signal::Boolean),
+            "String" => signal = Some(Signal::Text),
+            "Binary" => signal = Some(Signal::Binary),
+            "Enumeration" => signal = Some(Signal::Enumeration { name: required(&child, "name")? }),
+            "ConnectorGeometry" | "Annotations" => {}
+            _ => return Err(unknown(&child, start, CONNECTOR_TYPES)),
+        }
+        xml.skip(&child)?;
+    }
+    Ok(Connector { name, kind, signal, line: start.line })
+}
+
+fn connection(xml: &mut Xml<'_>, start: &Start) -> Result<Connection, ReadError> {
+    let end = |element: &str, connector: &str| {
+        Ok::<_, ReadError>(End {
+            component: attribute(start, element).map(str::to_owned),
+            connector: required(start, connector)?,
+        })
+    };
+    let mut connection = Connection {
+        start: end("startElement", "startConnector")?,
+        end: end("endElement", "endConnector")?,
+        transformation: None,
+        suppress_unit_conversion: boolean(start, "suppressUnitConversion")?.unwrap_or(false),
+        line: start.line,
+    };
+    while let Some(child) = xml.child(start)? {
+        match local(&child) {
+            "LinearTransformation" => {
+                connection.transformation = Some(Linear {
+                    factor: number(&child, "factor")?.unwrap_or(1.0),
+                    offset: number(&child, "offset")?.unwrap_or(0.0),
+                });
+            }
+            "ConnectionGeometry" | "Annotations" => {}
+            _ => return Err(unknown(&child, start, "LinearTransformation")),
+        }
+        xml.skip(&child)?;
+    }
+    Ok(connection)
+}
+
+fn bindings(xml: &mut Xml<'_>, start: &Start) -> Result<Vec<Binding>, ReadError> {
+    let mut bindings = Vec::new();
+    while let Some(element) = xml.child(start)? {
+        if local(&element) != "ParameterBinding" {
+            return Err(unknown(&element, start, "ParameterBinding"));
+        }
+        for (key, allowed) in [("type", SSV_TYPE), ("sourceBase", "SSD")] {
+            if let Some(found) = attribute(&element, key).filter(|found| *found != allowed) {
+                return Err(refuse(&element, format!("{key} {found:?} is not read, allowed: {allowed}")));
+            }
+        }
+        let mut binding = Binding {
+            source: attribute(&element, "source").map(str::to_owned),
+            prefix: attribute(&element, "prefix").unwrap_or_default().to_owned(),
+            sets: Vec::new(),
+            line: element.line,
+        };
+        while let Some(child) = xml.child(&element)? {
+            match local(&child) {
+                "ParameterValues" => {
+                    while let Some(set) = xml.child(&child)? {
+                        if local(&set) != "ParameterSet" {
+                            return Err(unknown(&set, &child, "ParameterSet"));
+                        }
+                        binding.sets.push(parameter_set::element(xml, &set)?);
+                    }
+                }
+                "Annotations" => xml.skip(&child)?,
+                _ => return Err(unknown(&child, &element, "ParameterValues, Annotations")),
+            }
+        }
+        bindings.push(binding);
+    }
+    Ok(bindings)
+}
+
+fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<Experiment, ReadError> {
+    let mut experiment =
+        Experiment { start_s: number(start, "startTime")?, stop_s: number(start, "stopTime")?, step_s: None };
+    while let Some(annotations) = xml.child(start)? {
+        if local(&annotations) != "Annotations" {
+            return Err(unknown(&annotations, start, "Annotations"));
+        }
+        while let Some(annotation) = xml.child(&annotations)? {
+            if attribute(&annotation, "type") != Some(STEP_ANNOTATION) {
+                xml.skip(&annotation)?;
+                continue;
+            }
+            while let Some(child) = xml.child(&annotation)? {
+                if local(&child) == "Step" {
+                    experiment.step_s = parsed(&child, "size", "a number of seconds")?;
+                }
+                xml.skip(&child)?;
+            }
+        }
+    }
+    Ok(experiment)
+}

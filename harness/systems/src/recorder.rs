@@ -1,0 +1,98 @@
+//! Rows of a system's recording: every component read by one call a base type.
+
+use loader::{Error, Instance, Row, Rows};
+use model_description::VariableKind;
+
+use crate::system::System;
+
+/// Recorded variables of one component and base type: references, and where their values stand in a row.
+#[derive(Debug, Default)]
+struct Group {
+    references: Vec<u32>,
+    places: Vec<usize>,
+}
+
+/// Reads the recorded variables of all components.
+pub struct Recorder {
+    /// By component, then by base type: Reals, Integers, Booleans, Strings.
+    groups: Vec<[Group; 4]>,
+    reals: Vec<f64>,
+    integers: Vec<i32>,
+    booleans: Vec<i32>,
+    texts: Vec<String>,
+    read_reals: Vec<f64>,
+    read_integers: Vec<i32>,
+}
+
+impl Recorder {
+    /// Of variables of the system's description, by their positions.
+    pub fn new(system: &System, positions: &[usize]) -> Self {
+        let mut groups: Vec<[Group; 4]> = system.parts().iter().map(|_| Default::default()).collect();
+        let mut sizes = [0; 4];
+        for &position in positions {
+            let variable = &system.description().variables[position];
+            let base = match variable.kind {
+                VariableKind::Real { .. } => 0,
+                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
+                VariableKind::Boolean { .. } => 2,
+                VariableKind::String { .. } => 3,
+            };
+            let group = &mut groups[system.origin(position).0][base];
+            group.references.push(variable.value_reference);
+            group.places.push(sizes[base]);
+            sizes[base] += 1;
+        }
+        let [reals, integers, booleans, texts] = sizes;
+        Self {
+            groups,
+            reals: vec![0.0; reals],
+            integers: vec![0; integers],
+            booleans: vec![0; booleans],
+            texts: vec![String::new(); texts],
+            read_reals: Vec::with_capacity(reals),
+            read_integers: Vec::with_capacity(integers.max(booleans)),
+        }
+    }
+
+    /// Hands one row on; a Real that is NaN is an error.
+    pub fn record(
+        &mut self,
+        instances: &mut [Instance],
+        time_s: f64,
+        rows: &mut dyn Rows,
+    ) -> Result<(), Error> {
+        for (instance, [reals, integers, booleans, texts]) in instances.iter_mut().zip(&self.groups) {
+            if !reals.references.is_empty() {
+                self.read_reals.resize(reals.references.len(), 0.0);
+                instance.get_reals(&reals.references, &mut self.read_reals)?;
+                if let Some(at) = self.read_reals.iter().position(|value| value.is_nan()) {
+                    return Err(instance.not_a_number(reals.references[at], time_s));
+                }
+                scatter(&self.read_reals, &reals.places, &mut self.reals);
+            }
+            for (group, to) in [(integers, &mut self.integers), (booleans, &mut self.booleans)] {
+                if !group.references.is_empty() {
+                    self.read_integers.resize(group.references.len(), 0);
+                    if std::ptr::eq(group, integers) {
+                        instance.get_integers(&group.references, &mut self.read_integers)?;
+                    } else {
+                        instance.get_booleans(&group.references, &mut self.read_integers)?;
+                    }
+                    scatter(&self.read_integers, &group.places, to);
+                }
+            }
+            if !texts.references.is_empty() {
+                let read = instance.get_strings(&texts.references)?;
+                scatter(&read, &texts.places, &mut self.texts);
+            }
+        }
+        let Self { reals, integers, booleans, texts, .. } = self;
+        rows.take(&Row { time_s, reals, integers, booleans, texts })
+    }
+}
+
+fn scatter<T: Clone>(read: &[T], places: &[usize], row: &mut [T]) {
+    for (value, &place) in read.iter().zip(places) {
+        row[place].clone_from(value);
+    }
+}

@@ -1,0 +1,160 @@
+//! Runs a system from start to stop and hands the recorded rows on.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use loader::{Ended, Error, InputTable, InstanceOptions, LogMessage, Rows, Value};
+
+use crate::{
+    master::{FirstExchange, Master, Running, Stepped},
+    recorder::Recorder,
+    system::System,
+};
+
+/// What to simulate. `Options::default()` runs the system's default experiment and records the outputs of all components.
+#[derive(Default)]
+pub struct Options<'a> {
+    /// Start in s; otherwise the default experiment's.
+    pub start_s: Option<f64>,
+    /// Stop in s; otherwise the default experiment's.
+    pub stop_s: Option<f64>,
+    /// Communication step in s; otherwise the default experiment's.
+    pub step_s: Option<f64>,
+    /// Record at most this often, in s; otherwise at every step.
+    pub record_every_s: Option<f64>,
+    /// Values set before the run, by `component.variable`; they win over the system's parameters.
+    pub sets: Vec<(String, Value)>,
+    /// Inputs over time, of the system's description; held over each step.
+    pub inputs: Option<&'a InputTable>,
+    /// Positions in the system's description to record; `None` means every output.
+    pub record: Option<Vec<usize>>,
+    /// In which order components step.
+    pub master: Master,
+    /// What connected inputs are in the first step.
+    pub first_exchange: FirstExchange,
+    /// How to instantiate.
+    pub instance: InstanceOptions,
+    /// Told the time in s after every step.
+    pub progress: Option<&'a mut dyn FnMut(f64)>,
+    /// Once true, the run ends after the step under way.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+/// Runs a system. Communication points are `start + k*step`; the last step ends at the stop time. The first row is of the
+/// start. Also gives what the instances logged.
+///
+/// # Errors
+/// The first call that failed, with the component's name as the instance's.
+pub fn simulate_into(
+    system: &System,
+    mut options: Options<'_>,
+    rows: &mut dyn Rows,
+) -> Result<(Ended, Vec<LogMessage>), Error> {
+    let times = system.times(options.start_s, options.stop_s, options.step_s)?;
+    let every = loader::steps_between_points(&times, options.record_every_s)?;
+    let positions = options.record.take().unwrap_or_else(|| loader::outputs(system.description()));
+    let mut recorder = Recorder::new(system, &positions);
+    let mut inputs = options.inputs.map(|table| HeldInputs::new(system, table)).transpose()?;
+    let mut sets = own_sets(system, &options.sets)?;
+    if let Some(inputs) = &mut inputs {
+        sets.extend(inputs.at_start(times.start_s));
+    }
+    let way = (options.master, options.first_exchange);
+    let mut running = Running::start(system, way, &times, &options.instance, &sets)?;
+    recorder.record(running.instances(), times.start_s, rows)?;
+    let steps = times.steps();
+    for k in 0..steps {
+        let (time_s, end_s) = (times.point_s(k), times.point_s(k + 1));
+        if let Some(inputs) = &mut inputs {
+            inputs.set(&mut running, time_s)?;
+        }
+        // Every step but the last has the step size itself: not each difference of two points is it to the bit.
+        let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
+        if let Stepped::Ended(ended_s) = running.step(time_s, step_s)? {
+            if ended_s > time_s {
+                recorder.record(running.instances(), ended_s, rows)?;
+            }
+            return Ok((Ended::ByItself, running.messages()));
+        }
+        let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+        if (k + 1) % every == 0 || k + 1 == steps || cancelled {
+            recorder.record(running.instances(), end_s, rows)?;
+        }
+        if let Some(progress) = options.progress.as_mut() {
+            progress(end_s);
+        }
+        if cancelled && k + 1 < steps {
+            return Ok((Ended::Cancelled, running.messages()));
+        }
+    }
+    running.terminate()?;
+    Ok((Ended::AtStop, running.messages()))
+}
+
+/// Values by component and its variable's name. A connected input is refused: its value would not last.
+fn own_sets(system: &System, sets: &[(String, Value)]) -> Result<Vec<(usize, String, Value)>, Error> {
+    let variables = &system.description().variables;
+    sets.iter()
+        .map(|(name, value)| {
+            let position = variables.iter().position(|it| it.name == *name);
+            let position = position.ok_or_else(|| Error::Value {
+                variable: name.clone(),
+                what: "the system has no such variable".to_owned(),
+            })?;
+            let (number, at) = system.origin(position);
+            refuse_connected(system, (number, at), name)?;
+            Ok((number, system.parts()[number].fmu.description().variables[at].name.clone(), value.clone()))
+        })
+        .collect()
+}
+
+fn refuse_connected(system: &System, input: (usize, usize), name: &str) -> Result<(), Error> {
+    let Some(joint) = system.joints().iter().find(|joint| joint.to == input) else { return Ok(()) };
+    let part = &system.parts()[joint.from.0];
+    let output = &part.fmu.description().variables[joint.from.1].name;
+    Err(Error::Value {
+        variable: name.to_owned(),
+        what: format!("it is connected to {}.{output}, allowed: open inputs and parameters", part.name),
+    })
+}
+
+/// Open inputs from a table, each set only when it changes.
+struct HeldInputs<'a> {
+    table: &'a InputTable,
+    /// Component, position in its `ModelVariables`.
+    columns: Vec<(usize, usize)>,
+    names: Vec<String>,
+    last: Vec<Option<Value>>,
+}
+
+impl<'a> HeldInputs<'a> {
+    fn new(system: &System, table: &'a InputTable) -> Result<Self, Error> {
+        let (mut columns, mut names) = (Vec::new(), Vec::new());
+        for position in table.positions() {
+            let column = system.origin(position);
+            refuse_connected(system, column, &system.description().variables[position].name)?;
+            columns.push(column);
+            names.push(system.parts()[column.0].fmu.description().variables[column.1].name.clone());
+        }
+        let last = vec![None; columns.len()];
+        Ok(Self { table, columns, names, last })
+    }
+
+    /// The values of the start, which initialization takes.
+    fn at_start(&mut self, time_s: f64) -> Vec<(usize, String, Value)> {
+        let columns = self.columns.iter().zip(&self.names).enumerate();
+        columns.map(|(column, (of, name))| (of.0, name.clone(), self.table.value(column, time_s))).collect()
+    }
+
+    fn set(&mut self, running: &mut Running, time_s: f64) -> Result<(), Error> {
+        for (column, &(number, position)) in self.columns.iter().enumerate() {
+            let value = self.table.value(column, time_s);
+            if self.last[column].as_ref() != Some(&value) {
+                let instance = &mut running.instances()[number];
+                let fmu = instance.fmu().clone();
+                instance.set_variable(&fmu.description().variables[position], &value)?;
+                self.last[column] = Some(value);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,233 @@
+//! The content of a `SystemStructure.ssd` and of parameter sets as plain values (SSP 1.0, sections 5 and 6).
+
+use model_description::{EnumerationItem, Unit};
+
+/// The description of a system, where it begins in an SSP.
+pub const SSD_FILE: &str = "SystemStructure.ssd";
+
+/// A system of components.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Structure {
+    /// The system's name.
+    pub name: String,
+    /// Its components, in the order in which a master calls them.
+    pub components: Vec<Component>,
+    /// What goes where.
+    pub connections: Vec<Connection>,
+    /// Parameters of all components, named `component.parameter`.
+    pub bindings: Vec<Binding>,
+    /// Enumerations that connectors name.
+    pub enumerations: Vec<Enumeration>,
+    /// Units that connectors name.
+    pub units: Vec<Unit>,
+    /// When to start, stop and step.
+    pub experiment: Experiment,
+}
+
+/// A component: one FMU.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Component {
+    /// Its name in the system.
+    pub name: String,
+    /// Where its FMU is in the archive.
+    pub source: String,
+    /// What of it is shown to the system.
+    pub connectors: Vec<Connector>,
+    /// Its parameters.
+    pub bindings: Vec<Binding>,
+    /// Line in the file.
+    pub line: u32,
+}
+
+/// A connector of a component: a variable of its FMU.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Connector {
+    /// The variable's name.
+    pub name: String,
+    /// Its role.
+    pub kind: Kind,
+    /// Its type, where it is told.
+    pub signal: Option<Signal>,
+    /// Line in the file.
+    pub line: u32,
+}
+
+/// The role of a connector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the standard's own words")]
+pub enum Kind {
+    Input,
+    Output,
+    Parameter,
+    CalculatedParameter,
+    Inout,
+}
+
+impl Kind {
+    /// All with the standard's words.
+    pub const WORDS: [(Self, &'static str); 5] = [
+        (Self::Input, "input"),
+        (Self::Output, "output"),
+        (Self::Parameter, "parameter"),
+        (Self::CalculatedParameter, "calculatedParameter"),
+        (Self::Inout, "inout"),
+    ];
+
+    /// The standard's word.
+    pub fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|(kind, _)| *kind == self).map_or("", |(_, word)| word)
+    }
+}
+
+/// The type of a connector.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Signal {
+    /// A Real in a unit.
+    Real {
+        /// The unit; otherwise the variable's.
+        unit: Option<String>,
+    },
+    /// An Integer.
+    Integer,
+    /// A Boolean.
+    Boolean,
+    /// A String.
+    Text,
+    /// An Enumeration of the system.
+    Enumeration {
+        /// Which one.
+        name: String,
+    },
+    /// Binary data.
+    Binary,
+}
+
+impl Signal {
+    /// The standard's word.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Real { .. } => "Real",
+            Self::Integer => "Integer",
+            Self::Boolean => "Boolean",
+            Self::Text => "String",
+            Self::Enumeration { .. } => "Enumeration",
+            Self::Binary => "Binary",
+        }
+    }
+}
+
+/// An Enumeration of the system.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Enumeration {
+    /// Its name.
+    pub name: String,
+    /// Its items.
+    pub items: Vec<EnumerationItem>,
+}
+
+/// A connection from an output to an input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Connection {
+    /// Where the value comes from.
+    pub start: End,
+    /// Where it goes.
+    pub end: End,
+    /// What is done to it on the way.
+    pub transformation: Option<Linear>,
+    /// Whether units are not converted.
+    pub suppress_unit_conversion: bool,
+    /// Line in the file.
+    pub line: u32,
+}
+
+/// One end of a connection.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct End {
+    /// The component; `None` is the system itself.
+    pub component: Option<String>,
+    /// The connector.
+    pub connector: String,
+}
+
+impl std::fmt::Display for End {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match &self.component {
+            Some(component) => write!(f, "{component}.{}", self.connector),
+            None => f.write_str(&self.connector),
+        }
+    }
+}
+
+/// y = factor x + offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the standard's own words")]
+pub struct Linear {
+    pub factor: f64,
+    pub offset: f64,
+}
+
+/// Parameters of a system or of a component.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Binding {
+    /// The file with the values, relative to the archive; otherwise they stand in `sets`.
+    pub source: Option<String>,
+    /// Goes before every name.
+    pub prefix: String,
+    /// The values.
+    pub sets: Vec<ParameterSet>,
+    /// Line in the file.
+    pub line: u32,
+}
+
+/// A set of parameters with their values.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct ParameterSet {
+    /// Its name.
+    pub name: String,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// Units that they name.
+    pub units: Vec<Unit>,
+}
+
+/// A parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its value.
+    pub value: Written,
+    /// Line in the file.
+    pub line: u32,
+}
+
+/// The value of a parameter as it is written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Written {
+    /// A Real.
+    Real {
+        /// The number.
+        value: f64,
+        /// Its unit; otherwise the variable's.
+        unit: Option<String>,
+    },
+    /// An Integer.
+    Integer(i32),
+    /// A Boolean.
+    Boolean(bool),
+    /// A String.
+    Text(String),
+    /// The name of an item.
+    Enumeration(String),
+}
+
+/// When a run starts and stops, and its step, in s.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Experiment {
+    /// Start.
+    pub start_s: Option<f64>,
+    /// Stop.
+    pub stop_s: Option<f64>,
+    /// Communication step; SSP has no place for it but an annotation.
+    pub step_s: Option<f64>,
+}

@@ -1,0 +1,231 @@
+//! A system opened from an SSP: its components with their FMUs, its connections and parameters, all checked.
+
+use std::{collections::HashMap, path::Path};
+
+use loader::{Fmu, Times, Value};
+use model_description::{Causality, Description};
+
+use crate::{
+    error::Error,
+    experiment::complete,
+    joint::{Joint, check_connector, joint},
+    merged::{Merged, merge},
+    package::Package,
+    parameter_set, parameters, reader,
+    structure::{Binding, SSD_FILE, Structure},
+};
+
+/// A component with its FMU.
+#[derive(Debug)]
+pub struct Part {
+    /// Its name in the system.
+    pub name: String,
+    /// Its FMU.
+    pub fmu: Fmu,
+    /// Values that the system gives it, the later one of two.
+    pub parameters: Vec<(String, Value)>,
+}
+
+/// An opened system.
+pub struct System {
+    package: Package,
+    structure: Structure,
+    parts: Vec<Part>,
+    joints: Vec<Joint>,
+    merged: Merged,
+}
+
+impl std::fmt::Debug for System {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("System").field("package", &self.package).finish_non_exhaustive()
+    }
+}
+
+impl System {
+    /// Opens an `.ssp` file, or the folder that one was unpacked into, and holds its connectors, connections and
+    /// parameters against its FMUs. No library is loaded.
+    ///
+    /// # Errors
+    /// The first thing that cannot be simulated, with file, line, what was found and what is allowed.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let package = Package::open(path.as_ref())?;
+        let structure = reader::read(&package.read(SSD_FILE)?)
+            .map_err(|error| package.structure(SSD_FILE, error.to_string()))?;
+        let at = |line: u32, what: String| package.structure(SSD_FILE, format!("line {line}: {what}"));
+        let fmus = open_fmus(&package, &structure, at)?;
+        for (component, fmu) in structure.components.iter().zip(&fmus) {
+            for connector in &component.connectors {
+                check_connector(&structure, fmu, connector).map_err(|what| {
+                    at(connector.line, format!("connector {}.{}: {what}", component.name, connector.name))
+                })?;
+            }
+        }
+        let mut joints: Vec<Joint> = Vec::with_capacity(structure.connections.len());
+        let mut joined: HashMap<(usize, usize), u32> = HashMap::new();
+        for connection in &structure.connections {
+            let refuse = |what: String| {
+                let (start, end) = (&connection.start, &connection.end);
+                at(connection.line, format!("connection {start} to {end}: {what}"))
+            };
+            let joint = joint(&structure, &fmus, connection).map_err(refuse)?;
+            if let Some(line) = joined.insert(joint.to, connection.line) {
+                let what = format!("the input is connected already in line {line}, allowed: once");
+                return Err(refuse(what));
+            }
+            joints.push(joint);
+        }
+        let mut parts: Vec<Part> = structure
+            .components
+            .iter()
+            .zip(&fmus)
+            .map(|(component, fmu)| Part {
+                name: component.name.clone(),
+                fmu: fmu.clone(),
+                parameters: Vec::new(),
+            })
+            .collect();
+        // The system's own come last: they win over a component's.
+        let of_components = structure.components.iter().enumerate();
+        for (number, component) in of_components {
+            for binding in &component.bindings {
+                bind(&package, &structure, &fmus, Some(number), binding, &mut parts)?;
+            }
+        }
+        for binding in &structure.bindings {
+            bind(&package, &structure, &fmus, None, binding, &mut parts)?;
+        }
+        let named = || parts.iter().map(|part| (part.name.as_str(), &part.fmu));
+        let merged = merge(&structure.name, complete(structure.experiment, fmus.iter()), named());
+        Ok(Self { package, structure, parts, joints, merged })
+    }
+
+    /// The path it was opened from.
+    pub fn source(&self) -> &Path {
+        &self.package.source
+    }
+
+    /// The folder it is unpacked in, which can be opened too.
+    pub fn folder(&self) -> &Path {
+        &self.package.folder
+    }
+
+    /// Its description.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// Its components, in the order in which a master calls them.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Its connections.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// The variables of all components, named `component.variable`, and the default experiment.
+    pub fn description(&self) -> &Description {
+        &self.merged.description
+    }
+
+    /// Component and position in its `ModelVariables` of a variable of [`System::description`].
+    pub fn origin(&self, position: usize) -> (usize, usize) {
+        self.merged.origins[position]
+    }
+
+    /// Component and position of every input that nothing is connected to.
+    pub fn open_inputs(&self) -> Vec<(usize, usize)> {
+        let variables = |number: usize| &self.parts[number].fmu.description().variables;
+        let all = self.merged.origins.iter().copied();
+        all.filter(|&(number, position)| {
+            variables(number)[position].causality == Causality::Input
+                && !self.joints.iter().any(|joint| joint.to == (number, position))
+        })
+        .collect()
+    }
+
+    /// The times of a run: what is given, else the default experiment's.
+    ///
+    /// # Errors
+    /// Times that make no run, and steps that an FMU does not take.
+    pub fn times(
+        &self,
+        start_s: Option<f64>,
+        stop_s: Option<f64>,
+        step_s: Option<f64>,
+    ) -> Result<Times, loader::Error> {
+        let default = self.merged.description.default_experiment.unwrap_or_default();
+        let start_s = start_s.or(default.start_time).unwrap_or(0.0);
+        let stop_s = stop_s.or(default.stop_time).unwrap_or(start_s + 1.0);
+        let step_s = step_s.or(default.step_size).unwrap_or((stop_s - start_s) / 100.0);
+        let times = Times::new(start_s, stop_s, step_s)?;
+        self.parts.iter().try_for_each(|part| times.fit(&part.fmu))?;
+        Ok(times)
+    }
+}
+
+/// The FMUs of the components, one where several components are of the same file.
+fn open_fmus(
+    package: &Package,
+    structure: &Structure,
+    at: impl Fn(u32, String) -> Error,
+) -> Result<Vec<Fmu>, Error> {
+    if structure.components.is_empty() {
+        return Err(package.structure(SSD_FILE, "the system has no component".to_owned()));
+    }
+    let mut fmus: Vec<Fmu> = Vec::with_capacity(structure.components.len());
+    for (number, component) in structure.components.iter().enumerate() {
+        let earlier = &structure.components[..number];
+        if earlier.iter().any(|it| it.name == component.name) {
+            let what = format!("component {:?} stands twice, allowed: once", component.name);
+            return Err(at(component.line, what));
+        }
+        if let Some(same) = earlier.iter().position(|it| it.source == component.source) {
+            fmus.push(fmus[same].clone());
+            continue;
+        }
+        let refuse = |error| Error::Component {
+            path: package.source.clone(),
+            component: component.name.clone(),
+            source: Box::new(error),
+        };
+        let folder = package.fmu_folder(&component.source).map_err(|error| match error {
+            Error::Structure { what, .. } => {
+                at(component.line, format!("component {:?}: {what}", component.name))
+            }
+            other => other,
+        })?;
+        let fmu = Fmu::open(folder).map_err(refuse)?;
+        fmu.co_simulation().map_err(refuse)?;
+        fmus.push(fmu);
+    }
+    Ok(fmus)
+}
+
+/// Adds the values of a binding.
+fn bind(
+    package: &Package,
+    structure: &Structure,
+    fmus: &[Fmu],
+    component: Option<usize>,
+    binding: &Binding,
+    parts: &mut [Part],
+) -> Result<(), Error> {
+    let mut sets: Vec<_> = binding.sets.iter().map(|set| (SSD_FILE, set.clone())).collect();
+    if let Some(source) = &binding.source {
+        let set = parameter_set::read(&package.read(source)?)
+            .map_err(|error| package.structure(source, error.to_string()))?;
+        sets.push((source, set));
+    }
+    for (file, set) in &sets {
+        let values = parameters::values(structure, fmus, component, &binding.prefix, set)
+            .map_err(|(line, what)| package.structure(file, format!("line {line}: {what}")))?;
+        for (number, name, value) in values {
+            let known = &mut parts[number].parameters;
+            known.retain(|(earlier, _)| *earlier != name);
+            known.push((name, value));
+        }
+    }
+    Ok(())
+}

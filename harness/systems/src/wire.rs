@@ -1,0 +1,294 @@
+//! Wires FMUs by the names and units of their variables.
+
+use std::path::Path;
+
+use loader::Fmu;
+use model_description::{
+    Causality, Description, ScalarVariable, SimpleTypeKind, Unit, VariableKind, names, value,
+};
+
+use crate::{
+    error::Error,
+    experiment::complete,
+    joint::type_name,
+    merged::{Merged, merge},
+    structure::{Component, Connection, Connector, End, Enumeration, Experiment, Kind, Signal, Structure},
+    units::shown,
+};
+
+/// Inputs that take outputs of another name: input, output; vectors by their bare names, `[k]` for any index.
+const RENAMED: &[(&str, &str)] = &[
+    ("sun.position", "sun.positionInertial"),
+    ("sun.velocity", "sun.velocityInertial"),
+    ("earth.position", "earth.positionInertial"),
+    ("earth.velocity", "earth.velocityInertial"),
+    ("panel[k].sunOffsetCommand", "panel[k].sunOffset"),
+];
+
+/// An input that was left open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Left {
+    /// Its component.
+    pub component: String,
+    /// Its name.
+    pub input: String,
+    /// Why nothing was connected to it.
+    pub why: String,
+}
+
+/// A wired system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wired {
+    /// Its description; the connectors are what is connected, and the outputs that were asked for.
+    pub structure: Structure,
+    /// The inputs that were left open.
+    pub left: Vec<Left>,
+}
+
+/// The name of a component of an FMU: its file's, the first letter in lower case.
+pub fn component_name(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let mut letters = stem.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
+/// Connects every input of a component to the output of another one with its name, type and unit (`RENAMED` names the
+/// exceptions), where there is one such output. `outputs` are patterns of further outputs to list, `component.variable`.
+///
+/// # Errors
+/// Names of components that stand twice or are none, patterns that fit nothing, FMUs without co-simulation.
+pub fn wire(
+    name: &str,
+    components: &[(String, Fmu)],
+    experiment: Experiment,
+    outputs: &[String],
+) -> Result<Wired, Error> {
+    for (number, (component, fmu)) in components.iter().enumerate() {
+        if !names::is_c_identifier(component) {
+            return Err(Error::Wire(format!(
+                "found {component:?} for the name of a component, allowed: letters, digits and _, not \
+                 starting with a digit: name={}",
+                fmu.source().display()
+            )));
+        }
+        if components[..number].iter().any(|(earlier, _)| earlier == component) {
+            return Err(Error::Wire(format!("two components are named {component:?}: write name=FMU")));
+        }
+        fmu.co_simulation()?;
+    }
+    let mut wired = Wired {
+        structure: Structure {
+            name: name.to_owned(),
+            components: components
+                .iter()
+                .map(|(component, _)| Component {
+                    name: component.clone(),
+                    source: format!("resources/{component}.fmu"),
+                    ..Component::default()
+                })
+                .collect(),
+            experiment: complete(experiment, components.iter().map(|(_, fmu)| fmu)),
+            ..Structure::default()
+        },
+        left: Vec::new(),
+    };
+    for (number, (component, fmu)) in components.iter().enumerate() {
+        let inputs = fmu.description().variables.iter().filter(|it| it.causality == Causality::Input);
+        for input in inputs {
+            match source(components, number, input) {
+                Ok((from, output)) => {
+                    connect(&mut wired.structure, components, (from, output), (number, input))
+                }
+                Err(why) => {
+                    wired.left.push(Left { component: component.clone(), input: input.name.clone(), why })
+                }
+            }
+        }
+    }
+    list_outputs(&mut wired.structure, components, outputs)?;
+    for (component, (_, fmu)) in wired.structure.components.iter_mut().zip(components) {
+        component.connectors.sort_by_key(|it| (it.kind == Kind::Output, fmu.position(&it.name)));
+    }
+    Ok(wired)
+}
+
+/// The output that an input takes: component and variable; else why there is none.
+fn source<'a>(
+    components: &'a [(String, Fmu)],
+    number: usize,
+    input: &ScalarVariable,
+) -> Result<(usize, &'a ScalarVariable), String> {
+    let named = |name: &str| -> Vec<(usize, &'a ScalarVariable)> {
+        let others = components.iter().enumerate().filter(|(other, _)| *other != number);
+        let found = others.filter_map(|(other, (_, fmu))| Some((other, fmu.find(name)?)));
+        found.filter(|(_, variable)| variable.causality == Causality::Output).collect()
+    };
+    let mut found = named(&input.name);
+    if found.is_empty() {
+        found = renamed(&input.name).map(|name| named(&name)).unwrap_or_default();
+    }
+    match *found.as_slice() {
+        [] => Err("no output of that name".to_owned()),
+        [(other, output)] => {
+            let own = components[number].1.description();
+            fits((components[other].1.description(), output), (own, input)).map(|()| (other, output))
+        }
+        _ => {
+            let all: Vec<String> = found
+                .iter()
+                .map(|(other, output)| format!("{}.{}", components[*other].0, output.name))
+                .collect();
+            Err(format!("two candidates: {}", all.join(", ")))
+        }
+    }
+}
+
+/// The other name under which an input's value may be given.
+fn renamed(input: &str) -> Option<String> {
+    RENAMED.iter().find_map(|(to, from)| {
+        match to.split_once("[k]") {
+            // The index of a group stands within.
+            Some((before, after)) => {
+                let (index, rest) = input.strip_prefix(before)?.strip_prefix('[')?.split_once(']')?;
+                (rest == after).then(|| from.replace("[k]", &format!("[{index}]")))
+            }
+            // The index of a vector stands at the end.
+            None => {
+                let index = input.strip_prefix(to)?;
+                (index.is_empty() || index.starts_with('[')).then(|| format!("{from}{index}"))
+            }
+        }
+    })
+}
+
+/// Whether type, unit and items agree.
+fn fits(
+    (from, output): (&Description, &ScalarVariable),
+    (to, input): (&Description, &ScalarVariable),
+) -> Result<(), String> {
+    let (given, taken) = (type_name(output), type_name(input));
+    if given != taken || given == "String" {
+        return Err(format!("other type: {given} to {taken}"));
+    }
+    let unit = |description, variable| value::unit(description, variable).filter(|unit: &&str| *unit != "1");
+    if unit(from, output) != unit(to, input) {
+        let (given, taken) = (unit(from, output), unit(to, input));
+        return Err(format!("other unit: {} to {}", shown(given), shown(taken)));
+    }
+    let taken = value::items(to, input);
+    let foreign = value::items(from, output)
+        .iter()
+        .find(|item| !taken.iter().any(|it| it.value == item.value && it.name == item.name));
+    match foreign {
+        Some(item) => Err(format!("other items: {} {} is none of its own", item.value, item.name)),
+        None => Ok(()),
+    }
+}
+
+fn connect(
+    structure: &mut Structure,
+    components: &[(String, Fmu)],
+    (from, output): (usize, &ScalarVariable),
+    (to, input): (usize, &ScalarVariable),
+) {
+    add_connector(structure, components, (from, output), Kind::Output);
+    add_connector(structure, components, (to, input), Kind::Input);
+    let end = |number: usize, variable: &ScalarVariable| End {
+        component: Some(components[number].0.clone()),
+        connector: variable.name.clone(),
+    };
+    structure.connections.push(Connection {
+        start: end(from, output),
+        end: end(to, input),
+        transformation: None,
+        suppress_unit_conversion: false,
+        line: 0,
+    });
+}
+
+/// Lists a variable as a connector, with what its type needs, once.
+fn add_connector(
+    structure: &mut Structure,
+    components: &[(String, Fmu)],
+    (number, variable): (usize, &ScalarVariable),
+    kind: Kind,
+) {
+    let connectors = &structure.components[number].connectors;
+    if connectors.iter().any(|it| it.name == variable.name) {
+        return;
+    }
+    let (component, fmu) = &components[number];
+    let description = fmu.description();
+    let signal = match &variable.kind {
+        VariableKind::Real { .. } => {
+            // The two names of no dimension stay as the FMU has them.
+            let unit = value::unit(description, variable).map(str::to_owned);
+            let definition = description.units.iter().find(|it| Some(&it.name) == unit.as_ref());
+            let definition = definition.filter(|it| it.base.is_some());
+            if let Some(definition) = definition
+                && !structure.units.iter().any(|it| it.name == definition.name)
+            {
+                structure.units.push(Unit { display_units: Vec::new(), ..definition.clone() });
+            }
+            Signal::Real { unit: unit.filter(|_| definition.is_some()) }
+        }
+        VariableKind::Integer { .. } => Signal::Integer,
+        VariableKind::Boolean { .. } => Signal::Boolean,
+        VariableKind::String { .. } => Signal::Text,
+        VariableKind::Enumeration { declared_type, .. } => {
+            Signal::Enumeration { name: enumeration(structure, component, description, declared_type) }
+        }
+    };
+    let connector = Connector { name: variable.name.clone(), kind, signal: Some(signal), line: 0 };
+    structure.components[number].connectors.push(connector);
+}
+
+/// The system's name of an Enumeration; one of other items under a known name takes its component's before it.
+fn enumeration(
+    structure: &mut Structure,
+    component: &str,
+    description: &Description,
+    declared_type: &str,
+) -> String {
+    let items = description.types.iter().find_map(|it| match &it.kind {
+        SimpleTypeKind::Enumeration { items, .. } if it.name == declared_type => Some(items.clone()),
+        _ => None,
+    });
+    let items = items.unwrap_or_default();
+    let is_same = |known: &Enumeration| {
+        let numbers = |items: &[model_description::EnumerationItem]| -> Vec<(String, i32)> {
+            items.iter().map(|item| (item.name.clone(), item.value)).collect()
+        };
+        numbers(&known.items) == numbers(&items)
+    };
+    let mut name = declared_type.to_owned();
+    if structure.enumerations.iter().any(|known| known.name == name && !is_same(known)) {
+        name = format!("{component}.{declared_type}");
+    }
+    if !structure.enumerations.iter().any(|known| known.name == name) {
+        structure.enumerations.push(Enumeration { name: name.clone(), items });
+    }
+    name
+}
+
+/// Lists the outputs that patterns name.
+fn list_outputs(
+    structure: &mut Structure,
+    components: &[(String, Fmu)],
+    patterns: &[String],
+) -> Result<(), Error> {
+    let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
+    let Merged { description, origins } = merge(&structure.name, Experiment::default(), named);
+    for pattern in patterns {
+        for position in loader::select_outputs(&description, pattern)? {
+            let (number, at) = origins[position];
+            let variable = &components[number].1.description().variables[at];
+            if variable.causality != Causality::Output {
+                let name = &description.variables[position].name;
+                return Err(Error::Wire(format!("{name}: it is no output, allowed: outputs")));
+            }
+            add_connector(structure, components, (number, variable), Kind::Output);
+        }
+    }
+    Ok(())
+}

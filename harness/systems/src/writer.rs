@@ -1,0 +1,152 @@
+//! Writes `SystemStructure.ssd` (SSP 1.0): UTF-8, in the schema's order, the same bytes for the same structure.
+
+use std::fmt::Write;
+
+use model_description::{Unit, escape};
+
+use crate::{
+    reader::STEP_ANNOTATION,
+    structure::{Component, Connection, Signal, Structure},
+};
+
+const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssd:SystemStructureDescription \
+                    xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\" \
+                    xmlns:ssd=\"http://ssp-standard.org/SSP1/SystemStructureDescription\" version=\"1.0\"";
+
+/// The file of a structure. Parameter bindings are not written: start values stand in the FMUs.
+pub fn to_xml(structure: &Structure) -> String {
+    let mut text = String::from(HEAD);
+    // Writing to a String cannot fail.
+    let _ = write_structure(&mut text, structure);
+    text
+}
+
+fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
+    let name = escape(&structure.name);
+    let tool = concat!("heliotorque ", env!("CARGO_PKG_VERSION"));
+    writeln!(to, " name=\"{name}\" generationTool=\"{tool}\">")?;
+    writeln!(to, "  <ssd:System name=\"{name}\">\n    <ssd:Elements>")?;
+    for component in &structure.components {
+        write_component(to, component)?;
+    }
+    writeln!(to, "    </ssd:Elements>")?;
+    if !structure.connections.is_empty() {
+        writeln!(to, "    <ssd:Connections>")?;
+        for connection in &structure.connections {
+            write_connection(to, connection)?;
+        }
+        writeln!(to, "    </ssd:Connections>")?;
+    }
+    writeln!(to, "  </ssd:System>")?;
+    if !structure.enumerations.is_empty() {
+        writeln!(to, "  <ssd:Enumerations>")?;
+        for enumeration in &structure.enumerations {
+            writeln!(to, "    <ssc:Enumeration name=\"{}\">", escape(&enumeration.name))?;
+            for item in &enumeration.items {
+                writeln!(to, "      <ssc:Item name=\"{}\" value=\"{}\"/>", escape(&item.name), item.value)?;
+            }
+            writeln!(to, "    </ssc:Enumeration>")?;
+        }
+        writeln!(to, "  </ssd:Enumerations>")?;
+    }
+    if !structure.units.is_empty() {
+        writeln!(to, "  <ssd:Units>")?;
+        structure.units.iter().try_for_each(|unit| write_unit(to, unit))?;
+        writeln!(to, "  </ssd:Units>")?;
+    }
+    let experiment = structure.experiment;
+    write!(to, "  <ssd:DefaultExperiment")?;
+    for (name, value) in [("startTime", experiment.start_s), ("stopTime", experiment.stop_s)] {
+        if let Some(value) = value {
+            write!(to, " {name}=\"{value}\"")?;
+        }
+    }
+    match experiment.step_s {
+        Some(step_s) => writeln!(
+            to,
+            ">\n    <ssd:Annotations>\n      <ssc:Annotation type=\"{STEP_ANNOTATION}\">\
+             <heliotorque:Step xmlns:heliotorque=\"https://heliotorque/ssp\" size=\"{step_s}\"/>\
+             </ssc:Annotation>\n    </ssd:Annotations>\n  </ssd:DefaultExperiment>"
+        )?,
+        None => writeln!(to, "/>")?,
+    }
+    writeln!(to, "</ssd:SystemStructureDescription>")
+}
+
+fn write_component(to: &mut String, component: &Component) -> std::fmt::Result {
+    writeln!(
+        to,
+        "      <ssd:Component name=\"{}\" type=\"application/x-fmu-sharedlibrary\" source=\"{}\">",
+        escape(&component.name),
+        escape(&component.source)
+    )?;
+    if !component.connectors.is_empty() {
+        writeln!(to, "        <ssd:Connectors>")?;
+        for connector in &component.connectors {
+            let (name, kind) = (escape(&connector.name), connector.kind.word());
+            write!(to, "          <ssd:Connector name=\"{name}\" kind=\"{kind}\"")?;
+            match &connector.signal {
+                None => writeln!(to, "/>")?,
+                Some(signal) => {
+                    let attribute = match signal {
+                        Signal::Real { unit: Some(unit) } => format!(" unit=\"{}\"", escape(unit)),
+                        Signal::Enumeration { name } => format!(" name=\"{}\"", escape(name)),
+                        _ => String::new(),
+                    };
+                    writeln!(to, "><ssc:{}{attribute}/></ssd:Connector>", signal.word())?;
+                }
+            }
+        }
+        writeln!(to, "        </ssd:Connectors>")?;
+    }
+    writeln!(to, "      </ssd:Component>")
+}
+
+fn write_connection(to: &mut String, connection: &Connection) -> std::fmt::Result {
+    write!(to, "      <ssd:Connection")?;
+    for (end, element, connector) in [
+        (&connection.start, "startElement", "startConnector"),
+        (&connection.end, "endElement", "endConnector"),
+    ] {
+        if let Some(component) = &end.component {
+            write!(to, " {element}=\"{}\"", escape(component))?;
+        }
+        write!(to, " {connector}=\"{}\"", escape(&end.connector))?;
+    }
+    if connection.suppress_unit_conversion {
+        write!(to, " suppressUnitConversion=\"true\"")?;
+    }
+    match connection.transformation {
+        None => writeln!(to, "/>"),
+        Some(linear) => writeln!(
+            to,
+            "><ssc:LinearTransformation factor=\"{}\" offset=\"{}\"/></ssd:Connection>",
+            linear.factor, linear.offset
+        ),
+    }
+}
+
+fn write_unit(to: &mut String, unit: &Unit) -> std::fmt::Result {
+    write!(to, "    <ssc:Unit name=\"{}\"><ssc:BaseUnit", escape(&unit.name))?;
+    let base = unit.base.unwrap_or_default();
+    for (name, exponent) in [
+        ("kg", base.kg),
+        ("m", base.m),
+        ("s", base.s),
+        ("A", base.a),
+        ("K", base.k),
+        ("mol", base.mol),
+        ("cd", base.cd),
+        ("rad", base.rad),
+    ] {
+        if exponent != 0 {
+            write!(to, " {name}=\"{exponent}\"")?;
+        }
+    }
+    for (name, number, default) in [("factor", base.factor, 1.0), ("offset", base.offset, 0.0)] {
+        if number != default {
+            write!(to, " {name}=\"{number}\"")?;
+        }
+    }
+    writeln!(to, "/></ssc:Unit>")
+}

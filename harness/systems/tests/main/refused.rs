@@ -1,0 +1,342 @@
+//! Systems that cannot be simulated are refused by the name of what is wrong.
+
+use loader::Value;
+use systems::System;
+
+use crate::support::{Ssd, description, fmu, ssp, taker};
+
+/// What is said of a system.
+fn refusal(ssd: &str, files: &[(&str, &str)]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = ssp(folder.path(), ssd, files);
+    loader::Error::chain(&System::open(&path).expect_err(ssd))
+}
+
+const fn connection(connections: &'static str) -> Ssd {
+    Ssd { connections, ..GOOD }
+}
+
+const GOOD: Ssd = Ssd {
+    giver: r#"<ssd:Connector name="position[1]" kind="output"><ssc:Real unit="m"/></ssd:Connector>
+<ssd:Connector name="angle" kind="output"/><ssd:Connector name="count" kind="output"/>
+<ssd:Connector name="colour" kind="output"/><ssd:Connector name="label" kind="output"/>"#,
+    taker: r#"<ssd:Connector name="position[1]" kind="input"/><ssd:Connector name="angle" kind="input"/>
+<ssd:Connector name="count" kind="input"/><ssd:Connector name="flag" kind="input"/>
+<ssd:Connector name="label" kind="input"/><ssd:Connector name="duration" kind="input"/>"#,
+    connections: r#"<ssd:Connection startElement="a" startConnector="position[1]" endElement="b" endConnector="position[1]"/>"#,
+    bindings: "",
+    of_giver: "",
+    rest: "",
+    source: "resources/giver.fmu",
+};
+
+#[test]
+fn what_cannot_be_simulated_is_refused_by_name() {
+    let cases: Vec<(Ssd, &[&str])> = vec![
+        (
+            connection(
+                r#"<ssd:Connection startElement="c" startConnector="angle" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["connection c.angle to b.angle", "no component \"c\"", "allowed: a, b"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="angel" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["connection a.angel to b.angle", "no connector \"angel\"", "near it: angle"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="b" startConnector="angle" endElement="a" endConnector="angle"/>"#,
+            ),
+            &["at its start found b.angle of kind input", "allowed: output"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="count" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["found type Integer at its start and Real at its end"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="duration"/>"#,
+            ),
+            &["found unit \"deg\" at its start and \"s\" at its end", "one dimension"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="label" endElement="b" endConnector="label"/>"#,
+            ),
+            &["found type String"],
+        ),
+        (
+            connection(r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#),
+            &["the system's own connector \"zero\""],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="position[1]" endElement="b" endConnector="angle" suppressUnitConversion="perhaps"/>"#,
+            ),
+            &["suppressUnitConversion", "\"perhaps\"", "true, false"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"><ssc:LinearTransformation factor="2"/></ssd:Connection>"#,
+            ),
+            &["LinearTransformation between different units", "suppressUnitConversion"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"><ssc:IntegerMappingTransformation/></ssd:Connection>"#,
+            ),
+            &["IntegerMappingTransformation", "allowed there: LinearTransformation"],
+        ),
+        (
+            connection(
+                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>
+<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["connected already in line", "allowed: once"],
+        ),
+        (
+            Ssd { giver: r#"<ssd:Connector name="postion[1]" kind="output"/>"#, ..GOOD },
+            &["connector a.postion[1]", "Giver has no variable of that name", "near it: position[1]"],
+        ),
+        (
+            Ssd { giver: r#"<ssd:Connector name="angle" kind="input"/>"#, ..GOOD },
+            &["connector a.angle", "found kind input", "Output"],
+        ),
+        (
+            Ssd { giver: r#"<ssd:Connector name="angle" kind="sink"/>"#, ..GOOD },
+            &["found kind \"sink\"", "allowed: input, output"],
+        ),
+        (
+            Ssd {
+                giver: r#"<ssd:Connector name="angle" kind="output"><ssc:Boolean/></ssd:Connector>"#,
+                ..GOOD
+            },
+            &["found type Boolean, the variable is Real"],
+        ),
+        (
+            Ssd {
+                giver: r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="furlong"/></ssd:Connector>"#,
+                ..GOOD
+            },
+            &["connector a.angle", "unit \"furlong\", which is not defined", "deg"],
+        ),
+        (
+            Ssd {
+                giver: r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="m"/></ssd:Connector>"#,
+                ..GOOD
+            },
+            &["unit \"m\", which measures something else than unit \"deg\""],
+        ),
+        (
+            Ssd {
+                giver: r#"<ssd:Connector name="colour" kind="output"><ssc:Enumeration name="Color"/></ssd:Connector>"#,
+                ..GOOD
+            },
+            &["Enumeration \"Color\", which is not defined"],
+        ),
+        (
+            Ssd { source: "resources/missing.fmu", ..GOOD },
+            &["component \"a\"", "\"resources/missing.fmu\" is not in the SSP", "resources/giver.fmu"],
+        ),
+        (
+            Ssd { source: "../giver.fmu", ..GOOD },
+            &["component \"a\"", "\"../giver.fmu\"", "a path in the SSP"],
+        ),
+        (Ssd { source: "resources/%2e%2e/%2e%2e/giver.fmu", ..GOOD }, &["a path in the SSP"]),
+        (Ssd { source: "/etc/passwd", ..GOOD }, &["a path in the SSP"]),
+        (Ssd { source: "http://example.org/giver.fmu", ..GOOD }, &["a path in the SSP"]),
+        (Ssd { source: "resources/text.fmu", ..GOOD }, &["component \"a\"", "not a usable FMU archive"]),
+        (
+            Ssd { of_giver: "<ssd:Conectors/>", ..GOOD },
+            &["<ssd:Conectors>", "allowed there: Connectors, ParameterBindings"],
+        ),
+        (
+            Ssd { bindings: r#"<ssd:SignalDictionaries/>"#, ..GOOD },
+            &["signal dictionaries are not simulated"],
+        ),
+        (
+            Ssd { rest: r#"<ssd:DefaultExperiment stopTime="soon"/>"#, ..GOOD },
+            &["stopTime", "\"soon\"", "number"],
+        ),
+    ];
+    for (ssd, parts) in cases {
+        let text = refusal(&ssd.text(), &[("resources/text.fmu", "no archive")]);
+        for part in parts {
+            assert!(text.contains(part), "{part:?} is not in: {text}");
+        }
+        assert!(text.contains("pair.ssp"), "{text}");
+        let placed = text.contains("SystemStructure.ssd: line ");
+        assert!(placed, "{text}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    assert!(System::open(ssp(folder.path(), &GOOD.text(), &[])).is_ok());
+}
+
+#[test]
+fn a_system_in_a_system_and_other_components_are_refused_by_name() {
+    let text =
+        refusal(&GOOD.text().replace("<ssd:Elements>", "<ssd:Elements><ssd:System name=\"inner\"/>"), &[]);
+    assert!(text.contains("system \"inner\" stands in a system"), "{text}");
+    let twice = GOOD.text().replace("<ssd:Component name=\"b\"", "<ssd:Component name=\"a\"");
+    assert!(refusal(&twice, &[]).contains("component \"a\" stands twice"));
+    let other = GOOD.text().replace("name=\"a\" source", "name=\"a\" type=\"application/x-ssp\" source");
+    assert!(refusal(&other, &[]).contains("type \"application/x-ssp\" is not simulated"));
+    let exchange =
+        GOOD.text().replace("name=\"a\" source", "name=\"a\" implementation=\"ModelExchange\" source");
+    assert!(refusal(&exchange, &[]).contains("implementation \"ModelExchange\""));
+    assert!(
+        refusal("<ssd:SystemStructureDescription version=\"2.0\" name=\"x\"/>", &[]).contains("allowed: 1.0")
+    );
+    assert!(refusal("<other/>", &[]).contains("allowed: SystemStructureDescription"));
+    assert!(
+        refusal("<ssd:SystemStructureDescription version=\"1.0\" name=\"x\">", &[]).contains("the file ends")
+    );
+}
+
+/// A parameter of component `a`, in the system's own binding.
+fn parameter(text: &str) -> String {
+    let set = format!(
+        "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet version=\"1.0\" name=\"p\">\
+         <ssv:Parameters>{text}</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues></ssd:ParameterBinding>\
+         </ssd:ParameterBindings>"
+    );
+    GOOD.text().replace("<ssd:System name=\"Pair\">", &format!("<ssd:System name=\"Pair\">{set}"))
+}
+
+#[test]
+fn parameters_that_do_not_fit_are_refused_by_name() {
+    for (text, parts) in [
+        (
+            r#"<ssv:Parameter name="c.size"><ssv:Real value="1"/></ssv:Parameter>"#,
+            ["\"c.size\"", "found no component"],
+        ),
+        (
+            r#"<ssv:Parameter name="a.sise"><ssv:Real value="1"/></ssv:Parameter>"#,
+            ["no variable \"sise\"", "size"],
+        ),
+        (
+            r#"<ssv:Parameter name="a.size"><ssv:Integer value="1"/></ssv:Parameter>"#,
+            ["found type Integer", "Real"],
+        ),
+        (
+            r#"<ssv:Parameter name="a.size"><ssv:Real value="1" unit="s"/></ssv:Parameter>"#,
+            ["unit \"s\"", "something else"],
+        ),
+        (
+            r#"<ssv:Parameter name="a.size"><ssv:Real value="1" unit="ell"/></ssv:Parameter>"#,
+            ["unit \"ell\"", "not defined"],
+        ),
+        (
+            r#"<ssv:Parameter name="a.size"><ssv:Real value="1e9"/></ssv:Parameter>"#,
+            ["found 1000000000", "5000"],
+        ),
+        (r#"<ssv:Parameter name="a.size"><ssv:Real value="nan"/></ssv:Parameter>"#, ["NaN", "finite"]),
+        (
+            r#"<ssv:Parameter name="a.paint"><ssv:Enumeration value="blue"/></ssv:Parameter>"#,
+            ["item \"blue\"", "red"],
+        ),
+        (
+            r#"<ssv:Parameter name="a.angle"><ssv:Real value="1"/></ssv:Parameter>"#,
+            ["angle", "cannot be set"],
+        ),
+        (r#"<ssv:Parameter name="a.size"/>"#, ["has no value", "Real, Integer"]),
+    ] {
+        let found = refusal(&parameter(text), &[]);
+        for part in parts {
+            assert!(found.contains(part), "{part:?} is not in: {found}");
+        }
+    }
+}
+
+#[test]
+fn parameters_reach_their_components_in_their_units() {
+    let ssv = |value: &str| {
+        format!(
+            "<ssv:ParameterSet xmlns:ssv=\"x\" xmlns:ssc=\"y\" version=\"1.0\" name=\"p\"><ssv:Parameters>\
+             <ssv:Parameter name=\"size\"><ssv:Real value=\"{value}\" unit=\"yd\"/></ssv:Parameter>\
+             <ssv:Parameter name=\"paint\"><ssv:Enumeration value=\"red\"/></ssv:Parameter></ssv:Parameters>\
+             <ssv:Units><ssc:Unit name=\"yd\"><ssc:BaseUnit m=\"1\" factor=\"0.9144\"/></ssc:Unit></ssv:Units>\
+             </ssv:ParameterSet>"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    // The component's own from a file; the system's, in a display unit, wins.
+    let own =
+        "<ssd:ParameterBindings><ssd:ParameterBinding source=\"resources/own.ssv\"/></ssd:ParameterBindings>";
+    let with_own = Ssd { of_giver: own, ..GOOD }.text();
+    let path = ssp(folder.path(), &with_own, &[("resources/own.ssv", &ssv("100"))]);
+    let system = System::open(&path).unwrap();
+    let expected = |size: f64| vec![("size", Value::Real(size)), ("paint", Value::Integer(1))];
+    let found = |system: &System| -> Vec<(String, Value)> { system.parts()[0].parameters.clone() };
+    for ((name, value), (expected_name, expected)) in found(&system).iter().zip(expected(91.44)) {
+        assert_eq!((name.as_str(), value), (expected_name, &expected));
+    }
+    let both = parameter(r#"<ssv:Parameter name="a.size"><ssv:Real value="2" unit="km"/></ssv:Parameter>"#)
+        .replace(
+            "</ssd:Connectors></ssd:Component>\n<ssd:Component name=\"b\"",
+            &format!("</ssd:Connectors>{own}</ssd:Component>\n<ssd:Component name=\"b\""),
+        );
+    let path = ssp(folder.path(), &both, &[("resources/own.ssv", &ssv("100"))]);
+    let system = System::open(&path).unwrap();
+    assert!(found(&system).contains(&("size".to_owned(), Value::Real(2000.0))));
+    assert!(found(&system).contains(&("paint".to_owned(), Value::Integer(1))));
+    let missing = refusal(&with_own, &[]);
+    assert!(
+        missing.contains("resources/own.ssv") && missing.contains("no such file in the SSP"),
+        "{missing}"
+    );
+    let broken = refusal(&with_own, &[("resources/own.ssv", "<ssv:ParameterSet")]);
+    assert!(broken.contains("resources/own.ssv: line 1"), "{broken}");
+}
+
+#[test]
+fn archives_that_are_no_systems_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bad.ssp");
+    let refusal = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        System::open(&path).expect_err("bad").to_string()
+    };
+    let whole = std::fs::read(ssp(folder.path(), &GOOD.text(), &[])).unwrap();
+    assert!(refusal(&whole[..whole.len() / 2]).contains("bad.ssp: not a usable SSP archive"));
+    assert!(refusal(b"").contains("it is an empty file"));
+    assert!(refusal(&fmu(&taker())).contains("it holds no SystemStructure.ssd"));
+    let mut entries = files::Entries::default();
+    entries.add("../outside.txt", b"x".to_vec()).unwrap();
+    let text = refusal(&entries.to_zip().unwrap());
+    assert!(text.contains("\"../outside.txt\" leaves the folder"), "{text}");
+    assert!(!folder.path().parent().unwrap().join("outside.txt").exists());
+    assert!(System::open(folder.path().join("none.ssp")).is_err());
+}
+
+#[test]
+fn an_enumeration_with_foreign_items_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let ssd = connection(
+        r#"<ssd:Connection startElement="a" startConnector="colour" endElement="b" endConnector="colour"/>"#,
+    );
+    let taker = r#"<ssd:Connector name="colour" kind="input"/>"#;
+    let text = Ssd { taker, ..ssd }.text();
+    assert!(System::open(ssp(folder.path(), &text, &[])).is_ok());
+    // The same number under another name.
+    let items = r#"<Item name="none" value="0"/><Item name="blue" value="1"/>"#;
+    let other = description("Other", items, &["output colour Enumeration declaredType=\"Colour\""]);
+    let mut entries = files::Entries::default();
+    let text = text.replace("position[1]\" kind=\"output\"", "colour\" kind=\"output\"");
+    let text = text.replace(
+        &text[text.find("<ssd:Connector name=\"angle\"").unwrap()..text.find("</ssd:Connectors>").unwrap()],
+        "",
+    );
+    let text = text.replace("<ssc:Real unit=\"m\"/>", "");
+    entries.add("SystemStructure.ssd", text.into_bytes()).unwrap();
+    entries.add("resources/giver.fmu", fmu(&other)).unwrap();
+    entries.add("resources/taker.fmu", fmu(&crate::support::taker())).unwrap();
+    let path = folder.path().join("other.ssp");
+    std::fs::write(&path, entries.to_zip().unwrap()).unwrap();
+    let text = System::open(&path).expect_err("foreign item").to_string();
+    assert!(text.contains("item 1 blue") && text.contains("1 red"), "{text}");
+}

@@ -1,0 +1,144 @@
+//! What is wired, written and read again; units on the way.
+
+use loader::Fmu;
+use systems::{Experiment, Linear, System, component_name, read_structure, to_xml, wire};
+
+use crate::support::{ITEMS, Ssd, description, fmu, giver, ssp, taker};
+
+fn opened(folder: &std::path::Path, name: &str, text: &str) -> (String, Fmu) {
+    let path = folder.join(format!("{name}.fmu"));
+    std::fs::write(&path, fmu(text)).unwrap();
+    (name.to_owned(), Fmu::open(&path).unwrap())
+}
+
+#[test]
+fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
+    let wired = wire("Pair", &components, Experiment::default(), &["giver.angle".to_owned()]).unwrap();
+    let joined: Vec<String> =
+        wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
+    assert_eq!(
+        joined,
+        [
+            "taker.push giver.push",
+            "giver.position[1] taker.position[1]",
+            "giver.position[2] taker.position[2]",
+            "giver.count taker.count",
+            "giver.flag taker.flag",
+            "giver.colour taker.colour",
+        ]
+    );
+    let left: Vec<String> = wired.left.iter().map(|it| format!("{}: {}", it.input, it.why)).collect();
+    assert_eq!(
+        left,
+        [
+            "angle: other unit: unit \"deg\" to unit \"rad\"",
+            "label: other type: String to String",
+            "duration: no output of that name",
+        ]
+    );
+    // Connectors are what is connected, and what was asked for.
+    let of_giver: Vec<&str> =
+        wired.structure.components[0].connectors.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(of_giver, ["push", "position[1]", "position[2]", "angle", "count", "flag", "colour"]);
+    assert_eq!(wired.structure.experiment.step_s, Some(0.5));
+    // What is written is read back; lines alone are new.
+    let mut read = read_structure(to_xml(&wired.structure).as_bytes()).unwrap();
+    read.components.iter_mut().for_each(|component| {
+        component.line = 0;
+        component.connectors.iter_mut().for_each(|connector| connector.line = 0);
+    });
+    read.connections.iter_mut().for_each(|connection| connection.line = 0);
+    assert_eq!(read, wired.structure);
+}
+
+#[test]
+fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let one = description(
+        "One",
+        ITEMS,
+        &[
+            "output sun.positionInertial[2] Real unit=\"m\"",
+            "output earth.velocityInertial[1] Real unit=\"m\"",
+            "output panel[7].sunOffset Real unit=\"rad\"",
+        ],
+    );
+    let two = description(
+        "Two",
+        ITEMS,
+        &[
+            "input sun.position[2] Real unit=\"m\" start=\"0\"",
+            "input earth.velocity[1] Real unit=\"m\" start=\"0\"",
+            "input panel[7].sunOffsetCommand Real unit=\"rad\" start=\"0\"",
+            "input sun.positionBody[2] Real unit=\"m\" start=\"0\"",
+        ],
+    );
+    let components = [opened(folder.path(), "one", &one), opened(folder.path(), "two", &two)];
+    let wired = wire("Pair", &components, Experiment::default(), &[]).unwrap();
+    assert_eq!(wired.structure.connections.len(), 3);
+    assert_eq!(wired.left.len(), 1);
+    // The same output twice is no choice of ours.
+    let three = opened(folder.path(), "three", &one);
+    let [one, two] = components;
+    let wired = wire("Three", &[one.clone(), two, three], Experiment::default(), &[]).unwrap();
+    assert!(wired.structure.connections.is_empty());
+    assert!(
+        wired.left[0].why.starts_with("two candidates: one.sun.positionInertial[2], three."),
+        "{:?}",
+        wired.left
+    );
+    // Names.
+    assert_eq!(component_name(std::path::Path::new("dist/MomentumPlant.fmu")), "momentumPlant");
+    let twice = wire("Twice", &[one.clone(), one.clone()], Experiment::default(), &[]);
+    assert!(twice.unwrap_err().to_string().contains("two components are named \"one\""));
+    let dotted = wire("Dot", &[("a.b".to_owned(), one.1)], Experiment::default(), &[]);
+    assert!(dotted.unwrap_err().to_string().contains("\"a.b\""));
+}
+
+#[test]
+fn units_are_converted_on_the_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let linear = |connection: &'static str| -> Option<Linear> {
+        let path = ssp(folder.path(), &Ssd { connections: connection, ..Ssd::default() }.text(), &[]);
+        System::open(&path).unwrap().joints()[0].linear
+    };
+    let degree = linear(
+        r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#,
+    );
+    assert!((degree.unwrap().factor * 180.0 - core::f64::consts::PI).abs() < 1e-15);
+    assert_eq!(
+        linear(
+            r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle" suppressUnitConversion="true"/>"#
+        ),
+        None
+    );
+    assert_eq!(
+        linear(
+            r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle" suppressUnitConversion="true"><ssc:LinearTransformation factor="2" offset="3"/></ssd:Connection>"#
+        ),
+        Some(Linear { factor: 2.0, offset: 3.0 })
+    );
+    assert_eq!(
+        linear(
+            r#"<ssd:Connection startElement="a" startConnector="position[1]" endElement="b" endConnector="position[1]"/>"#
+        ),
+        None
+    );
+}
+
+#[test]
+fn the_default_experiment_is_completed_from_the_fmus() {
+    let folder = tempfile::tempdir().unwrap();
+    let rest = r#"<ssd:DefaultExperiment startTime="2" stopTime="7"><ssd:Annotations>
+<ssc:Annotation type="other"><x size="1"/></ssc:Annotation></ssd:Annotations></ssd:DefaultExperiment>"#;
+    let system = System::open(ssp(folder.path(), &Ssd { rest, ..Ssd::default() }.text(), &[])).unwrap();
+    let times = system.times(None, None, None).unwrap();
+    assert_eq!((times.start_s, times.stop_s, times.step_s), (2.0, 7.0, 0.5));
+    assert_eq!(times.steps(), 10);
+    // All variables in one description, and the inputs that are open.
+    let names: Vec<&str> = system.description().variables.iter().map(|it| it.name.as_str()).collect();
+    assert!(names.contains(&"a.position[1]") && names.contains(&"b.push"));
+    assert_eq!(system.open_inputs().len(), 8);
+}

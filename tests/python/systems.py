@@ -1,0 +1,56 @@
+"""Systems under several masters: our own, FMPy's, libcosim's."""
+
+import zipfile
+
+import numpy as np
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import read_ssd
+
+from spacecraft import call
+
+
+def flown(heliotorque, ssp, names, *options):
+    """A run's table: time and columns by name, a row at the start."""
+    done = call(heliotorque, "run", ssp, "--quiet", "--record", ",".join(names), "--output", "-", *options)
+    assert done.returncode == 0, done.stderr
+    header, *rows = done.stdout.split()
+    values = np.array([[float(cell) for cell in row.split(",")] for row in rows])
+    return dict(zip(header.split(","), values.T, strict=True))
+
+
+def flown_by_fmpy(ssp, stop_s, step_s):
+    """FMPy's table: its row k is of the end of step k, where inputs have been exchanged already."""
+    return simulate_ssp(str(ssp), stop_time=stop_s, step_size=step_s)
+
+
+def connectors(ssp):
+    """Names of output and input connectors, and the output of every connected input; FMPy validates the file."""
+    system = read_ssd(str(ssp)).system
+    kinds = {f"{part.name}.{it.name}": it.kind for part in system.elements for it in part.connectors}
+    joined = {
+        f"{it.endElement}.{it.endConnector}": f"{it.startElement}.{it.startConnector}" for it in system.connections
+    }
+    outputs = [name for name, kind in kinds.items() if kind == "output"]
+    inputs = [name for name, kind in kinds.items() if kind == "input"]
+    return outputs, inputs, joined
+
+
+def flown_by_libcosim(ssp, folder, step_s, steps, names):
+    """The last values under libcosim, which exchanges outputs in initialization."""
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+
+    zipfile.ZipFile(ssp).extractall(folder)
+    execution = CosimExecution.from_ssp_file(ssp_path=str(folder), step_size=int(step_s * 1e9))
+    observer = CosimObserver.create_last_value()
+    execution.add_observer(observer=observer)
+    assert execution.step(step_count=steps)
+    values = {}
+    for component, part in enumerate(read_ssd(str(ssp)).system.elements):
+        references = {it.name.decode(): it.reference for it in execution.slave_variables(slave_index=component)}
+        own = [name for name in names if name.startswith(f"{part.name}.")]
+        if own:
+            wanted = [references[name.partition(".")[2]] for name in own]
+            last = observer.last_real_values(slave_index=component, variable_references=wanted)
+            values |= dict(zip(own, last, strict=True))
+    return [values[name] for name in names]

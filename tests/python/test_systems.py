@@ -1,0 +1,243 @@
+"""The shipped systems, flown by this project's masters and by others; what `wire` connects."""
+
+import importlib.util
+import os
+import pty
+import subprocess
+import zipfile
+
+import numpy as np
+import pytest
+from lxml import etree
+
+from spacecraft import call
+from systems import connectors, flown, flown_by_fmpy, flown_by_libcosim
+
+# File, stop and step of its default experiment.
+SYSTEMS = {"MessengerLoop": (86_400.0, 1.0), "DisturbanceLoop": (43_200.0, 10.0)}
+DAY_S = 86_400.0
+
+
+def elements(name, size):
+    return [f"{name}[{i}]" for i in range(1, size + 1)]
+
+
+ATTITUDE = elements("body.attitude.q", 4)
+RATE = elements("body.attitude.rate", 3)
+
+
+def table(result, names):
+    return np.column_stack([result[name] for name in names])
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_fmpy_and_our_jacobi_master_that_begins_with_zeros_agree(heliotorque, dist, system):
+    ssp, (stop_s, step_s) = dist / f"{system}.ssp", SYSTEMS[system]
+    outputs, inputs, joined = connectors(ssp)
+    theirs = flown_by_fmpy(ssp, stop_s, step_s)
+    ours = flown(heliotorque, ssp, outputs, "--first-exchange", "zeros")
+    assert len(theirs) == stop_s / step_s and ours["time"][-1] == stop_s
+    moved = 0
+    for name in outputs:
+        scale = np.abs(theirs[name].astype(float)).max()
+        assert np.abs(theirs[name].astype(float) - ours[name][1:]).max() <= 1e-12 * scale, name
+        moved += np.ptp(ours[name]) > 0.0
+    assert moved > len(outputs) // 2
+    # What FMPy shows of an input is what it sets in the next step.
+    assert set(inputs) == set(joined)
+    for name, output in joined.items():
+        assert (theirs[name] == theirs[output]).all()
+
+
+def test_the_default_experiment_is_a_day_at_a_second_about_mercury(heliotorque, dist):
+    names = [*elements("plant.momentum.body", 3), "plant.dump.count", "guidance.link.available", "guidance.command.kind"]
+    names += elements("plant.attitude.q", 4)
+    result = flown(heliotorque, dist / "MessengerLoop.ssp", names)
+    assert len(result["time"]) == DAY_S + 1 and (np.diff(result["time"]) == 1.0).all()
+    # It turns, and light leaves momentum.
+    assert np.ptp(table(result, elements("plant.attitude.q", 4)), axis=0).max() > 0.5
+    assert np.abs(table(result, elements("plant.momentum.body", 3))).max() > 0.1
+
+
+def test_outputs_at_the_start_are_exchanged_before_the_first_step(heliotorque, dist):
+    names = [*elements("plant.attitude.q", 4), *elements("guidance.command.q", 4)]
+    ssp = dist / "MessengerLoop.ssp"
+    first = flown(heliotorque, ssp, names, "--stop", "1")
+    attitude, command = (table(first, names[part])[0] for part in (slice(0, 4), slice(4, 8)))
+    assert np.abs(np.dot(attitude, command)) > 1.0 - 1e-12
+    # An attitude that was commanded, not the one that is held without a command.
+    assert attitude.tolist() != [0.0, 0.0, 0.0, 1.0]
+    zeros = flown(heliotorque, ssp, names, "--stop", "1", "--first-exchange", "zeros")
+    assert table(zeros, names[:4])[0].tolist() != attitude.tolist()
+
+
+def test_libcosim_and_our_jacobi_master_agree_to_the_bit(heliotorque, dist, tmp_path):
+    """libcosim exchanges in initialization, too; it does not know the Enumerations of the other system."""
+    ssp, (stop_s, step_s) = dist / "DisturbanceLoop.ssp", SYSTEMS["DisturbanceLoop"]
+    names = [*ATTITUDE, *elements("disturbance.torque.total", 3)]
+    ours = flown(heliotorque, ssp, names)
+    theirs = flown_by_libcosim(ssp, tmp_path, step_s, int(stop_s / step_s), names)
+    assert [ours[name][-1] for name in names] == theirs
+
+
+def test_both_masters_converge_to_each_other_with_the_step(heliotorque, dist):
+    ssp = dist / "DisturbanceLoop.ssp"
+
+    def difference(step_s):
+        options = ("--stop", "7200", "--step", str(step_s), "--every", "7200")
+        ends = [
+            table(flown(heliotorque, ssp, RATE, *options, "--master", master), RATE)[-1]
+            for master in ("jacobi", "gaussSeidel")
+        ]
+        return np.linalg.norm(ends[0] - ends[1])
+
+    differences = [difference(step_s) for step_s in (80.0, 40.0, 20.0, 10.0)]
+    ratios = np.array(differences[:-1]) / np.array(differences[1:])
+    # Both are of first order.
+    assert (np.abs(ratios - 2.0) < 0.3).all(), differences
+
+
+def test_masters_take_the_values_that_they_say(heliotorque, dist):
+    """Jacobi steps with the torque of the step's beginning, Gauss-Seidel (torque first) with that of its end."""
+    ssp = dist / "DisturbanceLoop.ssp"
+    given, taken = elements("disturbance.torque.total", 3), elements("body.torque.total", 3)
+    for master, lag in (("jacobi", 1), ("gaussSeidel", 0)):
+        result = flown(heliotorque, ssp, [*given, *taken], "--stop", "200", "--master", master)
+        output, use = table(result, given), table(result, taken)
+        assert (use[1:] == output[1 - lag : len(output) - lag]).all()
+        assert np.ptp(output, axis=0).max() > 0.0
+
+
+# What of the plant reaches Guidance, and back, today; vectors by their bare names.
+TO_GUIDANCE = {
+    "position": "position",
+    "velocity": "velocity",
+    "sun.positionInertial": "sun.position",
+    "sun.velocityInertial": "sun.velocity",
+    "earth.positionInertial": "earth.position",
+    "earth.velocityInertial": "earth.velocity",
+}
+TO_PLANT = {name: name for name in ("command.kind", "command.q", "command.rate", "command.error")}
+
+
+def test_wire_connects_what_belongs_together_and_nothing_else(heliotorque, dist, tmp_path):
+    ssp = tmp_path / "loop.ssp"
+    done = call(
+        heliotorque, "wire", f"guidance={dist / 'Guidance.fmu'}", f"plant={dist / 'MomentumPlant.fmu'}", "--output", ssp
+    )
+    assert done.returncode == 0, done.stderr
+    _, inputs, joined = connectors(ssp)
+    bare = {(output.split("[")[0], to.split("[")[0]) for to, output in joined.items()}
+    expected = {(f"plant.{output}", f"guidance.{to}") for output, to in TO_GUIDANCE.items()}
+    expected |= {(f"guidance.{output}", f"plant.{to}") for output, to in TO_PLANT.items()}
+    assert bare == expected
+    assert len(joined) == len(inputs) == 6 * 3 + 1 + 4 + 3 + 4
+    assert done.stdout == "" and done.stderr.startswith(f"{len(joined)} connections")
+    assert "no output of that name" in done.stderr and "sun.sensedValid" in done.stderr
+    # To the standard output the same bytes, once it has the same name; never to a terminal.
+    piped = subprocess.run(
+        [heliotorque, "wire", "--name", "loop", "-q", f"guidance={dist / 'Guidance.fmu'}", f"plant={dist / 'MomentumPlant.fmu'}"],
+        capture_output=True,
+    )
+    assert piped.stdout == ssp.read_bytes() and piped.stderr == b""
+    terminal, other_end = pty.openpty()
+    refused = subprocess.run([heliotorque, "wire", dist / "Guidance.fmu"], stdout=other_end, stderr=subprocess.PIPE, text=True)
+    os.close(terminal)
+    os.close(other_end)
+    assert refused.returncode == 1 and "not written to a terminal: see --output" in refused.stderr
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_the_description_follows_the_schema_and_names_components_units_and_options(dist, system):
+    import fmpy
+
+    with zipfile.ZipFile(dist / f"{system}.ssp") as archive:
+        root = etree.fromstring(archive.read("SystemStructure.ssd"))
+        assert sorted(archive.namelist())[0] == "SystemStructure.ssd"
+    schema = etree.XMLSchema(file=f"{os.path.dirname(fmpy.__file__)}/ssp/schema/SystemStructureDescription.xsd")
+    schema.assertValid(root)
+    common = "{http://ssp-standard.org/SSP1/SystemStructureCommon}"
+    units = {unit.get("name") for unit in root.iter(f"{common}Unit")}
+    options = {option.get("name") for option in root.iter(f"{common}Enumeration") if len(option)}
+    for connector in root.iter("{*}Connector"):
+        (kind,) = connector
+        if kind.tag == f"{common}Real":
+            assert kind.get("unit") in units
+        if kind.tag == f"{common}Enumeration":
+            assert kind.get("name") in options
+
+
+def test_values_are_set_by_component_with_units_and_dates(heliotorque, dist):
+    ssp = dist / "DisturbanceLoop.ssp"
+    settings = ("--set", "body.start.rate=0,0,1 deg/s", "--set", "disturbance.shadowing.enabled=false")
+    first = flown(heliotorque, ssp, RATE, "--stop", "10", *settings)
+    assert first["body.attitude.rate[3]"][0] == np.radians(1.0)
+    dated = flown(
+        heliotorque, dist / "MessengerLoop.ssp", ["guidance.epoch"], "--stop", "1",
+        "--set", "guidance.start.epoch=2011-04-06T00:00:00 UTC",
+    )
+    assert abs(dated["guidance.epoch"][0] - 355_320_066.0) < 2.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["DisturbanceLoop.ssp", "--set", "body.torque.total=1,0,0"], ["body.torque.total[1]", "connected to disturbance.torque.total[1]"]),
+        (["DisturbanceLoop.ssp", "--set", "bdy.inertia=1,1,1"], ["DisturbanceLoop: no variable \"bdy.inertia\""]),
+        (["DisturbanceLoop.ssp", "--record", "nothing"], ["no variable \"nothing\""]),
+        (["DisturbanceLoop.ssp", "--slopes", "--input", "-"], ["--slopes is for an FMU"]),
+        (["DisturbanceLoop.ssp", "--step", "-1"], ["more than 0 s"]),
+        (["DisturbanceLoop.ssp", "--start", "100"], ["later than the start time"]),
+        (["Guidance.fmu", "--master", "jacobi"], ["--master is for a system"]),
+        (["Guidance.fmu", "--first-exchange", "zeros"], ["--first-exchange is for a system"]),
+        # The failed call is named with its component.
+        (["DisturbanceLoop.ssp", "--set", "body.start.q=0,0,0,0"], ["instance \"body\"", "fmi2GetReal", "`start.q`"]),
+    ],
+)
+def test_what_cannot_be_run_is_refused_by_name(heliotorque, dist, arguments, said):
+    name, *options = arguments
+    done = call(heliotorque, "run", dist / name, "--stop", "20", *options)
+    assert done.returncode != 0
+    for part in said:
+        assert part in done.stderr, done.stderr
+
+
+def test_open_inputs_follow_a_table(heliotorque, dist, tmp_path):
+    csv = tmp_path / "panels.csv"
+    csv.write_text("time,disturbance.panel[1].angle\n0,0\n100,0\n100,1\n", encoding="utf-8")
+    name = "disturbance.panel[1].angle"
+    result = flown(heliotorque, dist / "DisturbanceLoop.ssp", [name, *elements("disturbance.torque.solar", 3)], "--stop", "200", "--input", csv)
+    assert result[name].tolist() == [0.0] * 11 + [1.0] * 10
+    torque = table(result, elements("disturbance.torque.solar", 3))
+    assert np.abs(torque[11] - torque[10]).max() > 10.0 * np.abs(torque[10] - torque[9]).max()
+
+
+def test_info_and_check_tell_of_a_system(heliotorque, dist, tmp_path):
+    done = call(heliotorque, "info", dist / "MessengerLoop.ssp")
+    for part in ("guidance", "plant", "MomentumPlant", "stop 86400 s, step 1 s", "command.kind", "open inputs", "sun.sensedValid"):
+        assert part in done.stdout
+    assert call(heliotorque, "check", dist / "MessengerLoop.ssp").returncode == 0
+    torn = tmp_path / "torn.ssp"
+    torn.write_bytes((dist / "MessengerLoop.ssp").read_bytes()[:-1000])
+    done = call(heliotorque, "check", torn)
+    assert done.returncode == 1 and "not a usable SSP archive" in done.stdout
+
+
+@pytest.mark.skipif(importlib.util.find_spec("OMSimulator") is None, reason="OMSimulator is not installed")
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_omsimulator_flies_the_system(heliotorque, dist, system):
+    from OMSimulator import OMSimulator
+
+    stop_s, step_s = SYSTEMS[system]
+    names = [*ATTITUDE] if system == "DisturbanceLoop" else elements("plant.attitude.q", 4)
+    oms = OMSimulator()
+    model, status = oms.importFile(str(dist / f"{system}.ssp"))
+    assert status <= oms.status_warning
+    oms.setResultFile(model, "")
+    oms.setStopTime(model, stop_s)
+    oms.setFixedStepSize(f"{model}.{system}", step_s)
+    for call_ in (oms.instantiate, oms.initialize, oms.simulate):
+        assert call_(model) <= oms.status_warning
+    theirs = np.array([oms.getReal(f"{model}.{system}.{name}")[0] for name in names])
+    ours = flown(heliotorque, dist / f"{system}.ssp", names, "--every", str(stop_s))
+    assert np.abs(theirs - table(ours, names)[-1]).max() < 1e-9
