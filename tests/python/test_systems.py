@@ -226,18 +226,21 @@ def test_info_and_check_tell_of_a_system(heliotorque, dist, tmp_path):
 @pytest.mark.skipif(importlib.util.find_spec("OMSimulator") is None, reason="OMSimulator is not installed")
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_omsimulator_flies_the_system(heliotorque, dist, system):
-    from OMSimulator import OMSimulator
+    from OMSimulator import SSP, CRef
 
     stop_s, step_s = SYSTEMS[system]
-    names = [*ATTITUDE] if system == "DisturbanceLoop" else elements("plant.attitude.q", 4)
-    oms = OMSimulator()
-    model, status = oms.importFile(str(dist / f"{system}.ssp"))
-    assert status <= oms.status_warning
-    oms.setResultFile(model, "")
-    oms.setStopTime(model, stop_s)
-    oms.setFixedStepSize(f"{model}.{system}", step_s)
-    for call_ in (oms.instantiate, oms.initialize, oms.simulate):
-        assert call_(model) <= oms.status_warning
-    theirs = np.array([oms.getReal(f"{model}.{system}.{name}")[0] for name in names])
-    ours = flown(heliotorque, dist / f"{system}.ssp", names, "--every", str(stop_s))
+    ssp = dist / f"{system}.ssp"
+    names = ATTITUDE if system == "DisturbanceLoop" else elements("plant.attitude.q", 4)
+    model = SSP(str(ssp))
+    model.newSolver({"name": "fixed", "method": "oms_ma", "fixedStepSize": step_s})
+    outputs, _, _ = connectors(ssp)
+    for component in {name.partition(".")[0] for name in outputs}:
+        model.setSolver(CRef(system, component), "fixed")
+    running = model.instantiate()
+    running.initialize()
+    running.simulate()
+    theirs = np.array([running.getValue(CRef(system, *name.split(".", 1))) for name in names])
+    running.terminate()
+    running.delete()
+    ours = flown(heliotorque, ssp, names, "--every", str(stop_s))
     assert np.abs(theirs - table(ours, names)[-1]).max() < 1e-9

@@ -184,11 +184,13 @@ pub struct Run {
     /// ('start.epoch=2011-04-06T00:00:00 UTC')
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// For a system: in which order its components step; otherwise jacobi
-    #[arg(long, value_enum)]
+    /// For a system: jacobi, all components take the outputs of the step's beginning; or gaussSeidel, one after another,
+    /// each takes what those before it gave at the step's end; otherwise jacobi
+    #[arg(long, value_enum, hide_possible_values = true)]
     pub master: Option<MasterKind>,
-    /// For a system: what connected inputs are in the first step; otherwise initial
-    #[arg(long, value_enum, value_name = "VALUES")]
+    /// For a system: what connected inputs are in the first step, initial (outputs at the start) or zeros (as for FMPy);
+    /// otherwise initial
+    #[arg(long, value_enum, value_name = "VALUES", hide_possible_values = true)]
     pub first_exchange: Option<FirstExchangeKind>,
     /// Inputs over time, a CSV file: time,<input>,... with one row per time in s. Between rows continuous inputs are
     /// interpolated linearly and discrete ones held; two rows at one time make a jump; - is the standard input

@@ -70,16 +70,15 @@ impl Recorder {
                 }
                 scatter(&self.read_reals, &reals.places, &mut self.reals);
             }
-            for (group, to) in [(integers, &mut self.integers), (booleans, &mut self.booleans)] {
-                if !group.references.is_empty() {
-                    self.read_integers.resize(group.references.len(), 0);
-                    if std::ptr::eq(group, integers) {
-                        instance.get_integers(&group.references, &mut self.read_integers)?;
-                    } else {
-                        instance.get_booleans(&group.references, &mut self.read_integers)?;
-                    }
-                    scatter(&self.read_integers, &group.places, to);
-                }
+            if !integers.references.is_empty() {
+                self.read_integers.resize(integers.references.len(), 0);
+                instance.get_integers(&integers.references, &mut self.read_integers)?;
+                scatter(&self.read_integers, &integers.places, &mut self.integers);
+            }
+            if !booleans.references.is_empty() {
+                self.read_integers.resize(booleans.references.len(), 0);
+                instance.get_booleans(&booleans.references, &mut self.read_integers)?;
+                scatter(&self.read_integers, &booleans.places, &mut self.booleans);
             }
             if !texts.references.is_empty() {
                 let read = instance.get_strings(&texts.references)?;

@@ -182,6 +182,14 @@ fn open_fmus(
             return Err(at(component.line, what));
         }
         if let Some(same) = earlier.iter().position(|it| it.source == component.source) {
+            let once = fmus[same].description().co_simulation.as_ref();
+            if once.is_some_and(|it| it.can_be_instantiated_only_once_per_process) {
+                let what = format!(
+                    "component {:?}: its FMU may have one instance alone, and {:?} is one",
+                    component.name, structure.components[same].name
+                );
+                return Err(at(component.line, what));
+            }
             fmus.push(fmus[same].clone());
             continue;
         }

@@ -327,3 +327,29 @@ fn what_an_fmu_says_moves_no_cursor() {
     let printed = ended(&scratch, "info", &[], 0);
     assert!(printed.contains("\\u{9b}2J") && !printed.contains(is_control), "{printed:?}");
 }
+
+/// Both components are the same FMU; the first one is stepped first.
+const SYSTEM: &str = r#"<ssd:SystemStructureDescription name="Pair" version="1.0"><ssd:System name="Pair"><ssd:Elements>
+<ssd:Component name="one" source="resources/hostile.fmu"/><ssd:Component name="two" source="resources/hostile.fmu"/>
+</ssd:Elements></ssd:System></ssd:SystemStructureDescription>"#;
+
+#[test]
+fn a_component_that_crashes_or_hangs_is_named_with_its_call_and_the_rows_stay() {
+    for (behaviour, more, said) in [
+        ("CRASHES", &[][..], "the process ended"),
+        ("SLEEPS", &["--timeout", "0.5"], "did not return within 0.5 s"),
+    ] {
+        let Some(scratch) = hostile(behaviour, "IN_STEP") else { return };
+        let system = scratch.path().join("system");
+        fs::create_dir_all(system.join("resources")).unwrap();
+        fs::rename(scratch.path().join("fmu"), system.join("resources/hostile.fmu")).unwrap();
+        fs::write(system.join("SystemStructure.ssd"), SYSTEM).unwrap();
+        fs::rename(&system, scratch.path().join("fmu")).unwrap();
+        let csv = scratch.path().join("rows.csv");
+        let printed = ended(&scratch, "run", &[&["--output", shown(&csv)], more].concat(), 1);
+        let call = "Pair, component one: fmi2DoStep(currentCommunicationPoint=3";
+        assert!(printed.contains(call) && printed.contains(said), "{printed}");
+        let rows = fs::read_to_string(scratch.path().join("rows.csv.part")).unwrap();
+        assert_eq!(rows, "time,one.x,two.x\n0,0,0\n1,1,1\n2,2,2\n3,3,3\n");
+    }
+}

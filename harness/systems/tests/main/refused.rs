@@ -284,6 +284,13 @@ fn parameters_reach_their_components_in_their_units() {
     let system = System::open(&path).unwrap();
     assert!(found(&system).contains(&("size".to_owned(), Value::Real(2000.0))));
     assert!(found(&system).contains(&("paint".to_owned(), Value::Integer(1))));
+    assert_eq!(found(&system).len(), 2, "the one that yields is gone");
+    // A name with a dot wins over the one that it begins with.
+    let dotted = parameter(r#"<ssv:Parameter name="a.b.duration"><ssv:Real value="2"/></ssv:Parameter>"#)
+        .replace("<ssd:Component name=\"b\"", "<ssd:Component name=\"a.b\"")
+        .replace("endElement=\"b\"", "endElement=\"a.b\"");
+    let system = System::open(ssp(folder.path(), &dotted, &[])).unwrap();
+    assert_eq!(system.parts()[1].parameters, [("duration".to_owned(), Value::Real(2.0))]);
     let missing = refusal(&with_own, &[]);
     assert!(
         missing.contains("resources/own.ssv") && missing.contains("no such file in the SSP"),

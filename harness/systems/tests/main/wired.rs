@@ -63,6 +63,8 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
             "output sun.positionInertial[2] Real unit=\"m\"",
             "output earth.velocityInertial[1] Real unit=\"m\"",
             "output panel[7].sunOffset Real unit=\"rad\"",
+            // Its own output is no candidate.
+            "input earth.velocity[1] Real unit=\"m\" start=\"0\"",
         ],
     );
     let two = description(
@@ -78,12 +80,28 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
     let components = [opened(folder.path(), "one", &one), opened(folder.path(), "two", &two)];
     let wired = wire("Pair", &components, Experiment::default(), &[]).unwrap();
     assert_eq!(wired.structure.connections.len(), 3);
-    assert_eq!(wired.left.len(), 1);
+    let left: Vec<&str> = wired.left.iter().map(|it| it.input.as_str()).collect();
+    assert_eq!(left, ["earth.velocity[1]", "sun.positionBody[2]"]);
+    // What is written of transformations is read, too.
+    let mut structure = wired.structure;
+    structure.connections[0].suppress_unit_conversion = true;
+    structure.connections[1].transformation = Some(Linear { factor: 0.1, offset: -3e-20 });
+    let read = read_structure(to_xml(&structure).as_bytes()).unwrap();
+    assert!(read.connections[0].suppress_unit_conversion && !read.connections[1].suppress_unit_conversion);
+    assert_eq!(read.connections[1].transformation, structure.connections[1].transformation);
     // The same output twice is no choice of ours.
     let three = opened(folder.path(), "three", &one);
     let [one, two] = components;
     let wired = wire("Three", &[one.clone(), two, three], Experiment::default(), &[]).unwrap();
-    assert!(wired.structure.connections.is_empty());
+    let joined: Vec<String> =
+        wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
+    assert_eq!(
+        joined,
+        [
+            "three.earth.velocityInertial[1] one.earth.velocity[1]",
+            "one.earth.velocityInertial[1] three.earth.velocity[1]"
+        ]
+    );
     assert!(
         wired.left[0].why.starts_with("two candidates: one.sun.positionInertial[2], three."),
         "{:?}",
