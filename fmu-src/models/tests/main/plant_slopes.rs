@@ -70,7 +70,7 @@ fn slopes_off(plant: &mut NamedInstance, names: &[&str], from_s: f64, h_s: f64) 
     let slopes: Vec<Vec<f64>> = names
         .iter()
         .map(|name| {
-            let at: Vec<_> = components(name).iter().map(|name| plant.elements::<1>(name)[0]).collect();
+            let at: Vec<_> = components(name).iter().map(|name| plant.find(name).unwrap()).collect();
             let mut slopes = vec![0.0; at.len()];
             let status = plant.fmu.get_output_derivatives(&at, &vec![1; at.len()], &mut slopes);
             plant.ok(name, status);
@@ -86,6 +86,7 @@ fn slopes_off(plant: &mut NamedInstance, names: &[&str], from_s: f64, h_s: f64) 
         }
         read(plant)
     });
+    assert_eq!(plant.fmu.set_state(&state), Status::Ok);
     plant.fmu.free_state(&mut state);
     let mut worst = 0.0_f64;
     for (i, slopes) in slopes.iter().enumerate() {
@@ -111,7 +112,7 @@ fn components(name: &str) -> Vec<String> {
 
 #[test]
 fn slopes_hold_in_every_source_of_attitude_and_during_a_dump() {
-    let names = ["attitude.q", "momentum.body", "momentum.inertial", "deltaV", "position"];
+    let names = ["attitude.q", "momentum.body", "momentum.inertial", "deltaV"];
     for source in 2..=4 {
         let mut plant = momentum_plant();
         plant.put_integer("attitude.source", source);

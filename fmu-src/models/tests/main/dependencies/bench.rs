@@ -235,10 +235,18 @@ impl<M: Model> Bench<M> {
         Some(())
     }
 
-    /// Whether a flight whose inputs have changed takes a short step.
+    /// Whether a flight whose inputs have changed takes the steps that are looked at; says why not.
     pub fn goes_on(&self, flight: &Simulation<M>) -> bool {
-        let mut flight = Simulation { changed: true, ..flight.clone() };
-        self.step(&mut flight, STEPS_S[0]).is_some()
+        [STEPS_S[0], STEPS_S[1], SHORTEST_S].into_iter().all(|length_s| {
+            let mut state = flight.state.clone();
+            let (start_s, end_s) = (flight.time_s, flight.time_s + length_s);
+            let step = Step { start_s, end_s, changed: true, inputs: InputsOverTime::held() };
+            let ended = M::step(&self.context(), &mut flight.values.back(), &mut state, &step);
+            if let Err(error) = &ended {
+                println!("a step of {length_s} s from {start_s} s: {error}");
+            }
+            ended.is_ok()
+        })
     }
 
     /// Values to change a known to.

@@ -345,7 +345,9 @@ fn measure(text: &str, rounds: usize, shapes: bool) {
         bench.look_at_step(&flight);
         others.extend([1e-3, 100.0].map(|size_n_m_s| limits(&bench, &flight.values, size_n_m_s)));
         for edge in bench.edges_at_step(&flight, &others) {
-            bench.look_at_step_edge(&edge);
+            if bench.goes_on(&edge) {
+                bench.look_at_step_edge(&edge);
+            }
         }
         if round > 40 && round % 8 == 0 && bench.is_done() {
             break;
