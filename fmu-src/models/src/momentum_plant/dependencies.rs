@@ -120,7 +120,7 @@ impl Start {
         let measured_attitude = knowns![
             tracker.noise,
             tracker.failed,
-            tracker.interval,
+            tracker.period,
             v.gyro.failed,
             v.noise.seed,
             v.control.rate,

@@ -70,7 +70,7 @@ fn control(bench: &Plant, random: &mut RandomNumbers, values: &mut Tables) {
 fn sensors(bench: &Plant, random: &mut RandomNumbers, values: &mut Tables) {
     let noise_rad = or_zero(random, 0.6, 1e-6, 1e-2);
     bench.put_vector(values, "starTracker.noise", &[1.0, 1.5, 2.0].map(|x| noise_rad * x));
-    bench.put(values, "starTracker.interval", random.between(0.1, 1.0));
+    bench.put(values, "starTracker.period", random.between(0.1, 1.0));
     bench.put(values, "starTracker.outage", or_zero(random, 0.5, 0.1, 1e3));
     bench.put(values, "starTracker.failed", flag(random, 0.3));
     bench.put(values, "gyro.noise", or_zero(random, 0.5, 1e-6, 1e-3));
