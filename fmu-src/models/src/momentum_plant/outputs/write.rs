@@ -12,9 +12,9 @@ use physics::plant::{
 };
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
-use super::inputs::dynamics;
-use super::inputs::state::PlantState;
-use super::setup::Plan;
+use super::super::inputs::dynamics;
+use super::super::inputs::state::PlantState;
+use super::super::setup::Plan;
 
 /// Writes every output at `time_s`.
 pub fn write(
