@@ -228,8 +228,10 @@ fn sensors(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start:
     let at_step = &knowns![&inputs.attitude, &failed].only_if(has_sensors);
     let fields = v.sun_sensor.iter().map(|sensor| knowns![sensor.axis, sensor.field_of_view]);
     let eclipse = knowns![v.planet.radius, v.eclipse.method];
-    let seen = &knowns![&start.attitude, failed, fields.collect::<Knowns>(), eclipse, v.solver.dynamics_step]
-        .only_if(has_sensors);
+    let solver = &v.solver;
+    let linear = knowns![solver.dynamics_step, solver.disturbance_step, solver.disturbance_tolerance];
+    let seen =
+        &knowns![&start.attitude, failed, fields.collect::<Knowns>(), eclipse, linear].only_if(has_sensors);
     let noise = v.sun_sensor.iter().map(|sensor| sensor.noise).collect::<Knowns>();
     let drawn = knowns![noise, v.noise.seed, v.control.rate].only_if(has_sensors);
     table.output(v.sun.sensed_valid, at_step, seen);
@@ -267,14 +269,14 @@ fn light_and_loads(
         surface.night_temperature,
         surface.day_temperature,
     ];
-    // The same holds for all that acts in controlled and free flight, which is linear in time over an interval.
-    let linear = &knowns![v.solver.dynamics_step];
-    let past_shadows = fitted.clone().only_if(is_shadowed);
-    let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, past_shadows, linear];
+    // The same holds for all that acts in controlled and free flight, which is linear in time over an interval that ends
+    // with the stretch of light.
+    let linear = &knowns![fitted, v.solver.dynamics_step];
+    let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, linear];
     let solar = &knowns![by_sun, shade];
-    let albedo = &knowns![&start.attitude, reflected, shade, fitted, linear];
-    let infrared = &knowns![&start.attitude, radiated, shade, fitted, linear];
-    let recoil = &knowns![by_sun, reflected, radiated, fitted, v.thermal.enabled];
+    let albedo = &knowns![&start.attitude, reflected, shade, linear];
+    let infrared = &knowns![&start.attitude, radiated, shade, linear];
+    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.enabled];
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
