@@ -9,6 +9,9 @@ use crate::shell::{Outcome, command, root, run};
 
 /// How the plant of `MessengerLoop.ssp` follows the command of Guidance.
 const PLANT_ATTITUDE_SOURCE: &str = "attitude.source=commanded";
+/// The attitude that Guidance commands at the default epoch: both begin there, not in a slew that Safe Hold would interrupt.
+const MESSENGER_START: &str =
+    "start.q=0.4133464981480585,0.895282817659325,0.1473540549832279,0.07681231250728461";
 
 /// An FMU of a system: component, model, whether it is one of the probe's, spacecraft, start values.
 struct Component {
@@ -40,14 +43,14 @@ const SYSTEMS: &[System] = &[
                 model: "Guidance",
                 is_probe: false,
                 spacecraft: Some("messenger.toml"),
-                start: &["pointing.scenario=orbitPhase"],
+                start: &["pointing.scenario=orbitPhase", MESSENGER_START],
             },
             Component {
                 name: "plant",
                 model: "MomentumPlant",
                 is_probe: false,
                 spacecraft: Some("messenger.toml"),
-                start: &[PLANT_ATTITUDE_SOURCE],
+                start: &[PLANT_ATTITUDE_SOURCE, MESSENGER_START],
             },
         ],
         outputs: "plant.attitude.q,plant.attitude.rate,plant.momentum.body,plant.momentum.inertial,plant.dump.count,\
