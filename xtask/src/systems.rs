@@ -7,16 +7,24 @@ use std::path::{Path, PathBuf};
 use crate::build::Built;
 use crate::shell::{Outcome, command, root, run};
 
-/// How the plant of `MessengerLoop.ssp` follows the command of Guidance.
-const PLANT_ATTITUDE_SOURCE: &str = "attitude.source=commanded";
+/// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
+/// lead the Sun out of its zone.
+const GUIDED_AT_START: [&str; 4] = [
+    "start.q[1]=0.4133464981480585",
+    "start.q[2]=0.895282817659325",
+    "start.q[3]=0.1473540549832279",
+    "start.q[4]=0.07681231250728458",
+];
 
-/// An FMU of a system: component, model, whether it is one of the probe's, spacecraft, start values.
+/// An FMU of a system: component, model, whether it is one of the probe's, spacecraft, start values, whether it starts in the
+/// attitude that guidance commands.
 struct Component {
     name: &'static str,
     model: &'static str,
     is_probe: bool,
     spacecraft: Option<&'static str>,
     start: &'static [&'static str],
+    starts_guided: bool,
 }
 
 /// A system: file, stop and step of its default experiment, components, further outputs that its connectors show.
@@ -41,13 +49,15 @@ const SYSTEMS: &[System] = &[
                 is_probe: false,
                 spacecraft: Some("messenger.toml"),
                 start: &["pointing.scenario=orbitPhase"],
+                starts_guided: true,
             },
             Component {
                 name: "plant",
                 model: "MomentumPlant",
                 is_probe: false,
                 spacecraft: Some("messenger.toml"),
-                start: &[PLANT_ATTITUDE_SOURCE],
+                start: &["attitude.source=controlled"],
+                starts_guided: true,
             },
         ],
         outputs: "plant.attitude.q,plant.attitude.rate,plant.momentum.body,plant.momentum.inertial,plant.dump.count,\
@@ -65,8 +75,16 @@ const SYSTEMS: &[System] = &[
                 is_probe: false,
                 spacecraft: Some("messenger-thermal.toml"),
                 start: &[],
+                starts_guided: false,
             },
-            Component { name: "body", model: "RigidBody", is_probe: true, spacecraft: None, start: &[] },
+            Component {
+                name: "body",
+                model: "RigidBody",
+                is_probe: true,
+                spacecraft: None,
+                start: &[],
+                starts_guided: false,
+            },
         ],
         outputs: "body.attitude.q,body.attitude.rate",
     },
@@ -98,7 +116,8 @@ fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Resul
     if let Some(spacecraft) = component.spacecraft {
         pack.arg("--spacecraft").arg(root().join("fmu-src").join("resources").join(spacecraft));
     }
-    for start in component.start {
+    let attitude = GUIDED_AT_START.iter().filter(|_| component.starts_guided);
+    for start in component.start.iter().chain(attitude) {
         pack.args(["--set", start]);
     }
     run(pack.arg("--output").arg(&fmu))?;

@@ -59,7 +59,7 @@ pub fn begin(
     time_s: f64,
 ) -> Result<(), Failure> {
     let mut configuration = inputs::configuration(context, values, state)?;
-    let settings = dynamics::settings(context, values, &configuration)?;
+    let mut settings = dynamics::settings(context, values, &configuration)?;
     state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
     state.light = inputs::light(context, values, &configuration)?;
     let (mut attitude, is_default) = dynamics::start_attitude(context, values)?;
@@ -73,6 +73,11 @@ pub fn begin(
             rate_body_rad_s = frame.rate_body_rad_s;
         }
     }
+    if settings.panels_have_mass {
+        let inertia_body_kg_m2 =
+            flight(context, state, &mut configuration)?.inertia_at_start(time_s, attitude);
+        settings.gyrostat.set_inertia(inertia_body_kg_m2);
+    }
     let wheels = &context.variables.wheel;
     let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
     state.dynamics = Some(AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held));
@@ -82,12 +87,13 @@ pub fn begin(
     let begun = state.dynamics.clone();
     let over_time = InputsOverTime::held();
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
+    let limit = settings.work_limit;
     if let Some(mut shown) = state.dynamics.take() {
         let mut flight = flight(context, state, &mut configuration)?;
         stretch
             .with_inputs(|inputs| {
                 let silent = &mut |_: &DumpEvent| {};
-                shown.take_due(&settings, &mut flight, inputs, settings.work_limit, silent)
+                shown.take_due(&mut settings, &mut flight, inputs, limit, silent)
             })
             .map_err(outputs::failure)?;
         state.dynamics = Some(shown);
@@ -109,7 +115,7 @@ pub fn step(
 ) -> Result<(), Failure> {
     let kept = changes.is_none_or(|changes| !changes.any());
     let known = state.configuration.take().zip(state.dynamics_settings.take()).filter(|_| kept);
-    let (mut configuration, settings) = match known {
+    let (mut configuration, mut settings) = match known {
         Some(known) => known,
         None => {
             let configuration = inputs::configuration(context, values, state)?;
@@ -147,7 +153,7 @@ pub fn step(
     let mut flight = flight(context, state, &mut configuration)?;
     stretch
         .with_inputs(|inputs| {
-            flown.advance(&settings, &mut flight, inputs, step.end_s, |event| log_dump(context, event))
+            flown.advance(&mut settings, &mut flight, inputs, step.end_s, |event| log_dump(context, event))
         })
         .map_err(outputs::failure)?;
     state.dynamics = Some(flown);

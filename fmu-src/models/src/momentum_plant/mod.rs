@@ -148,7 +148,7 @@ impl Model for MomentumPlant {
         outputs::write_plates(context, values, state, &configuration, step.end_s)?;
         let totals = state.integrator.totals(step.end_s);
         outputs::write(context, values, state, &configuration, &evaluation, &totals, step.end_s);
-        outputs::write_ideal(context, values, state, &configuration, &evaluation, &totals, step.end_s)?;
+        outputs::write_ideal(context, values, state, &evaluation, &totals, step.end_s)?;
         state.configuration = Some(configuration);
         Ok(StepEnd::at(step.end_s))
     }
@@ -216,7 +216,7 @@ fn begin(
     let totals = state.integrator.totals(time_s);
     outputs::write_calculated(context, values, &configuration);
     outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
-    outputs::write_ideal(context, values, state, &configuration, &evaluation, &totals, time_s)?;
+    outputs::write_ideal(context, values, state, &evaluation, &totals, time_s)?;
     state.configuration = Some(configuration);
     Ok(())
 }
@@ -224,13 +224,13 @@ fn begin(
 /// At `time_s` the flight still waits for inputs: the attitude is held as commanded, and nothing acts.
 fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s: f64) -> Result<(), Failure> {
     let configuration = inputs::configuration(context, values, state)?;
-    let evaluation = Evaluation::nowhere(state.command.frame_at(time_s));
+    let evaluation = Evaluation::nowhere(state.command.frame_at(time_s), configuration.mass_at_zero());
     let totals = start_totals(context, values, &evaluation);
     state.integrator = MomentumIntegrator::new(time_s, totals);
     outputs::write_plates(context, values, state, &configuration, time_s)?;
     outputs::write_calculated(context, values, &configuration);
     outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
-    outputs::write_ideal(context, values, state, &configuration, &evaluation, &totals, time_s)?;
+    outputs::write_ideal(context, values, state, &evaluation, &totals, time_s)?;
     Ok(())
 }
 

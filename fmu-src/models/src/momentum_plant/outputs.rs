@@ -27,7 +27,7 @@ pub fn write(
     time_s: f64,
 ) {
     let variables = context.variables;
-    let Evaluation { instant, loads } = evaluation;
+    let Evaluation { instant, loads, mass } = evaluation;
     let rotation = &instant.frame.inertial_from_body;
     values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
     values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
@@ -81,7 +81,7 @@ pub fn write(
     };
     values.set_real(variables.orbit.time_since_periapsis, since_s);
     values.set_real(variables.mass, configuration.mass_kg);
-    values.set_vector(variables.center_of_mass, configuration.center_of_mass_body_m.into());
+    values.set_vector(variables.center_of_mass, mass.center_of_mass_body_m.into());
 
     let valid = context
         .setup
@@ -107,12 +107,11 @@ pub fn write_ideal(
     context: &Plan<'_>,
     values: &mut Values,
     state: &mut PlantState,
-    configuration: &Configuration,
     evaluation: &Evaluation,
     totals: &Totals,
     time_s: f64,
 ) -> Result<(), Failure> {
-    write_wheels(context, values, state, configuration, totals, evaluation);
+    write_wheels(context, values, state, totals, evaluation);
     write_dumps(context, values, state.integrator.dumps(), &state.spacing, false);
     let v = context.variables;
     let Instant { frame, sun_body, lit_fraction, .. } = &evaluation.instant;
@@ -228,13 +227,12 @@ fn write_wheels(
     context: &Plan<'_>,
     values: &mut Values,
     state: &mut PlantState,
-    configuration: &Configuration,
     totals: &Totals,
     evaluation: &Evaluation,
 ) {
     let Some(array) = state.wheels.get_or_insert_with(|| wheels(context, values)) else { return };
     let frame = &evaluation.instant.frame;
-    let wheels_body_n_m_s = totals.wheels_body_n_m_s(&configuration.inertia_body_kg_m2, frame);
+    let wheels_body_n_m_s = totals.wheels_body_n_m_s(&evaluation.mass.inertia_body_kg_m2, frame);
     for (number, variables) in context.variables.wheel.iter().enumerate() {
         let momentum_n_m_s = array.momentum_n_m_s(number, &wheels_body_n_m_s);
         values.set_real(variables.momentum, momentum_n_m_s);

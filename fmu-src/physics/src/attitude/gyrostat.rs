@@ -75,6 +75,12 @@ impl Gyrostat {
         &self.inertia_body_kg_m2
     }
 
+    /// Takes another inertia, the rotors in it as before.
+    pub fn set_inertia(&mut self, inertia_body_kg_m2: Matrix3<f64>) {
+        self.inertia_body_kg_m2 = inertia_body_kg_m2;
+        self.carrier_body_kg_m2 = self.without(self.wheels.iter().filter(|wheel| !wheel.locked));
+    }
+
     /// The same without the rotors about their axes that can turn: what the motors' torque accelerates.
     pub fn carrier_body_kg_m2(&self) -> &Matrix3<f64> {
         &self.carrier_body_kg_m2

@@ -5,7 +5,7 @@
 //! that begins at t and reads that step's inputs. Between two samples, edges of the disturbance grid, ends of dumps and
 //! changes of inputs the motion is one [`GyrostatMotion`] segment or a few; communication points only evaluate it.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{
@@ -52,6 +52,8 @@ pub struct DynamicsSettings {
     pub dump_torque_n_m: f64,
     /// Edges of the disturbance grid are multiples of this, in s.
     pub grid_s: f64,
+    /// Whether panels that turn have a mass: the inertia then follows them from one edge of the grid to the next.
+    pub panels_have_mass: bool,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,
 }
@@ -129,6 +131,19 @@ impl Flight<'_> {
         Ok(plant.guided_frame(time_s))
     }
 
+    /// Inertia with the panels as they stand where the flight begins in this attitude, in kg m2.
+    pub fn inertia_at_start(&mut self, time_s: f64, attitude: Attitude) -> Matrix3<f64> {
+        let body = BodyMotion {
+            attitude: attitude.unit_quaternion(),
+            rate_body_rad_s: Vector3::zeros(),
+            momentum_inertial_n_m_s: Vector3::zeros(),
+            delta_v_inertial_m_s: Vector3::zeros(),
+        };
+        let mut plant = self.plant(time_s, &body, u32::MAX);
+        let instant = plant.instant(time_s);
+        plant.mass_properties(&instant).inertia_body_kg_m2
+    }
+
     /// The plant with the body as it turns now.
     fn plant(
         &mut self,
@@ -166,6 +181,8 @@ struct ActiveDump {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct AttitudeDynamics {
     motion: GyrostatMotion,
+    /// Inertia of body and rotors since the last edge of the grid, in kg m2.
+    inertia_body_kg_m2: Matrix3<f64>,
     disturbance: DisturbanceInterval,
     /// Number of the next sample and its time, in s.
     next_sample: (i64, f64),
@@ -210,6 +227,7 @@ impl AttitudeDynamics {
         let number = (time_s * settings.rate_hz).floor() as i64;
         Self {
             motion: GyrostatMotion::new(&settings.gyrostat, time_s, unit, &rate_body_rad_s, wheels_n_m_s),
+            inertia_body_kg_m2: *settings.gyrostat.inertia_body_kg_m2(),
             disturbance: DisturbanceInterval::before(),
             next_sample: (number, time_s),
             sampled_s: time_s,
@@ -234,6 +252,7 @@ impl AttitudeDynamics {
         let vector = |vector: &Vector3<f64>| vector.iter().all(sound);
         let Estimate { attitude, rate_body_rad_s, .. } = &self.estimate;
         self.motion.is_sound(wheels)
+            && self.inertia_body_kg_m2.iter().all(sound)
             && self.disturbance.is_sound()
             && [self.next_sample.1, self.sampled_s, self.next_guidance_s].iter().all(sound)
             && self.next_sample.0.unsigned_abs() < 1 << 60
@@ -272,12 +291,13 @@ impl AttitudeDynamics {
     /// What ends the flight.
     pub fn advance(
         &mut self,
-        settings: &DynamicsSettings,
+        settings: &mut DynamicsSettings,
         flight: &mut Flight<'_>,
         inputs: &DynamicsInputs<'_>,
         end_s: f64,
         mut report: impl FnMut(&DumpEvent),
     ) -> Result<(), PlantError> {
+        settings.gyrostat.set_inertia(self.inertia_body_kg_m2);
         let mut left = settings.work_limit;
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
@@ -300,7 +320,7 @@ impl AttitudeDynamics {
     /// At the present end of the motion: disturbances anew, a dump's end, the sample, where they are due.
     pub fn take_due(
         &mut self,
-        settings: &DynamicsSettings,
+        settings: &mut DynamicsSettings,
         flight: &mut Flight<'_>,
         inputs: &DynamicsInputs<'_>,
         work_limit: u32,
@@ -332,6 +352,11 @@ impl AttitudeDynamics {
             flight.propagator.cut(configuration, time_s, true);
             let mut plant = flight.plant(time_s, &body, work_limit);
             self.disturbance = DisturbanceInterval::build(&mut plant, time_s, limit_s)?;
+            if settings.panels_have_mass {
+                let instant = plant.instant(time_s);
+                self.inertia_body_kg_m2 = plant.mass_properties(&instant).inertia_body_kg_m2;
+                settings.gyrostat.set_inertia(self.inertia_body_kg_m2);
+            }
         }
         if sample_due {
             self.sample(settings, flight, inputs, &body, work_limit, report)?;
@@ -549,11 +574,13 @@ impl AttitudeDynamics {
         external: ExternalLoad,
         time_s: f64,
     ) -> Evaluation {
-        let instant = flight.plant(time_s, body, u32::MAX).instant(time_s);
+        let mut plant = flight.plant(time_s, body, u32::MAX);
+        let instant = plant.instant(time_s);
+        let mass = plant.mass_properties(&instant);
         let mut loads = self.disturbance.loads_at(time_s);
         loads[Effect::Applied] =
             ForceTorque { force_body_n: external.force_body_n, torque_body_n_m: external.torque_body_n_m };
-        Evaluation { instant, loads }
+        Evaluation { instant, loads, mass }
     }
 
     /// Momentum of wheel `k` (0-based) relative to the body, in N m s.

@@ -14,7 +14,7 @@ use crate::environment::sun::pressure_n_m2;
 use crate::guidance::Guided;
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
-use crate::spacecraft::{Panel, SunshadeModel};
+use crate::spacecraft::{MassProperties, Panel, SunshadeModel, with_panels};
 
 use super::settings::RadiationSettings;
 
@@ -189,6 +189,25 @@ pub fn orbit_from_elements(
     TwoBodyOrbit::from_state(&state, gm_m3_s2, epoch_s)
 }
 
+impl Configuration {
+    /// Mass, centre of mass and inertia with every panel at angle 0.
+    pub fn mass_at_zero(&self) -> MassProperties {
+        MassProperties {
+            mass_kg: self.mass_kg,
+            center_of_mass_body_m: self.center_of_mass_body_m,
+            inertia_body_kg_m2: self.inertia_body_kg_m2,
+        }
+    }
+
+    /// Mass, centre of mass and inertia as the panels stand, the Sun being there (unit vector, body frame).
+    pub fn mass_properties(&self, panels: &[Panel], sun_body: &Vector3<f64>) -> MassProperties {
+        with_panels(&self.mass_at_zero(), panels, |index| {
+            let set = self.panels.get(index).zip(panels.get(index));
+            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body)).unwrap_or(0.0)
+        })
+    }
+}
+
 /// Everything a flight needs besides the spacecraft itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
@@ -214,11 +233,11 @@ pub struct Configuration {
     pub sunshade: SunshadeModel,
     /// One setting a panel.
     pub panels: Vec<PanelSetting>,
-    /// Centre of mass, body frame, in m.
+    /// Centre of mass, body frame, in m, with every panel at angle 0.
     pub center_of_mass_body_m: Vector3<f64>,
     /// Mass, in kg.
     pub mass_kg: f64,
-    /// Inertia about the centre of mass, body frame, in kg m2.
+    /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0.
     pub inertia_body_kg_m2: Matrix3<f64>,
     /// Gravitational parameter whose gradient turns the body, in m3/s2; 0 = left out.
     pub gravity_gradient_m3_s2: f64,

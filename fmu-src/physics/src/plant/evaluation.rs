@@ -14,7 +14,7 @@ use crate::environment::orbit::OrbitMethod;
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
-use crate::spacecraft::Panel;
+use crate::spacecraft::{MassProperties, Panel};
 
 use super::configuration::{Configuration, Motion};
 use super::error::PlantError;
@@ -45,12 +45,14 @@ pub struct Evaluation {
     pub instant: Instant,
     /// What acts on it.
     pub loads: Loads,
+    /// Mass, centre of mass and inertia as the panels stand.
+    pub mass: MassProperties,
 }
 
 impl Evaluation {
     /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
-    pub fn nowhere(frame: MovingFrame) -> Self {
-        Self { instant: Instant::nowhere(frame), loads: Loads::zero() }
+    pub fn nowhere(frame: MovingFrame, mass: MassProperties) -> Self {
+        Self { instant: Instant::nowhere(frame), loads: Loads::zero(), mass }
     }
 
     /// Whether a spacecraft can be there: outside the planet and the Sun, every number finite.
@@ -117,17 +119,23 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
         let instant = self.kinematics.instant(time_s);
         let configuration = self.kinematics.configuration;
-        let mut loads = self.radiation(time_s, &instant);
+        let mass = self.mass_properties(&instant);
+        let mut loads = self.radiation(time_s, &instant, &mass.center_of_mass_body_m);
         if let Some(planet_body_m) = &instant.planet_body_m {
             loads[Effect::GravityGradient].torque_body_n_m = gravity_gradient_n_m(
                 configuration.gravity_gradient_m3_s2,
-                &configuration.inertia_body_kg_m2,
+                &mass.inertia_body_kg_m2,
                 planet_body_m,
             );
         }
         let ExternalLoad { force_body_n, torque_body_n_m } = (self.external)(time_s);
         loads[Effect::Applied] = ForceTorque { force_body_n, torque_body_n_m };
-        Evaluation { instant, loads }
+        Evaluation { instant, loads, mass }
+    }
+
+    /// Mass, centre of mass and inertia as the panels stand.
+    pub fn mass_properties(&self, instant: &Instant) -> MassProperties {
+        self.kinematics.configuration.mass_properties(self.prepared.panels, &instant.sun_body)
     }
 
     /// Where everything is and how the body stands at `time_s`.
@@ -151,7 +159,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     }
 
     /// Light and heat: slow effects from their segment, plain sunlight in closed form.
-    fn radiation(&self, time_s: f64, instant: &Instant) -> Loads {
+    fn radiation(&self, time_s: f64, instant: &Instant, center_of_mass_body_m: &Vector3<f64>) -> Loads {
         let configuration = self.kinematics.configuration;
         let effects = &configuration.light_and_heat;
         let mut loads = Loads::zero();
@@ -164,17 +172,15 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         }
         if !shadowed {
             let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
-            loads[Effect::Solar] = self.sunlight(&Beam {
-                source_body: instant.sun_body,
-                pressure_pa: pressure_pa * instant.lit_fraction,
-            });
+            let beam =
+                Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
+            loads[Effect::Solar] = self.sunlight(&beam, center_of_mass_body_m);
         }
         loads
     }
 
-    fn sunlight(&self, beam: &Beam<f64>) -> ForceTorque<f64> {
+    fn sunlight(&self, beam: &Beam<f64>, center_of_mass: &Vector3<f64>) -> ForceTorque<f64> {
         let configuration = self.kinematics.configuration;
-        let center_of_mass = &configuration.center_of_mass_body_m;
         let solar = self.prepared.solar;
         let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
         for (index, (panel, setting)) in self.prepared.panels.iter().zip(&configuration.panels).enumerate() {

@@ -17,7 +17,7 @@ use super::description::{
 use super::document::Document;
 use super::error::SpacecraftError;
 use super::instruments::Instrument;
-use super::mass::{MassProperties, check_inertia};
+use super::mass::{MassProperties, PanelMass, check_inertia};
 use super::optics::Optics;
 use super::panel::{Panel, PanelControl};
 use super::place::Place;
@@ -392,11 +392,14 @@ impl Builder<'_> {
         let rear = description.rear_optics.as_ref().map(|name| self.material(&at.key("rear_optics"), name));
         let outline =
             checked_outline(&mut self.check, at, description.polygon_m.as_deref(), Some(&zero_normal));
+        let area_m2 = checked_area(&mut self.check, at, description.area_m2, outline.as_ref());
+        let center_m = checked_center(&mut self.check, at, description.center_m, outline.as_ref());
+        let mass = self.panel_mass(at, description, area_m2, center_m, &zero_normal);
         Panel {
             name: name_or_number(description.name.as_deref(), "panel", index),
-            area_m2: checked_area(&mut self.check, at, description.area_m2, outline.as_ref()),
-            center_body_m: dcm_body_from_panel
-                * checked_center(&mut self.check, at, description.center_m, outline.as_ref()),
+            area_m2,
+            center_body_m: dcm_body_from_panel * center_m,
+            mass: mass.map(|mass| mass.turned(&dcm_body_from_panel)),
             axis_body: dcm_body_from_panel * axis,
             zero_normal_body: dcm_body_from_panel * zero_normal,
             optics: front.optics,
@@ -418,6 +421,39 @@ impl Builder<'_> {
                 360.0,
             ),
         }
+    }
+
+    /// A panel's mass in the panel frame.
+    fn panel_mass(
+        &mut self,
+        at: &Place,
+        description: &PanelDescription,
+        area_m2: f64,
+        center_m: Vector3<f64>,
+        normal: &Vector3<f64>,
+    ) -> Option<PanelMass> {
+        let Some(mass_kg) = description.mass_kg else {
+            for (key, is_given) in [
+                ("mass_center_m", description.mass_center_m.is_some()),
+                ("inertia_kg_m2", description.inertia_kg_m2.is_some()),
+            ] {
+                if is_given {
+                    self.check.report(&at.key(key), "no mass_kg beside it", "with mass_kg alone");
+                }
+            }
+            return None;
+        };
+        let mass_kg = self.check.positive(&at.key("mass_kg"), mass_kg);
+        let place = description.mass_center_m.map(|place| self.check.vector(&at.key("mass_center_m"), place));
+        let mut mass = PanelMass::square_plate(mass_kg, area_m2, place.unwrap_or(center_m), normal);
+        if let Some(rows) = description.inertia_kg_m2 {
+            let [x, y, z] = rows.map(|row| Vector3::from(row).transpose());
+            mass.inertia_body_kg_m2 = Matrix3::from_rows(&[x, y, z]);
+            if let Err(allowed) = check_inertia(&mass.inertia_body_kg_m2) {
+                self.check.report(&at.key("inertia_kg_m2"), format!("{rows:?}"), allowed);
+            }
+        }
+        Some(mass)
     }
 
     fn wheel(&mut self, at: &Place, index: usize, description: &WheelDescription) -> Wheel {

@@ -239,6 +239,15 @@ pub(crate) struct PanelDescription {
     /// Material of the back, if light can reach it.
     pub rear_optics: Option<String>,
     pub thermal: Option<ThermalDescription>,
+    /// Its part of the spacecraft's mass, in kg: centre of mass and inertia then follow its angle; `[mass_properties]` are those
+    /// with every panel at angle 0.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub mass_kg: Option<f64>,
+    /// Centre of that mass at angle 0 in the panel frame, in m; the panel's centre unless given.
+    pub mass_center_m: Option<[f64; 3]>,
+    /// Inertia about that centre at angle 0, axes of the panel frame, row by row, in kg m2; that of a thin square plate unless
+    /// given.
+    pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
     /// How the angle comes about; `sun_offset` unless given.
     pub control: Option<PanelControl>,
     /// Angle between cell normal and Sun for `sun_offset`, in deg; 0 unless given.

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 /// Mass properties of the whole spacecraft.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MassProperties {
     /// Mass in kg.
     pub mass_kg: f64,
@@ -12,6 +12,42 @@ pub struct MassProperties {
     pub center_of_mass_body_m: Vector3<f64>,
     /// Inertia about the centre of mass, body axes, in kg m2.
     pub inertia_body_kg_m2: Matrix3<f64>,
+}
+
+/// A panel's part of the spacecraft's mass, at angle 0.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PanelMass {
+    /// Mass in kg.
+    pub mass_kg: f64,
+    /// Its centre, body frame, in m.
+    pub center_body_m: Vector3<f64>,
+    /// Inertia about its centre, body axes, in kg m2.
+    pub inertia_body_kg_m2: Matrix3<f64>,
+}
+
+impl PanelMass {
+    /// In a frame that this rotation takes its own to.
+    #[must_use]
+    pub fn turned(&self, rotation: &Matrix3<f64>) -> Self {
+        Self {
+            mass_kg: self.mass_kg,
+            center_body_m: rotation * self.center_body_m,
+            inertia_body_kg_m2: rotation * self.inertia_body_kg_m2 * rotation.transpose(),
+        }
+    }
+
+    /// A thin square plate of this area.
+    pub fn square_plate(
+        mass_kg: f64,
+        area_m2: f64,
+        center_body_m: Vector3<f64>,
+        normal_body: &Vector3<f64>,
+    ) -> Self {
+        // m a^2 / 12 about the axes in the plate, twice that about its normal.
+        let across = mass_kg * area_m2 / 12.0;
+        let inertia_body_kg_m2 = (Matrix3::identity() + normal_body * normal_body.transpose()) * across;
+        Self { mass_kg, center_body_m, inertia_body_kg_m2 }
+    }
 }
 
 /// Relative slack of the checks below: a thin plate sits exactly on the triangle inequality's edge.

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::mass::PanelMass;
 use super::optics::Optics;
 use super::polygon::Polygon;
 use super::thermal::Thermal;
@@ -49,6 +50,8 @@ pub struct Panel {
     pub tilt_sign: f64,
     /// Angle for [`PanelControl::Angle`], in rad.
     pub angle_rad: f64,
+    /// Its part of the mass; without one centre of mass and inertia do not follow its angle.
+    pub mass: Option<PanelMass>,
 }
 
 impl Panel {
@@ -125,6 +128,7 @@ mod tests {
             sun_offset_rad: 65_f64.to_radians(),
             tilt_sign: 1.0,
             angle_rad: 0.0,
+            mass: None,
         }
     }
 

@@ -120,6 +120,7 @@ pub fn settings(
         dump: configuration.momentum.policy,
         dump_torque_n_m: real(v.dump.torque),
         grid_s: real(v.solver.dynamics_step),
+        panels_have_mass: context.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
         work_limit: v.solver.work.units(values),
     })
 }

@@ -2,6 +2,7 @@
 
 mod control;
 mod momentum;
+mod panels;
 mod refusals;
 mod sensors;
 

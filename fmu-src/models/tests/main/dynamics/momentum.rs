@@ -98,3 +98,35 @@ fn how_the_flight_is_cut_changes_no_bit() {
     }
     assert_same(&whole, &flight);
 }
+
+#[test]
+fn disturbances_taken_once_a_second_add_up_to_those_of_a_tenth() {
+    // Light, planet light and recoil on an orbit at low altitude, through slews and eclipses.
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let lit: Start<'_> = &[
+        ("planetLight.enabled", 1.0),
+        ("thermal.enabled", 1.0),
+        ("guided.slewRate", 5e-3),
+        ("guided.downlinkStart", 600.0),
+        ("guided.downlinkEnd", 1_200.0),
+        ("guided.downlinkEvery", 1.0),
+    ];
+    let fly_by = |step_s: f64| {
+        let mut flight = fly(&named, &[CONTROLLED, GUIDANCE, lit, &[("solver.dynamicsStep", step_s)]]);
+        let mut history = Vec::new();
+        for minute in 1..=30 {
+            flight.step_to(60.0 * f64::from(minute)).unwrap();
+            history.push((flight.vector("momentum.inertial"), flight.vector("deltaV")));
+        }
+        history
+    };
+    let (coarse, fine) = (fly_by(1.0), fly_by(0.1));
+    let largest = |of: fn(&(Vector3<f64>, Vector3<f64>)) -> Vector3<f64>| {
+        let size = fine.iter().map(|it| of(it).norm()).fold(0.0, f64::max);
+        let off = coarse.iter().zip(&fine).map(|(a, b)| (of(a) - of(b)).norm()).fold(0.0, f64::max);
+        off / size
+    };
+    let (momentum, delta_v) = (largest(|it| it.0), largest(|it| it.1));
+    println!("{momentum:e} {delta_v:e}");
+    assert!(momentum < 2e-6 && delta_v < 2e-7, "{momentum:e} {delta_v:e}");
+}
