@@ -5,8 +5,8 @@ use fmi_export::{Dependencies, Knowns, knowns};
 use super::setup::PlantSetup;
 use super::variables::PlantVariables;
 use crate::common::spacecraft::{
-    across, can_shadow, has_both_shapes, inertia_about_others, shape_recoils_along, stores_heat_in_shadow,
-    turns_out_of,
+    across, can_shadow, has_both_shapes, inertia_about_others, inertia_along, shape_recoils_along,
+    stores_heat_in_shadow, turns_out_of,
 };
 
 /// Inputs by what they act on. A command or an orbit given by inputs starts anew when any of its inputs changes, so all
@@ -17,6 +17,10 @@ struct Inputs {
     /// How the spacecraft is turned: by command, or guided by where Sun, planet and Earth are.
     attitude: Knowns,
     panels: Knowns,
+    /// Star tracker and gyros.
+    sensors: Knowns,
+    /// The torque that an internal controller asks of the wheels; none where the wheels cannot be in all directions.
+    controller: Knowns,
 }
 
 impl Inputs {
@@ -24,8 +28,18 @@ impl Inputs {
         let places = knowns![v.orbit.position, v.orbit.velocity, v.sun.position];
         let command = knowns![v.command.kind, v.command.q, v.command.rate, v.command.error];
         let attitude = knowns![&places, command, v.earth.position];
-        Self { places, attitude, panels: v.panel.iter().map(|panel| panel.angle).collect() }
+        let sensors = knowns![v.star_tracker.failed, v.gyro.failed];
+        let failed = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
+        let dump = knowns![v.dump.request, v.dump.target];
+        let controller = knowns![&attitude, &sensors, failed, dump].only_if(can_control(v));
+        let panels = v.panel.iter().map(|panel| panel.angle).collect();
+        Self { places, attitude, panels, sensors, controller }
     }
+}
+
+/// Whether the wheels' axes, which are parameters, can be such that they span all directions.
+fn can_control(v: &PlantVariables) -> bool {
+    v.wheel.len() >= 3
 }
 
 /// Inputs and parameters by what they act on at the start.
@@ -47,9 +61,15 @@ struct Start {
     attitude: Knowns,
     /// What the attitude's rate follows, but for command.rate.
     rate: Knowns,
+    /// The orbit phase's own guidance, where it sets the start of a controlled flight.
+    guided: Knowns,
     /// Of each panel.
     panels: Vec<Knowns>,
     momentum: Knowns,
+    /// Momentum of body and wheels of controlled and free flight, without the inertia.
+    turning: Knowns,
+    /// What the estimated attitude follows besides the true one, and which.
+    measured_attitude: Knowns,
 }
 
 impl Start {
@@ -83,7 +103,9 @@ impl Start {
         let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation];
         let guidance = knowns![&sun, law, schedule, v.planet.gravitational_parameter, v.earth.position];
         // A command of zero is none.
-        let rate = knowns![guidance, v.attitude.source, command.kind, command.q, command.error];
+        let sources = knowns![v.attitude.source, command.source];
+        let rate = knowns![&guidance, &sources, command.kind, command.q, command.error];
+        let guided = knowns![guidance, sources, v.start.q].only_if(can_control(v));
         let attitude = knowns![&rate, v.start.q];
         let panels = v
             .panel
@@ -92,6 +114,17 @@ impl Start {
         let dump = &v.dump;
         let momentum =
             knowns![v.start.momentum, dump.threshold, dump.reinit_to, dump.reinit_fraction, dump.target];
+        let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
+        let turning = knowns![&begun, &guided, v.attitude.source, v.start.rate, wheels.collect::<Knowns>()];
+        let tracker = &v.star_tracker;
+        let measured_attitude = knowns![
+            tracker.noise,
+            tracker.failed,
+            tracker.period,
+            v.gyro.failed,
+            v.noise.seed,
+            v.control.rate,
+        ];
         Self {
             begun,
             awaited,
@@ -102,8 +135,11 @@ impl Start {
             sun_z,
             attitude,
             rate,
+            guided,
             panels: panels.collect(),
             momentum,
+            turning,
+            measured_attitude,
         }
     }
 }
@@ -114,7 +150,9 @@ pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
     let (inputs, start) = (&Inputs::of(v), &Start::of(v));
     motion(&mut table, v, inputs, start);
     light_and_loads(&mut table, setup, v, inputs, start);
-    momentum(&mut table, setup, v, inputs, start);
+    sensors(&mut table, v, inputs, start);
+    momentum(&mut table, v, inputs, start);
+    wheels_and_control(&mut table, v, inputs, start);
     craft(&mut table, setup, v, inputs, start);
     table
 }
@@ -134,10 +172,15 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
         table.output(v.heliocentric.position.element(axis), &inputs.places, from_sun);
         let rate = v.command.rate.element(axis);
         let others = knowns![v.command.kind, v.command.q, v.command.error, v.earth.position];
+        let turned = &start.guided.clone().and(v.start.rate.element(axis));
+        let at_start = &knowns![&start.rate, rate, turned];
+        let at_step = &knowns![&inputs.places, others, rate];
+        table.output(v.attitude.rate.element(axis), at_step, at_start);
+        let gyro = knowns![v.gyro.bias.element(axis), v.gyro.noise, v.gyro.drift, v.gyro.failed];
         table.output(
-            v.attitude.rate.element(axis),
-            knowns![&inputs.places, others, rate],
-            knowns![&start.rate, rate],
+            v.estimate.rate.element(axis),
+            knowns![at_step, &inputs.sensors],
+            knowns![at_start, gyro, v.noise.seed, v.control.rate],
         );
     }
     let orbit_given = &knowns![orbit.position, orbit.velocity];
@@ -165,6 +208,34 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
         table.output(output, &inputs.attitude, &start.attitude);
     }
     table.output(v.keep_in.margin, &inputs.attitude, knowns![&start.attitude, v.keep_in.azimuth]);
+}
+
+/// What star tracker, gyros and Sun sensors give, but for the rate.
+fn sensors(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: &Start) {
+    table.output(
+        v.estimate.q,
+        knowns![&inputs.attitude, &inputs.sensors],
+        knowns![&start.attitude, &start.measured_attitude],
+    );
+    // The first sample of controlled and free flight is valid.
+    table.output(
+        v.estimate.valid,
+        knowns![&inputs.places, &inputs.sensors],
+        knowns![&start.begun, v.attitude.source, v.star_tracker.failed],
+    );
+    let failed = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
+    let has_sensors = !v.sun_sensor.is_empty();
+    let at_step = &knowns![&inputs.attitude, &failed].only_if(has_sensors);
+    let fields = v.sun_sensor.iter().map(|sensor| knowns![sensor.axis, sensor.field_of_view]);
+    let eclipse = knowns![v.planet.radius, v.eclipse.method];
+    let solver = &v.solver;
+    let linear = knowns![solver.dynamics_step, solver.disturbance_step, solver.disturbance_tolerance];
+    let seen =
+        &knowns![&start.attitude, failed, fields.collect::<Knowns>(), eclipse, linear].only_if(has_sensors);
+    let noise = v.sun_sensor.iter().map(|sensor| sensor.noise).collect::<Knowns>();
+    let drawn = knowns![noise, v.noise.seed, v.control.rate].only_if(has_sensors);
+    table.output(v.sun.sensed_valid, at_step, seen);
+    table.output(v.sun.sensed, at_step, knowns![seen, drawn]);
 }
 
 /// Force and torque by source, what they add up to, and faces one by one.
@@ -198,12 +269,14 @@ fn light_and_loads(
         surface.night_temperature,
         surface.day_temperature,
     ];
-    let past_shadows = fitted.clone().only_if(is_shadowed);
-    let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, past_shadows];
+    // The same holds for all that acts in controlled and free flight, which is linear in time over an interval that ends
+    // with the stretch of light.
+    let linear = &knowns![fitted, v.solver.dynamics_step];
+    let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, linear];
     let solar = &knowns![by_sun, shade];
-    let albedo = &knowns![&start.attitude, reflected, shade, fitted];
-    let infrared = &knowns![&start.attitude, radiated, shade, fitted];
-    let recoil = &knowns![by_sun, reflected, radiated, fitted, v.thermal.enabled];
+    let albedo = &knowns![&start.attitude, reflected, shade, linear];
+    let infrared = &knowns![&start.attitude, radiated, shade, linear];
+    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.enabled];
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
@@ -243,8 +316,8 @@ fn light_and_loads(
     }
     for axis in 0..3 {
         let inertia = inertia_about_others(v.spacecraft.inertia, axis);
-        let gradient =
-            &knowns![&start.attitude, v.gravity_gradient.enabled, planet.gravitational_parameter, inertia];
+        let by_planet = knowns![v.gravity_gradient.enabled, planet.gravitational_parameter];
+        let gradient = &knowns![&start.attitude, by_planet, inertia, linear];
         table.output(torque.by_source.gravity_gradient.element(axis), &inputs.attitude, gradient);
         let applied = &knowns![torque.applied.element(axis)];
         table.output(torque.total.element(axis), applied, knowns![applied, gradient]);
@@ -272,44 +345,93 @@ fn light_and_loads(
     }
 }
 
-/// System momentum, wheels and dumps. A change of attitude can lift a component over its threshold, so that it is dumped
-/// at once.
-fn momentum(
-    table: &mut Dependencies,
-    setup: &PlantSetup,
-    v: &PlantVariables,
-    inputs: &Inputs,
-    start: &Start,
-) {
+/// System momentum and dumps. A change of attitude can lift a component over its threshold, so that it is dumped at once.
+fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: &Start) {
     let (momentum, dump) = (&v.momentum, &v.dump);
     let dumped = &knowns![&inputs.attitude, dump.request];
     let to_target = &knowns![dumped, dump.target];
     for axis in 0..3 {
         let [initial, threshold, target] =
             [v.start.momentum, dump.threshold, dump.target].map(|vector| vector.element(axis));
-        let at_start =
-            &knowns![&start.begun, initial, threshold, target, dump.reinit_to, dump.reinit_fraction];
+        let set = knowns![initial, threshold, target, dump.reinit_to, dump.reinit_fraction];
+        let inertia = inertia_along(v.spacecraft.inertia, axis);
+        let at_start = &knowns![&start.begun, set, &start.turning, inertia];
         table.output(momentum.body.element(axis), knowns![dumped, target], at_start);
         table.output(dump.impulse.element(axis), to_target, at_start);
     }
-    table.output(momentum.inertial, to_target, knowns![&start.attitude, &start.momentum]);
-    let exceeded = &knowns![&start.begun, v.start.momentum, dump.threshold];
+    let turning = &knowns![&start.turning, v.spacecraft.inertia];
+    table.output(momentum.inertial, to_target, knowns![&start.attitude, &start.momentum, turning]);
+    let exceeded = &knowns![&start.begun, v.start.momentum, dump.threshold, turning];
     table.output(dump.count, to_target, exceeded);
     table.output(dump.last_time, dumped, exceeded);
     table.output(dump.closest, to_target, knowns![]);
     table.output(dump.too_close, to_target, knowns![]);
+    // Only in controlled and free flight, whose attitude follows guidance where the flight begins.
+    let earth = knowns![v.earth.position].only_if(can_control(v));
+    let requested = knowns![&inputs.places, earth, dump.request, dump.target];
+    table.output(dump.active, requested, knowns![turning, dump.threshold]);
+}
 
-    let spanned = setup.wheel_array.is_some();
-    let turning = knowns![&start.rate, v.command.rate, v.spacecraft.inertia];
-    let at_step = &to_target.clone().only_if(spanned);
-    let at_start = &knowns![turning, &start.momentum].only_if(spanned);
+/// Wheels, and the controller that drives them.
+fn wheels_and_control(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: &Start) {
+    let (control, dump, can_control) = (&v.control, &v.dump, can_control(v));
+    let axes = &v.wheel.iter().map(|wheel| wheel.axis).collect::<Knowns>();
+    // Ideal wheels hold what is left of the momentum; where the flight begins others hold what they start with.
+    let dumped = knowns![&inputs.attitude, dump.request, dump.target].only_if(can_control);
+    let held = &knowns![&inputs.places, dumped];
+    let ideal = knowns![&start.rate, v.command.rate, v.spacecraft.inertia, &start.momentum, axes];
+    let ideal = &ideal.only_if(can_control);
+
+    let references = knowns![
+        &start.begun,
+        &start.guided,
+        v.start.rate,
+        knowns![v.command.kind, v.command.q, v.command.rate, v.command.error],
+    ];
+    let gains = knowns![
+        control.bandwidth,
+        control.damping,
+        control.integral,
+        control.slew_rate,
+        control.slew_acceleration,
+    ];
+    let gyro = knowns![v.gyro.noise, v.gyro.drift, v.gyro.bias];
+    let settled = &knowns![references, gains, &start.measured_attitude, gyro].only_if(can_control);
+    let wheels = v.wheel.iter().map(|wheel| {
+        let friction = knowns![wheel.coulomb_friction, wheel.viscous_friction, wheel.inertia];
+        knowns![wheel.axis, wheel.start_momentum, wheel.failed, wheel.locked, wheel.max_torque, friction]
+    });
+    let shared = knowns![
+        v.spacecraft.inertia,
+        wheels.collect::<Knowns>(),
+        control.allocation,
+        control.balance_time,
+        control.friction_compensation,
+    ];
+    let dumping = knowns![dump.torque, dump.threshold, dump.reinit_to, dump.reinit_fraction, dump.target];
+    let controller = &knowns![settled, shared, dumping].only_if(can_control);
     for wheel in &v.wheel {
-        table.output(wheel.momentum, at_step, at_start);
-        let capacity = knowns![wheel.capacity].only_if(spanned);
-        table.output(wheel.saturated, at_step, knowns![at_start, capacity]);
+        let at_start = &knowns![&start.begun, v.attitude.source, wheel.start_momentum, ideal];
+        table.output(wheel.momentum, held, at_start);
+        table.output(wheel.speed, held, knowns![at_start, wheel.inertia]);
+        table.output(wheel.saturated, held, knowns![at_start, wheel.capacity]);
+        let commanded = knowns![wheel.torque_command, wheel.failed];
+        let free = knowns![&start.begun, v.attitude.source, &commanded, wheel.max_torque];
+        table.output(
+            wheel.torque,
+            knowns![&inputs.places, commanded, &inputs.controller],
+            knowns![free, controller],
+        );
     }
+    let tracked = &knowns![&inputs.attitude, &inputs.sensors].only_if(can_control);
+    let command = knowns![v.command.kind, v.command.q, v.command.error];
+    let error = knowns![&start.begun, &start.guided, command, &start.measured_attitude];
+    table.output(control.error, tracked, error.only_if(can_control));
+    table.output(control.settled, tracked, settled);
+    table.output(control.saturated, &inputs.controller, controller);
+
     let capacities = v.wheel.iter().map(|wheel| wheel.capacity).collect::<Knowns>();
-    table.calculated(dump.guaranteed_threshold, capacities.only_if(spanned));
+    table.calculated(dump.guaranteed_threshold, knowns![capacities, axes].only_if(can_control));
 }
 
 /// The spacecraft itself.

@@ -588,11 +588,6 @@ impl AttitudeDynamics {
         self.motion.rotor_n_m_s(&settings.gyrostat, k, time_s, body)
     }
 
-    /// Whether wheel `k` (0-based) is at its capacity.
-    pub fn is_saturated(&self, settings: &DynamicsSettings, k: usize) -> bool {
-        self.motion.is_saturated(&settings.gyrostat, k)
-    }
-
     /// Torque of the motor of wheel `k` (0-based), in N m.
     pub fn motor_n_m(&self, k: usize) -> f64 {
         self.motors[k].torque_n_m
@@ -633,6 +628,11 @@ impl AttitudeDynamics {
     /// Time between dumps.
     pub fn spacing(&self) -> &DumpSpacing {
         &self.spacing
+    }
+
+    /// The torque with `others_body_n_m` of everything else, in N m, while thrusters are dumping.
+    pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
+        self.dump.map_or(*others_body_n_m, |dump| others_body_n_m + dump.torque_body_n_m)
     }
 
     /// Whether thrusters are dumping.

@@ -72,7 +72,9 @@ pub struct Changes {
     pub orbit: bool,
     /// Light and heat are no longer what they were going to be.
     pub light: bool,
-    /// Mass or thresholds are others.
+    /// The mass is another.
+    pub mass: bool,
+    /// Mass, thresholds or target of dumps are others.
     pub tunables: bool,
 }
 
@@ -194,10 +196,15 @@ impl PlantState {
             self.light_inputs.extend(light_inputs(context, values));
         }
         let now = tunables(context, values);
-        let tuned = std::mem::replace(&mut self.tunables, now) != now;
+        let before = std::mem::replace(&mut self.tunables, now);
         // A command moves light through the attitude, which in dynamics does not jump.
         let turned = commanded && self.dynamics.is_none();
-        Ok(Changes { orbit: moved, light: lit || moved || turned, tunables: tuned })
+        Ok(Changes {
+            orbit: moved,
+            light: lit || moved || turned,
+            mass: before[0] != now[0],
+            tunables: before != now,
+        })
     }
 
     /// The command that stands at the start of a flight with dynamics; until one comes `attitude` is held.

@@ -9,11 +9,11 @@ use physics::plant::{
     AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, Flight, PropagatorState, Tracked,
 };
 
-use super::inputs::state::{Changes, PlantState};
-use super::inputs::{self, dynamics};
-use super::outputs::{self, flyable, log_dump};
-use super::setup::Plan;
-use super::variables::choices::OrbitSource;
+use super::super::inputs::state::{Changes, PlantState};
+use super::super::inputs::{self, dynamics};
+use super::super::setup::Plan;
+use super::super::variables::choices::OrbitSource;
+use super::write::{self as outputs, flyable, log_dump};
 use crate::common::choices::CommandKind;
 
 /// What one stretch of flight needs besides the state.
@@ -133,8 +133,10 @@ pub fn step(
         ));
     };
     if let Some(changes) = changes {
-        flown.cut(step.start_s, changes.any());
-        if changes.any() {
+        // On a disturbed orbit the mass tells where the spacecraft goes.
+        let loads_change = changes.light || changes.mass;
+        flown.cut(step.start_s, loads_change);
+        if loads_change {
             state.propagator.cut(&configuration, step.start_s, true);
         }
         if changes.orbit && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
