@@ -188,7 +188,7 @@ pub struct Run {
     /// each takes what those before it gave at the step's end; otherwise jacobi
     #[arg(long, value_enum, hide_possible_values = true)]
     pub master: Option<MasterKind>,
-    /// For a system: what connected inputs are in the first step, initial (outputs at the start) or zeros (as for FMPy);
+    /// For a system: what connected outputs count as in the first step, initial (what they are) or zeros (0, as for FMPy);
     /// otherwise initial
     #[arg(long, value_enum, value_name = "VALUES", hide_possible_values = true)]
     pub first_exchange: Option<FirstExchangeKind>,
@@ -327,6 +327,13 @@ pub struct Study {
     /// Run only the cases whose label contains this text
     #[arg(long, value_name = "TEXT")]
     pub only: Option<String>,
+    /// Angle of the slews of control/slew, in deg or rad: 60deg
+    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
+    pub angle: Option<f64>,
+    /// Communication step of control/*, in s or with a unit: 20ms; otherwise 0.5 s for slews and 1 s for the loop with
+    /// Guidance
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
+    pub step: Option<f64>,
     /// Show no progress
     #[arg(long, short)]
     pub quiet: bool,
@@ -351,6 +358,16 @@ fn span(text: &str) -> Result<f64, String> {
     match duration(text)? {
         span_s if span_s > 0.0 => Ok(span_s),
         _ => Err("allowed is more than 0 s".to_owned()),
+    }
+}
+
+/// A turn with its unit, in rad; none and more than half a turn are refused.
+fn angle(text: &str) -> Result<f64, String> {
+    let number = |unit: &str| text.trim().strip_suffix(unit)?.trim_end().parse::<f64>().ok();
+    match number("deg").map(f64::to_radians).or_else(|| number("rad")) {
+        Some(angle_rad) if angle_rad != 0.0 && angle_rad.abs() < core::f64::consts::PI => Ok(angle_rad),
+        Some(_) => Err("allowed is more than 0 and less than 180 deg either way".to_owned()),
+        None => Err("an angle carries its unit: 60deg, 1.2rad".to_owned()),
     }
 }
 

@@ -22,6 +22,8 @@ pub fn run(arguments: &Study) -> Outcome {
             dist: arguments.dist.clone(),
             output: arguments.output.clone().unwrap_or_else(|| arguments.dist.join(&arguments.name)),
             only: arguments.only.clone(),
+            angle_rad: arguments.angle,
+            step_s: arguments.step,
             progress: !arguments.quiet && std::io::stderr().is_terminal(),
         },
     )?;

@@ -5,15 +5,17 @@
 
 mod case;
 pub mod chart;
+mod control;
 mod momentum;
 mod options;
 mod pointing;
 mod report;
+mod settings;
 mod spin;
 mod thermal;
 mod vector;
 
-pub use options::{Options, StudyError};
+pub use options::{Extra, Options, StudyError};
 pub use report::Report;
 
 /// One study.
@@ -24,6 +26,8 @@ pub struct Study {
     pub paper: &'static str,
     /// One line.
     pub title: &'static str,
+    /// Options that not every study takes.
+    pub takes: &'static [Extra],
     /// Runs it.
     pub run: fn(&Options) -> Result<Report, StudyError>,
 }
@@ -31,105 +35,143 @@ pub struct Study {
 /// Every study.
 pub const STUDIES: &[Study] = &[
     Study {
+        name: "control/slew",
+        paper: "001",
+        title: "large slews of the controlled plant, with full wheels and with a wheel that fails",
+        takes: &[Extra::Angle, Extra::Step],
+        run: control::slew,
+    },
+    Study {
+        name: "control/safe-mode",
+        paper: "001",
+        title: "safe modes reached in a loop of Guidance and the controlled plant",
+        takes: &[Extra::Step],
+        run: control::safe_mode,
+    },
+    Study {
+        name: "control/transition",
+        paper: "001",
+        title: "from downlink to the camera at nadir under control: the estimated curves of Figures 7 and 8",
+        takes: &[Extra::Step],
+        run: control::transition,
+    },
+    Study {
         name: "momentum/table2",
         paper: "000",
         title: "number of thruster dumps in 90 days, with a picture like Figure 4",
+        takes: &[],
         run: momentum::table2,
     },
     Study {
         name: "momentum/table3",
         paper: "000",
         title: "time between thruster dumps",
+        takes: &[],
         run: momentum::table3,
     },
     Study {
         name: "momentum/figure4",
         paper: "000",
         title: "X momentum over 90 days with thruster dumps only",
+        takes: &[],
         run: momentum::figure4,
     },
     Study {
         name: "momentum/assumptions",
         paper: "000",
         title: "how Table 2 moves with start date, orbit frame and panel tilts, which the paper leaves open",
+        takes: &[],
         run: momentum::assumptions,
     },
     Study {
         name: "pointing/limb",
         paper: "001",
         title: "limb points at azimuths and on the terminator, and a scan of the limb's height",
+        takes: &[],
         run: pointing::limb,
     },
     Study {
         name: "pointing/mosaic",
         paper: "001",
         title: "footprints of inertial, body and planet-fixed scans on the planet's disc",
+        takes: &[],
         run: pointing::mosaic,
     },
     Study {
         name: "pointing/transition",
         paper: "001",
         title: "from downlink to the camera at nadir: the commanded curves of Figures 7 and 8",
+        takes: &[],
         run: pointing::transition,
     },
     Study {
         name: "spin/figure2",
         paper: "002",
         title: "nutation left by a 2 deg manoeuvre in n pulses, twice a turn",
+        takes: &[],
         run: spin::figure2,
     },
     Study {
         name: "spin/figure3",
         paper: "002",
         title: "nutation left by a 2 deg manoeuvre in n pulses, once a turn",
+        takes: &[],
         run: spin::figure3,
     },
     Study {
         name: "spin/figure4",
         paper: "002",
         title: "nutation during the manoeuvre, axisymmetric and triaxial",
+        takes: &[],
         run: spin::figure4,
     },
     Study {
         name: "spin/figure6",
         paper: "002",
         title: "nutation in the star tracker's samples",
+        takes: &[],
         run: spin::figure6,
     },
     Study {
         name: "spin/figure7",
         paper: "002",
         title: "how long nutation takes to show, over spin rate and inertia ratio",
+        takes: &[],
         run: spin::figure7,
     },
     Study {
         name: "spin/numbers",
         paper: "002",
         title: "every number of the paper beside ours",
+        takes: &[],
         run: spin::numbers,
     },
     Study {
         name: "thermal/table7",
         paper: "004",
         title: "albedo, infrared and recoil as shares of solar pressure, planet standing still",
+        takes: &[],
         run: thermal::table7,
     },
     Study {
         name: "thermal/table8",
         paper: "004",
         title: "the same with the planet moving",
+        takes: &[],
         run: thermal::table8,
     },
     Study {
         name: "thermal/figure12",
         paper: "004",
         title: "accelerations around one orbit, four positions of Mercury",
+        takes: &[],
         run: thermal::figure12,
     },
     Study {
         name: "thermal/figure13",
         paper: "004",
         title: "accelerations over a Mercury year, least, mean and greatest of every orbit",
+        takes: &[],
         run: thermal::figure13,
     },
 ];
@@ -143,5 +185,6 @@ pub fn run(name: &str, options: &Options) -> Result<Report, StudyError> {
         found: name.to_owned(),
         known: STUDIES.iter().map(|study| study.name).collect::<Vec<_>>().join(", "),
     })?;
+    options.check(study.name, study.takes)?;
     (study.run)(options)
 }

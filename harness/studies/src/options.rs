@@ -15,9 +15,41 @@ pub struct Options {
     pub only: Option<String>,
     /// Whether to show progress.
     pub progress: bool,
+    /// Angle of slews, in rad, for studies that take one.
+    pub angle_rad: Option<f64>,
+    /// Communication step, in s, for studies that take one.
+    pub step_s: Option<f64>,
+}
+
+/// Options that some studies take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extra {
+    /// [`Options::angle_rad`].
+    Angle,
+    /// [`Options::step_s`].
+    Step,
+}
+
+impl Extra {
+    /// On the command line.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Angle => "--angle",
+            Self::Step => "--step",
+        }
+    }
 }
 
 impl Options {
+    /// Refuses what the study does not take.
+    pub(crate) fn check(&self, study: &'static str, takes: &[Extra]) -> Result<(), StudyError> {
+        let given = [(Extra::Angle, self.angle_rad.is_some()), (Extra::Step, self.step_s.is_some())];
+        match given.iter().find(|(extra, is_given)| *is_given && !takes.contains(extra)) {
+            Some((extra, _)) => Err(StudyError::Option { study, option: extra.name() }),
+            None => Ok(()),
+        }
+    }
+
     /// Opens an FMU of the folder.
     pub(crate) fn fmu(&self, file: &str) -> Result<Fmu, StudyError> {
         Fmu::open(self.dist.join(file)).map_err(|error| StudyError::Fmu(Box::new(error)))
@@ -34,6 +66,22 @@ pub enum StudyError {
         found: String,
         /// The names there are.
         known: String,
+    },
+    /// An option of other studies.
+    #[error("{study} does not take {option}: see `heliotorque study list`")]
+    Option {
+        /// The study.
+        study: &'static str,
+        /// What it does not take.
+        option: &'static str,
+    },
+    /// A step that a study cannot be flown in.
+    #[error("--step: found {found_s} s, allowed: {allowed}")]
+    Step {
+        /// What was given, in s.
+        found_s: f64,
+        /// What may be given.
+        allowed: &'static str,
     },
     /// `only` left nothing.
     #[error("no case of {study} contains `{only}`; the cases are\n  {known}")]

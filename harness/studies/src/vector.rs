@@ -68,11 +68,24 @@ pub(crate) fn rotated(q: &[f64; 4], rate_rad_s: &Vector, duration_s: f64) -> [f6
         return *q;
     }
     let (sine, cosine) = (0.5 * rate * duration_s).sin_cos();
-    let w = scaled(rate_rad_s, sine / rate);
-    let v = [q[0], q[1], q[2]];
+    let [x, y, z] = scaled(rate_rad_s, sine / rate);
+    product(q, &[x, y, z, cosine])
+}
+
+/// The attitude that `a` and then `b`, of the body, lead to.
+fn product(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
+    let ([v, w], [a_scalar, b_scalar]) = ([a, b].map(|q| [q[0], q[1], q[2]]), [a[3], b[3]]);
     let vw = cross(&v, &w);
-    let [x, y, z] = [0, 1, 2].map(|i| cosine * v[i] + w[i] * q[3] + vw[i]);
-    [x, y, z, cosine * q[3] - dot(&w, &v)]
+    let [x, y, z] = [0, 1, 2].map(|i| b_scalar * v[i] + w[i] * a_scalar + vw[i]);
+    [x, y, z, b_scalar * a_scalar - dot(&w, &v)]
+}
+
+/// The rotation that turns a body from one attitude into another, at most half a turn, in body components, in rad.
+pub(crate) fn rotation_vector(from: &[f64; 4], to: &[f64; 4]) -> Vector {
+    let [x, y, z, scalar] = product(&[-from[0], -from[1], -from[2], from[3]], to);
+    let axis = if scalar < 0.0 { [-x, -y, -z] } else { [x, y, z] };
+    let sine = norm(&axis);
+    if sine == 0.0 { axis } else { scaled(&axis, 2.0 * sine.atan2(scalar.abs()) / sine) }
 }
 
 #[cfg(test)]
@@ -90,5 +103,17 @@ mod tests {
         let back = rotated(&q, &[0.0, 0.0, 0.1], -5.0);
         assert!((back[3] - 1.0).abs() < 1e-15 && back[2].abs() < 1e-15);
         assert!((angle_rad(&[1.0, 0.0, 0.0], &seen) - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_rotation_between_two_attitudes_is_the_turn_that_was_made() {
+        let from = rotated(&[0.0, 0.0, 0.0, 1.0], &[0.3, -0.2, 0.7], 1.0);
+        for turn in [[0.0, 2.5, 0.0], [1e-9, -2e-9, 0.0], [0.4, 0.5, -0.6]] {
+            let found = rotation_vector(&from, &rotated(&from, &turn, 1.0).map(|x| -x));
+            assert!(norm(&difference(&found, &turn)) < 1e-15, "{found:?}");
+        }
+        // More than half a turn is less the other way.
+        let found = rotation_vector(&from, &rotated(&from, &[4.0, 0.0, 0.0], 1.0));
+        assert!((found[0] - (4.0 - 2.0 * std::f64::consts::PI)).abs() < 1e-14, "{found:?}");
     }
 }

@@ -3,34 +3,12 @@
 use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 
 use super::planet::Planet;
+use crate::settings::{Settings, digits, real, vector_setting};
 use crate::vector::{Vector, difference, rotated, scaled, turn, turn_back};
 use crate::{Options, StudyError};
 
 /// 2009-04-06 00:00 TDB in seconds past J2000, the start of the default flight.
 pub const DEFAULT_EPOCH_S: f64 = 292_248_000.0;
-
-/// Names and values to be set.
-pub type Settings = Vec<(String, Value)>;
-
-/// A vector's elements as settings.
-pub fn vector_setting(name: &str, v: &Vector) -> Settings {
-    (0..3).map(|i| (format!("{name}[{}]", i + 1), Value::Real(v[i]))).collect()
-}
-
-/// A Real as a setting.
-pub fn real(name: &str, value: f64) -> (String, Value) {
-    (name.to_owned(), Value::Real(value))
-}
-
-/// An Integer or the number of an option as a setting.
-pub fn number(name: &str, value: i32) -> (String, Value) {
-    (name.to_owned(), Value::Integer(value))
-}
-
-/// A Boolean as a setting.
-pub fn flag(name: &str, value: bool) -> (String, Value) {
-    (name.to_owned(), Value::Boolean(value))
-}
 
 /// Both FMUs.
 pub struct Fmus {
@@ -79,11 +57,6 @@ pub const GEOMETRY: [&str; 15] = [
     "time_s", "epoch_s", "q1", "q2", "q3", "q4", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s",
     "sun_x_m", "sun_y_m", "sun_z_m",
 ];
-
-/// All digits that a number has.
-pub fn digits(x: f64) -> String {
-    format!("{x:?}")
-}
 
 impl Sample {
     /// The cells of [`GEOMETRY`].

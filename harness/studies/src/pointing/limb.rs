@@ -1,12 +1,13 @@
 //! Limb points at azimuths, and the scan of the limb's height, where the Sun stays in its zone.
 
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, digits, number, real};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::case::{chosen, run_all};
 use crate::chart::Series;
 use crate::chart::plane::{PlaneChart, PlanePanel};
+use crate::settings::{digits, number, real};
 use crate::vector::{Vector, difference, norm};
 use crate::{Options, Report, StudyError};
 

@@ -1,10 +1,11 @@
 //! The limb point on the terminator once round an orbit over noon and midnight: how many there are, and which is taken.
 
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, digits, flag, number};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::chart::plane::{PlaneChart, PlanePanel};
 use crate::chart::{Chart, Panel, Series};
+use crate::settings::{digits, flag, number};
 use crate::vector::{Vector, across, angle_rad, difference, dot, norm, unit};
 use crate::{Options, Report, StudyError};
 

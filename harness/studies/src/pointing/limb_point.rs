@@ -3,8 +3,9 @@
 use loader::Value;
 
 use super::disc::View;
-use super::flight::{Sample, Settings};
+use super::flight::Sample;
 use super::planet::Ellipsoid;
+use crate::settings::Settings;
 use crate::vector::Vector;
 
 pub(super) const PLUS_Z: Vector = [0.0, 0.0, 1.0];

@@ -15,4 +15,6 @@ mod transition;
 
 pub use limb::limb;
 pub use mosaic::mosaic;
-pub use transition::transition;
+pub use transition::{
+    EPOCH_S as TRANSITION_EPOCH_S, SLEW_S, TRUE_ANOMALY_DEG as TRANSITION_TRUE_ANOMALY_DEG, transition,
+};

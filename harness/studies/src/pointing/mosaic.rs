@@ -2,11 +2,12 @@
 
 use super::camera::Frame;
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{Flown, Fmus, GEOMETRY, digits};
+use super::flight::{Flown, Fmus, GEOMETRY};
 use super::scans::{CASES, Case};
 use crate::case::{chosen, run_all};
 use crate::chart::Series;
 use crate::chart::plane::PlaneChart;
+use crate::settings::digits;
 use crate::vector::{Vector, angle_rad, norm};
 use crate::{Options, Report, StudyError};
 

@@ -1,10 +1,9 @@
 //! The scans of the mosaics: motion of each axis, what is commanded, when frames are taken.
 
 use super::camera::{Camera, Frame};
-use super::flight::{
-    DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place, Settings, flag, number, real, vector_setting,
-};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place};
 use crate::StudyError;
+use crate::settings::{Settings, flag, number, real, vector_setting};
 use crate::vector::{Vector, dot, sum, unit};
 
 const TRUE_ANOMALY_DEG: f64 = 175.0;

@@ -1,20 +1,19 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
-use super::flight::{
-    DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample, Settings, digits, number, real,
-};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Mark, Panel, Series};
+use crate::settings::{Settings, digits, number, real};
 use crate::vector::angle_rad;
 use crate::{Options, Report, StudyError};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
 /// Sun at azimuth and elevation 0. The paper prints no epoch.
-const EPOCH_S: f64 = DEFAULT_EPOCH_S + 3.15 * 86_400.0;
+pub const EPOCH_S: f64 = DEFAULT_EPOCH_S + 3.15 * 86_400.0;
 /// Assumed: ten hours past periapsis, the end of the paper's eight hours of downlink about apoapsis.
-const TRUE_ANOMALY_DEG: f64 = 215.0;
+pub const TRUE_ANOMALY_DEG: f64 = 215.0;
 /// "The commanded slew begins at 500 seconds".
-const SLEW_S: f64 = 500.0;
+pub const SLEW_S: f64 = 500.0;
 const END_S: u32 = 1000;
 
 /// How the camera's angle is commanded after the slew.

@@ -1,0 +1,17 @@
+//! Control: `MomentumPlant` with its own controller, alone and in a loop with `Guidance`.
+//!
+//! Large slews, saturation and a failed wheel; the safe modes of paper 001; the estimated curves of its Figures 7 and 8.
+
+mod cosimulation;
+mod guided_loop;
+mod safe_mode;
+mod safe_mode_checks;
+mod safe_mode_flight;
+mod slew;
+mod slew_figures;
+mod slew_flight;
+mod transition;
+
+pub use safe_mode::safe_mode;
+pub use slew::slew;
+pub use transition::transition;

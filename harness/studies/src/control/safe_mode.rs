@@ -1,0 +1,149 @@
+//! Safe modes of paper 001 in a loop of Guidance and the controlled plant: every one is reached and does what the paper says.
+
+use super::guided_loop::{Loop, Sample};
+use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
+use super::safe_mode_flight::{Chain, sun_angle_deg};
+use crate::case::{chosen, run_all};
+use crate::chart::{Chart, Mark, Panel, Series};
+use crate::settings::digits;
+use crate::{Options, Report, StudyError};
+
+/// Both chains of modes.
+pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
+    let chains = [Chain::AttitudeLost, Chain::ZoneViolated];
+    let cases = chosen("control/safe-mode", options, chains, |chain| chain.label().to_owned())?;
+    let both = Loop::open(options)?;
+    let parameters = Parameters::read(&both)?;
+    let flown = run_all(options, &cases, |chain| Ok((*chain, chain.fly(&both, options.step_s)?)))?;
+    let mut report = Report::default();
+    report.line("Safe modes (paper 001), Guidance and the controlled plant in a loop\n");
+    let rows: Vec<_> = flown
+        .iter()
+        .flat_map(|(chain, samples)| {
+            let checks = match chain {
+                Chain::AttitudeLost => attitude_lost(&parameters, samples),
+                Chain::ZoneViolated => zone_violated(&parameters, samples),
+            };
+            checks.into_iter().map(|check| check.row(chain.label()))
+        })
+        .collect();
+    let header = ["case", "paper 001", "found", "verdict"];
+    report.table(&header, &rows);
+    report.line(REMARK);
+    report.csv(options, "safe-mode.csv", &header, rows)?;
+    history(&mut report, options, &flown)?;
+    for (chain, samples) in &flown {
+        let file = format!("safe-mode-{}.svg", chain.label().replace(' ', "-"));
+        report.picture(options, &file, &figure(*chain, &parameters, samples))?;
+    }
+    Ok(report)
+}
+
+const REMARK: &str = "\
+Attitude lost: +Z at the Sun with the keep-in zone off; the star tracker fails at 300 s and the gyros keep the estimate
+valid for 60 s; all Sun sensors fail at 2000 s and work again at 4400 s, the star tracker at 6000 s; Safe Hold is requested
+at 6300 s, Operational at 7800 s, and the first pointing command is set all the time. Zone violated: the same pointing; the
+zone is put in force at 300 s, Operational is requested at 2400 s. All times, the rates of Earth Acquisition and search, and
+how long the monitor waits are assumed: the paper prints none.";
+
+/// Everything of every second.
+fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)]) -> Result<(), StudyError> {
+    let header = [
+        "case",
+        "time_s",
+        "q1",
+        "q2",
+        "q3",
+        "q4",
+        "rate_x_rad_s",
+        "rate_y_rad_s",
+        "rate_z_rad_s",
+        "sun_x",
+        "sun_y",
+        "sun_z",
+        "earth_x",
+        "earth_y",
+        "earth_z",
+        "sun_angle_deg",
+        "command_x_rad_s",
+        "command_y_rad_s",
+        "command_z_rad_s",
+        "mode",
+        "command_kind",
+        "attitude_known",
+        "sun_sensed",
+        "torque_limited",
+        "dumps",
+        "link",
+    ];
+    let rows = flown.iter().flat_map(|(chain, samples)| {
+        samples.iter().map(|sample| {
+            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(crate::vector::unit);
+            let numbers = [sample.time_s].into_iter().chain(sample.q).chain(sample.rate_rad_s).chain(sun);
+            let numbers = numbers.chain(earth).chain([sun_angle_deg(sample)]);
+            let mut row = vec![chain.label().to_owned()];
+            row.extend(numbers.chain(sample.command_rate_rad_s).map(digits));
+            row.extend([sample.mode, sample.command_kind].map(|number| number.to_string()));
+            row.extend([sample.is_attitude_known, sample.is_sun_sensed].map(|is| is.to_string()));
+            row.push(sample.is_torque_limited.to_string());
+            row.push(format!("{}", sample.dumps));
+            row.push(sample.has_link.to_string());
+            row
+        })
+    });
+    report.csv(options, "safe-mode-history.csv", &header, rows.collect::<Vec<_>>())
+}
+
+/// Mode, Sun, rates and flags over time.
+fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
+    let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+        // The first second has no command yet.
+        let points = samples.iter().skip(1).map(|sample| (sample.time_s, value(sample)));
+        Series::line(label, points.collect())
+    };
+    let flag = |is: bool| f64::from(u8::from(is));
+    let rate = |i: usize| move |sample: &Sample| sample.rate_rad_s[i].to_degrees();
+    let mut rates = vec![line("X", &rate(0)), line("Y", &rate(1)), line("Z", &rate(2))];
+    if chain == Chain::AttitudeLost {
+        rates.extend(parameters.commanded_rates());
+    }
+    let dashed = |series: Series| Series { mark: Mark::Dashed, ..series };
+    Chart {
+        title: format!("Safe modes: {}", chain.label()),
+        x_label: "time [s]".to_owned(),
+        panels: vec![
+            Panel {
+                y_label: "mode [1]".to_owned(),
+                series: vec![line("1 Operational, 2 Safe Hold, 3 Earth Acquisition", &|it| {
+                    f64::from(it.mode)
+                })],
+                y_range: Some((0.0, 4.0)),
+                marks: Vec::new(),
+            },
+            Panel {
+                y_label: "command [1]".to_owned(),
+                series: vec![line("1 attitude, 2 error quaternion, 3 rate only", &|sample| {
+                    f64::from(sample.command_kind)
+                })],
+                y_range: Some((0.0, 4.0)),
+                marks: Vec::new(),
+            },
+            Panel {
+                y_label: "Sun [deg]".to_owned(),
+                series: vec![line("from -Y", &sun_angle_deg)],
+                ..Panel::default()
+            },
+            Panel { y_label: "rate [deg/s]".to_owned(), series: rates, ..Panel::default() },
+            Panel {
+                y_label: "valid [1]".to_owned(),
+                series: vec![
+                    line("estimated attitude", &|sample| flag(sample.is_attitude_known)),
+                    dashed(line("sensed Sun", &|sample| flag(sample.is_sun_sensed))),
+                    line("link with the Earth", &|sample| flag(sample.has_link)),
+                ],
+                y_range: Some((-0.15, 1.15)),
+                marks: Vec::new(),
+            },
+        ],
+    }
+}

@@ -1,0 +1,337 @@
+//! What paper 001 says of its safe modes, looked for in a flight.
+
+use super::guided_loop::{Loop, Sample, body_angles_deg};
+use super::safe_mode_flight::{
+    BORESIGHT, OPERATIONAL_S, OUTAGE_S, PARDONED_S, SAFE_HOLD_S, SUN_BACK_S, SUN_LOST_S, TRACKER_BACK_S,
+    TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
+};
+use crate::StudyError;
+use crate::chart::Series;
+use crate::vector::{Vector, across, angle_rad, dot, norm, turn};
+
+const OPERATIONAL: i32 = 1;
+const SAFE_HOLD: i32 = 2;
+const EARTH_ACQUISITION: i32 = 3;
+const ATTITUDE: i32 = 1;
+const ERROR_QUATERNION: i32 = 2;
+const RATE_ONLY: i32 = 3;
+
+/// Exchange and sample: what is seen at one second acts at the next and shows at the one after.
+const DELAY_S: f64 = 3.0;
+/// The end of a phase, in which what was commanded is to have come true, in s.
+const SETTLED_S: f64 = 200.0;
+/// Largest angle between a commanded and an actual direction then, in deg.
+const ANGLE_DEG: f64 = 0.1;
+/// Largest error of a rate then, as a share of it.
+const RATE: f64 = 0.01;
+
+/// A statement of the paper and whether it holds.
+pub struct Check {
+    /// The paper's, in short.
+    pub statement: &'static str,
+    /// What the flight shows.
+    pub found: String,
+    /// Whether it is so.
+    pub holds: bool,
+}
+
+impl Check {
+    /// Cells of the table.
+    pub fn row(self, case: &str) -> Vec<String> {
+        let verdict = if self.holds { "agrees" } else { "differs" };
+        vec![case.to_owned(), self.statement.to_owned(), self.found, verdict.to_owned()]
+    }
+}
+
+/// Parameters of Guidance that the checks compare with.
+pub struct Parameters {
+    earth_acquisition_rad_s: f64,
+    search_rad_s: f64,
+    search_s: f64,
+    zone_deg: [f64; 2],
+    safe_hold_deg: [f64; 2],
+    persistence_s: f64,
+    margin_deg: f64,
+    beam_deg: f64,
+}
+
+impl Parameters {
+    /// As the FMU has them.
+    pub fn read(both: &Loop) -> Result<Self, StudyError> {
+        let [rate, search, search_s] =
+            both.guidance_parameters(["earthAcquisition.rate", "sunSearch.rate", "sunSearch.duration"])?;
+        let zone = both.guidance_parameters(["keepIn.azimuth", "keepIn.elevation"])?;
+        let safe_hold = both.guidance_parameters(["safeHold.keepIn.azimuth", "safeHold.keepIn.elevation"])?;
+        let [persistence_s, margin, beam] =
+            both.guidance_parameters(["monitor.persistence", "monitor.margin", "link.beam"])?;
+        Ok(Self {
+            earth_acquisition_rad_s: rate,
+            search_rad_s: search,
+            search_s,
+            zone_deg: zone.map(f64::to_degrees),
+            safe_hold_deg: safe_hold.map(f64::to_degrees),
+            persistence_s,
+            margin_deg: margin.to_degrees(),
+            beam_deg: beam.to_degrees(),
+        })
+    }
+
+    /// What is commanded about Y while the Sun is on -Y, and about each axis in turn while it is searched for: lines over
+    /// time, in deg/s.
+    pub fn commanded_rates(&self) -> [Series; 2] {
+        let line = |label: &str, rate_rad_s: f64, from_s: f64, to_s: f64| {
+            let rate_deg_s = rate_rad_s.to_degrees();
+            Series::dashed(label, vec![(from_s, rate_deg_s), (to_s, rate_deg_s)])
+        };
+        let lost_s = TRACKER_FAILS_S + OUTAGE_S;
+        [
+            line("earthAcquisition.rate about -Y", -self.earth_acquisition_rad_s, lost_s, SUN_LOST_S),
+            line("sunSearch.rate", self.search_rad_s, SUN_LOST_S, SUN_BACK_S),
+        ]
+    }
+}
+
+/// Part of a flight.
+struct Phase<'a>(Vec<&'a Sample>);
+
+impl<'a> Phase<'a> {
+    fn between(samples: &'a [Sample], from_s: f64, to_s: f64) -> Self {
+        Self(samples.iter().filter(|sample| (from_s..=to_s).contains(&sample.time_s)).collect())
+    }
+
+    fn greatest(&self, value: impl Fn(&Sample) -> f64) -> f64 {
+        self.0.iter().map(|sample| value(sample)).fold(f64::NAN, f64::max)
+    }
+
+    fn least(&self, value: impl Fn(&Sample) -> f64) -> f64 {
+        self.0.iter().map(|sample| value(sample)).fold(f64::NAN, f64::min)
+    }
+
+    fn all(&self, is: impl Fn(&Sample) -> bool) -> bool {
+        !self.0.is_empty() && self.0.iter().all(|sample| is(sample))
+    }
+
+    fn first(&self, is: impl Fn(&Sample) -> bool) -> Option<f64> {
+        self.0.iter().find(|sample| is(sample)).map(|sample| sample.time_s)
+    }
+}
+
+/// How long after `since_s` something was first so.
+fn after(samples: &[Sample], since_s: f64, is: impl Fn(&Sample) -> bool) -> f64 {
+    let phase = Phase::between(samples, since_s, f64::INFINITY);
+    phase.first(is).map_or(f64::NAN, |time_s| time_s - since_s)
+}
+
+/// How far outside a zone the Sun is, in deg; negative within.
+fn beyond_deg(sample: &Sample, zone_deg: &[f64; 2]) -> f64 {
+    outside_deg(&sample.sun_body_m(), zone_deg)
+}
+
+/// The same of a body direction.
+fn outside_deg(body: &Vector, zone_deg: &[f64; 2]) -> f64 {
+    let [azimuth, elevation] = body_angles_deg(body);
+    (azimuth.abs() - zone_deg[0]).max(elevation.abs() - zone_deg[1])
+}
+
+/// Whether the greatest errors of the rate along an axis and across it are small beside what is wanted, and text.
+fn turns_about(phase: &Phase<'_>, axis: &Vector, wanted_rad_s: f64) -> (bool, String) {
+    let along = phase.greatest(|sample| (dot(&sample.rate_rad_s, axis) - wanted_rad_s).abs());
+    let aside = phase.greatest(|sample| norm(&across(&sample.rate_rad_s, axis)));
+    let within = RATE * wanted_rad_s.abs();
+    let percent = |error: f64| 100.0 * error / wanted_rad_s.abs();
+    let text = format!(
+        "{:.4} deg/s to {:.1e} % along, {:.1e} % across",
+        wanted_rad_s.to_degrees(),
+        percent(along),
+        percent(aside),
+    );
+    (along <= within && aside <= within, text)
+}
+
+/// The Sun on the boresight at the end of a phase, and since when.
+fn acquired(samples: &[Sample], from_s: f64, to_s: f64) -> (bool, String) {
+    let off_deg = Phase::between(samples, to_s - SETTLED_S, to_s).greatest(sun_angle_deg);
+    let start_deg = Phase::between(samples, from_s, from_s).greatest(sun_angle_deg);
+    let last = samples.iter().rposition(|it| it.time_s <= to_s && sun_angle_deg(it) > ANGLE_DEG);
+    let taken_s = last.map_or(f64::NAN, |k| samples[k].time_s - from_s);
+    let text =
+        format!("{start_deg:.1} deg off, {ANGLE_DEG} deg after {taken_s:.0} s, then {off_deg:.1e} deg");
+    (off_deg <= ANGLE_DEG, text)
+}
+
+/// Inertial reference, then the Sun, are lost and found.
+pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+    let mut checks = Vec::new();
+    let mut check =
+        |statement, (holds, found): (bool, String)| checks.push(Check { statement, found, holds });
+
+    let lost_s = TRACKER_FAILS_S + OUTAGE_S;
+    let before = Phase::between(samples, 0.0, lost_s - 1.0);
+    check("Operational: every pointing option", {
+        let off_deg = before.greatest(plus_z_from_sun_deg);
+        (
+            before.all(|it| it.mode == OPERATIONAL) && off_deg < ANGLE_DEG,
+            format!("+Z within {off_deg:.1e} deg of the Sun"),
+        )
+    });
+    let invalid_s = after(samples, 0.0, |sample| !sample.is_attitude_known);
+    let demoted_s = after(samples, invalid_s, |sample| sample.mode == EARTH_ACQUISITION);
+    check(
+        "inertial reference lost: Earth Acquisition",
+        (
+            (invalid_s - lost_s).abs() <= DELAY_S && demoted_s <= DELAY_S,
+            format!("lost at {invalid_s:.0} s, demoted {demoted_s:.0} s later"),
+        ),
+    );
+    let first = Phase::between(samples, lost_s + DELAY_S, SUN_LOST_S);
+    check(
+        "quaternion error and rate instead of an attitude",
+        (first.all(|it| it.command_kind == ERROR_QUATERNION), format!("to {SUN_LOST_S:.0} s")),
+    );
+    check("boresight to the Sun", acquired(samples, lost_s, SUN_LOST_S));
+    let settled = Phase::between(samples, SUN_LOST_S - SETTLED_S, SUN_LOST_S);
+    check(
+        "slow rotation about the Sun direction",
+        turns_about(&settled, &BORESIGHT, parameters.earth_acquisition_rad_s),
+    );
+    let search_s = after(samples, SUN_LOST_S, |sample| sample.command_kind == RATE_ONLY);
+    check(
+        "Sun lost: rate only",
+        (search_s <= DELAY_S, format!("{search_s:.0} s after the last Sun sensor failed")),
+    );
+    for round in 0..3 {
+        let (name, axis) = [
+            ("about a first body axis for a duration", [1.0, 0.0, 0.0]),
+            ("then about a second", [0.0, 1.0, 0.0]),
+            ("then about a third", [0.0, 0.0, 1.0]),
+        ][round];
+        let from_s = SUN_LOST_S + search_s + round as f64 * parameters.search_s;
+        let to_s = from_s + parameters.search_s;
+        let commanded = |sample: &Sample| dot(&sample.command_rate_rad_s, &axis) == parameters.search_rad_s;
+        let seconds =
+            Phase::between(samples, SUN_LOST_S, SUN_LOST_S + search_s + 3.0 * parameters.search_s - 1.0);
+        let seconds = seconds.0.iter().filter(|sample| commanded(sample)).count();
+        let whole = Phase::between(samples, from_s, to_s - 1.0).all(commanded);
+        let end = Phase::between(samples, to_s - SETTLED_S, to_s - 1.0);
+        let (turns, text) = turns_about(&end, &axis, parameters.search_rad_s);
+        check(name, (whole && turns, format!("{} for {seconds} s, {text}", ["X", "Y", "Z"][round])));
+    }
+    let again = Phase::between(samples, SUN_LOST_S + search_s + 3.0 * parameters.search_s, SUN_BACK_S);
+    check(
+        "cycling is repeated",
+        (
+            again.all(|it| it.command_rate_rad_s == [parameters.search_rad_s, 0.0, 0.0]),
+            format!("about X again to {SUN_BACK_S:.0} s"),
+        ),
+    );
+    let found_s = after(samples, SUN_BACK_S, |sample| sample.command_kind == ERROR_QUATERNION);
+    check(
+        "until a valid reading of the Sun",
+        (found_s <= DELAY_S, format!("{found_s:.0} s after the Sun sensors work again")),
+    );
+    check("boresight to the Sun again", acquired(samples, SUN_BACK_S, TRACKER_BACK_S));
+    let known_s = after(samples, TRACKER_BACK_S, |sample| sample.is_attitude_known);
+    let kept = Phase::between(samples, TRACKER_BACK_S, SAFE_HOLD_S).all(|it| it.mode == EARTH_ACQUISITION);
+    check(
+        "promotion only by ground command",
+        (
+            kept && known_s <= DELAY_S,
+            format!("attitude known {known_s:.0} s after the tracker works, mode kept to {SAFE_HOLD_S:.0} s"),
+        ),
+    );
+    let held = Phase::between(samples, SAFE_HOLD_S + DELAY_S, OPERATIONAL_S);
+    let end = Phase::between(samples, OPERATIONAL_S - SETTLED_S, OPERATIONAL_S);
+    check("Safe Hold: strict Sun safety", {
+        let inside_deg = -end.greatest(|sample| beyond_deg(sample, &parameters.safe_hold_deg));
+        (
+            held.all(|it| it.mode == SAFE_HOLD) && inside_deg >= 0.0,
+            format!("{inside_deg:.2} deg inside its zone"),
+        )
+    });
+    check("an attitude that maintains communication with Earth", {
+        let off_deg = end.greatest(|it| body_angles_deg(&turn(&it.q, &it.to_earth_m))[1].abs());
+        let links = end.all(|sample| sample.has_link);
+        (
+            links && off_deg <= parameters.beam_deg,
+            format!(
+                "Earth within {off_deg:.1e} deg of the antennas' plane, link {}",
+                if links { "kept" } else { "lost" }
+            ),
+        )
+    });
+    check("all other commands are ignored", {
+        let off_deg = end.least(plus_z_from_sun_deg);
+        (off_deg > 60.0, format!("+Z {off_deg:.1} deg from the commanded Sun"))
+    });
+    let stop_s = samples.last().map_or(f64::NAN, |sample| sample.time_s);
+    let end = Phase::between(samples, stop_s - SETTLED_S, stop_s);
+    check("Operational by ground command", {
+        let off_deg = end.greatest(plus_z_from_sun_deg);
+        (
+            end.all(|it| it.mode == OPERATIONAL) && off_deg < ANGLE_DEG,
+            format!("+Z within {off_deg:.1e} deg of the Sun"),
+        )
+    });
+    checks
+}
+
+fn plus_z_from_sun_deg(sample: &Sample) -> f64 {
+    angle_rad(&[0.0, 0.0, 1.0], &sample.sun_body_m()).to_degrees()
+}
+
+/// The keep-in zone is put in force while the Sun is outside.
+pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+    let mut checks = Vec::new();
+    let mut check =
+        |statement, (holds, found): (bool, String)| checks.push(Check { statement, found, holds });
+
+    let stop_s = samples.last().map_or(f64::NAN, |sample| sample.time_s);
+    let commanded = Phase::between(samples, ZONE_ON_S + DELAY_S, stop_s);
+    check("the command is forced into the zone", {
+        let most_deg = commanded
+            .greatest(|sample| outside_deg(&turn(&sample.command_q, &sample.to_sun_m), &parameters.zone_deg));
+        let kinds = commanded.all(|sample| sample.command_kind == ATTITUDE);
+        (kinds && most_deg < 1e-6, format!("at most {most_deg:.1e} deg outside"))
+    });
+    let least_deg = Phase::between(samples, 0.0, ZONE_ON_S).least(|it| beyond_deg(it, &parameters.zone_deg));
+    let sun_deg = Phase::between(samples, ZONE_ON_S, ZONE_ON_S).greatest(sun_angle_deg);
+    let demoted_s = after(samples, ZONE_ON_S, |sample| sample.mode == SAFE_HOLD);
+    let lowest = samples.iter().any(|sample| sample.mode == EARTH_ACQUISITION);
+    check(
+        "a violation that persists demotes to the next lowest mode",
+        (
+            least_deg > parameters.margin_deg
+                && (parameters.persistence_s..=parameters.persistence_s + DELAY_S).contains(&demoted_s)
+                && !lowest,
+            format!("Sun {sun_deg:.1} deg from -Y, Safe Hold {demoted_s:.0} s later"),
+        ),
+    );
+    let inside = |sample: &Sample| beyond_deg(sample, &parameters.safe_hold_deg) <= 0.0;
+    let back_s = after(samples, ZONE_ON_S, inside);
+    check("a safing turn to a Sun-safe attitude", {
+        let end = Phase::between(samples, PARDONED_S - SETTLED_S, PARDONED_S);
+        let inside_deg = -end.greatest(|sample| beyond_deg(sample, &parameters.safe_hold_deg));
+        let stays = Phase::between(samples, ZONE_ON_S + back_s, PARDONED_S).all(inside);
+        (stays, format!("inside after {back_s:.0} s, then by {inside_deg:.2} deg"))
+    });
+    let kept = Phase::between(samples, ZONE_ON_S + demoted_s, PARDONED_S);
+    check(
+        "promotion only by ground command",
+        (kept.all(|it| it.mode == SAFE_HOLD), format!("Safe Hold to {PARDONED_S:.0} s")),
+    );
+    let end = Phase::between(samples, stop_s - SETTLED_S, stop_s);
+    check("Operational: the valid attitude closest to the target", {
+        let beyond = |sample: &Sample| beyond_deg(sample, &parameters.zone_deg);
+        let [least_deg, most_deg] = [end.least(beyond), end.greatest(beyond)];
+        let off_deg = end.least(plus_z_from_sun_deg);
+        (
+            end.all(|it| it.mode == OPERATIONAL && it.is_constrained)
+                && least_deg.abs().max(most_deg.abs()) < ANGLE_DEG,
+            format!(
+                "Sun within {:.1e} deg of the boundary, {off_deg:.1} deg from +Z",
+                least_deg.abs().max(most_deg.abs())
+            ),
+        )
+    });
+    checks
+}

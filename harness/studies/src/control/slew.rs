@@ -1,0 +1,243 @@
+//! Large slews under the plant's own controller: how they settle, a saturation that a dump ends, a wheel that fails.
+
+use super::slew_figures::figure;
+use super::slew_flight::{Event, Flown, Plant, SLEW_S, Sample, Slew};
+use crate::case::{chosen, run_all};
+use crate::settings::digits;
+use crate::vector::{difference, dot, norm, scaled};
+use crate::{Options, Report, StudyError};
+
+/// Angle of the slews where none is asked for.
+const ANGLE_DEG: f64 = 60.0;
+/// Error of the attitude below which a slew is settled.
+const SETTLED_DEG: f64 = 0.01;
+/// An overshoot that counts as none, as a share of the angle.
+const OVERSHOOT: f64 = 1e-3;
+/// Share of their capacity that wheels near it hold at the start, assumed.
+const NEARLY_FULL: f64 = 0.995;
+/// When a dump ends the saturation, in s.
+const DUMP_S: f64 = 900.0;
+
+fn slews(options: &Options) -> Vec<Slew> {
+    let angle_rad = options.angle_rad.unwrap_or(ANGLE_DEG.to_radians());
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let slew = |label, axis, event, stop_s| Slew { label, axis, angle_rad, event, stop_s };
+    vec![
+        slew("about X", x, Event::None, None),
+        slew("about Y", y, Event::None, None),
+        slew("about Z", z, Event::None, None),
+        slew("wheels full, dump", y, Event::Dumped(NEARLY_FULL, DUMP_S), Some(2400.0)),
+        slew("wheels full, threshold", y, Event::Threshold(NEARLY_FULL, DUMP_S), Some(2400.0)),
+        slew("wheel 2 fails", y, Event::Failed(2, 0.5), None),
+    ]
+}
+
+/// What a flight shows, in the units that are printed.
+struct Measures {
+    /// From the command's jump until the error stays small, in s.
+    settled_s: Option<f64>,
+    ideal_s: f64,
+    overshoot_deg: f64,
+    across_deg: f64,
+    rate_deg_s: f64,
+    /// Greatest share of what a motor can give.
+    torque: f64,
+    /// Greatest share of what a wheel can hold.
+    momentum: f64,
+    /// First and last time at which a wheel was at its capacity, in s.
+    full_s: Option<(f64, f64)>,
+    /// Whether the torque asked for was ever more than the wheels could give.
+    is_torque_limited: bool,
+    dumps: f64,
+}
+
+fn greatest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, f64::max)
+}
+
+impl Measures {
+    fn of(flown: &Flown) -> Self {
+        let Flown { slew, limits, samples } = flown;
+        let error_deg = |sample: &Sample| norm(&sample.left_rad).to_degrees();
+        let after = || samples.iter().filter(|sample| sample.time_s >= SLEW_S);
+        let small_from =
+            samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
+        let sense = slew.angle_rad.signum();
+        let share = |of: fn(&super::slew_flight::WheelSample) -> f64, most: &[f64]| {
+            let each = samples.iter().flat_map(|sample| sample.wheels.iter().zip(most));
+            greatest(each.map(|(wheel, most)| of(wheel) / most))
+        };
+        let is_full = |sample: &&Sample| sample.wheels.iter().any(|wheel| wheel.is_saturated);
+        let full = || samples.iter().filter(is_full).map(|sample| sample.time_s);
+        Self {
+            settled_s: samples.get(small_from).map(|sample| sample.time_s - SLEW_S),
+            ideal_s: limits.ideal_s(slew.angle_rad.abs()),
+            overshoot_deg: after()
+                .map(|sample| -sense * sample.ahead_rad(slew))
+                .fold(0.0, f64::max)
+                .to_degrees(),
+            across_deg: greatest(samples.iter().map(|sample| {
+                norm(&difference(&sample.left_rad, &scaled(&slew.axis, sample.ahead_rad(slew))))
+            }))
+            .to_degrees(),
+            rate_deg_s: greatest(samples.iter().map(|sample| dot(&sample.rate_rad_s, &slew.axis)))
+                .to_degrees(),
+            torque: share(|wheel| wheel.torque_n_m, &limits.torque_n_m),
+            momentum: share(|wheel| wheel.momentum_n_m_s, &limits.capacity_n_m_s),
+            full_s: full().next().zip(full().last()),
+            is_torque_limited: samples.iter().any(|sample| sample.is_torque_limited),
+            dumps: samples.last().map_or(0.0, |sample| sample.dumps),
+        }
+    }
+
+    /// What became of the slew.
+    fn verdict(&self, flown: &Flown) -> String {
+        let Some(settled_s) = self.settled_s else { return "does not settle".to_owned() };
+        let is_full = self.full_s.is_some();
+        let ends_full = flown.samples.last().is_some_and(|last| last.wheels.iter().any(|it| it.is_saturated));
+        let prompt = settled_s <= 1.05 * self.ideal_s + 3.0 / flown.limits.bandwidth_rad_s;
+        let steady = self.overshoot_deg <= OVERSHOOT * flown.slew.angle_rad.abs().to_degrees();
+        let free = !is_full && !self.is_torque_limited;
+        match flown.slew.event {
+            Event::None => match (free, steady, prompt) {
+                (false, ..) => "saturates".to_owned(),
+                (_, false, _) => "overshoots".to_owned(),
+                (.., false) => "settles late".to_owned(),
+                _ => "settles, not saturated".to_owned(),
+            },
+            Event::Dumped(_, at_s) | Event::Threshold(_, at_s) => {
+                if !is_full || SLEW_S + settled_s < at_s {
+                    "no saturation".to_owned()
+                } else if ends_full || self.dumps != 1.0 {
+                    "not recovered".to_owned()
+                } else {
+                    "flagged, recovered by a dump".to_owned()
+                }
+            }
+            Event::Failed(wheel, _) => {
+                let stands =
+                    flown.samples.last().is_some_and(|last| last.wheels[wheel - 1].torque_n_m == 0.0);
+                match (stands, free) {
+                    (true, true) => format!("survived with {} wheels", flown.limits.axes.len() - 1),
+                    (true, false) => "saturates".to_owned(),
+                    (false, _) => format!("wheel {wheel} still gives torque"),
+                }
+            }
+        }
+    }
+
+    fn row(&self, flown: &Flown) -> Vec<String> {
+        let seconds = |time_s: f64| format!("{time_s:.1}");
+        vec![
+            flown.slew.label.to_owned(),
+            format!("{:.1}", flown.slew.angle_rad.to_degrees()),
+            self.settled_s.map_or_else(|| "-".to_owned(), seconds),
+            seconds(self.ideal_s),
+            format!("{:.1e}", self.overshoot_deg),
+            format!("{:.1e}", self.across_deg),
+            format!("{:.4}", self.rate_deg_s),
+            format!("{:.0} %", 100.0 * self.torque),
+            format!("{:.0} %", 100.0 * self.momentum),
+            self.full_s
+                .map_or_else(|| "never".to_owned(), |(from_s, to_s)| format!("{from_s:.0} to {to_s:.0}")),
+            self.verdict(flown),
+        ]
+    }
+}
+
+const HEADER: [&str; 11] = [
+    "case",
+    "angle [deg]",
+    "settled [s]",
+    "by the limits [s]",
+    "overshoot [deg]",
+    "off the axis [deg]",
+    "rate [deg/s]",
+    "torque",
+    "momentum",
+    "a wheel full [s]",
+    "verdict",
+];
+
+/// Slews about each axis, with full wheels and with a wheel that fails.
+pub fn slew(options: &Options) -> Result<Report, StudyError> {
+    let cases = chosen("control/slew", options, slews(options), |slew| slew.label.to_owned())?;
+    let plant = Plant::open(options)?;
+    let flown = run_all(options, &cases, |slew| plant.fly(slew, options.step_s))?;
+    let mut report = Report::default();
+    report.line("Slews under the plant's own controller; the command jumps at 10 s\n");
+    let rows: Vec<_> = flown.iter().map(|flown| Measures::of(flown).row(flown)).collect();
+    report.table(&HEADER, &rows);
+    if let Some(Flown { limits, .. }) = flown.first() {
+        report.line(&format!(
+            "Limits: {:.4} deg/s and {:.5} deg/s2 (control.slewRate and control.slewAcceleration), wheels of {} N m and {} N m s.",
+            limits.rate_rad_s.to_degrees(),
+            limits.acceleration_rad_s2.to_degrees(),
+            limits.torque_n_m[0],
+            limits.capacity_n_m_s[0],
+        ));
+    }
+    report.line(REMARK);
+    report.csv(options, "slew.csv", &HEADER, rows)?;
+    history(&mut report, options, &flown)?;
+    for flown in &flown {
+        let file =
+            format!("slew-{}.svg", flown.slew.label.replace(", ", "-").replace(' ', "-").to_lowercase());
+        report.picture(options, &file, &figure(flown))?;
+    }
+    Ok(report)
+}
+
+const REMARK: &str = "\
+Settled: the true attitude stays within 0.01 deg of the command. By the limits: accelerate, coast and decelerate about the
+slew's axis within both limits, in closed form. Torque and momentum: greatest share of what a wheel can give and hold.
+Wheels full: each starts at 99.5 % of its capacity, assumed, in the sense that the slew adds to, with dumps off; at 900 s a
+dump to zero is requested, or dump.threshold is put back. Wheel 2 fails at half of the slew's time by the limits. There is
+no keep-in zone here: the slews about X and Z take the Sun off the shade.";
+
+/// Every sample of every flight.
+fn history(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<(), StudyError> {
+    let mut header: Vec<String> = [
+        "case",
+        "time_s",
+        "q1",
+        "q2",
+        "q3",
+        "q4",
+        "rate_x_rad_s",
+        "rate_y_rad_s",
+        "rate_z_rad_s",
+        "left_x_rad",
+        "left_y_rad",
+        "left_z_rad",
+        "momentum_x_n_m_s",
+        "momentum_y_n_m_s",
+        "momentum_z_n_m_s",
+        "torque_limited",
+        "dumping",
+        "dumps",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    let wheels = flown.first().map_or(0, |flown| flown.limits.axes.len());
+    for k in 1..=wheels {
+        header.extend(["torque_n_m", "momentum_n_m_s", "full"].map(|name| format!("wheel{k}_{name}")));
+    }
+    let rows = flown.iter().flat_map(|flown| {
+        flown.samples.iter().map(|sample| {
+            let Sample { q, rate_rad_s, left_rad, momentum_n_m_s, .. } = sample;
+            let numbers = [sample.time_s].into_iter().chain(*q).chain(*rate_rad_s).chain(*left_rad);
+            let mut row = vec![flown.slew.label.to_owned()];
+            row.extend(numbers.chain(*momentum_n_m_s).map(digits));
+            row.extend([sample.is_torque_limited, sample.is_dumping].map(|is| is.to_string()));
+            row.push(format!("{}", sample.dumps));
+            for wheel in &sample.wheels {
+                row.extend([wheel.torque_n_m, wheel.momentum_n_m_s].map(digits));
+                row.push(wheel.is_saturated.to_string());
+            }
+            row
+        })
+    });
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    report.csv(options, "slew-history.csv", &header, rows.collect::<Vec<_>>())
+}

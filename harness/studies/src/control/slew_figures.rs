@@ -1,0 +1,75 @@
+//! Pictures of slews: error angle, rate, torques and momenta of the wheels over time, with their limits.
+
+use super::slew_flight::{Event, Flown, SLEW_S, Sample};
+use crate::chart::{Chart, Panel, Series};
+use crate::vector::{dot, norm};
+
+/// A slew over time.
+pub fn figure(flown: &Flown) -> Chart {
+    let Flown { slew, limits, samples } = flown;
+    let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+        Series::line(label, samples.iter().map(|sample| (sample.time_s, value(sample))).collect())
+    };
+    let wheels = |value: &dyn Fn(&Sample, usize) -> f64| -> Vec<Series> {
+        (0..limits.axes.len())
+            .map(|k| line(&format!("wheel {}", k + 1), &|sample| value(sample, k)))
+            .collect()
+    };
+    let either_way = |limit: f64| vec![-limit, limit];
+    let sense = slew.angle_rad.signum();
+    let limit = sense * limits.rate_rad_s.to_degrees();
+    let torque_n_m = limits.torque_n_m.iter().copied().fold(f64::INFINITY, f64::min);
+    let capacity_n_m_s = limits.capacity_n_m_s.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut panels = vec![
+        Panel {
+            y_label: "error [deg]".to_owned(),
+            series: vec![line("angle from the attitude commanded at 10 s", &|sample| {
+                norm(&sample.left_rad).to_degrees()
+            })],
+            ..Panel::default()
+        },
+        Panel {
+            y_label: "rate [deg/s]".to_owned(),
+            series: vec![
+                line("about the slew's axis", &|sample| dot(&sample.rate_rad_s, &slew.axis).to_degrees()),
+                dashed("control.slewRate", limit, samples),
+            ],
+            ..Panel::default()
+        },
+        Panel {
+            y_label: "torque [N m]".to_owned(),
+            series: wheels(&|sample, k| sample.wheels[k].torque_n_m),
+            y_range: Some((-1.15 * torque_n_m, 1.15 * torque_n_m)),
+            marks: either_way(torque_n_m),
+        },
+        Panel {
+            y_label: "momentum [N m s]".to_owned(),
+            series: wheels(&|sample, k| sample.wheels[k].momentum_n_m_s),
+            y_range: Some((-1.15 * capacity_n_m_s, 1.15 * capacity_n_m_s)),
+            marks: either_way(capacity_n_m_s),
+        },
+    ];
+    if matches!(slew.event, Event::Dumped(..) | Event::Threshold(..)) {
+        let full = |sample: &Sample| sample.wheels.iter().filter(|wheel| wheel.is_saturated).count() as f64;
+        panels.push(Panel {
+            y_label: "number [1]".to_owned(),
+            series: vec![
+                line("wheels at capacity", &full),
+                line("dump active", &|sample| f64::from(u8::from(sample.is_dumping))),
+            ],
+            y_range: Some((-0.3, limits.axes.len() as f64 + 0.3)),
+            marks: Vec::new(),
+        });
+    }
+    Chart {
+        title: format!("Slew by {:.0} deg: {}", slew.angle_rad.to_degrees(), slew.label),
+        x_label: "time [s]".to_owned(),
+        panels,
+    }
+}
+
+/// A limit from the slew's begin on.
+fn dashed(label: &str, value: f64, samples: &[Sample]) -> Series {
+    let end_s = samples.last().map_or(SLEW_S, |sample| sample.time_s);
+    Series::dashed(label, vec![(SLEW_S, value), (end_s, value)])
+}

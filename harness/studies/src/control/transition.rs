@@ -1,0 +1,350 @@
+//! Figures 7 and 8 of paper 001 with the controlled plant: commanded, estimated and true attitude over a scenario change.
+
+use super::guided_loop::{Flight, GUIDANCE, Loop, Sample, body_angles_deg};
+use crate::case::{chosen, run_all};
+use crate::chart::{Chart, Mark, Panel, Series};
+use crate::pointing::{SLEW_S, TRANSITION_EPOCH_S, TRANSITION_TRUE_ANOMALY_DEG};
+use crate::settings::{Settings, digits, number, real, vector_setting};
+use crate::vector::{angle_rad, norm, rotation_vector, turn};
+use crate::{Options, Report, StudyError};
+
+const END_S: f64 = 1500.0;
+/// Errors of attitude and rate below which the spacecraft has settled, assumed: the paper says no number.
+const SETTLED_DEG: f64 = 0.1;
+const SETTLED_DEG_S: f64 = 0.005;
+/// Half of a unit of the 0 deg that the paper prints for the Sun's azimuth and elevation.
+const PRINTED_DEG: f64 = 0.5;
+/// "The spacecraft response takes about 70-100 seconds to settle".
+const PAPER_S: [f64; 2] = [70.0, 100.0];
+/// Star tracker, each axis: 5 arc seconds, assumed.
+const TRACKER_RAD: f64 = 5.0 * ARC_SECOND;
+/// Gyros: random walk of the angle, 0.005 deg a root hour, assumed.
+const GYRO_RAD_SQRT_S: f64 = 0.005 * core::f64::consts::PI / 180.0 / 60.0;
+/// Gyros: random walk of the bias, 0.1 deg/h in a day, assumed.
+const DRIFT_RAD_S_SQRT_S: f64 = 0.1 * core::f64::consts::PI / 180.0 / 3600.0 / 294.0;
+const ARC_SECOND: f64 = core::f64::consts::PI / 648_000.0;
+
+/// What is flown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Case {
+    /// Star tracker and gyros with noise.
+    Noise,
+    /// Without.
+    NoNoise,
+}
+
+impl Case {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Noise => "with noise",
+            Self::NoNoise => "without noise",
+        }
+    }
+
+    fn fly(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+        // The camera stands as far sunward of +Z as nadir does with the Sun on -Y.
+        let camera = |sample: &Sample| {
+            let sun_nadir_rad = angle_rad(&sample.to_sun_m, &sample.to_planet_m);
+            real("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
+        };
+        let inputs = |sample: &Sample| -> Vec<(usize, Settings)> {
+            let settings = if sample.time_s == 0.0 {
+                vec![number("pointing.scenario", 6)]
+            } else if sample.time_s == SLEW_S {
+                vec![number("pointing.scenario", 4), number("aimpoint.option", 12), camera(sample)]
+            } else if sample.time_s > SLEW_S {
+                vec![camera(sample)]
+            } else {
+                return Vec::new();
+            };
+            vec![(GUIDANCE, settings)]
+        };
+        let plant = match self {
+            Self::Noise => {
+                let mut noise = vector_setting("starTracker.noise", &[TRACKER_RAD; 3]);
+                noise.extend([real("gyro.noise", GYRO_RAD_SQRT_S), real("gyro.drift", DRIFT_RAD_S_SQRT_S)]);
+                noise
+            }
+            Self::NoNoise => Vec::new(),
+        };
+        both.fly(
+            &Flight {
+                label: self.label(),
+                epoch_s: TRANSITION_EPOCH_S,
+                true_anomaly_deg: TRANSITION_TRUE_ANOMALY_DEG,
+                stop_s: END_S,
+                plant,
+                guidance: Vec::new(),
+                inputs: &inputs,
+            },
+            step_s,
+        )
+    }
+}
+
+/// Azimuth and elevation in the estimated body frame, in deg.
+fn estimated_deg(sample: &Sample, inertial: &[f64; 3]) -> [f64; 2] {
+    body_angles_deg(&turn(&sample.estimate_q, inertial))
+}
+
+/// Angle between the estimated and the commanded attitude, in deg.
+fn error_deg(sample: &Sample) -> f64 {
+    norm(&rotation_vector(&sample.estimate_q, &sample.command_q)).to_degrees()
+}
+
+/// Angle between the true rate and the commanded one, in deg/s.
+fn rate_error_deg_s(sample: &Sample) -> f64 {
+    norm(&crate::vector::difference(&sample.rate_rad_s, &sample.command_rate_rad_s)).to_degrees()
+}
+
+/// Limits of the plant's slews.
+struct Limits {
+    rate_rad_s: f64,
+    acceleration_rad_s2: f64,
+    zone_deg: [f64; 2],
+}
+
+impl Limits {
+    fn read(both: &Loop) -> Result<Self, StudyError> {
+        let [rate_rad_s, acceleration_rad_s2] =
+            both.plant_parameters(["control.slewRate", "control.slewAcceleration"])?;
+        let zone = both.guidance_parameters(["keepIn.azimuth", "keepIn.elevation"])?;
+        Ok(Self { rate_rad_s, acceleration_rad_s2, zone_deg: zone.map(f64::to_degrees) })
+    }
+
+    /// Accelerate, coast, decelerate through an angle, in s.
+    fn least_s(&self, angle_rad: f64) -> f64 {
+        let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);
+        match angle_rad < rate * rate / acceleration {
+            true => 2.0 * (angle_rad / acceleration).sqrt(),
+            false => angle_rad / rate + rate / acceleration,
+        }
+    }
+
+    /// The angle for which that takes so long, in deg.
+    fn angle_deg(&self, time_s: f64) -> f64 {
+        let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);
+        let ramp_s = rate / acceleration;
+        let angle_rad = match time_s < 2.0 * ramp_s {
+            true => acceleration * time_s * time_s / 4.0,
+            false => rate * (time_s - ramp_s),
+        };
+        angle_rad.to_degrees()
+    }
+}
+
+/// The estimated curves of Figures 7 and 8.
+pub fn transition(options: &Options) -> Result<Report, StudyError> {
+    let cases =
+        chosen("control/transition", options, [Case::Noise, Case::NoNoise], |case| case.label().to_owned())?;
+    let both = Loop::open(options)?;
+    let limits = Limits::read(&both)?;
+    let flown = run_all(options, &cases, |case| Ok((*case, case.fly(&both, options.step_s)?)))?;
+    let mut report = Report::default();
+    report.line(
+        "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n",
+    );
+    let rows: Vec<_> = flown.iter().flat_map(|(case, samples)| rows(*case, &limits, samples)).collect();
+    let header = ["case", "quantity", "paper", "ours", "verdict"];
+    report.table(&header, &rows);
+    report.line(REMARK);
+    report.csv(options, "transition.csv", &header, rows)?;
+    history(&mut report, options, &flown)?;
+    if let Some((case, samples)) = flown.first() {
+        report.picture(options, "transition-quaternion.svg", &quaternion_chart(*case, samples))?;
+        report.picture(options, "transition-angles.svg", &angle_chart(*case, samples))?;
+    }
+    Ok(report)
+}
+
+const REMARK: &str = "\
+Settled: the estimated attitude stays within 0.1 deg and the rate within 0.005 deg/s of the command, assumed: the paper
+gives no number. Its gains, its limits of rate and acceleration and the angle of its slew are not printed either; ours are
+the shipped defaults (bandwidth 0.1 rad/s, damping 0.8, slew rate a quarter of what the wheels guarantee to hold, slew
+acceleration half of the torque they guarantee, on the largest inertia), and nothing is fitted: epoch and place on the orbit
+are those of pointing/transition. By the limits: accelerate, coast and decelerate through our angle, in closed form; so the
+difference in time is that of angle and limits, not of the controller. Assumed noise: star tracker 5 arc seconds about each
+axis at 10 Hz, gyros 0.005 deg a root hour and a drift of 0.1 deg/h in a day. The camera's angle is commanded once a second
+and Guidance takes it as fixed in between, so that the commanded rate has 0.0015 deg/s about X that the sequence of commanded
+attitudes lacks; the slew follows it, which is how far the Sun leaves -Y.";
+
+fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
+    let at = |second: f64| samples.iter().find(|sample| sample.time_s == second);
+    // The command of the sample at 500 s stands one second later.
+    let (Some(before), Some(after)) = (at(SLEW_S), at(SLEW_S + 1.0)) else { return Vec::new() };
+    let greatest = |value: &dyn Fn(&Sample) -> f64| samples.iter().skip(1).map(value).fold(0.0, f64::max);
+    let slew_rad = norm(&rotation_vector(&before.command_q, &after.command_q));
+    let is_off =
+        |sample: &Sample| error_deg(sample) > SETTLED_DEG || rate_error_deg_s(sample) > SETTLED_DEG_S;
+    let settled_s =
+        samples.iter().rposition(is_off).and_then(|k| samples.get(k + 1)).map(|it| it.time_s - SLEW_S);
+    let off_sun = |frame: &dyn Fn(&Sample) -> [f64; 4]| {
+        greatest(&|it| angle_rad(&[0.0, -1.0, 0.0], &turn(&frame(it), &it.to_sun_m)).to_degrees())
+    };
+    let outside = samples.iter().skip(1).filter(|sample| {
+        let [azimuth, elevation] = estimated_deg(sample, &sample.to_sun_m);
+        azimuth.abs() > limits.zone_deg[0] || elevation.abs() > limits.zone_deg[1]
+    });
+    let [outside, limited] = [outside.count(), samples.iter().filter(|it| it.is_torque_limited).count()];
+    let last_deg = samples.iter().rev().take(300).map(error_deg).fold(0.0, f64::max);
+    let row = |quantity: &str, paper: &str, ours: String, verdict: &str| {
+        vec![case.label().to_owned(), quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+    };
+    let agrees = |is: bool| if is { "agrees" } else { "differs" };
+    let [estimated_deg, true_deg] = [off_sun(&|sample| sample.estimate_q), off_sun(&|sample| sample.q)];
+    vec![
+        row("slew angle", "not printed", format!("{:.2} deg", slew_rad.to_degrees()), "-"),
+        row(
+            "time to settle",
+            "about 70 to 100 s",
+            settled_s.map_or_else(|| "does not".to_owned(), |time_s| format!("{time_s:.0} s")),
+            agrees(settled_s.is_some_and(|time_s| (PAPER_S[0]..=PAPER_S[1]).contains(&time_s))),
+        ),
+        row("the same by the limits alone", "not printed", format!("{:.0} s", limits.least_s(slew_rad)), "-"),
+        row(
+            "slew angles that take 70 to 100 s by the limits",
+            "not printed",
+            format!("{:.1} to {:.1} deg", limits.angle_deg(PAPER_S[0]), limits.angle_deg(PAPER_S[1])),
+            "-",
+        ),
+        row(
+            "Sun from -Y in the estimated attitude, greatest",
+            "0 deg: never leaves -Y",
+            format!("{estimated_deg:.1e} deg"),
+            agrees(estimated_deg < PRINTED_DEG),
+        ),
+        row(
+            "Sun from -Y in the true attitude, greatest",
+            "0 deg",
+            format!("{true_deg:.1e} deg"),
+            agrees(true_deg < PRINTED_DEG),
+        ),
+        row(
+            "seconds outside the keep-in zone, estimated",
+            "never",
+            outside.to_string(),
+            agrees(outside == 0),
+        ),
+        row("error in the last 300 s, greatest", "not printed", format!("{last_deg:.1e} deg"), "-"),
+        row("seconds with torque at its limit", "not printed", limited.to_string(), "-"),
+    ]
+}
+
+fn history(report: &mut Report, options: &Options, flown: &[(Case, Vec<Sample>)]) -> Result<(), StudyError> {
+    let header = [
+        "case",
+        "time_s",
+        "command_q1",
+        "command_q2",
+        "command_q3",
+        "command_q4",
+        "estimate_q1",
+        "estimate_q2",
+        "estimate_q3",
+        "estimate_q4",
+        "q1",
+        "q2",
+        "q3",
+        "q4",
+        "rate_x_rad_s",
+        "rate_y_rad_s",
+        "rate_z_rad_s",
+        "command_x_rad_s",
+        "command_y_rad_s",
+        "command_z_rad_s",
+        "sun_x_m",
+        "sun_y_m",
+        "sun_z_m",
+        "earth_x_m",
+        "earth_y_m",
+        "earth_z_m",
+        "planet_x_m",
+        "planet_y_m",
+        "planet_z_m",
+        "mdis_angle_deg",
+        "torque_limited",
+        "constrained",
+    ];
+    let rows = flown.iter().flat_map(|(case, samples)| {
+        samples.iter().map(|sample| {
+            let numbers = [sample.time_s].into_iter().chain(sample.command_q).chain(sample.estimate_q);
+            let numbers = numbers.chain(sample.q).chain(sample.rate_rad_s).chain(sample.command_rate_rad_s);
+            let places = [sample.to_sun_m, sample.to_earth_m, sample.to_planet_m].concat();
+            let mut row = vec![case.label().to_owned()];
+            row.extend(numbers.chain(places).chain([sample.mdis_angle_rad.to_degrees()]).map(digits));
+            row.extend([sample.is_torque_limited, sample.is_constrained].map(|is| is.to_string()));
+            row
+        })
+    });
+    report.csv(options, "transition-history.csv", &header, rows.collect::<Vec<_>>())
+}
+
+/// A line over time from the first command on, interrupted where the command jumps if `jumps`.
+fn over_time(label: &str, samples: &[Sample], jumps: bool, value: impl Fn(&Sample) -> f64) -> Series {
+    let mut points = Vec::new();
+    for sample in samples.iter().skip(1) {
+        if jumps && sample.time_s == SLEW_S + 1.0 {
+            points.push((sample.time_s, f64::NAN));
+        }
+        points.push((sample.time_s, value(sample)));
+    }
+    Series::line(label, points)
+}
+
+/// The sign of a quaternion that leaves it closest to the commanded one at the end of the flight.
+fn sign(samples: &[Sample], q: &[f64; 4]) -> f64 {
+    let last = samples.last().map_or([0.0; 4], |last| last.command_q);
+    let dot: f64 = q.iter().zip(&last).map(|(a, b)| a * b).sum();
+    if dot < 0.0 { -1.0 } else { 1.0 }
+}
+
+fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
+    let signed = |q: &[f64; 4], i: usize| sign(samples, q) * q[i];
+    let mut panels: Vec<Panel> = (0..4)
+        .map(|i| Panel {
+            y_label: format!("q{} [1]", i + 1),
+            series: vec![
+                over_time("commanded", samples, true, |sample| signed(&sample.command_q, i)),
+                Series {
+                    mark: Mark::Dashed,
+                    ..over_time("estimated", samples, false, |sample| signed(&sample.estimate_q, i))
+                },
+            ],
+            ..Panel::default()
+        })
+        .collect();
+    for panel in panels.iter_mut().skip(1) {
+        panel.series.iter_mut().for_each(|series| series.label.clear());
+    }
+    panels.push(Panel {
+        y_label: "error [deg]".to_owned(),
+        series: vec![over_time("estimated to commanded", samples, false, error_deg)],
+        ..Panel::default()
+    });
+    Chart {
+        title: format!("Commanded and estimated quaternion over the transition, {}", case.label()),
+        x_label: "time [s]".to_owned(),
+        panels,
+    }
+}
+
+fn angle_chart(case: Case, samples: &[Sample]) -> Chart {
+    let panel = |name: &str, i: usize| Panel {
+        y_label: format!("{name} [deg]"),
+        series: vec![
+            over_time("Mercury", samples, false, |it| estimated_deg(it, &it.to_planet_m)[i]),
+            over_time("Earth", samples, false, |it| estimated_deg(it, &it.to_earth_m)[i]),
+            // Dashed, as it lies on one of the others all the time.
+            Series {
+                mark: Mark::Dashed,
+                ..over_time("Sun", samples, false, |it| estimated_deg(it, &it.to_sun_m)[i])
+            },
+        ],
+        ..Panel::default()
+    };
+    Chart {
+        title: format!("Sun, Earth and Mercury in the estimated body frame, {}", case.label()),
+        x_label: "time [s]".to_owned(),
+        panels: vec![panel("azimuth", 0), panel("elevation", 1)],
+    }
+}
