@@ -216,6 +216,8 @@ impl PlantState {
         time_s: f64,
     ) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
+        // What was turned out while there was no body to turn counts for nothing.
+        self.turned_out = false;
         if is_commanded(context, values) { self.take_command(context, values, time_s) } else { Ok(()) }
     }
 
