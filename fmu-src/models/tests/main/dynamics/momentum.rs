@@ -150,6 +150,8 @@ fn a_force_moves_a_disturbed_orbit_as_it_does_in_commanded_flight() {
         flight.fly_to(1_800.0, 30.0).unwrap();
         flight.vector("position")
     });
-    assert!((free - quiet).norm() > 100.0, "{}", (free - quiet).norm());
-    assert!((free - commanded).norm() < 1e-3, "{}", (free - commanded).norm());
+    let moved = (free - quiet).norm();
+    assert!(moved > 100.0, "{moved}");
+    // Commanded flight integrates segments of minutes, free flight of a second.
+    assert!((free - commanded).norm() < 1e-5 * moved, "{} of {moved}", (free - commanded).norm());
 }
