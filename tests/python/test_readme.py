@@ -172,6 +172,52 @@ def test_histories_of_nutation_are_those_of_the_study(studied):
     assert any(f"| greater about X: {about_x[0]}; about Y: {about_y[0]} deg |" in row for row in README)
 
 
+def test_the_controlled_transition_is_that_of_the_study(studied):
+    rows = {row["quantity"]: row for row in rows_of(studied, "control/transition") if row["case"] == "with noise"}
+    settled, limits = rows["time to settle"], rows["the same by the limits alone"]["ours"]
+    assert settled["verdict"] == "differs"
+    assert line(
+        "001, Figures 7 and 8", "time to settle on the camera at nadir after downlink (`control/transition`)",
+        settled["paper"], settled["ours"],
+        f"**off**: our slew of {rows['slew angle']['ours']} takes {limits} within the default limits of rate and acceleration; "
+        "the paper prints neither angle nor limits",
+    ) in README
+    sun = rows["Sun from -Y in the estimated attitude, greatest"]
+    outside = rows["seconds outside the keep-in zone, estimated"]
+    assert sun["verdict"] == outside["verdict"] == "agrees"
+    assert line(
+        "001, Figure 8",
+        "Sun from -Y in the estimated attitude, seconds outside the keep-in zone (`control/transition`)", "0 deg, never",
+        f"{float(sun['ours'].removesuffix(' deg')):.2f} deg, {outside['ours']} s", "same to a degree",
+    ) in README
+
+
+def test_the_safe_modes_are_those_of_the_study(studied):
+    rows = rows_of(studied, "control/safe-mode")
+    held = sum(row["verdict"] == "agrees" for row in rows)
+    [row] = [row for row in README if row.startswith('| 001, "Safe Modes" |')]
+    assert f"(`control/safe-mode`) | {len(rows)} statements | {held} hold | same;" in row
+
+
+def test_the_slews_are_those_of_the_study(studied):
+    rows = {row["case"]: row for row in rows_of(studied, "control/slew")}
+    plain = [rows[f"about {axis}"] for axis in "XYZ"]
+    settled = ", ".join(row["settled [s]"] for row in plain)
+    [limits] = {row["by the limits [s]"] for row in plain}
+    torque, momentum = (max(int(row[name].removesuffix(" %")) for row in plain) for name in ("torque", "momentum"))
+    assert line(
+        "beyond 001", "slews by 60 deg about X, Y, Z (`control/slew`)", "not stated",
+        f"settled in {settled} s; {limits} s by the limits of rate and acceleration",
+        f"torque up to {torque} %, momentum up to {momentum} % of a wheel's",
+    ) in README
+    failed, full = rows["wheel 2 fails"], rows["wheels full, dump"]
+    assert line(
+        "beyond 001", "the same with a wheel that fails half-way; with wheels at 99.5 % of capacity (`control/slew`)",
+        "not stated", f"settled in {failed['settled [s]']} s; full until a dump, settled in {full['settled [s]']} s",
+        f"{failed['verdict']}; {full['verdict']}",
+    ) in README
+
+
 def test_a_mercury_year_is_that_of_the_study(studied):
     text = studied("thermal/figure13")[0]
     orbits = found(text, r"orbits in a year +172 +([\d.]+)")

@@ -9,6 +9,7 @@ import pytest
 from studies import study, table
 
 NAMES = [
+    "control/slew", "control/safe-mode", "control/transition",
     "momentum/table2", "momentum/table3", "momentum/figure4", "momentum/assumptions",
     "pointing/limb", "pointing/mosaic", "pointing/transition",
     "spin/figure2", "spin/figure3", "spin/figure4", "spin/figure6", "spin/figure7", "spin/numbers",
@@ -18,7 +19,7 @@ NAMES = [
 
 def test_these_are_all(heliotorque):
     listed = subprocess.run([heliotorque, "study", "list"], capture_output=True, text=True, encoding="utf-8", check=True)
-    assert sorted(re.findall(r"\b[a-z]+/[a-z]+\d*\b", listed.stdout)) == sorted(NAMES)
+    assert sorted(re.findall(r"\b[a-z]+/[a-z-]+\d*\b", listed.stdout)) == sorted(NAMES)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -110,6 +110,8 @@ pub struct Flight<'f> {
     pub ephemeris: &'f mut Ephemeris,
     /// Light and heat beyond direct sunlight.
     pub light: Option<&'f mut RadiationSolver>,
+    /// Force and torque from outside at a time, body frame, by which an orbit goes that forces act on.
+    pub external: &'f dyn Fn(f64) -> ExternalLoad,
 }
 
 impl Flight<'_> {
@@ -124,7 +126,7 @@ impl Flight<'_> {
             self.propagator,
             self.ephemeris,
             self.light.as_deref_mut(),
-            |_| ExternalLoad::default(),
+            self.external,
             work_limit,
         );
         plant.prepare(time_s, time_s)?;
@@ -150,7 +152,7 @@ impl Flight<'_> {
         time_s: f64,
         body: &BodyMotion,
         work_limit: u32,
-    ) -> Plant<'_, impl Fn(f64) -> ExternalLoad + use<>> {
+    ) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
         let motion = Command {
             attitude: Attitude::from_unit(body.attitude),
             rate_body_rad_s: body.rate_body_rad_s,
@@ -164,7 +166,7 @@ impl Flight<'_> {
             self.propagator,
             self.ephemeris,
             self.light.as_deref_mut(),
-            |_| ExternalLoad::default(),
+            self.external,
             work_limit,
         )
     }

@@ -433,7 +433,8 @@ impl Builder<'_> {
             if sum_kg >= whole_kg {
                 let at = Place::root().key("panels").item(index).key("mass_kg");
                 let found = format!("{mass_kg}, with the panels before it {sum_kg}");
-                let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
+                let allowed =
+                    format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
                 self.check.report(&at, found, allowed);
                 return;
             }

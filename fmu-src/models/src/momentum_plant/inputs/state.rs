@@ -44,6 +44,8 @@ pub struct PlantState {
     light_inputs: Vec<f64>,
     /// Other tunables at the last change.
     tunables: [f64; 8],
+    /// Force from outside at the last change.
+    force: [f64; 3],
     /// `dump.request` at the last step.
     pub request: Request,
     /// Time between dumps.
@@ -74,6 +76,8 @@ pub struct Changes {
     pub light: bool,
     /// The mass is another.
     pub mass: bool,
+    /// The force from outside is another.
+    pub force: bool,
     /// Mass, thresholds or target of dumps are others.
     pub tunables: bool,
 }
@@ -115,7 +119,12 @@ impl PlantState {
         let parts = [
             (
                 "the times and inputs",
-                inputs.chain(&self.light_inputs).chain(&self.tunables).chain(times).all(finite),
+                inputs
+                    .chain(&self.light_inputs)
+                    .chain(&self.tunables)
+                    .chain(&self.force)
+                    .chain(times)
+                    .all(finite),
             ),
             ("the command", self.command.is_sound()),
             ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
@@ -153,6 +162,7 @@ impl PlantState {
             orbit_inputs: orbit_inputs(context, values),
             light_inputs: light_inputs(context, values).collect(),
             tunables: tunables(context, values),
+            force: values.vector(context.variables.force.applied),
             request: Request::default(),
             spacing: DumpSpacing::default(),
             ephemeris: Ephemeris::default(),
@@ -199,10 +209,12 @@ impl PlantState {
         let before = std::mem::replace(&mut self.tunables, now);
         // A command moves light through the attitude, which in dynamics does not jump.
         let turned = commanded && self.dynamics.is_none();
+        let force = values.vector(context.variables.force.applied);
         Ok(Changes {
             orbit: moved,
             light: lit || moved || turned,
             mass: before[0] != now[0],
+            force: std::mem::replace(&mut self.force, force) != force,
             tunables: before != now,
         })
     }
@@ -216,6 +228,8 @@ impl PlantState {
         time_s: f64,
     ) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
+        // What was turned out while there was no body to turn counts for nothing.
+        self.turned_out = false;
         if is_commanded(context, values) { self.take_command(context, values, time_s) } else { Ok(()) }
     }
 

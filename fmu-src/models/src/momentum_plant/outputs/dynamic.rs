@@ -6,7 +6,8 @@ use physics::attitude::Attitude;
 use physics::guidance::system::CommandKind as Kind;
 use physics::momentum::{DumpEvent, Totals};
 use physics::plant::{
-    AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, Flight, PropagatorState, Tracked,
+    AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, ExternalLoad, Flight, Motion,
+    PropagatorState, Tracked,
 };
 
 use super::super::inputs::state::{Changes, PlantState};
@@ -64,8 +65,10 @@ pub fn begin(
     state.light = inputs::light(context, values, &configuration)?;
     let (mut attitude, is_default) = dynamics::start_attitude(context, values)?;
     let mut rate_body_rad_s = Vector3::from(values.vector(context.variables.start.rate));
+    let [start_load, _] = dynamics::external(context, values, InputsOverTime::held(), time_s);
+    let acting = |_: f64| start_load;
     if is_default && dynamics::guides_itself(context, values) {
-        let guided = flight(context, state, &mut configuration)?
+        let guided = flight(context, state, &mut configuration, &acting)?
             .guided_start(time_s, settings.work_limit)
             .map_err(outputs::failure)?;
         if let Some(frame) = guided {
@@ -75,7 +78,7 @@ pub fn begin(
     }
     if settings.panels_have_mass {
         let inertia_body_kg_m2 =
-            flight(context, state, &mut configuration)?.inertia_at_start(time_s, attitude);
+            flight(context, state, &mut configuration, &acting)?.inertia_at_start(time_s, attitude);
         settings.gyrostat.set_inertia(inertia_body_kg_m2);
     }
     let wheels = &context.variables.wheel;
@@ -89,7 +92,7 @@ pub fn begin(
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
     let limit = settings.work_limit;
     if let Some(mut shown) = state.dynamics.take() {
-        let mut flight = flight(context, state, &mut configuration)?;
+        let mut flight = flight(context, state, &mut configuration, &acting)?;
         stretch
             .with_inputs(|inputs| {
                 let silent = &mut |_: &DumpEvent| {};
@@ -134,7 +137,9 @@ pub fn step(
     };
     if let Some(changes) = changes {
         // On a disturbed orbit the mass tells where the spacecraft goes.
-        let loads_change = changes.light || changes.mass;
+        let pushed =
+            changes.force && matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
+        let loads_change = changes.light || changes.mass || pushed;
         flown.cut(step.start_s, loads_change);
         if loads_change {
             state.propagator.cut(&configuration, step.start_s, true);
@@ -152,7 +157,8 @@ pub fn step(
     }
     let over_time = step.inputs;
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
-    let mut flight = flight(context, state, &mut configuration)?;
+    let acting = |time_s: f64| dynamics::external(context, stretch.values, over_time, time_s)[0];
+    let mut flight = flight(context, state, &mut configuration, &acting)?;
     stretch
         .with_inputs(|inputs| {
             flown.advance(&mut settings, &mut flight, inputs, step.end_s, |event| log_dump(context, event))
@@ -169,6 +175,7 @@ fn flight<'f>(
     context: &'f Plan<'_>,
     state: &'f mut PlantState,
     configuration: &'f mut Configuration,
+    external: &'f dyn Fn(f64) -> ExternalLoad,
 ) -> Result<Flight<'f>, Failure> {
     Ok(Flight {
         prepared: context.setup.prepared_spacecraft(configuration.sunshade)?,
@@ -176,6 +183,7 @@ fn flight<'f>(
         propagator: &mut state.propagator,
         ephemeris: &mut state.ephemeris,
         light: state.light.as_mut(),
+        external,
     })
 }
 
@@ -192,7 +200,8 @@ fn show(
     let Some(flown) = state.dynamics.take() else { return Ok(()) };
     let body = flown.body(settings, time_s);
     let [external, _] = dynamics::external(context, values, over_time, time_s);
-    let evaluation = flown.evaluation(&mut flight(context, state, configuration)?, &body, external, time_s);
+    let evaluation =
+        flown.evaluation(&mut flight(context, state, configuration, &|_| external)?, &body, external, time_s);
     let totals = Totals {
         momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
         delta_v_inertial_m_s: body.delta_v_inertial_m_s,

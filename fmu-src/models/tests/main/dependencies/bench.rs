@@ -512,7 +512,8 @@ impl<M: Model> Bench<M> {
         }
         // What grows with the step is taken off.
         let limit = (short * STEPS_S[0] - long * STEPS_S[1]) / (STEPS_S[0] - STEPS_S[1]);
-        limit.abs() > CHANGE * self.size(&base[1], &found[1], unknown) && shortest.abs() > 0.3 * limit.abs()
+        limit.abs() > CHANGE * self.size(&base[1], &found[1], unknown)
+            && (shortest - limit).abs() < 0.7 * limit.abs()
     }
 
     /// Whether all that is declared of a known was seen; it is then changed only now and then, to find what is not declared,

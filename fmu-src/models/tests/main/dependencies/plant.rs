@@ -76,7 +76,11 @@ const CARRIERS: &[(&str, &str)] = &[
     ("dump.", "momentum.inertial"),
     ("wheel", "attitude.q"),
     ("wheel", "wheel.momentum"),
+    ("wheel", "wheel.torque"),
+    ("control.", "attitude.q"),
     ("control.s", "wheel.torque"),
+    // Of components that are dumped together the torque's direction follows the target.
+    ("control.saturated", "dump.impulse"),
     ("sun.sensedValid", "sun.sensed"),
     // What is left of noise by the gain may hardly move one of its elements.
     ("estimate.q", "estimate.q"),

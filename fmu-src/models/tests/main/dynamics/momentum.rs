@@ -130,3 +130,26 @@ fn disturbances_taken_once_a_second_add_up_to_those_of_a_tenth() {
     println!("{momentum:e} {delta_v:e}");
     assert!(momentum < 2e-6 && delta_v < 2e-7, "{momentum:e} {delta_v:e}");
 }
+
+#[test]
+fn a_force_moves_a_disturbed_orbit_as_it_does_in_commanded_flight() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let disturbed: Start<'_> =
+        &[("orbit.dynamics", 2.0), ("gravityGradient.enabled", 0.0), ("solar.flux", 0.0)];
+    let fly_by = |source: Start<'_>| {
+        let mut flight = fly(&named, &[disturbed, source]);
+        for (until_s, force_n) in [(300.0, 2.0), (723.0, -1.0), (1_800.0, 0.0)] {
+            flight.set("force.applied[1]", force_n);
+            flight.set("force.applied[3]", 0.5 * force_n);
+            flight.fly_to(until_s, 30.0).unwrap();
+        }
+        flight.vector("position")
+    };
+    let (free, commanded, quiet) = (fly_by(FREE), fly_by(&[("attitude.source", 2.0)]), {
+        let mut flight = fly(&named, &[disturbed]);
+        flight.fly_to(1_800.0, 30.0).unwrap();
+        flight.vector("position")
+    });
+    assert!((free - quiet).norm() > 100.0, "{}", (free - quiet).norm());
+    assert!((free - commanded).norm() < 1e-3, "{}", (free - commanded).norm());
+}
