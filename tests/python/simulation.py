@@ -1,5 +1,7 @@
 """Running MomentumPlant with FMPy: the paper's settings by name, results by name."""
 
+import pathlib
+
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Slave
@@ -46,6 +48,16 @@ def simulate(fmu, step_s=600.0, days=90.0, start=None, output=None, **options):
 
 def stack(result, name):
     return np.column_stack([result[element] for element in vector(name)])
+
+
+def columns(table, names):
+    return np.column_stack([table[name] for name in names])
+
+
+def basilisk_table(name):
+    """A table of `tests/reference` that Basilisk's numbers stand in, columns by FMI name."""
+    path = pathlib.Path(__file__).parents[1] / "reference" / f"{name}.csv"
+    return np.genfromtxt(path, delimiter=",", names=True, deletechars="", comments=None, encoding="utf-8")
 
 
 def dump_times(result):

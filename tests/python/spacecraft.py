@@ -29,11 +29,11 @@ def call(heliotorque, *arguments, folder=None):
     return subprocess.run(arguments, cwd=folder, capture_output=True, text=True, encoding="utf-8")
 
 
-def pack(heliotorque, dist, folder, text, name):
-    """An FMU of this name from a TOML text, by the command a user would give."""
+def pack(heliotorque, dist, folder, text, name, template="MomentumPlant.fmu"):
+    """An FMU of this name from a TOML text and a shipped FMU, by the command a user would give."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{name}.toml").write_text(text, encoding="utf-8")
-    template = (dist / "MomentumPlant.fmu").resolve()
+    template = (dist / template).resolve()
     packed = call(
         heliotorque, "pack", "--spacecraft", f"{name}.toml", "--template", template, "--name", name, folder=folder
     )

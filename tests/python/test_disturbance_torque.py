@@ -16,7 +16,8 @@ from fmpy.fmi2 import (
 )
 from fmpy.validation import validate_fmu
 
-from spacecraft import RESOURCES, call
+from simulation import Stepped, basilisk_table, columns, vector
+from spacecraft import RESOURCES, call, pack
 
 SOURCES = ["solar", "albedo", "infrared", "thermal"]
 
@@ -161,3 +162,24 @@ def test_an_impossible_place_is_an_error_that_names_it_and_reset_forgets_it(plac
     for instance in (placed, untouched):
         instance.slave.terminate()
         instance.slave.freeInstance()
+
+
+def test_sunlight_is_basilisks(heliotorque, dist, tmp_path):
+    """Forty directions of the Sun, nine of which light backs alone, the panels at five and four angles.
+
+    `sunlight-basilisk.csv` holds what Basilisk 2.12.1 gives (facetSRPDynamicEffector) for the plates and panels of the file.
+    """
+    table = basilisk_table("sunlight-basilisk")
+    text = (RESOURCES / "messenger.toml").read_text(encoding="utf-8")
+    fmu = pack(heliotorque, dist, tmp_path, text, "Messenger", "DisturbanceTorque.fmu")
+    # Basilisk's flux.
+    spacecraft = Stepped(extract(fmu, unzipdir=str(tmp_path / "unpacked")), {"solar.flux": 1368.0})
+    inputs = vector("sun.positionBody") + ["panel[1].angle", "panel[2].angle"]
+    for names in (vector("force.solar"), vector("torque.solar")):
+        expected = columns(table, names)
+        assert np.abs(expected).max() > 1e-4
+        for row, wanted in zip(table, expected):
+            spacecraft.set(**{name: row[name] for name in inputs})
+            spacecraft.step(1.0)
+            assert np.abs(spacecraft.get(*names) - wanted).max() < 1e-14 * np.abs(expected).max()
+    spacecraft.close()

@@ -88,16 +88,17 @@ def test_commanded_attitude_is_followed(momentum_plant):
     assert np.abs(q - expected).max() < 1e-12
 
 
-@pytest.mark.parametrize("source, name", [(3, "controlled"), (4, "free")])
-def test_what_is_not_there_is_refused_by_name(momentum_plant, source, name):
+@pytest.mark.parametrize("source", [3, 4])
+@pytest.mark.parametrize("name, value", [("momentum.convention", 2), ("start.momentum[2]", 1.0)])
+def test_what_controlled_and_free_flight_cannot_take_is_refused_by_name(momentum_plant, source, name, value):
     messages = []
 
     def logger(environment, instance, status, category, message):
         messages.append(message.decode())
 
     with pytest.raises(Exception):
-        simulate(momentum_plant, days=1.0, start={"attitude.source": source}, logger=logger)
-    assert any("attitude.source" in m and name in m for m in messages), messages
+        simulate(momentum_plant, days=1.0, start={"attitude.source": source, name: value}, logger=logger)
+    assert any(name.partition("[")[0] in m and "allowed with attitude.source" in m for m in messages), messages
 
 
 def test_first_downlink_starts_where_the_schedule_says(momentum_plant):

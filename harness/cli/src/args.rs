@@ -188,7 +188,7 @@ pub struct Run {
     /// each takes what those before it gave at the step's end; otherwise jacobi
     #[arg(long, value_enum, hide_possible_values = true)]
     pub master: Option<MasterKind>,
-    /// For a system: what connected inputs are in the first step, initial (outputs at the start) or zeros (as for FMPy);
+    /// For a system: what connected outputs count as in the first step, initial (what they are) or zeros (0, as for FMPy);
     /// otherwise initial
     #[arg(long, value_enum, value_name = "VALUES", hide_possible_values = true)]
     pub first_exchange: Option<FirstExchangeKind>,

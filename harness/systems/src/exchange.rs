@@ -141,21 +141,6 @@ impl Ports {
         Ok(())
     }
 
-    /// Sets the connected inputs to zero.
-    pub fn set_zeros(&mut self, instance: &mut Instance) -> Result<(), Error> {
-        let Self { reals, integers, booleans, .. } = self;
-        if reals.gather(|_| 0.0, |_, _| false) {
-            instance.set_reals(&reals.references, &reals.values)?;
-        }
-        if integers.gather(|_| 0, |_, _| false) {
-            instance.set_integers(&integers.references, &integers.values)?;
-        }
-        if booleans.gather(|_| 0, |_, _| false) {
-            instance.set_booleans(&booleans.references, &booleans.values)?;
-        }
-        Ok(())
-    }
-
     /// Reads the connected outputs into the signals.
     pub fn get(&self, instance: &mut Instance, signals: &mut Signals) -> Result<(), Error> {
         let [reals, integers, booleans] = &self.outputs;

@@ -17,13 +17,13 @@ pub enum Master {
     GaussSeidel,
 }
 
-/// What connected inputs are in the first step.
+/// What connected outputs count as in the first step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum FirstExchange {
     /// The outputs at the start, exchanged in initialization mode until they stay.
     #[default]
     Initial,
-    /// Zero, as for FMPy: no outputs are exchanged before the first step.
+    /// Zero, as for FMPy: none is read before the first step.
     Zeros,
 }
 
@@ -45,7 +45,6 @@ pub struct Running {
     ports: Vec<Ports>,
     signals: Signals,
     master: Master,
-    starts_with_zeros: bool,
 }
 
 impl Running {
@@ -63,8 +62,7 @@ impl Running {
             record_instance(number);
             instances.push(Instance::new(&part.fmu, &part.name, options)?);
         }
-        let mut running =
-            Self { instances, ports, signals, master, starts_with_zeros: first == FirstExchange::Zeros };
+        let mut running = Self { instances, ports, signals, master };
         for (number, part) in system.parts().iter().enumerate() {
             let own = sets.iter().filter(|(of, ..)| *of == number).map(|(_, name, value)| (name, value));
             let given = part.parameters.iter().map(|(name, value)| (name, value));
@@ -125,13 +123,12 @@ impl Running {
 
     /// One communication step of all components.
     pub fn step(&mut self, time_s: f64, step_s: f64) -> Result<Stepped, Error> {
-        let zeros = std::mem::take(&mut self.starts_with_zeros);
         let Self { instances, ports, signals, .. } = self;
         match self.master {
             Master::Jacobi => {
                 for (number, (instance, ports)) in instances.iter_mut().zip(ports.iter_mut()).enumerate() {
                     record_instance(number);
-                    if zeros { ports.set_zeros(instance)? } else { ports.set(instance, signals)? }
+                    ports.set(instance, signals)?;
                 }
                 for (number, instance) in instances.iter_mut().enumerate() {
                     record_instance(number);

@@ -29,7 +29,7 @@ pub struct Options<'a> {
     pub record: Option<Vec<usize>>,
     /// In which order components step.
     pub master: Master,
-    /// What connected inputs are in the first step.
+    /// What connected outputs count as in the first step.
     pub first_exchange: FirstExchange,
     /// How to instantiate.
     pub instance: InstanceOptions,

@@ -76,6 +76,11 @@ pub fn inertia_about_others(inertia: RealMatrix<3, 3>, axis: usize) -> Knowns {
     all.map(|(row, column)| inertia.element(row, column)).collect()
 }
 
+/// Elements of an inertia that count for the momentum along `axis`: its row, and its column, which is the same.
+pub fn inertia_along(inertia: RealMatrix<3, 3>, axis: usize) -> Knowns {
+    (0..3).flat_map(|i| [inertia.element(axis, i), inertia.element(i, axis)]).collect()
+}
+
 /// Components of a centre of mass that count for a torque about `axis`: those across it.
 pub fn across(center_of_mass: RealVector<3>, axis: usize) -> Knowns {
     (0..3).filter(|&i| i != axis).map(|i| center_of_mass.element(i)).collect()

@@ -2,7 +2,6 @@
 //! momentum they add up to.
 
 mod dependencies;
-mod dynamic;
 mod inputs;
 mod outputs;
 mod setup;
@@ -18,7 +17,7 @@ use physics::plant::{Evaluation, ExternalLoad, Plant, PropagatorState};
 
 use inputs::dynamics;
 use inputs::state::{Changes, PlantState, unset_places};
-use outputs::{flyable, log_dump};
+use outputs::{dynamic, flyable, log_dump};
 use setup::Plan;
 pub use setup::{MomentumPlant, PlantSetup};
 use variables::PlantVariables;

@@ -61,6 +61,83 @@ fn output_derivatives_are_the_slopes_of_the_outputs() {
     }
 }
 
+/// Largest share by which the slopes of outputs at the present time are off the differences over steps of `h_s` from
+/// there, one-sided, of the fourth order.
+fn slopes_off(plant: &mut NamedInstance, names: &[&str], from_s: f64, h_s: f64) -> f64 {
+    let read = |plant: &mut NamedInstance| -> Vec<Vec<f64>> {
+        names.iter().map(|name| components(name).iter().map(|name| plant.real(name)).collect()).collect()
+    };
+    let slopes: Vec<Vec<f64>> = names
+        .iter()
+        .map(|name| {
+            let at: Vec<_> = components(name).iter().map(|name| plant.find(name).unwrap()).collect();
+            let mut slopes = vec![0.0; at.len()];
+            let status = plant.fmu.get_output_derivatives(&at, &vec![1; at.len()], &mut slopes);
+            plant.ok(name, status);
+            slopes
+        })
+        .collect();
+    let mut state = StatePointer::null();
+    assert_eq!(plant.fmu.get_state(&mut state), Status::Ok);
+    let at = [0.0, 1.0, 2.0, 3.0, 4.0].map(|k| {
+        assert_eq!(plant.fmu.set_state(&state), Status::Ok);
+        if k > 0.0 {
+            assert_eq!(plant.fmu.do_step(from_s, k * h_s), Status::Ok);
+        }
+        read(plant)
+    });
+    assert_eq!(plant.fmu.set_state(&state), Status::Ok);
+    plant.fmu.free_state(&mut state);
+    let mut worst = 0.0_f64;
+    for (i, slopes) in slopes.iter().enumerate() {
+        let weights = [-25.0, 48.0, -36.0, 16.0, -3.0];
+        let expected = (0..slopes.len()).map(|element| {
+            let sum: f64 = (0..5).map(|k| weights[k] * at[k][i][element]).sum();
+            sum / (12.0 * h_s)
+        });
+        let expected: Vec<f64> = expected.collect();
+        let norm = |vector: &mut dyn Iterator<Item = f64>| vector.map(|x| x * x).sum::<f64>().sqrt();
+        let off = norm(&mut slopes.iter().zip(&expected).map(|(a, b)| a - b));
+        let share = off / norm(&mut expected.iter().copied());
+        println!("{}: {slopes:?} {expected:?} {share:e}", names[i]);
+        worst = worst.max(share);
+    }
+    worst
+}
+
+fn components(name: &str) -> Vec<String> {
+    let count = if name.ends_with(".q") { 4 } else { 3 };
+    (1..=count).map(|i| format!("{name}[{i}]")).collect()
+}
+
+#[test]
+fn slopes_hold_in_every_source_of_attitude_and_during_a_dump() {
+    let names = ["attitude.q", "momentum.body", "momentum.inertial", "deltaV"];
+    for source in 2..=4 {
+        let mut plant = momentum_plant();
+        plant.put_integer("attitude.source", source);
+        plant.put_vector("start.rate", [2e-3, -1e-3, 3e-3]);
+        plant.put_vector("command.rate", [1e-3, -2e-3, 5e-4]);
+        plant.put_vector("dump.threshold", [1e6; 3]);
+        plant.put_vector("torque.applied", [0.02, -0.01, 0.03]);
+        plant.put_vector("force.applied", [0.3, -0.1, 0.2]);
+        plant.put("dump.torque", 0.02);
+        // Differences lie between two samples and within an interval of disturbances.
+        plant.put("control.rate", 2.0);
+        plant.put("control.bandwidth", 0.02);
+        assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
+        assert_eq!(plant.fmu.do_step(0.0, 30.2), Status::Ok);
+        let off = slopes_off(&mut plant, &names, 30.2, 0.05);
+        assert!(off < 1e-9, "{source}: {off:e}");
+        plant.put_vector("dump.target", [5.0, 3.0, -4.0]);
+        plant.put_boolean("dump.request", true);
+        assert_eq!(plant.fmu.do_step(30.2, 1.0), Status::Ok);
+        assert_eq!(plant.boolean("dump.active"), source > 2);
+        let off = slopes_off(&mut plant, &names, 31.2, 0.05);
+        assert!(off < 1e-9, "{source}, dumping: {off:e}");
+    }
+}
+
 #[test]
 fn the_inertial_force_is_the_bodys_turned_and_moves_the_mass() {
     let mut plant = momentum_plant();

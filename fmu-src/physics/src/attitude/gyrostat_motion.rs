@@ -213,13 +213,6 @@ impl GyrostatMotion {
         }
     }
 
-    /// Whether rotor `k` (0-based) is held at its capacity by the motor.
-    pub fn is_saturated(&self, gyrostat: &Gyrostat, k: usize) -> bool {
-        let wheel = &gyrostat.wheels()[k];
-        let held = matches!(self.rotors[k].rotor, Rotor::Held { momentum_n_m_s } if momentum_n_m_s != 0.0);
-        held && !wheel.locked
-    }
-
     #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
     /// the present end on).

@@ -81,6 +81,12 @@ impl Attitude {
         q.map(|x| sign * x)
     }
 
+    /// How the quaternion with a scalar that is not negative changes at a body rate in rad/s, per second: q (w, 0) / 2.
+    pub fn quaternion_rate(&self, rate_body_rad_s: &Vector3<f64>) -> [f64; 4] {
+        let [x, y, z] = (rate_body_rad_s * 0.5).into();
+        Quaternion(self.quaternion(None)).after(Quaternion([x, y, z, 0.0])).0
+    }
+
     /// Matrix that takes body components to inertial components.
     pub fn inertial_from_body(&self) -> Rotation3<f64> {
         self.unit().to_rotation_matrix()

@@ -6,6 +6,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+/// Share of the capacity by which a wheel at its capacity may fall short.
+const AT_CAPACITY: f64 = 1e-9;
+
 /// One reaction wheel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReactionWheel {
@@ -30,6 +33,11 @@ impl ReactionWheel {
     pub fn friction_n_m(&self, momentum_n_m_s: f64) -> f64 {
         let sign = if momentum_n_m_s == 0.0 { 0.0 } else { momentum_n_m_s.signum() };
         self.coulomb_friction_n_m * sign + self.viscous_rate_1_s() * momentum_n_m_s
+    }
+
+    /// Whether it is at its capacity at `momentum_n_m_s`, to one part in 1e9; a locked one never is.
+    pub fn is_saturated(&self, momentum_n_m_s: f64) -> bool {
+        !self.locked && momentum_n_m_s.abs() >= self.capacity_n_m_s * (1.0 - AT_CAPACITY)
     }
 
     /// What the rotor has of the body's rotation along its axis, I a.w, in N m s.

@@ -1,6 +1,9 @@
 //! Reaction wheels: how system momentum spreads over them.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+/// Least eigenvalue of the axes' Gram matrix: axes within 1e-6 rad of a plane span no more than that.
+const LEAST_EIGENVALUE: f64 = 1e-12;
 
 /// Wheels with the smallest-norm distribution of momentum over their spin axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +15,10 @@ impl WheelArray {
     /// From unit spin axes in the body frame; `None` unless they span all three directions.
     pub fn new(axes_body: &[Vector3<f64>]) -> Option<Self> {
         let gram: Matrix3<f64> = axes_body.iter().map(|axis| axis * axis.transpose()).sum();
-        let inverse = gram.try_inverse().filter(|inverse| inverse.iter().all(|x| x.is_finite()))?;
+        if SymmetricEigen::new(gram).eigenvalues.min() < LEAST_EIGENVALUE {
+            return None;
+        }
+        let inverse = gram.try_inverse()?;
         Some(Self { rows: axes_body.iter().map(|axis| inverse * axis).collect() })
     }
 
@@ -52,6 +58,16 @@ mod tests {
     fn pyramid() -> Vec<Vector3<f64>> {
         let c = (1.0f64 / 3.0).sqrt();
         [(c, c), (c, -c), (-c, -c), (-c, c)].iter().map(|&(x, z)| Vector3::new(x, c, z)).collect()
+    }
+
+    #[test]
+    fn two_wheels_or_wheels_in_a_plane_hold_no_momentum_together() {
+        let skew = [Vector3::new(0.36, 0.48, 0.8), Vector3::new(-0.6, 0.64, 0.48)];
+        let between = (skew[0] * 0.3 + skew[1] * 0.7).normalize();
+        assert!(WheelArray::new(&skew).is_none());
+        assert!(WheelArray::new(&[skew[0], skew[1], between]).is_none());
+        let off_the_plane = (between + skew[0].cross(&skew[1]) * 1e-3).normalize();
+        assert!(WheelArray::new(&[skew[0], skew[1], off_the_plane]).is_some());
     }
 
     #[test]

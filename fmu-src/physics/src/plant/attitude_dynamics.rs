@@ -110,6 +110,8 @@ pub struct Flight<'f> {
     pub ephemeris: &'f mut Ephemeris,
     /// Light and heat beyond direct sunlight.
     pub light: Option<&'f mut RadiationSolver>,
+    /// Force and torque from outside at a time, body frame, by which an orbit goes that forces act on.
+    pub external: &'f dyn Fn(f64) -> ExternalLoad,
 }
 
 impl Flight<'_> {
@@ -124,7 +126,7 @@ impl Flight<'_> {
             self.propagator,
             self.ephemeris,
             self.light.as_deref_mut(),
-            |_| ExternalLoad::default(),
+            self.external,
             work_limit,
         );
         plant.prepare(time_s, time_s)?;
@@ -150,7 +152,7 @@ impl Flight<'_> {
         time_s: f64,
         body: &BodyMotion,
         work_limit: u32,
-    ) -> Plant<'_, impl Fn(f64) -> ExternalLoad + use<>> {
+    ) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
         let motion = Command {
             attitude: Attitude::from_unit(body.attitude),
             rate_body_rad_s: body.rate_body_rad_s,
@@ -164,7 +166,7 @@ impl Flight<'_> {
             self.propagator,
             self.ephemeris,
             self.light.as_deref_mut(),
-            |_| ExternalLoad::default(),
+            self.external,
             work_limit,
         )
     }
@@ -588,11 +590,6 @@ impl AttitudeDynamics {
         self.motion.rotor_n_m_s(&settings.gyrostat, k, time_s, body)
     }
 
-    /// Whether wheel `k` (0-based) is at its capacity.
-    pub fn is_saturated(&self, settings: &DynamicsSettings, k: usize) -> bool {
-        self.motion.is_saturated(&settings.gyrostat, k)
-    }
-
     /// Torque of the motor of wheel `k` (0-based), in N m.
     pub fn motor_n_m(&self, k: usize) -> f64 {
         self.motors[k].torque_n_m
@@ -633,6 +630,11 @@ impl AttitudeDynamics {
     /// Time between dumps.
     pub fn spacing(&self) -> &DumpSpacing {
         &self.spacing
+    }
+
+    /// The torque with `others_body_n_m` of everything else, in N m, while thrusters are dumping.
+    pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
+        self.dump.map_or(*others_body_n_m, |dump| others_body_n_m + dump.torque_body_n_m)
     }
 
     /// Whether thrusters are dumping.

@@ -73,7 +73,8 @@ impl DisturbanceInterval {
             [a - slope * NODES[0], slope / span_s]
         };
         let mut loads = [[Vector3::zeros(); 2]; ROWS];
-        for effect in Effect::ALL {
+        // What is applied is known at any time and kept apart.
+        for effect in Effect::ALL.into_iter().filter(|effect| *effect != Effect::Applied) {
             let at = 2 * effect as usize;
             loads[at] = line(&|it| it.loads[effect].force_body_n);
             loads[at + 1] = line(&|it| it.loads[effect].torque_body_n_m);

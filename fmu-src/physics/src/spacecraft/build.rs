@@ -134,6 +134,7 @@ impl Builder<'_> {
             self.check.push(&root, "no surface", "at least one of `plates`, `sunshade`, `panels`");
         }
         self.distinct_names(description);
+        self.panels_fit(description);
         let keep_in = root.key("sun_keep_in");
         let threshold = root.key("momentum").key("dump_threshold_n_m_s");
         Spacecraft {
@@ -420,6 +421,23 @@ impl Builder<'_> {
                 -360.0,
                 360.0,
             ),
+        }
+    }
+
+    /// Panels are a part of the spacecraft's mass.
+    fn panels_fit(&mut self, description: &Description) {
+        let (mut sum_kg, whole_kg) = (0.0, description.mass_properties.mass_kg);
+        for (index, panel) in description.panels.iter().flatten().enumerate() {
+            let Some(mass_kg) = panel.mass_kg else { continue };
+            sum_kg += mass_kg;
+            if sum_kg >= whole_kg {
+                let at = Place::root().key("panels").item(index).key("mass_kg");
+                let found = format!("{mass_kg}, with the panels before it {sum_kg}");
+                let allowed =
+                    format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
+                self.check.report(&at, found, allowed);
+                return;
+            }
         }
     }
 

@@ -104,7 +104,7 @@ pub fn settings(
         sensors: SensorSettings {
             star_tracker: StarTracker {
                 noise_rad: Vector3::from(values.vector(v.star_tracker.noise)),
-                interval_s: real(v.star_tracker.interval),
+                interval_s: real(v.star_tracker.period),
             },
             gyro: Gyro {
                 angle_random_walk_rad_sqrt_s: real(v.gyro.noise),

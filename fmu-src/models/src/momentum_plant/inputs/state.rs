@@ -27,7 +27,7 @@ pub struct PlantState {
     /// Momentum, delta-v and dumps of guided and commanded flight.
     pub integrator: MomentumIntegrator,
     /// Body, wheels, sensors and control of controlled and free flight.
-    pub dynamics: Option<AttitudeDynamics>,
+    pub dynamics: Option<Box<AttitudeDynamics>>,
     /// Whether the flight waits for inputs that are not set yet: nothing acts, and the attitude is held.
     pub waiting: bool,
     /// Whether the warning was given which inputs are not set yet.
@@ -44,6 +44,8 @@ pub struct PlantState {
     light_inputs: Vec<f64>,
     /// Other tunables at the last change.
     tunables: [f64; 8],
+    /// Force from outside at the last change.
+    force: [f64; 3],
     /// `dump.request` at the last step.
     pub request: Request,
     /// Time between dumps.
@@ -72,7 +74,11 @@ pub struct Changes {
     pub orbit: bool,
     /// Light and heat are no longer what they were going to be.
     pub light: bool,
-    /// Mass or thresholds are others.
+    /// The mass is another.
+    pub mass: bool,
+    /// The force from outside is another.
+    pub force: bool,
+    /// Mass, thresholds or target of dumps are others.
     pub tunables: bool,
 }
 
@@ -113,7 +119,12 @@ impl PlantState {
         let parts = [
             (
                 "the times and inputs",
-                inputs.chain(&self.light_inputs).chain(&self.tunables).chain(times).all(finite),
+                inputs
+                    .chain(&self.light_inputs)
+                    .chain(&self.tunables)
+                    .chain(&self.force)
+                    .chain(times)
+                    .all(finite),
             ),
             ("the command", self.command.is_sound()),
             ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
@@ -151,6 +162,7 @@ impl PlantState {
             orbit_inputs: orbit_inputs(context, values),
             light_inputs: light_inputs(context, values).collect(),
             tunables: tunables(context, values),
+            force: values.vector(context.variables.force.applied),
             request: Request::default(),
             spacing: DumpSpacing::default(),
             ephemeris: Ephemeris::default(),
@@ -194,10 +206,17 @@ impl PlantState {
             self.light_inputs.extend(light_inputs(context, values));
         }
         let now = tunables(context, values);
-        let tuned = std::mem::replace(&mut self.tunables, now) != now;
+        let before = std::mem::replace(&mut self.tunables, now);
         // A command moves light through the attitude, which in dynamics does not jump.
         let turned = commanded && self.dynamics.is_none();
-        Ok(Changes { orbit: moved, light: lit || moved || turned, tunables: tuned })
+        let force = values.vector(context.variables.force.applied);
+        Ok(Changes {
+            orbit: moved,
+            light: lit || moved || turned,
+            mass: before[0] != now[0],
+            force: std::mem::replace(&mut self.force, force) != force,
+            tunables: before != now,
+        })
     }
 
     /// The command that stands at the start of a flight with dynamics; until one comes `attitude` is held.
@@ -209,6 +228,8 @@ impl PlantState {
         time_s: f64,
     ) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
+        // What was turned out while there was no body to turn counts for nothing.
+        self.turned_out = false;
         if is_commanded(context, values) { self.take_command(context, values, time_s) } else { Ok(()) }
     }
 

@@ -79,7 +79,7 @@ pub struct StarTrackerVariables {
     pub noise: RealVector<3>,
     /// Time between two of its measurements; they fall on samples of control.rate.
     #[parameter(unit = "s", min = 0.0, max = 1e3, start = 0.1)]
-    pub interval: Real,
+    pub period: Real,
     /// How long the gyros alone keep the estimate valid.
     #[parameter(unit = "s", min = 0.0, max = 1e9, start = 600.0)]
     pub outage: Real,

@@ -167,6 +167,13 @@ impl<M: Model> Bench<M> {
         self.write(tables, self.at(name), value);
     }
 
+    /// Takes over variables of some names.
+    pub fn copy(&self, tables: &mut Tables, other: &Tables, named: impl Fn(&str) -> bool) {
+        for at in (0..self.variables.len()).filter(|at| named(&self.variables[*at].name)) {
+            self.write(tables, at, self.read(other, at));
+        }
+    }
+
     pub fn put_text(&self, tables: &mut Tables, name: &str, value: &str) {
         value.clone_into(&mut tables.strings[self.variables[self.at(name)].slot]);
     }
@@ -226,6 +233,20 @@ impl<M: Model> Bench<M> {
         flight.time_s = end_s;
         flight.changed = false;
         Some(())
+    }
+
+    /// Whether a flight whose inputs have changed takes the steps that are looked at; says why not.
+    pub fn goes_on(&self, flight: &Simulation<M>) -> bool {
+        [STEPS_S[0], STEPS_S[1], SHORTEST_S].into_iter().all(|length_s| {
+            let mut state = flight.state.clone();
+            let (start_s, end_s) = (flight.time_s, flight.time_s + length_s);
+            let step = Step { start_s, end_s, changed: true, inputs: InputsOverTime::held() };
+            let ended = M::step(&self.context(), &mut flight.values.back(), &mut state, &step);
+            if let Err(error) = &ended {
+                println!("a step of {length_s} s from {start_s} s: {error}");
+            }
+            ended.is_ok()
+        })
     }
 
     /// Values to change a known to.
@@ -491,7 +512,8 @@ impl<M: Model> Bench<M> {
         }
         // What grows with the step is taken off.
         let limit = (short * STEPS_S[0] - long * STEPS_S[1]) / (STEPS_S[0] - STEPS_S[1]);
-        limit.abs() > CHANGE * self.size(&base[1], &found[1], unknown) && shortest.abs() > 0.3 * limit.abs()
+        limit.abs() > CHANGE * self.size(&base[1], &found[1], unknown)
+            && (shortest - limit).abs() < 0.7 * limit.abs()
     }
 
     /// Whether all that is declared of a known was seen; it is then changed only now and then, to find what is not declared,
@@ -513,12 +535,13 @@ impl<M: Model> Bench<M> {
         let seen: Vec<&(usize, usize)> = declared.iter().filter(|pair| !left.contains(pair)).collect();
         let alike: BTreeSet<(String, String)> = seen.iter().map(|pair| self.alike(pair)).collect();
         let moved: BTreeSet<usize> = seen.iter().map(|pair| pair.0).collect();
-        let vector = |at: usize| self.variables[at].name.split('[').next().unwrap_or_default();
-        let by_vector: BTreeSet<(&str, usize)> = seen.iter().map(|pair| (vector(pair.0), pair.1)).collect();
+        let by_vector: BTreeSet<(String, usize)> =
+            seen.iter().map(|pair| (without_indices(&self.variables[pair.0].name), pair.1)).collect();
         let carried = |pair: &(usize, usize)| {
             let name = &self.variables[pair.0].name;
             let mut carriers = self.carriers.iter().filter(|(beginning, _)| name.starts_with(beginning));
-            moved.contains(&pair.0) && carriers.any(|(_, carrier)| by_vector.contains(&(*carrier, pair.1)))
+            moved.contains(&pair.0)
+                && carriers.any(|(_, carrier)| by_vector.contains(&((*carrier).to_owned(), pair.1)))
         };
         left.iter().filter(|pair| !alike.contains(&self.alike(pair)) && !carried(pair)).copied().collect()
     }
@@ -585,6 +608,12 @@ impl<M: Model> Bench<M> {
         }
         names
     }
+}
+
+/// `wheel.speed` of `wheel[2].speed`.
+fn without_indices(name: &str) -> String {
+    let parts = name.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest));
+    parts.collect()
 }
 
 fn declared(unknowns: &[Unknown]) -> Pairs {

@@ -5,6 +5,7 @@ mod bench;
 mod disturbance;
 mod guidance;
 mod plant;
+mod plant_dynamics;
 pub mod random;
 mod spacecraft;
 mod spin;

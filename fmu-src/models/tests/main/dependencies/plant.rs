@@ -5,6 +5,7 @@ use models::MomentumPlant;
 
 use super::super::named_model::Tables;
 use super::bench::Bench;
+use super::plant_dynamics;
 use super::random::RandomNumbers;
 use super::spacecraft::{ALL, RADIATING};
 
@@ -13,6 +14,7 @@ type Plant = Bench<MomentumPlant>;
 /// Options drawn at random, with their items in this version.
 const OPTIONS: &[(&str, i32, i32)] = &[
     ("attitude.source", 1, 2),
+    ("command.source", 1, 2),
     ("command.kind", 0, 3),
     ("guided.scienceRule", 1, 3),
     ("guided.downlinkEvery", 0, 2),
@@ -33,6 +35,8 @@ const OPTIONS: &[(&str, i32, i32)] = &[
     ("gravityGradient.enabled", 0, 1),
     ("momentum.convention", 1, 2),
     ("dump.reinitTo", 1, 2),
+    ("control.allocation", 1, 2),
+    ("control.frictionCompensation", 0, 1),
 ];
 
 /// What a drawing is about.
@@ -48,11 +52,20 @@ enum Subject {
     Wide,
     /// The planet before the Sun.
     Eclipse,
+    /// Body and wheels under the controller; without wheels in all directions as free.
+    Controlled,
+    Free,
 }
 
-use Subject::{Anything, Commanded, Eclipse, Guided, GuidedByInputs, Wide};
+use Subject::{Anything, Commanded, Controlled, Eclipse, Free, Guided, GuidedByInputs, Wide};
 
-const SUBJECTS: [Subject; 6] = [Anything, Guided, GuidedByInputs, Commanded, Wide, Eclipse];
+const SUBJECTS: [Subject; 9] =
+    [Anything, Guided, Controlled, GuidedByInputs, Commanded, Controlled, Wide, Eclipse, Free];
+
+/// Whether body and wheels move by torque.
+fn is_flown(bench: &Plant, values: &Tables) -> bool {
+    bench.real(values, "attitude.source") > 2.5
+}
 
 /// Flags and dumps change at limits, which few states are near; through what a known reaches them.
 const CARRIERS: &[(&str, &str)] = &[
@@ -60,7 +73,17 @@ const CARRIERS: &[(&str, &str)] = &[
     ("sun.litFraction", "heliocentric.position"),
     ("momentum.body", "attitude.q"),
     ("dump.", "attitude.q"),
+    ("dump.", "momentum.inertial"),
     ("wheel", "attitude.q"),
+    ("wheel", "wheel.momentum"),
+    ("wheel", "wheel.torque"),
+    ("control.", "attitude.q"),
+    ("control.s", "wheel.torque"),
+    // Of components that are dumped together the torque's direction follows the target.
+    ("control.saturated", "dump.impulse"),
+    ("sun.sensedValid", "sun.sensed"),
+    // What is left of noise by the gain may hardly move one of its elements.
+    ("estimate.q", "estimate.q"),
     ("sun.velocityInertial", "sun.positionInertial"),
     ("earth.velocityInertial", "earth.positionInertial"),
 ];
@@ -74,6 +97,11 @@ const SHORT_S: f64 = 5.0;
 fn unset(bench: &Plant, random: &mut RandomNumbers, subject: Subject, values: &mut Tables) {
     let inputs = ["command.q", "command.error", "orbit.position", "orbit.velocity", "sun.position"];
     let sun = if subject == Wide { 0.4 } else { 0.1 };
+    if is_flown(bench, values) && random.next() < 0.4 {
+        let place = inputs[2 + random.whole(0, 2) as usize];
+        bench.put_vector(values, place, &[0.0; 3]);
+        return;
+    }
     for (name, share) in inputs.into_iter().zip([0.15, 0.3, 0.1, 0.1, sun]) {
         if random.next() < share {
             let zeros = [0.0; 4];
@@ -94,6 +122,7 @@ fn draw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, shapes: boo
         bench.put(&mut values, "sunshade.shape", random.whole(1, 2));
     }
     bench.put(&mut values, "solver.disturbanceStep", FINE_S);
+    bench.put(&mut values, "solver.dynamicsStep", FINE_S);
     bench.put(&mut values, "guided.slewRate", if random.next() < 0.3 { 0.0 } else { 1e-3 });
     let options: &[(&str, f64)] = match subject {
         Anything => &[],
@@ -104,7 +133,11 @@ fn draw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, shapes: boo
             ("ephemeris.source", 3.0),
             ("guided.downlinkEvery", 1.0),
         ],
-        Commanded => &[("attitude.source", 2.0), ("ephemeris.source", 3.0)],
+        Commanded => &[("attitude.source", 2.0), ("command.source", 1.0), ("ephemeris.source", 3.0)],
+        Controlled if bench.has("wheel[3].locked") => {
+            &[("attitude.source", 3.0), ("momentum.convention", 1.0)]
+        }
+        Controlled | Free => &[("attitude.source", 4.0), ("momentum.convention", 1.0)],
         Wide => &[("guided.scienceRule", 3.0)],
         Eclipse => &[("eclipse.method", 1.0)],
     };
@@ -116,6 +149,14 @@ fn draw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, shapes: boo
     }
     if subject == Wide {
         bench.put(&mut values, "orbit.center", random.whole(1, 2));
+        if random.next() < 0.4 {
+            bench.put(&mut values, "attitude.source", 4.0);
+            bench.put(&mut values, "momentum.convention", 1.0);
+        }
+    }
+    if (subject == Controlled || subject == Free) && random.next() < 0.4 {
+        bench.put(&mut values, "orbit.source", 2.0);
+        bench.put(&mut values, "ephemeris.source", 3.0);
     }
     if subject == Commanded && random.next() < 0.5 {
         bench.put(&mut values, "command.kind", 1.0);
@@ -204,6 +245,8 @@ fn redraw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, values: &
             bench.put(values, &format!("wheel[{k}].capacity"), random.between(0.1, 3.0));
         }
     }
+    let is_flown = is_flown(bench, values);
+    plant_dynamics::redraw(bench, random, is_flown, values);
 }
 
 /// Puts Sun or spacecraft so that the planet hides part of the Sun at the start.
@@ -264,36 +307,62 @@ fn measure(text: &str, rounds: usize, shapes: bool) {
         if subject == Eclipse && eclipse(&bench, &mut random, &mut values).is_none() {
             continue;
         }
+        let is_flown = is_flown(&bench, &values);
+        // The number of a sample counts from zero.
+        let start_s = if random.next() < 0.5 { 0.0 } else { random.between(0.0, 9.0) };
         others.extend([1e-3, 100.0].map(|size_n_m_s| limits(&bench, &values, size_n_m_s)));
-        for edge in bench.edges_at_start(&values, &others, 0.0) {
-            bench.look_at_start_edge(&edge, 0.0);
+        for edge in bench.edges_at_start(&values, &others, start_s) {
+            bench.look_at_start_edge(&edge, start_s);
         }
-        if bench.initialize(&values, 0.0).is_none() {
+        if bench.initialize(&values, start_s).is_none() {
             continue;
         }
         flown += 1;
-        bench.look_at_start(&values, 0.0);
+        bench.look_at_start(&values, start_s);
         let mut coarse = values.clone();
         bench.put(&mut coarse, "solver.disturbanceStep", 600.0);
-        bench.look_at_start_by(&coarse, 0.0, |name| name.starts_with("solver."));
+        bench.put(&mut coarse, "solver.dynamicsStep", if round % 2 == 0 { 5.0 } else { 600.0 });
+        // Some come to the ground within that.
+        if bench.initialize(&coarse, start_s).is_some() {
+            bench.look_at_start_by(&coarse, start_s, |name| name.starts_with("solver."));
+        }
 
         bench.put(&mut values, "solver.disturbanceStep", SHORT_S);
-        let Some(mut flight) = bench.initialize(&values, 0.0) else { continue };
-        if bench.step(&mut flight, random.between(1.0, 300.0)).is_none() {
+        let Some(mut flight) = bench.initialize(&values, start_s) else { continue };
+        let step_s = if is_flown {
+            plant_dynamics::step_s(&bench, &mut random, start_s, &values)
+        } else {
+            random.between(1.0, 300.0)
+        };
+        let goes_on = !is_flown || random.next() < 0.8;
+        if goes_on && bench.step(&mut flight, step_s).is_none() {
             continue;
         }
-        if round % 4 == 0 {
+        if random.next() < 0.25 {
             // A request that waits at the communication point.
             bench.put(&mut flight.values, "dump.request", 1.0);
         }
-        if round % 3 == 0 {
+        if random.next() < 0.3 {
+            // Places that were waited for, and other failures.
+            let other = &others[0];
+            bench.copy(&mut flight.values, other, |name| {
+                let places = ["orbit.position", "orbit.velocity", "sun.position"];
+                places.iter().any(|place| name.starts_with(place)) || name.ends_with(".failed")
+            });
+        }
+        if random.next() < 0.33 {
             // A command that waits there.
             bench.put(&mut flight.values, "command.kind", random.whole(0, 3));
+        }
+        if !bench.goes_on(&flight) {
+            continue;
         }
         bench.look_at_step(&flight);
         others.extend([1e-3, 100.0].map(|size_n_m_s| limits(&bench, &flight.values, size_n_m_s)));
         for edge in bench.edges_at_step(&flight, &others) {
-            bench.look_at_step_edge(&edge);
+            if bench.goes_on(&edge) {
+                bench.look_at_step_edge(&edge);
+            }
         }
         if round > 40 && round % 8 == 0 && bench.is_done() {
             break;

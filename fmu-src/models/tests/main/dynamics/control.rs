@@ -80,8 +80,8 @@ fn a_moving_command_is_followed() {
 #[test]
 fn an_error_quaternion_is_turned_out_whenever_it_changes() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = fly(&named, &[CONTROLLED]);
-    flight.set("command.kind", 2.0);
+    // From the start on.
+    let mut flight = fly(&named, &[CONTROLLED, &[("command.kind", 2.0)]]);
     let wanted = UnitQuaternion::new(Vector3::new(0.3, -0.2, 0.5));
     // From the commanded to the actual frame, measured anew every second as a Sun sensor would.
     for second in 1..=400 {

@@ -213,7 +213,7 @@ fn a_rotor_stops_at_its_capacity_and_leaves_it() {
     fly(&mut motion, &craft, &motors, &free, 60.0, 0.02);
     let at = motion.at(&craft, 60.0);
     assert_eq!(motion.rotor_n_m_s(&craft, 0, 60.0, &at), 8.0);
-    assert!(motion.is_saturated(&craft, 0));
+    assert!(craft.wheels()[0].is_saturated(8.0));
     // The body took what the wheel took, and turns on freely once the wheel is full.
     let relative = at.attitude.inertial_from_body(
         &craft.momentum_body_n_m_s(&at.rate_body_rad_s, |k| motion.rotor_n_m_s(&craft, k, 60.0, &at)),
@@ -223,7 +223,7 @@ fn a_rotor_stops_at_its_capacity_and_leaves_it() {
     fly(&mut motion, &craft, &motors, &free, 61.0, 0.02);
     let at = motion.at(&craft, 61.0);
     let left = motion.rotor_n_m_s(&craft, 0, 61.0, &at);
-    assert!((left - (8.0 - 0.075)).abs() < 1e-4 && !motion.is_saturated(&craft, 0), "{left}");
+    assert!((left - (8.0 - 0.075)).abs() < 1e-4 && !craft.wheels()[0].is_saturated(left), "{left}");
 }
 
 #[test]

@@ -2,119 +2,24 @@
 
 use fmi_export::{Dependencies, Knowns, knowns};
 
-use super::setup::PlantSetup;
-use super::variables::PlantVariables;
+use super::super::setup::PlantSetup;
+use super::super::variables::PlantVariables;
+use super::dynamics::{momentum, sensors, wheels_and_control};
+use super::groups::{Inputs, Start, panels_weigh};
 use crate::common::spacecraft::{
     across, can_shadow, has_both_shapes, inertia_about_others, shape_recoils_along, stores_heat_in_shadow,
     turns_out_of,
 };
 
-/// Inputs by what they act on. A command or an orbit given by inputs starts anew when any of its inputs changes, so all
-/// of them act together; and the flight begins when orbit and Sun are no longer zero.
-struct Inputs {
-    /// Where spacecraft and Sun are.
-    places: Knowns,
-    /// How the spacecraft is turned: by command, or guided by where Sun, planet and Earth are.
-    attitude: Knowns,
-    panels: Knowns,
-}
-
-impl Inputs {
-    fn of(v: &PlantVariables) -> Self {
-        let places = knowns![v.orbit.position, v.orbit.velocity, v.sun.position];
-        let command = knowns![v.command.kind, v.command.q, v.command.rate, v.command.error];
-        let attitude = knowns![&places, command, v.earth.position];
-        Self { places, attitude, panels: v.panel.iter().map(|panel| panel.angle).collect() }
-    }
-}
-
-/// Inputs and parameters by what they act on at the start.
-struct Start {
-    /// Whether the flight begins, or waits for orbit or Sun.
-    begun: Knowns,
-    /// The same without position and velocity.
-    awaited: Knowns,
-    /// Elements of the orbit and their frame, without the pole's right ascension.
-    elements: Knowns,
-    /// The right ascension of the pole turns the orbit about EME2000's Z axis.
-    turned_about_z: Knowns,
-    /// Where Sun and planets are.
-    ephemeris: Knowns,
-    /// Where the Sun is from the spacecraft.
-    sun: Knowns,
-    /// The same along Z of EME2000.
-    sun_z: Knowns,
-    attitude: Knowns,
-    /// What the attitude's rate follows, but for command.rate.
-    rate: Knowns,
-    /// Of each panel.
-    panels: Vec<Knowns>,
-    momentum: Knowns,
-}
-
-impl Start {
-    fn of(v: &PlantVariables) -> Self {
-        let (orbit, ephemeris, guided, command) = (&v.orbit, &v.ephemeris, &v.guided, &v.command);
-        let awaited = knowns![orbit.source, orbit.center, ephemeris.source, v.sun.position];
-        let begun = knowns![&awaited, orbit.position, orbit.velocity];
-        let shape = knowns![orbit.semi_major_axis, orbit.eccentricity, orbit.true_anomaly];
-        let orientation = knowns![
-            orbit.frame,
-            orbit.inclination,
-            orbit.ascending_node,
-            orbit.periapsis_argument,
-            v.planet.pole_declination,
-        ];
-        let elements = knowns![shape, orientation];
-        let turned_about_z = knowns![v.planet.pole_right_ascension];
-        let ephemeris = knowns![
-            v.start.epoch,
-            ephemeris.semi_major_axis,
-            ephemeris.eccentricity,
-            ephemeris.inclination,
-            ephemeris.ascending_node,
-            ephemeris.periapsis_argument,
-            ephemeris.true_anomaly,
-        ];
-        let sun_z = knowns![&begun, &elements, &ephemeris];
-        let sun = knowns![&sun_z, &turned_about_z];
-        let schedule =
-            knowns![guided.downlink_start, guided.downlink_end, guided.downlink_every, guided.slew_rate];
-        let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation];
-        let guidance = knowns![&sun, law, schedule, v.planet.gravitational_parameter, v.earth.position];
-        // A command of zero is none.
-        let rate = knowns![guidance, v.attitude.source, command.kind, command.q, command.error];
-        let attitude = knowns![&rate, v.start.q];
-        let panels = v
-            .panel
-            .iter()
-            .map(|panel| knowns![panel.control, panel.sun_offset, panel.tilt, panel.enabled, panel.angle]);
-        let dump = &v.dump;
-        let momentum =
-            knowns![v.start.momentum, dump.threshold, dump.reinit_to, dump.reinit_fraction, dump.target];
-        Self {
-            begun,
-            awaited,
-            elements,
-            turned_about_z,
-            ephemeris,
-            sun,
-            sun_z,
-            attitude,
-            rate,
-            panels: panels.collect(),
-            momentum,
-        }
-    }
-}
-
 /// One row an unknown.
 pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
     let mut table = Dependencies::new();
-    let (inputs, start) = (&Inputs::of(v), &Start::of(v));
+    let (inputs, start) = (&Inputs::of(setup, v), &Start::of(setup, v));
     motion(&mut table, v, inputs, start);
     light_and_loads(&mut table, setup, v, inputs, start);
-    momentum(&mut table, setup, v, inputs, start);
+    sensors(&mut table, v, inputs, start);
+    momentum(&mut table, v, inputs, start);
+    wheels_and_control(&mut table, setup, v, inputs, start);
     craft(&mut table, setup, v, inputs, start);
     table
 }
@@ -134,10 +39,15 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
         table.output(v.heliocentric.position.element(axis), &inputs.places, from_sun);
         let rate = v.command.rate.element(axis);
         let others = knowns![v.command.kind, v.command.q, v.command.error, v.earth.position];
+        let turned = &start.guided.clone().and(v.start.rate.element(axis));
+        let at_start = &knowns![&start.rate, rate, turned];
+        let at_step = &knowns![&inputs.places, others, rate, &inputs.weighed_panels];
+        table.output(v.attitude.rate.element(axis), at_step, at_start);
+        let gyro = knowns![v.gyro.bias.element(axis), v.gyro.noise, v.gyro.drift, v.gyro.failed];
         table.output(
-            v.attitude.rate.element(axis),
-            knowns![&inputs.places, others, rate],
-            knowns![&start.rate, rate],
+            v.estimate.rate.element(axis),
+            knowns![at_step, &inputs.sensors],
+            knowns![at_start, gyro, v.noise.seed, v.control.rate],
         );
     }
     let orbit_given = &knowns![orbit.position, orbit.velocity];
@@ -198,12 +108,14 @@ fn light_and_loads(
         surface.night_temperature,
         surface.day_temperature,
     ];
-    let past_shadows = fitted.clone().only_if(is_shadowed);
-    let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, past_shadows];
+    // The same holds for all that acts in controlled and free flight, which is linear in time over an interval that ends
+    // with the stretch of light.
+    let linear = &knowns![fitted, v.solver.dynamics_step];
+    let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, linear];
     let solar = &knowns![by_sun, shade];
-    let albedo = &knowns![&start.attitude, reflected, shade, fitted];
-    let infrared = &knowns![&start.attitude, radiated, shade, fitted];
-    let recoil = &knowns![by_sun, reflected, radiated, fitted, v.thermal.enabled];
+    let albedo = &knowns![&start.attitude, reflected, shade, linear];
+    let infrared = &knowns![&start.attitude, radiated, shade, linear];
+    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.enabled];
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
@@ -228,6 +140,7 @@ fn light_and_loads(
         let at_start = knowns![solar, lit_alike.collect::<Knowns>(), turned];
         table.output(force.by_source.solar.element(axis), lit, at_start);
     }
+    let weight = &knowns![&start.weight, v.spacecraft.center_of_mass].only_if(panels_weigh(setup));
     let torques = [
         (torque.by_source.solar, knowns![solar]),
         (torque.by_source.albedo, knowns![albedo]),
@@ -238,14 +151,15 @@ fn light_and_loads(
     for (torque, at_start) in torques {
         for axis in 0..3 {
             let center_of_mass = across(v.spacecraft.center_of_mass, axis);
-            table.output(torque.element(axis), lit, knowns![&at_start, panels, center_of_mass]);
+            table.output(torque.element(axis), lit, knowns![&at_start, panels, center_of_mass, weight]);
         }
     }
     for axis in 0..3 {
         let inertia = inertia_about_others(v.spacecraft.inertia, axis);
-        let gradient =
-            &knowns![&start.attitude, v.gravity_gradient.enabled, planet.gravitational_parameter, inertia];
-        table.output(torque.by_source.gravity_gradient.element(axis), &inputs.attitude, gradient);
+        let by_planet = knowns![v.gravity_gradient.enabled, planet.gravitational_parameter];
+        let gradient = &knowns![&start.attitude, by_planet, inertia, linear, weight];
+        let at_step = knowns![&inputs.attitude, &inputs.weight];
+        table.output(torque.by_source.gravity_gradient.element(axis), at_step, gradient);
         let applied = &knowns![torque.applied.element(axis)];
         table.output(torque.total.element(axis), applied, knowns![applied, gradient]);
         let applied = &knowns![force.applied.element(axis)];
@@ -272,52 +186,13 @@ fn light_and_loads(
     }
 }
 
-/// System momentum, wheels and dumps. A change of attitude can lift a component over its threshold, so that it is dumped
-/// at once.
-fn momentum(
-    table: &mut Dependencies,
-    setup: &PlantSetup,
-    v: &PlantVariables,
-    inputs: &Inputs,
-    start: &Start,
-) {
-    let (momentum, dump) = (&v.momentum, &v.dump);
-    let dumped = &knowns![&inputs.attitude, dump.request];
-    let to_target = &knowns![dumped, dump.target];
-    for axis in 0..3 {
-        let [initial, threshold, target] =
-            [v.start.momentum, dump.threshold, dump.target].map(|vector| vector.element(axis));
-        let at_start =
-            &knowns![&start.begun, initial, threshold, target, dump.reinit_to, dump.reinit_fraction];
-        table.output(momentum.body.element(axis), knowns![dumped, target], at_start);
-        table.output(dump.impulse.element(axis), to_target, at_start);
-    }
-    table.output(momentum.inertial, to_target, knowns![&start.attitude, &start.momentum]);
-    let exceeded = &knowns![&start.begun, v.start.momentum, dump.threshold];
-    table.output(dump.count, to_target, exceeded);
-    table.output(dump.last_time, dumped, exceeded);
-    table.output(dump.closest, to_target, knowns![]);
-    table.output(dump.too_close, to_target, knowns![]);
-
-    let spanned = setup.wheel_array.is_some();
-    let turning = knowns![&start.rate, v.command.rate, v.spacecraft.inertia];
-    let at_step = &to_target.clone().only_if(spanned);
-    let at_start = &knowns![turning, &start.momentum].only_if(spanned);
-    for wheel in &v.wheel {
-        table.output(wheel.momentum, at_step, at_start);
-        let capacity = knowns![wheel.capacity].only_if(spanned);
-        table.output(wheel.saturated, at_step, knowns![at_start, capacity]);
-    }
-    let capacities = v.wheel.iter().map(|wheel| wheel.capacity).collect::<Knowns>();
-    table.calculated(dump.guaranteed_threshold, capacities.only_if(spanned));
-}
-
 /// The spacecraft itself.
 fn craft(table: &mut Dependencies, setup: &PlantSetup, v: &PlantVariables, inputs: &Inputs, start: &Start) {
     let center_of_mass = v.spacecraft.center_of_mass;
     table.output(v.mass, knowns![], v.spacecraft.mass);
     for axis in 0..3 {
-        table.output(v.center_of_mass.element(axis), knowns![], center_of_mass.element(axis));
+        let at_start = knowns![center_of_mass.element(axis), &start.weight];
+        table.output(v.center_of_mass.element(axis), &inputs.weight, at_start);
     }
     for (panel, set) in v.panel.iter().zip(&start.panels) {
         let at_step = knowns![&inputs.attitude, panel.angle];

@@ -6,14 +6,15 @@ use physics::attitude::Attitude;
 use physics::guidance::system::CommandKind as Kind;
 use physics::momentum::{DumpEvent, Totals};
 use physics::plant::{
-    AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, Flight, PropagatorState, Tracked,
+    AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, ExternalLoad, Flight, Motion,
+    PropagatorState, Tracked,
 };
 
-use super::inputs::state::{Changes, PlantState};
-use super::inputs::{self, dynamics};
-use super::outputs::{self, flyable, log_dump};
-use super::setup::Plan;
-use super::variables::choices::OrbitSource;
+use super::super::inputs::state::{Changes, PlantState};
+use super::super::inputs::{self, dynamics};
+use super::super::setup::Plan;
+use super::super::variables::choices::OrbitSource;
+use super::write::{self as outputs, flyable, log_dump};
 use crate::common::choices::CommandKind;
 
 /// What one stretch of flight needs besides the state.
@@ -64,8 +65,10 @@ pub fn begin(
     state.light = inputs::light(context, values, &configuration)?;
     let (mut attitude, is_default) = dynamics::start_attitude(context, values)?;
     let mut rate_body_rad_s = Vector3::from(values.vector(context.variables.start.rate));
+    let [start_load, _] = dynamics::external(context, values, InputsOverTime::held(), time_s);
+    let acting = |_: f64| start_load;
     if is_default && dynamics::guides_itself(context, values) {
-        let guided = flight(context, state, &mut configuration)?
+        let guided = flight(context, state, &mut configuration, &acting)?
             .guided_start(time_s, settings.work_limit)
             .map_err(outputs::failure)?;
         if let Some(frame) = guided {
@@ -75,12 +78,13 @@ pub fn begin(
     }
     if settings.panels_have_mass {
         let inertia_body_kg_m2 =
-            flight(context, state, &mut configuration)?.inertia_at_start(time_s, attitude);
+            flight(context, state, &mut configuration, &acting)?.inertia_at_start(time_s, attitude);
         settings.gyrostat.set_inertia(inertia_body_kg_m2);
     }
     let wheels = &context.variables.wheel;
     let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
-    state.dynamics = Some(AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held));
+    let begun = AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held);
+    state.dynamics = Some(Box::new(begun));
     state.take_first_command(context, values, attitude, time_s)?;
     outputs::write_calculated(context, values, &configuration);
     // The sample at the start is taken anew by the first step, with its inputs.
@@ -89,7 +93,7 @@ pub fn begin(
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
     let limit = settings.work_limit;
     if let Some(mut shown) = state.dynamics.take() {
-        let mut flight = flight(context, state, &mut configuration)?;
+        let mut flight = flight(context, state, &mut configuration, &acting)?;
         stretch
             .with_inputs(|inputs| {
                 let silent = &mut |_: &DumpEvent| {};
@@ -133,8 +137,12 @@ pub fn step(
         ));
     };
     if let Some(changes) = changes {
-        flown.cut(step.start_s, changes.any());
-        if changes.any() {
+        // On a disturbed orbit the mass tells where the spacecraft goes.
+        let pushed =
+            changes.force && matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
+        let loads_change = changes.light || changes.mass || pushed;
+        flown.cut(step.start_s, loads_change);
+        if loads_change {
             state.propagator.cut(&configuration, step.start_s, true);
         }
         if changes.orbit && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
@@ -150,7 +158,8 @@ pub fn step(
     }
     let over_time = step.inputs;
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
-    let mut flight = flight(context, state, &mut configuration)?;
+    let acting = |time_s: f64| dynamics::external(context, stretch.values, over_time, time_s)[0];
+    let mut flight = flight(context, state, &mut configuration, &acting)?;
     stretch
         .with_inputs(|inputs| {
             flown.advance(&mut settings, &mut flight, inputs, step.end_s, |event| log_dump(context, event))
@@ -167,6 +176,7 @@ fn flight<'f>(
     context: &'f Plan<'_>,
     state: &'f mut PlantState,
     configuration: &'f mut Configuration,
+    external: &'f dyn Fn(f64) -> ExternalLoad,
 ) -> Result<Flight<'f>, Failure> {
     Ok(Flight {
         prepared: context.setup.prepared_spacecraft(configuration.sunshade)?,
@@ -174,6 +184,7 @@ fn flight<'f>(
         propagator: &mut state.propagator,
         ephemeris: &mut state.ephemeris,
         light: state.light.as_mut(),
+        external,
     })
 }
 
@@ -190,7 +201,8 @@ fn show(
     let Some(flown) = state.dynamics.take() else { return Ok(()) };
     let body = flown.body(settings, time_s);
     let [external, _] = dynamics::external(context, values, over_time, time_s);
-    let evaluation = flown.evaluation(&mut flight(context, state, configuration)?, &body, external, time_s);
+    let evaluation =
+        flown.evaluation(&mut flight(context, state, configuration, &|_| external)?, &body, external, time_s);
     let totals = Totals {
         momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
         delta_v_inertial_m_s: body.delta_v_inertial_m_s,

@@ -12,9 +12,9 @@ use physics::plant::{
 };
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
-use super::inputs::dynamics;
-use super::inputs::state::PlantState;
-use super::setup::Plan;
+use super::super::inputs::dynamics;
+use super::super::inputs::state::PlantState;
+use super::super::setup::Plan;
 
 /// Writes every output at `time_s`.
 pub fn write(
@@ -144,9 +144,10 @@ pub fn write_dynamics(
     for (k, wheel) in v.wheel.iter().enumerate() {
         let momentum_n_m_s = flown.wheel_n_m_s(settings, k, time_s, body);
         values.set_real(wheel.momentum, momentum_n_m_s);
-        values.set_real(wheel.speed, settings.gyrostat.wheels()[k].speed_rad_s(momentum_n_m_s));
+        let flown_wheel = &settings.gyrostat.wheels()[k];
+        values.set_real(wheel.speed, flown_wheel.speed_rad_s(momentum_n_m_s));
         values.set_real(wheel.torque, flown.motor_n_m(k));
-        values.set_boolean(wheel.saturated, flown.is_saturated(settings, k));
+        values.set_boolean(wheel.saturated, flown_wheel.is_saturated(momentum_n_m_s));
     }
     let estimate = flown.estimate_at(time_s);
     values.set_vector(v.estimate.q, estimate.attitude.quaternion(None));
@@ -269,7 +270,14 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     }
     let variables = context.variables;
     let convention = state.configuration.as_ref()?.momentum.convention;
-    let torque_body = Vector3::from(values.vector(variables.torque.total));
+    let mut torque_body = Vector3::from(values.vector(variables.torque.total));
+    if let Some(flown) = state.dynamics.as_ref().filter(|_| values.boolean(variables.dump.active)) {
+        torque_body = flown.with_dump_body_n_m(&torque_body);
+    }
+    if let Some(element) = variables.attitude.q.index_of(output) {
+        let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
+        return Some(attitude.quaternion_rate(&values.vector(variables.attitude.rate).into())[element]);
+    }
     if let Some(axis) = variables.momentum.body.index_of(output) {
         let [momentum_body, rate_body] = [variables.momentum.body, variables.attitude.rate]
             .map(|handle| Vector3::from(values.vector(handle)));

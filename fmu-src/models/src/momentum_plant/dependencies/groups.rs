@@ -1,0 +1,163 @@
+//! Inputs and parameters by what they act on.
+
+use fmi_export::{Knowns, knowns};
+
+use super::super::setup::PlantSetup;
+use super::super::variables::PlantVariables;
+
+/// Inputs by what they act on. A command or an orbit given by inputs starts anew when any of its inputs changes, so all
+/// of them act together; and the flight begins when orbit and Sun are no longer zero.
+pub struct Inputs {
+    /// Where spacecraft and Sun are.
+    pub places: Knowns,
+    /// How the spacecraft is turned: by command, or guided by where Sun, planet and Earth are.
+    pub attitude: Knowns,
+    pub panels: Knowns,
+    /// Panels whose mass moves centre of mass and inertia, and what turns them.
+    pub weight: Knowns,
+    /// The same, but for the attitude.
+    pub weighed_panels: Knowns,
+    /// Star tracker and gyros.
+    pub sensors: Knowns,
+    /// The torque that an internal controller asks of the wheels; none where the wheels cannot be in all directions.
+    pub controller: Knowns,
+}
+
+impl Inputs {
+    /// Of one spacecraft.
+    pub fn of(setup: &PlantSetup, v: &PlantVariables) -> Self {
+        let places = knowns![v.orbit.position, v.orbit.velocity, v.sun.position];
+        let command = knowns![v.command.kind, v.command.q, v.command.rate, v.command.error];
+        let attitude = knowns![&places, command, v.earth.position];
+        let sensors = knowns![v.star_tracker.failed, v.gyro.failed];
+        let failed = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
+        let dump = knowns![v.dump.request, v.dump.target];
+        let panels = v.panel.iter().map(|panel| panel.angle).collect::<Knowns>();
+        let weighed_panels = panels.clone().only_if(panels_weigh(setup));
+        let weight = knowns![&attitude, &weighed_panels].only_if(panels_weigh(setup));
+        let controller = knowns![&attitude, &sensors, failed, dump, &weighed_panels].only_if(can_control(v));
+        Self { places, attitude, panels, weight, weighed_panels, sensors, controller }
+    }
+}
+
+/// Whether the wheels' axes, which are parameters, can be such that they span all directions.
+pub fn can_control(v: &PlantVariables) -> bool {
+    v.wheel.len() >= 3
+}
+
+/// Whether panels have a mass, so that centre of mass and inertia follow them.
+pub fn panels_weigh(setup: &PlantSetup) -> bool {
+    setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some())
+}
+
+/// Inputs and parameters by what they act on at the start.
+pub struct Start {
+    /// Whether the flight begins, or waits for orbit or Sun.
+    pub begun: Knowns,
+    /// The same without position and velocity.
+    pub awaited: Knowns,
+    /// Elements of the orbit and their frame, without the pole's right ascension.
+    pub elements: Knowns,
+    /// The right ascension of the pole turns the orbit about EME2000's Z axis.
+    pub turned_about_z: Knowns,
+    /// Where Sun and planets are.
+    pub ephemeris: Knowns,
+    /// Where the Sun is from the spacecraft.
+    pub sun: Knowns,
+    /// The same along Z of EME2000.
+    pub sun_z: Knowns,
+    pub attitude: Knowns,
+    /// What the attitude's rate follows, but for command.rate.
+    pub rate: Knowns,
+    /// The orbit phase's own guidance, where it sets the start of a controlled flight.
+    pub guided: Knowns,
+    /// Of each panel.
+    pub panels: Vec<Knowns>,
+    pub momentum: Knowns,
+    /// Momentum of body and wheels of controlled and free flight, without the inertia.
+    pub turning: Knowns,
+    /// What moves centre of mass and inertia with the panels that have a mass, but for the centre of mass itself.
+    pub weight: Knowns,
+    /// What the estimated attitude follows besides the true one.
+    pub measured_attitude: Knowns,
+}
+
+impl Start {
+    /// Of one spacecraft.
+    pub fn of(setup: &PlantSetup, v: &PlantVariables) -> Self {
+        let (orbit, ephemeris, guided, command) = (&v.orbit, &v.ephemeris, &v.guided, &v.command);
+        let awaited = knowns![orbit.source, orbit.center, ephemeris.source, v.sun.position];
+        let begun = knowns![&awaited, orbit.position, orbit.velocity];
+        let shape = knowns![orbit.semi_major_axis, orbit.eccentricity, orbit.true_anomaly];
+        let orientation = knowns![
+            orbit.frame,
+            orbit.inclination,
+            orbit.ascending_node,
+            orbit.periapsis_argument,
+            v.planet.pole_declination,
+        ];
+        let elements = knowns![shape, orientation];
+        let turned_about_z = knowns![v.planet.pole_right_ascension];
+        let ephemeris = knowns![
+            v.start.epoch,
+            ephemeris.semi_major_axis,
+            ephemeris.eccentricity,
+            ephemeris.inclination,
+            ephemeris.ascending_node,
+            ephemeris.periapsis_argument,
+            ephemeris.true_anomaly,
+        ];
+        let sun_z = knowns![&begun, &elements, &ephemeris];
+        let sun = knowns![&sun_z, &turned_about_z];
+        let schedule =
+            knowns![guided.downlink_start, guided.downlink_end, guided.downlink_every, guided.slew_rate];
+        let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation];
+        let guidance = knowns![&sun, law, schedule, v.planet.gravitational_parameter, v.earth.position];
+        // A command of zero is none.
+        let sources = knowns![v.attitude.source, command.source];
+        let rate = knowns![&guidance, &sources, command.kind, command.q, command.error];
+        let guided = knowns![guidance, sources, v.start.q].only_if(can_control(v));
+        let attitude = knowns![&rate, v.start.q];
+        let panels = v
+            .panel
+            .iter()
+            .map(|panel| knowns![panel.control, panel.sun_offset, panel.tilt, panel.enabled, panel.angle])
+            .collect::<Vec<_>>();
+        let dump = &v.dump;
+        let momentum =
+            knowns![v.start.momentum, dump.threshold, dump.reinit_to, dump.reinit_fraction, dump.target];
+        let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
+        let weight = knowns![&attitude, panels.iter().collect::<Knowns>(), v.spacecraft.mass]
+            .only_if(panels_weigh(setup));
+        let center_of_mass = knowns![v.spacecraft.center_of_mass].only_if(panels_weigh(setup));
+        let wheels = wheels.collect::<Knowns>();
+        let turning =
+            knowns![&begun, &guided, v.attitude.source, v.start.rate, wheels, &weight, center_of_mass];
+        let tracker = &v.star_tracker;
+        let measured_attitude = knowns![
+            tracker.noise,
+            tracker.failed,
+            tracker.period,
+            v.gyro.failed,
+            v.noise.seed,
+            v.control.rate,
+        ];
+        Self {
+            begun,
+            awaited,
+            elements,
+            turned_about_z,
+            ephemeris,
+            sun,
+            sun_z,
+            attitude,
+            rate,
+            guided,
+            panels,
+            momentum,
+            turning,
+            weight,
+            measured_attitude,
+        }
+    }
+}

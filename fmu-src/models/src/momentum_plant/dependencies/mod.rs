@@ -1,0 +1,7 @@
+//! What each output and calculated parameter depends on.
+
+mod dynamics;
+mod groups;
+mod table;
+
+pub use table::table;

@@ -1,0 +1,6 @@
+//! From flight to output variables.
+
+pub mod dynamic;
+mod write;
+
+pub use write::{derivative, failure, flyable, log_dump, write, write_calculated, write_ideal, write_plates};
