@@ -88,6 +88,14 @@ pub(crate) fn rotation_vector(from: &[f64; 4], to: &[f64; 4]) -> Vector {
     if sine == 0.0 { axis } else { scaled(&axis, 2.0 * sine.atan2(scalar.abs()) / sine) }
 }
 
+/// Azimuth from -Y toward +X and elevation toward -Z of a body direction, in deg; azimuths from -90 to 270 deg, so that
+/// neither -Y nor +Y is at a jump.
+pub(crate) fn body_angles_deg([x, y, z]: &Vector) -> [f64; 2] {
+    let azimuth_deg = x.atan2(-y).to_degrees();
+    let turns = if azimuth_deg < -90.0 { 360.0 } else { 0.0 };
+    [azimuth_deg + turns, (-z).atan2(x.hypot(*y)).to_degrees()]
+}
+
 #[cfg(test)]
 mod tests {
     //! A turn about one axis by a known angle, there and back.

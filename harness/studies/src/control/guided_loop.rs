@@ -137,14 +137,6 @@ impl Sample {
     }
 }
 
-/// Azimuth from -Y toward +X and elevation toward -Z of a body direction, in deg; azimuths from -90 to 270 deg, so that
-/// neither -Y nor +Y is at a jump.
-pub fn body_angles_deg([x, y, z]: &Vector) -> [f64; 2] {
-    let azimuth_deg = x.atan2(-y).to_degrees();
-    let turns = if azimuth_deg < -90.0 { 360.0 } else { 0.0 };
-    [azimuth_deg + turns, (-z).atan2(x.hypot(*y)).to_degrees()]
-}
-
 /// What is flown in the loop.
 pub struct Flight<'a> {
     /// For messages and tables.

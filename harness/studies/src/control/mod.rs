@@ -10,6 +10,7 @@ mod safe_mode_flight;
 mod slew;
 mod slew_figures;
 mod slew_flight;
+mod slew_limits;
 mod transition;
 
 pub use safe_mode::safe_mode;

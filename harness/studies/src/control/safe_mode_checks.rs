@@ -1,13 +1,13 @@
 //! What paper 001 says of its safe modes, looked for in a flight.
 
-use super::guided_loop::{Loop, Sample, body_angles_deg};
+use super::guided_loop::{Loop, Sample};
 use super::safe_mode_flight::{
     BORESIGHT, OPERATIONAL_S, OUTAGE_S, PARDONED_S, SAFE_HOLD_S, SUN_BACK_S, SUN_LOST_S, TRACKER_BACK_S,
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
 };
 use crate::StudyError;
 use crate::chart::Series;
-use crate::vector::{Vector, across, angle_rad, dot, norm, turn};
+use crate::vector::{Vector, across, angle_rad, body_angles_deg, dot, norm, turn};
 
 const OPERATIONAL: i32 = 1;
 const SAFE_HOLD: i32 = 2;

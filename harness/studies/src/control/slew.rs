@@ -71,7 +71,7 @@ impl Measures {
         let full = || samples.iter().filter(is_full).map(|sample| sample.time_s);
         Self {
             settled_s: samples.get(small_from).map(|sample| sample.time_s - SLEW_S),
-            ideal_s: limits.ideal_s(slew.angle_rad.abs()),
+            ideal_s: limits.slew.least_s(slew.angle_rad.abs()),
             overshoot_deg: after()
                 .map(|sample| -sense * sample.ahead_rad(slew))
                 .fold(0.0, f64::max)
@@ -84,7 +84,7 @@ impl Measures {
                 .to_degrees(),
             torque: share(|wheel| wheel.torque_n_m, &limits.torque_n_m),
             momentum: share(|wheel| wheel.momentum_n_m_s, &limits.capacity_n_m_s),
-            full_s: full().next().zip(full().last()),
+            full_s: full().next().zip(full().next_back()),
             is_torque_limited: samples.iter().any(|sample| sample.is_torque_limited),
             dumps: samples.last().map_or(0.0, |sample| sample.dumps),
         }
@@ -171,8 +171,8 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
     if let Some(Flown { limits, .. }) = flown.first() {
         report.line(&format!(
             "Limits: {:.4} deg/s and {:.5} deg/s2 (control.slewRate and control.slewAcceleration), wheels of {} N m and {} N m s.",
-            limits.rate_rad_s.to_degrees(),
-            limits.acceleration_rad_s2.to_degrees(),
+            limits.slew.rate_rad_s.to_degrees(),
+            limits.slew.acceleration_rad_s2.to_degrees(),
             limits.torque_n_m[0],
             limits.capacity_n_m_s[0],
         ));

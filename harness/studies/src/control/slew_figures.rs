@@ -17,7 +17,7 @@ pub fn figure(flown: &Flown) -> Chart {
     };
     let either_way = |limit: f64| vec![-limit, limit];
     let sense = slew.angle_rad.signum();
-    let limit = sense * limits.rate_rad_s.to_degrees();
+    let limit = sense * limits.slew.rate_rad_s.to_degrees();
     let torque_n_m = limits.torque_n_m.iter().copied().fold(f64::INFINITY, f64::min);
     let capacity_n_m_s = limits.capacity_n_m_s.iter().copied().fold(f64::INFINITY, f64::min);
     let mut panels = vec![

@@ -3,6 +3,7 @@
 use loader::{Error, Fmu};
 
 use super::cosimulation::{Grid, Row, Unit, fly};
+use super::slew_limits::SlewLimits;
 use crate::settings::{Settings, flag, number, quaternion_setting, real, vector_setting};
 use crate::vector::{Vector, dot, rotated, rotation_vector, scaled};
 use crate::{Options, StudyError};
@@ -46,10 +47,8 @@ pub struct Slew {
 /// Limits of slew and wheels, as the FMU has them.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// `control.slewRate`, in rad/s.
-    pub rate_rad_s: f64,
-    /// `control.slewAcceleration`, in rad/s2.
-    pub acceleration_rad_s2: f64,
+    /// `control.slewRate` and `control.slewAcceleration`.
+    pub slew: SlewLimits,
     /// `control.bandwidth`, in rad/s.
     pub bandwidth_rad_s: f64,
     /// `wheel[k].maxTorque`, in N m.
@@ -65,28 +64,17 @@ impl Limits {
         let wheels = (1..).take_while(|k| fmu.find(&format!("wheel[{k}].torque")).is_some()).count();
         let each = |name: &str| (1..=wheels).map(|k| format!("wheel[{k}].{name}")).collect::<Vec<_>>();
         let read = |names: &[String]| Unit::start(fmu, &Vec::new(), &Vec::new(), names)?.read();
-        let control = ["slewRate", "slewAcceleration", "bandwidth"].map(|name| format!("control.{name}"));
-        let control = read(&control)?;
+        let control =
+            read(&[SlewLimits::NAMES[0], SlewLimits::NAMES[1], "control.bandwidth"].map(str::to_owned))?;
+        let mut control = Row::of(&control);
         let axes = read(&each("axis"))?;
         Ok(Self {
-            rate_rad_s: control[0],
-            acceleration_rad_s2: control[1],
-            bandwidth_rad_s: control[2],
+            slew: SlewLimits::of(&mut control),
+            bandwidth_rad_s: control.real(),
             torque_n_m: read(&each("maxTorque"))?,
             capacity_n_m_s: read(&each("capacity"))?,
             axes: axes.chunks_exact(3).map(|a| crate::vector::unit(&[a[0], a[1], a[2]])).collect(),
         })
-    }
-
-    /// The least time in which a slew by an angle keeps both limits: accelerate, coast, decelerate.
-    pub fn ideal_s(&self, angle_rad: f64) -> f64 {
-        let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);
-        let ramp_rad = rate * rate / acceleration;
-        if angle_rad < ramp_rad {
-            2.0 * (angle_rad / acceleration).sqrt()
-        } else {
-            angle_rad / rate + rate / acceleration
-        }
     }
 }
 
@@ -191,7 +179,7 @@ impl Plant {
             &quaternion_setting("command.q", &self.q),
             &outputs,
         )?;
-        let ideal_s = self.limits.ideal_s(slew.angle_rad.abs());
+        let ideal_s = self.limits.slew.least_s(slew.angle_rad.abs());
         let grid = Grid {
             stop_s: slew.stop_s.unwrap_or_else(|| (SLEW_S + 1.4 * ideal_s + 100.0).ceil()),
             step_s,

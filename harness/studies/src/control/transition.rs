@@ -1,11 +1,13 @@
 //! Figures 7 and 8 of paper 001 with the controlled plant: commanded, estimated and true attitude over a scenario change.
 
-use super::guided_loop::{Flight, GUIDANCE, Loop, Sample, body_angles_deg};
+use super::cosimulation::Row;
+use super::guided_loop::{Flight, GUIDANCE, Loop, Sample};
+use super::slew_limits::SlewLimits;
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Mark, Panel, Series};
 use crate::pointing::{SLEW_S, TRANSITION_EPOCH_S, TRANSITION_TRUE_ANOMALY_DEG};
 use crate::settings::{Settings, digits, number, real, vector_setting};
-use crate::vector::{angle_rad, norm, rotation_vector, turn};
+use crate::vector::{angle_rad, body_angles_deg, norm, rotation_vector, turn};
 use crate::{Options, Report, StudyError};
 
 const END_S: f64 = 1500.0;
@@ -99,37 +101,15 @@ fn rate_error_deg_s(sample: &Sample) -> f64 {
 
 /// Limits of the plant's slews.
 struct Limits {
-    rate_rad_s: f64,
-    acceleration_rad_s2: f64,
+    slew: SlewLimits,
     zone_deg: [f64; 2],
 }
 
 impl Limits {
     fn read(both: &Loop) -> Result<Self, StudyError> {
-        let [rate_rad_s, acceleration_rad_s2] =
-            both.plant_parameters(["control.slewRate", "control.slewAcceleration"])?;
+        let slew = SlewLimits::of(&mut Row::of(&both.plant_parameters(SlewLimits::NAMES)?));
         let zone = both.guidance_parameters(["keepIn.azimuth", "keepIn.elevation"])?;
-        Ok(Self { rate_rad_s, acceleration_rad_s2, zone_deg: zone.map(f64::to_degrees) })
-    }
-
-    /// Accelerate, coast, decelerate through an angle, in s.
-    fn least_s(&self, angle_rad: f64) -> f64 {
-        let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);
-        match angle_rad < rate * rate / acceleration {
-            true => 2.0 * (angle_rad / acceleration).sqrt(),
-            false => angle_rad / rate + rate / acceleration,
-        }
-    }
-
-    /// The angle for which that takes so long, in deg.
-    fn angle_deg(&self, time_s: f64) -> f64 {
-        let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);
-        let ramp_s = rate / acceleration;
-        let angle_rad = match time_s < 2.0 * ramp_s {
-            true => acceleration * time_s * time_s / 4.0,
-            false => rate * (time_s - ramp_s),
-        };
-        angle_rad.to_degrees()
+        Ok(Self { slew, zone_deg: zone.map(f64::to_degrees) })
     }
 }
 
@@ -200,11 +180,20 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
             settled_s.map_or_else(|| "does not".to_owned(), |time_s| format!("{time_s:.0} s")),
             agrees(settled_s.is_some_and(|time_s| (PAPER_S[0]..=PAPER_S[1]).contains(&time_s))),
         ),
-        row("the same by the limits alone", "not printed", format!("{:.0} s", limits.least_s(slew_rad)), "-"),
+        row(
+            "the same by the limits alone",
+            "not printed",
+            format!("{:.0} s", limits.slew.least_s(slew_rad)),
+            "-",
+        ),
         row(
             "slew angles that take 70 to 100 s by the limits",
             "not printed",
-            format!("{:.1} to {:.1} deg", limits.angle_deg(PAPER_S[0]), limits.angle_deg(PAPER_S[1])),
+            format!(
+                "{:.1} to {:.1} deg",
+                limits.slew.angle_rad(PAPER_S[0]).to_degrees(),
+                limits.slew.angle_rad(PAPER_S[1]).to_degrees()
+            ),
             "-",
         ),
         row(

@@ -4,7 +4,7 @@ use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 
 use super::planet::Planet;
 use crate::settings::{Settings, digits, real, vector_setting};
-use crate::vector::{Vector, difference, rotated, scaled, turn, turn_back};
+use crate::vector::{Vector, body_angles_deg, difference, rotated, scaled, turn, turn_back};
 use crate::{Options, StudyError};
 
 /// 2009-04-06 00:00 TDB in seconds past J2000, the start of the default flight.
@@ -71,13 +71,9 @@ impl Sample {
         turn_back(&self.q, body)
     }
 
-    /// Azimuth from -Y toward +X and elevation toward -Z of a direction in the body frame, in deg; azimuths from -90 to
-    /// 270 deg, so that neither -Y nor +Y is at a jump.
+    /// Azimuth and elevation of a direction in the body frame, in deg.
     pub fn body_angles_deg(&self, inertial: &Vector) -> [f64; 2] {
-        let [x, y, z] = turn(&self.q, inertial);
-        let azimuth_deg = x.atan2(-y).to_degrees();
-        let turns = if azimuth_deg < -90.0 { 360.0 } else { 0.0 };
-        [azimuth_deg + turns, (-z).atan2(x.hypot(y)).to_degrees()]
+        body_angles_deg(&turn(&self.q, inertial))
     }
 }
 

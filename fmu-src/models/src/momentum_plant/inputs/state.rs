@@ -27,7 +27,7 @@ pub struct PlantState {
     /// Momentum, delta-v and dumps of guided and commanded flight.
     pub integrator: MomentumIntegrator,
     /// Body, wheels, sensors and control of controlled and free flight.
-    pub dynamics: Option<AttitudeDynamics>,
+    pub dynamics: Option<Box<AttitudeDynamics>>,
     /// Whether the flight waits for inputs that are not set yet: nothing acts, and the attitude is held.
     pub waiting: bool,
     /// Whether the warning was given which inputs are not set yet.

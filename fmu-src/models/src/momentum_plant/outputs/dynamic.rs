@@ -83,7 +83,8 @@ pub fn begin(
     }
     let wheels = &context.variables.wheel;
     let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
-    state.dynamics = Some(AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held));
+    let begun = AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held);
+    state.dynamics = Some(Box::new(begun));
     state.take_first_command(context, values, attitude, time_s)?;
     outputs::write_calculated(context, values, &configuration);
     // The sample at the start is taken anew by the first step, with its inputs.

@@ -116,17 +116,17 @@ fn disturbances_taken_once_a_second_add_up_to_those_of_a_tenth() {
         let mut history = Vec::new();
         for minute in 1..=30 {
             flight.step_to(60.0 * f64::from(minute)).unwrap();
-            history.push((flight.vector("momentum.inertial"), flight.vector("deltaV")));
+            history.push(["momentum.inertial", "deltaV"].map(|name| flight.vector(name)));
         }
         history
     };
     let (coarse, fine) = (fly_by(1.0), fly_by(0.1));
-    let largest = |of: fn(&(Vector3<f64>, Vector3<f64>)) -> Vector3<f64>| {
+    let largest = |of: fn(&[Vector3<f64>; 2]) -> Vector3<f64>| {
         let size = fine.iter().map(|it| of(it).norm()).fold(0.0, f64::max);
         let off = coarse.iter().zip(&fine).map(|(a, b)| (of(a) - of(b)).norm()).fold(0.0, f64::max);
         off / size
     };
-    let (momentum, delta_v) = (largest(|it| it.0), largest(|it| it.1));
+    let (momentum, delta_v) = (largest(|it| it[0]), largest(|it| it[1]));
     println!("{momentum:e} {delta_v:e}");
     assert!(momentum < 2e-6 && delta_v < 2e-7, "{momentum:e} {delta_v:e}");
 }
@@ -150,6 +150,8 @@ fn a_force_moves_a_disturbed_orbit_as_it_does_in_commanded_flight() {
         flight.fly_to(1_800.0, 30.0).unwrap();
         flight.vector("position")
     });
-    assert!((free - quiet).norm() > 100.0, "{}", (free - quiet).norm());
-    assert!((free - commanded).norm() < 1e-3, "{}", (free - commanded).norm());
+    let moved = (free - quiet).norm();
+    assert!(moved > 100.0, "{moved}");
+    // Commanded flight integrates segments of minutes, free flight of a second.
+    assert!((free - commanded).norm() < 1e-5 * moved, "{} of {moved}", (free - commanded).norm());
 }
