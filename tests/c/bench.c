@@ -1,28 +1,8 @@
 /* Speed and memory through the C interface: one line `bench <name> <value> <unit>` a figure, medians of several runs. */
-#include "fmu.h"
+#include "timing.h"
 
 #include <math.h>
 #include <sys/resource.h>
-#include <time.h>
-
-enum { RUNS = 7 };
-
-static double now_s(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void report(const char *name, double *values, const char *unit) {
-    qsort(values, RUNS, sizeof *values, ascending);
-    printf("bench %s %.6g %s\n", name, values[RUNS / 2], unit);
-    fflush(stdout);
-}
 
 static void empty_model(const Library *probe) {
     char *xml = description_of(probe, "Empty");
@@ -201,88 +181,6 @@ static void fifty_hertz(const Library *library, const char *xml, fmi2Boolean eff
     report(name, per_step, "us");
 }
 
-/* A plant whose body turns by its own dynamics: 3 under the controller, with the orbit phase's own guidance, 4 free. */
-static fmi2Component dynamic_plant(const Library *library, const char *xml, fmi2Integer source, fmi2Boolean effects) {
-    fmi2Component c = instantiate(library, xml, NULL);
-    fmi2ValueReference enabled[2], choices[2];
-    enabled[0] = reference_of(xml, "planetLight.enabled");
-    enabled[1] = reference_of(xml, "thermal.enabled");
-    choices[0] = reference_of(xml, "attitude.source");
-    choices[1] = reference_of(xml, "command.source");
-    fmi2Boolean on[2] = {effects, effects};
-    fmi2Integer items[2] = {source, 2};
-    CHECK(c && library->SetBoolean(c, enabled, 2, on) == fmi2OK);
-    CHECK(library->SetInteger(c, choices, 2, items) == fmi2OK);
-    CHECK(library->SetupExperiment(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK);
-    CHECK(library->EnterInitializationMode(c) == fmi2OK);
-    CHECK(library->ExitInitializationMode(c) == fmi2OK);
-    return c;
-}
-
-enum { CONTROL_RATE = 50, DYNAMIC_SPAN_S = 1200 };
-
-/* Samples of the controller a second of computing, the flight cut into steps of `steps_per_minute` a minute. */
-static void controlled(const Library *library, const char *xml, fmi2Boolean effects, int steps_per_minute,
-                       const char *name) {
-    double rate[RUNS];
-    const double step_s = 60.0 / steps_per_minute;
-    const int steps = DYNAMIC_SPAN_S / 60 * steps_per_minute;
-    fmi2ValueReference error = reference_of(xml, "control.error");
-    for (int run = 0; run < RUNS; run++) {
-        fmi2Component c = dynamic_plant(library, xml, 3, effects);
-        int status = fmi2OK;
-        double begin = now_s();
-        for (int i = 0; i < steps; i++) status |= (int)library->DoStep(c, i * step_s, step_s, fmi2True);
-        rate[run] = DYNAMIC_SPAN_S * CONTROL_RATE / (now_s() - begin);
-        fmi2Real angle = 1;
-        CHECK(status == fmi2OK && library->GetReal(c, &error, 1, &angle) == fmi2OK && angle > 0 && angle < 1e-3);
-        library->FreeInstance(c);
-    }
-    report(name, rate, "1/s");
-}
-
-/* A controller outside: at every step of 20 ms four new wheel torques in, attitude and rate out. */
-static void free_flight(const Library *library, const char *xml, fmi2Boolean effects, const char *name) {
-    double rate[RUNS];
-    const int steps = DYNAMIC_SPAN_S * CONTROL_RATE;
-    fmi2ValueReference torques[4], attitude[7];
-    for (int i = 0; i < 7; i++) {
-        char variable[64];
-        snprintf(variable, sizeof variable, i < 4 ? "attitude.q[%d]" : "attitude.rate[%d]", i < 4 ? i + 1 : i - 3);
-        attitude[i] = reference_of(xml, variable);
-        snprintf(variable, sizeof variable, "wheel[%d].torqueCommand", i + 1);
-        if (i < 4) torques[i] = reference_of(xml, variable);
-    }
-    for (int run = 0; run < RUNS; run++) {
-        fmi2Component c = dynamic_plant(library, xml, 4, effects);
-        int status = fmi2OK;
-        fmi2Real out[7] = {0};
-        double begin = now_s();
-        for (int i = 0; i < steps; i++) {
-            double torque = 1e-4 * (i % 100 - 50 + 1e-3 * (i & 1));
-            fmi2Real in[4] = {torque, -torque, 0.5 * torque, 0.7 * torque};
-            status |= (int)library->SetReal(c, torques, 4, in);
-            status |= (int)library->DoStep(c, i * 0.02, 0.02, fmi2True);
-            status |= (int)library->GetReal(c, attitude, 7, out);
-        }
-        rate[run] = steps / (now_s() - begin);
-        CHECK(status == fmi2OK && out[4] != 0);
-        library->FreeInstance(c);
-    }
-    report(name, rate, "1/s");
-}
-
-static void dynamics(const Library *library, const char *xml) {
-    controlled(library, xml, fmi2False, 3000, "momentum_plant_controlled_periods_20ms_in_steps_of_20ms");
-    controlled(library, xml, fmi2False, 60, "momentum_plant_controlled_periods_20ms_in_steps_of_1s");
-    controlled(library, xml, fmi2False, 1, "momentum_plant_controlled_periods_20ms_in_steps_of_60s");
-    controlled(library, xml, fmi2True, 3000, "momentum_plant_controlled_periods_20ms_in_steps_of_20ms_light_and_heat");
-    controlled(library, xml, fmi2True, 60, "momentum_plant_controlled_periods_20ms_in_steps_of_1s_light_and_heat");
-    controlled(library, xml, fmi2True, 1, "momentum_plant_controlled_periods_20ms_in_steps_of_60s_light_and_heat");
-    free_flight(library, xml, fmi2False, "momentum_plant_free_steps_20ms_new_torques");
-    free_flight(library, xml, fmi2True, "momentum_plant_free_steps_20ms_new_torques_light_and_heat");
-}
-
 /* A fresh SpinPlant, ready to step: its own burn, or no burn at all. */
 static fmi2Component fresh_spinner(const Library *library, const char *xml, int burns) {
     fmi2Component c = instantiate(library, xml, NULL);
@@ -420,7 +318,6 @@ int main(int count, char **arguments) {
     ten_reals(&library, xml);
     fifty_hertz(&library, xml, fmi2False, "momentum_plant_50_hz_new_torque_each_step");
     fifty_hertz(&library, xml, fmi2True, "momentum_plant_50_hz_new_torque_each_step_light_and_heat");
-    dynamics(&library, xml);
     free(xml);
     mercury_year(&library, arguments[3], "orbiter");
     mercury_year(&library, arguments[4], "messenger");

@@ -30,6 +30,8 @@ pub fn all() -> Outcome {
             .arg(&built.probe)
             .args([orbiter, messenger])
             .current_dir(&scratch))?;
+        let program = compile_c(&scratch, "bench_dynamics")?;
+        run(command(&program).arg(&built.library).current_dir(&scratch))?;
     }
     system(&built)?;
     study(&built)
