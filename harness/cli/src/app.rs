@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command, SchemaKind},
-    check, completions, info, interrupt,
+    check, completions, draw, info, interrupt,
     outcome::Outcome,
     pack, plan, run as simulation, study, wire,
 };
@@ -32,6 +32,7 @@ pub fn run() -> Outcome {
         Command::Run(arguments) => simulation::run(&arguments),
         Command::Wire(arguments) => wire::run(&arguments),
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
+        Command::Draw(arguments) => draw::run(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema(arguments) => {
             let schema = match arguments.kind {

@@ -9,6 +9,7 @@ mod check;
 mod child;
 mod coefficients;
 mod completions;
+mod draw;
 mod epoch;
 mod info;
 mod interrupt;

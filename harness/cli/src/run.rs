@@ -23,7 +23,7 @@ use subject::Subject;
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     if let Some(path) = &arguments.plot {
-        output::check_svg_path(path)?;
+        output::check_svg_path(path, "--plot")?;
     }
     let subject = Subject::open(&arguments.fmu)?;
     subject.check_options(arguments)?;

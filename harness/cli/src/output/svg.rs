@@ -32,12 +32,12 @@ fn group(name: &str) -> String {
 }
 
 /// Refuses a path that promises another kind of picture.
-pub fn check_path(path: &Path) -> Result<(), String> {
+pub fn check_path(path: &Path, option: &str) -> Result<(), String> {
     match path.extension() {
         _ if path == Path::new("-") => Ok(()),
         Some(extension) if extension.eq_ignore_ascii_case("svg") => Ok(()),
         _ => Err(format!(
-            "{}: found no SVG file's name, allowed: one that ends in .svg, or -: see --plot",
+            "{}: found no SVG file's name, allowed: one that ends in .svg, or -: see {option}",
             path.display()
         )),
     }

@@ -1,4 +1,4 @@
-//! `model.png`: the spacecraft's plates and panels, seen from sunward, below and aside; or a spinner's thrusters.
+//! `model.png`: the spacecraft's plates and panels, seen from sunward, above and aside; or a spinner's thrusters.
 //!
 //! A surface given by its outline is drawn as that polygon, any other as a square of its area; panels stand at angle 0.
 
@@ -7,90 +7,32 @@ mod spinner;
 
 use std::fmt::Write;
 
-use physics::{
-    spacecraft::{Polygon, Spacecraft, SunshadeModel},
-    spin::spinner::Spinner,
-};
+use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
 use resvg::{tiny_skia, usvg};
 
-use canvas::{HEIGHT, MARGIN, Vector, WIDTH, cross, dot, unit};
+use crate::draw::{
+    surface::{Finish, Surface, cell_lines, colour, surfaces},
+    vector::{Vector, cross, dot, unit},
+};
+use canvas::{HEIGHT, MARGIN, WIDTH};
 
-/// From the spacecraft to the viewer, body frame; -Y points to the Sun and -Z is drawn upwards.
-const VIEW: [f64; 3] = [0.52, -0.78, -0.35];
-const UP: [f64; 3] = [0.0, 0.0, -1.0];
+/// From the spacecraft to the viewer, body frame; -Y points to the Sun and +Z is drawn upwards.
+const VIEW: [f64; 3] = [0.52, -0.78, 0.35];
+const UP: [f64; 3] = [0.0, 0.0, 1.0];
 /// Where the light comes from in the picture.
-const LIGHT: [f64; 3] = [-0.25, -0.85, -0.46];
-
-/// A flat polygon in space.
-struct Surface {
-    corners: Vec<Vector>,
-    center: Vector,
-    normal: Vector,
-    /// Two directions in the plane that the grid of a solar panel follows.
-    grid: [Vector; 2],
-    cells: bool,
-}
+const LIGHT: [f64; 3] = [-0.25, -0.85, 0.46];
 
 /// Draws the spacecraft; `None` if the text describes no surface and no thruster.
 pub fn png(spacecraft_toml: &str) -> Option<Vec<u8>> {
     // A file that no reader takes has no picture; the library that packs it reports what is wrong.
     let svg = match Spacecraft::from_toml("", spacecraft_toml) {
-        Ok(spacecraft) => svg(&surfaces(&spacecraft)),
+        Ok(spacecraft) => svg(&surfaces(&spacecraft, |_| 0.0)),
         Err(_) => spinner::svg(&Spinner::parse("", spacecraft_toml).ok()?.thrusters),
     }?;
     let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).ok()?;
     let mut pixels = tiny_skia::Pixmap::new(WIDTH as u32, HEIGHT as u32)?;
     resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
     pixels.encode_png().ok()
-}
-
-fn surfaces(spacecraft: &Spacecraft) -> Vec<Surface> {
-    let outline = |polygon: &Option<Polygon>| {
-        let polygon = polygon.as_ref()?;
-        Some(polygon.vertices_m().iter().map(|vertex| (*vertex).into()).collect())
-    };
-    let plates = spacecraft.plates_body(SunshadeModel::Plates);
-    let plates = plates.iter().filter_map(|plate| {
-        let square = (plate.area_m2, plate.center_m.into());
-        Surface::new(outline(&plate.polygon), square, plate.normal.into(), None)
-    });
-    let panels = spacecraft.panels.iter().filter_map(|panel| {
-        let square = (panel.area_m2, panel.center_body_m.into());
-        let (normal, axis) = (panel.zero_normal_body.into(), panel.axis_body.into());
-        Surface::new(outline(&panel.polygon), square, normal, Some(axis))
-    });
-    plates.chain(panels).collect()
-}
-
-impl Surface {
-    /// With its outline, else a square of this area about this centre. Only a panel has an axis, and solar cells.
-    fn new(
-        outline: Option<Vec<Vector>>,
-        (area_m2, center_m): (f64, Vector),
-        normal: Vector,
-        axis: Option<Vector>,
-    ) -> Option<Self> {
-        // One edge of a square lies along the panel's axis, or across the plane of normal and Z.
-        let along =
-            axis.or_else(|| unit(cross(normal, UP))).or_else(|| unit(cross(normal, [1.0, 0.0, 0.0])))?;
-        let across = unit(cross(normal, along))?;
-        let corners = match outline {
-            Some(outline) => outline,
-            None => square(area_m2, center_m, along, across)?,
-        };
-        let share = 1.0 / corners.len() as f64;
-        let center = std::array::from_fn(|i| corners.iter().map(|corner| corner[i] * share).sum());
-        Some(Self { corners, center, normal, grid: [along, across], cells: axis.is_some() })
-    }
-}
-
-fn square(area_m2: f64, center: Vector, along: Vector, across: Vector) -> Option<Vec<Vector>> {
-    let half = area_m2.sqrt() / 2.0;
-    let corner = |(a, b): (f64, f64)| -> Vector {
-        std::array::from_fn(|i| center[i] + half * (a * along[i] + b * across[i]))
-    };
-    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner);
-    (half.is_finite() && half > 0.0).then(|| corners.to_vec())
 }
 
 fn svg(surfaces: &[Surface]) -> Option<String> {
@@ -131,19 +73,19 @@ fn svg(surfaces: &[Surface]) -> Option<String> {
                 format!("{x:.2},{y:.2}")
             })
             .collect();
-        let fill = colour(surface, view);
+        let fill = colour(surface, dot(surface.normal, view) > 0.0, LIGHT);
         let path = path.join(" ");
         let _ = write!(
             svg,
             "<polygon points=\"{path}\" fill=\"{fill}\" stroke=\"#2b3440\" stroke-width=\"1.4\" \
              stroke-linejoin=\"round\"/>"
         );
-        if surface.cells {
+        if surface.finish == Finish::Cells {
             let _ = write!(
                 svg,
                 "<clipPath id=\"panel{number}\"><polygon points=\"{path}\"/></clipPath>\
                  <g clip-path=\"url(#panel{number})\">{}</g>",
-                cell_lines(surface, &screen)
+                grid(surface, &screen)
             );
         }
     }
@@ -151,44 +93,11 @@ fn svg(surfaces: &[Surface]) -> Option<String> {
     Some(svg)
 }
 
-/// Front sides in the light are bright; cells are blue, cloth is yellowish white, backs are grey.
-fn colour(surface: &Surface, view: Vector) -> String {
-    let front = dot(surface.normal, view) > 0.0;
-    let light = unit(LIGHT).map_or(0.0, |light| dot(surface.normal, light)).max(0.0);
-    let (dark, bright) = match (surface.cells, front) {
-        (true, true) => ([0x16, 0x2c, 0x5c], [0x3f, 0x74, 0xc4]),
-        (false, true) => ([0xb0, 0xa5, 0x8c], [0xff, 0xf6, 0xe2]),
-        (_, false) => ([0x6f, 0x75, 0x7d], [0x8e, 0x95, 0x9e]),
-    };
-    let mix = |low: u8, high: u8| (f64::from(low) + (f64::from(high) - f64::from(low)) * light).round() as u8;
-    let [r, g, b]: [u8; 3] = std::array::from_fn(|i| mix(dark[i], bright[i]));
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
-/// The grid of a solar panel: nearly square cells over the rectangle around the outline.
-fn cell_lines(surface: &Surface, screen: &dyn Fn(Vector) -> (f64, f64)) -> String {
-    const CELLS: f64 = 25.0;
-    let [low, high] = [f64::min, f64::max].map(|pick| {
-        surface.grid.map(|direction| {
-            let along = surface.corners.iter().map(|corner| dot(*corner, direction));
-            along.reduce(pick).unwrap_or_default()
-        })
-    });
-    let size = [high[0] - low[0], high[1] - low[1]];
-    let cell = (size[0] * size[1] / CELLS).sqrt();
-    let offset = dot(surface.center, surface.normal);
-    let point = |a: f64, b: f64| -> Vector {
-        std::array::from_fn(|i| a * surface.grid[0][i] + b * surface.grid[1][i] + offset * surface.normal[i])
-    };
+/// The lines of a panel's grid.
+fn grid(surface: &Surface, screen: &dyn Fn(Vector) -> (f64, f64)) -> String {
     let mut path = String::new();
-    for axis in 0..2 {
-        let count = (size[axis] / cell).round().clamp(1.0, CELLS) as u32;
-        for k in 1..count {
-            let at = low[axis] + size[axis] * f64::from(k) / f64::from(count);
-            let ends = [low[1 - axis], high[1 - axis]];
-            let [from, to] = ends.map(|end| screen(if axis == 0 { point(at, end) } else { point(end, at) }));
-            let _ = write!(path, "M{:.2},{:.2}L{:.2},{:.2}", from.0, from.1, to.0, to.1);
-        }
+    for [from, to] in cell_lines(surface).into_iter().map(|line| line.map(screen)) {
+        let _ = write!(path, "M{:.2},{:.2}L{:.2},{:.2}", from.0, from.1, to.0, to.1);
     }
     format!(
         "<path d=\"{path}\" stroke=\"#c9d8f0\" stroke-opacity=\"0.55\" stroke-width=\"0.8\" fill=\"none\"/>"

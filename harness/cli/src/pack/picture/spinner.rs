@@ -5,7 +5,8 @@
 
 use std::fmt::Write;
 
-use super::canvas::{HEIGHT, MARGIN, Vector, WIDTH, dot, unit};
+use super::canvas::{HEIGHT, MARGIN, WIDTH};
+use crate::draw::vector::{Vector, dot, unit};
 
 /// Lengths as parts of the cylinder's radius.
 const NOZZLE: f64 = 0.16;

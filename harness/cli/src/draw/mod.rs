@@ -1,0 +1,122 @@
+//! `heliotorque draw`: a spacecraft's file as a picture, three views and a perspective.
+
+mod camera;
+mod labels;
+mod pane;
+mod pen;
+mod scene;
+mod sheet;
+pub mod surface;
+pub mod vector;
+
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use files::Destination;
+use physics::{
+    spacecraft::{MESSENGER_TOML, Panel, Spacecraft, SpacecraftError},
+    spin::spinner::Spinner,
+};
+use toml::de::DeTable;
+
+use crate::{
+    args::{Draw, PanelAngle, ViewKind},
+    outcome::Outcome,
+    output::check_svg_path,
+};
+use scene::Scene;
+use sheet::View;
+
+/// Where the shipped spacecraft is drawn.
+const DEFAULT_NAME: &str = "messenger";
+/// Keys that only a spinner's file has.
+const SPINNER_KEYS: [&str; 4] = ["thruster", "thrusters", "damper", "star_tracker"];
+
+/// Draws the file, or the shipped spacecraft.
+pub fn run(arguments: &Draw) -> Outcome {
+    let named = arguments.spacecraft.as_deref();
+    let stem = named.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
+    let stem = stem.unwrap_or_else(|| DEFAULT_NAME.to_owned());
+    let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.svg")));
+    check_svg_path(&path, "--output")?;
+    let file = named.map_or_else(|| format!("{DEFAULT_NAME}.toml"), |path| path.display().to_string());
+    let text = named.map_or_else(|| Ok(MESSENGER_TOML.to_owned()), files::read_text)?;
+    let scene = read(&file, &text, &arguments.angle)?;
+    let views: Vec<View> = View::ALL.into_iter().filter(|view| is_asked(*view, &arguments.view)).collect();
+    let svg = sheet::svg(&scene, &views).ok_or_else(|| {
+        format!("{file}: found no surface and no thruster with an extent, allowed: at least one to draw")
+    })?;
+    let inputs: Vec<&Path> = named.into_iter().collect();
+    let destination = Destination::open(&path, "--output", &inputs)?;
+    let is_stdout = destination.is_stdout();
+    destination.fill(|file| file.write_all(svg.as_bytes()))?;
+    let drawn = format!("{}: {}, {} parts", path.display(), scene.name, scene.parts.len());
+    if is_stdout {
+        terminal::note(&drawn)
+    } else {
+        terminal::print(&drawn)?
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// All views of a file; `None` where no reader takes it, as the library that packs it reports.
+pub fn svg(text: &str) -> Option<String> {
+    sheet::svg(&read("", text, &[]).ok()?, &View::ALL)
+}
+
+fn is_asked(view: View, asked: &[ViewKind]) -> bool {
+    let kind = match view {
+        View::Front => ViewKind::Front,
+        View::Side => ViewKind::Side,
+        View::Top => ViewKind::Top,
+        View::Perspective => ViewKind::Perspective,
+    };
+    asked.contains(&kind) || asked.contains(&ViewKind::All)
+}
+
+/// The scene of a spacecraft's or a spinner's file.
+fn read(file: &str, text: &str, angles: &[PanelAngle]) -> Result<Scene, Box<dyn std::error::Error>> {
+    let is_spinner =
+        SPINNER_KEYS.iter().any(|key| DeTable::parse_recoverable(text).0.get_ref().contains_key(*key));
+    if is_spinner {
+        let spinner = Spinner::parse(file, text).map_err(refusal)?;
+        return match angles {
+            [] => Ok(Scene::of_spinner(&spinner)),
+            [first, ..] => Err(no_panel(first, &[]).into()),
+        };
+    }
+    let spacecraft = Spacecraft::from_toml(file, text).map_err(refusal)?;
+    let mut angles_rad = vec![None; spacecraft.panels.len()];
+    for angle in angles {
+        let is_meant =
+            |panel: &Panel| angle.panel.as_ref().is_none_or(|name| name.eq_ignore_ascii_case(&panel.name));
+        let mut is_found = false;
+        for (panel, angle_rad) in
+            spacecraft.panels.iter().zip(&mut angles_rad).filter(|(panel, _)| is_meant(panel))
+        {
+            let _: &Panel = panel;
+            *angle_rad = Some(angle.angle_rad);
+            is_found = true;
+        }
+        if !is_found {
+            return Err(no_panel(angle, &spacecraft.panels).into());
+        }
+    }
+    Ok(Scene::of_spacecraft(&spacecraft, &angles_rad))
+}
+
+fn refusal(error: SpacecraftError) -> String {
+    format!("{error}\nsee `heliotorque check`")
+}
+
+fn no_panel(angle: &PanelAngle, panels: &[Panel]) -> String {
+    let found =
+        angle.panel.as_ref().map_or_else(|| "an angle".to_owned(), |name| format!("the panel {name:?}"));
+    let names: Vec<&str> = panels.iter().map(|panel| panel.name.as_str()).collect();
+    match names[..] {
+        [] => format!("--angle: found {found}, allowed: none, the file has no panels"),
+        _ => format!("--angle: found {found}, allowed: {}", names.join(", ")),
+    }
+}

@@ -1,0 +1,194 @@
+//! What a picture shows: surfaces, axes of rotation, centre of mass, and a legend; from a spacecraft or a spinner.
+
+use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
+
+use super::{
+    surface::{Finish, Surface, angle_of_file_rad, surfaces},
+    vector::{Vector, along, cross, unit},
+};
+
+/// A line about which something turns, right-handed.
+pub struct Axis {
+    pub center_m: Vector,
+    pub direction: Vector,
+    /// How far the line goes to either side.
+    pub half_length_m: f64,
+}
+
+/// An entry of the legend.
+pub struct Part {
+    /// The short sign in the picture: `3`, `P1`, `T10`.
+    pub sign: String,
+    pub name: String,
+    /// Area or force, and how it stands.
+    pub what: String,
+    /// Where its sign stands if not on its surface.
+    pub beside_m: Option<Vector>,
+}
+
+/// Everything that is drawn.
+pub struct Scene {
+    pub name: String,
+    pub surfaces: Vec<Surface>,
+    pub axes: Vec<Axis>,
+    pub center_of_mass_m: Vector,
+    /// Whether the Sun stands along -Y.
+    pub has_sun: bool,
+    pub parts: Vec<Part>,
+    /// What the picture leaves open, in whole sentences.
+    pub remarks: Vec<&'static str>,
+}
+
+impl Scene {
+    /// A spacecraft with its panels at these angles (by index, in rad), which default to what its file says.
+    pub fn of_spacecraft(spacecraft: &Spacecraft, angles_rad: &[Option<f64>]) -> Self {
+        let panels = &spacecraft.panels;
+        let angle_rad = |index: usize| {
+            let given = angles_rad.get(index).copied().flatten();
+            given.unwrap_or_else(|| panels.get(index).map_or(0.0, angle_of_file_rad))
+        };
+        let surfaces = surfaces(spacecraft, angle_rad);
+        let plates = spacecraft.plates_body(super::surface::shade_model(spacecraft));
+        let mut parts: Vec<Part> = plates
+            .iter()
+            .enumerate()
+            .map(|(k, plate)| Part::new((k + 1).to_string(), &plate.name, area(plate.area_m2)))
+            .collect();
+        let is_round = surfaces.iter().any(|surface| surface.finish == Finish::Facet);
+        if let Some(cylinder) =
+            spacecraft.sunshade.as_ref().and_then(|shade| shade.cylinder).filter(|_| is_round)
+        {
+            let area_m2 = 2.0 * cylinder.half_angle_rad * cylinder.radius_m * cylinder.height_m;
+            parts.push(Part::new("S".to_owned(), "sunshade", area(area_m2)));
+        }
+        parts.extend(panels.iter().enumerate().map(|(k, panel)| {
+            let angle_deg = (angle_rad(k).to_degrees() * 10.0).round() / 10.0;
+            let what = format!("{}, at {} deg", area(panel.area_m2), terminal::short(angle_deg + 0.0));
+            Part::new(format!("P{}", k + 1), &format!("panel {}", panel.name), what)
+        }));
+        let axes = panels.iter().enumerate().filter_map(|(k, panel)| {
+            let of_panel =
+                surfaces.iter().rev().find(|surface| surface.part + panels.len() == parts.len() + k)?;
+            let (center_m, direction): (Vector, Vector) =
+                (panel.center_body_m.into(), panel.axis_body.into());
+            let reach = |corner: &Vector| super::vector::dot(along(*corner, -1.0, center_m), direction).abs();
+            let reach_m = of_panel.corners.iter().map(reach).fold(0.0, f64::max);
+            Some(Axis { center_m, direction, half_length_m: 1.25 * reach_m })
+        });
+        let axes = axes.collect();
+        let polygons = plates.iter().map(|plate| plate.polygon.is_some());
+        let polygons: Vec<bool> =
+            polygons.chain(panels.iter().map(|panel| panel.polygon.is_some())).collect();
+        let mut remarks = Vec::new();
+        match (polygons.iter().any(|given| *given), polygons.iter().all(|given| *given)) {
+            (_, true) => {}
+            (true, false) => remarks.push("Surfaces without polygon_m are squares of their area."),
+            (false, false) => remarks.push("The file gives no outlines: surfaces are squares of their area."),
+        }
+        let at_angle = physics::spacecraft::with_panels(&spacecraft.mass_properties, panels, angle_rad);
+        Self {
+            name: spacecraft.name.clone(),
+            surfaces,
+            axes,
+            center_of_mass_m: at_angle.center_of_mass_body_m.into(),
+            has_sun: true,
+            parts,
+            remarks,
+        }
+    }
+
+    /// A spinner: its thrusters, on a cylinder through the outermost of them.
+    pub fn of_spinner(spinner: &Spinner) -> Self {
+        let thrusters = &spinner.thrusters;
+        let radius_of = |place: Vector| (place[0] * place[0] + place[1] * place[1]).sqrt();
+        let places: Vec<Vector> = thrusters.iter().map(|thruster| thruster.position_body_m.into()).collect();
+        let radius_m = places.iter().map(|place| radius_of(*place)).fold(0.0, f64::max);
+        let heights = |pick: fn(f64, f64) -> f64, from| places.iter().map(|place| place[2]).fold(from, pick);
+        let (low_m, high_m) = (heights(f64::min, f64::INFINITY), heights(f64::max, f64::NEG_INFINITY));
+        // Thrusters in one plane still need a body.
+        let missing_m = (0.3 * radius_m - (high_m - low_m)).max(0.0) / 2.0;
+        let mut surfaces = body(radius_m, low_m - missing_m, high_m + missing_m);
+        let mut parts = Vec::new();
+        for (index, thruster) in thrusters.iter().enumerate() {
+            let force: Vector = thruster.force_body_n.into();
+            let Some(jet) = unit(force.map(|x| -x)) else { continue };
+            let length_m = 0.28 * radius_m;
+            surfaces.extend(nozzle(places[index], jet, length_m, index));
+            let what = format!("{} N", terminal::short(thruster.force_body_n.norm()));
+            let mut part = Part::new(format!("T{}", index + 1), &thruster.name, what);
+            part.beside_m = Some(along(places[index], 1.55 * length_m, jet));
+            parts.push(part);
+        }
+        let axis = Axis {
+            center_m: [0.0, 0.0, (low_m + high_m) / 2.0],
+            direction: [0.0, 0.0, 1.0],
+            half_length_m: (high_m - low_m) / 2.0 + missing_m + 0.35 * radius_m,
+        };
+        Self {
+            name: spinner.name.clone(),
+            surfaces,
+            axes: vec![axis],
+            center_of_mass_m: [0.0; 3],
+            has_sun: false,
+            parts,
+            remarks: vec![
+                "The file gives no body: the cylinder reaches to the outermost thrusters. Nozzles point where the jet goes.",
+            ],
+        }
+    }
+
+    /// Corners of the box around all surfaces, body frame.
+    pub fn bounds_m(&self) -> Option<[Vector; 2]> {
+        let mut corners = self.surfaces.iter().flat_map(|surface| &surface.corners);
+        let first = *corners.next()?;
+        let bounds = corners.fold([first, first], |[low, high], corner| {
+            [
+                std::array::from_fn(|i| f64::min(low[i], corner[i])),
+                std::array::from_fn(|i| f64::max(high[i], corner[i])),
+            ]
+        });
+        bounds.iter().flatten().all(|x| x.is_finite()).then_some(bounds)
+    }
+}
+
+impl Part {
+    fn new(sign: String, name: &str, what: String) -> Self {
+        Self { sign, name: name.to_owned(), what, beside_m: None }
+    }
+}
+
+fn area(area_m2: f64) -> String {
+    format!("{} m²", terminal::short(area_m2))
+}
+
+/// Facets of a spinner's assumed body.
+fn body(radius_m: f64, low_m: f64, high_m: f64) -> Vec<Surface> {
+    const SIDES: u32 = 40;
+    let corner = |k: u32, z_m: f64| -> Vector {
+        let (sine, cosine) = (f64::from(k) * std::f64::consts::TAU / f64::from(SIDES)).sin_cos();
+        [radius_m * cosine, radius_m * sine, z_m]
+    };
+    let sides = (0..SIDES)
+        .map(|k| vec![corner(k, low_m), corner(k + 1, low_m), corner(k + 1, high_m), corner(k, high_m)]);
+    let upper = (0..SIDES).map(|k| corner(k, high_m)).collect();
+    let lower = (0..SIDES).rev().map(|k| corner(k, low_m)).collect();
+    let all =
+        sides.map(|corners| (corners, Finish::Facet)).chain([(upper, Finish::Plate), (lower, Finish::Plate)]);
+    all.filter_map(|(corners, finish)| Surface::facet(corners, finish, usize::MAX)).collect()
+}
+
+/// A cone from the throat to the exit.
+fn nozzle(throat_m: Vector, jet: Vector, length_m: f64, part: usize) -> Vec<Surface> {
+    const SIDES: u32 = 10;
+    let across = unit(cross(jet, [0.0, 0.0, 1.0])).or_else(|| unit(cross(jet, [1.0, 0.0, 0.0])));
+    let Some(first) = across else { return Vec::new() };
+    let second = cross(jet, first);
+    let exit_m = along(throat_m, length_m, jet);
+    let rim = |k: u32| {
+        let (sine, cosine) = (f64::from(k) * std::f64::consts::TAU / f64::from(SIDES)).sin_cos();
+        along(along(exit_m, 0.32 * length_m * cosine, first), 0.32 * length_m * sine, second)
+    };
+    let sides = (0..SIDES).map(|k| vec![throat_m, rim(k + 1), rim(k)]);
+    let all = sides.chain([(0..SIDES).map(rim).collect()]);
+    all.filter_map(|corners| Surface::facet(corners, Finish::Nozzle, part)).collect()
+}
