@@ -187,7 +187,7 @@ impl Pane<'_> {
             pen.arrow_head(from, tip, "#e69f00");
             let sun = (tip.0 + 13.0 * x, tip.1 + 13.0 * y);
             pen.sun(sun);
-            let beside = if x.abs() > 0.7 { (sun.0, sun.1 + 19.0) } else { (sun.0 + 26.0, sun.1) };
+            let beside = (sun.0 + 26.0 * x, sun.1 + 19.0 * y);
             pen.label(beside, NAME_SIZE, GREY, "Sun");
             labels.keep_off(&[from, sun]);
             labels.keep_off_sign(beside, 24.0);
@@ -232,7 +232,7 @@ impl Pane<'_> {
         let (across, along_axis) = (pixel(side), pixel(axis.direction));
         let length = (along_axis.0 * along_axis.0 + along_axis.1 * along_axis.1).sqrt().max(1e-9);
         let open = toward.abs().max(0.35) * RADIUS_PX / length * if toward < 0.0 { 1.0 } else { -1.0 };
-        // Right-handed about the axis, `side` goes over the viewer's side to -`side`.
+        // Right-handed about the axis, `side` goes over the viewer's side: from -`side` to `side`.
         (0..=STEPS)
             .map(|k| {
                 let (sine, cosine) =
@@ -261,17 +261,12 @@ impl Pane<'_> {
             if let Some(beside_m) = part.beside_m {
                 if !self.is_hidden(beside_m, outlines) {
                     let at = self.screen(beside_m);
-                    let around = [
-                        (0.0, 0.0),
-                        (0.0, -13.0),
-                        (0.0, 13.0),
-                        (14.0, 0.0),
-                        (-14.0, 0.0),
-                        (0.0, 24.0),
-                        (0.0, -24.0),
-                    ];
-                    let candidates = around.map(|(x, y)| (at.0 + x, at.1 + y));
-                    if let Some(at) = labels.place(&part.name, candidates, |_| true) {
+                    // Beside all surfaces if there is room.
+                    let is_bare = |at: Pixel| !outlines.iter().any(|outline| contains(outline, at));
+                    let placed = labels
+                        .place(&part.name, rings(at), is_bare)
+                        .or_else(|| labels.place(&part.name, rings(at), |_| true));
+                    if let Some(at) = placed {
                         pen.label(at, NAME_SIZE, INK, &part.name);
                     }
                 }
@@ -298,6 +293,17 @@ fn direction(from: Pixel, to: Pixel) -> Option<Pixel> {
     let (x, y) = (to.0 - from.0, to.1 - from.1);
     let length = (x * x + y * y).sqrt();
     (length > 6.0).then(|| (x / length, y / length))
+}
+
+/// A point and others around it, the near ones first.
+fn rings(at: Pixel) -> impl Iterator<Item = Pixel> {
+    let around = move |radius: f64| {
+        (0..16).map(move |k| {
+            let (sine, cosine) = (f64::from(k) * std::f64::consts::FRAC_PI_8).sin_cos();
+            (at.0 + 1.3 * radius * cosine, at.1 - radius * sine)
+        })
+    };
+    [0.0, 9.0, 17.0, 25.0].into_iter().flat_map(around)
 }
 
 /// Points of the rectangle around some, those near its middle first.

@@ -65,6 +65,10 @@ const TITLE_HEIGHT: f64 = 40.0;
 const HEADING_HEIGHT: f64 = 26.0;
 const FOOT_HEIGHT: f64 = 26.0;
 const MARGIN: f64 = 22.0;
+/// Height of a view beside what is drawn in it.
+const AROUND: f64 = HEADING_HEIGHT + FOOT_HEIGHT + 2.0 * MARGIN;
+/// Height of a view at least.
+const LEAST_HEIGHT: f64 = 190.0;
 const ROW: f64 = 18.0;
 const LEGEND_SIZE: f64 = 12.5;
 /// Entries of the legend at most.
@@ -75,15 +79,8 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
     let reach = Reach::of(scene)?;
     let columns = if views.len() == 1 { 1 } else { 2 };
     let grow = if views.len() == 1 { ALONE } else { 1.0 };
-    let (pane_width, pane_height) = (grow * PANE_WIDTH, grow * PANE_HEIGHT);
-    let rows = views.len().div_ceil(columns);
-    let width = pane_width * columns as f64;
-    let legend_top = TITLE_HEIGHT + pane_height * rows as f64;
-    let legend = Legend::of(scene, width);
-    let mut pen = Pen::new(width, legend_top + legend.height(), &scene.name);
-    pen.text((MARGIN, 27.0), 18.0, "start", &format!("fill=\"{INK}\" font-weight=\"bold\""), &scene.name);
-
-    let inside = (pane_width - 2.0 * MARGIN, pane_height - HEADING_HEIGHT - FOOT_HEIGHT - MARGIN);
+    let (pane_width, most_height) = (grow * PANE_WIDTH, grow * PANE_HEIGHT);
+    let inside = (pane_width - 2.0 * MARGIN, most_height - AROUND);
     let across_m = {
         let [low, high] = reach.ends_m();
         let diagonal = along(high, -1.0, low);
@@ -108,24 +105,32 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
     let is_parallel = |view: &View| *view != View::Perspective;
     let shared = views.iter().zip(&frames).filter(|(view, _)| is_parallel(view)).map(|(_, frame)| fit(frame));
     let shared = shared.fold(f64::INFINITY, f64::min);
+    let scales: Vec<f64> = views
+        .iter()
+        .zip(&frames)
+        .map(|(view, frame)| if is_parallel(view) { shared } else { fit(frame) })
+        .collect();
+    let heights: Vec<f64> =
+        frames.iter().zip(&scales).map(|(frame, scale)| frame.size.1 * scale + AROUND).collect();
+    let row_heights: Vec<f64> =
+        heights.chunks(columns).map(|row| row.iter().copied().fold(LEAST_HEIGHT, f64::max)).collect();
+    let width = pane_width * columns as f64;
+    let legend_top = TITLE_HEIGHT + row_heights.iter().sum::<f64>();
+    let legend = Legend::of(scene, width);
+    let mut pen = Pen::new(width, legend_top + legend.height(), &scene.name);
+    let bold = format!("fill=\"{INK}\" font-weight=\"bold\"");
+    pen.text((MARGIN, 27.0), 18.0, "start", &bold, &scene.name);
     for (index, ((view, camera), frame)) in views.iter().zip(&cameras).zip(&frames).enumerate() {
-        let (left, top) =
-            ((index % columns) as f64 * pane_width, TITLE_HEIGHT + (index / columns) as f64 * pane_height);
-        let pixels_per_m = if is_parallel(view) { shared } else { fit(frame) };
-        let center = (
-            left + pane_width / 2.0,
-            top + HEADING_HEIGHT + (pane_height - HEADING_HEIGHT - FOOT_HEIGHT) / 2.0,
-        );
+        let (row, pixels_per_m) = (index / columns, scales[index]);
+        let left = (index % columns) as f64 * pane_width;
+        let top = TITLE_HEIGHT + row_heights[..row].iter().sum::<f64>();
+        let pane_height = row_heights[row];
+        let inner_height = pane_height - HEADING_HEIGHT - FOOT_HEIGHT;
+        let center = (left + pane_width / 2.0, top + HEADING_HEIGHT + inner_height / 2.0);
         let middle = (center.0 - pixels_per_m * frame.middle.0, center.1 + pixels_per_m * frame.middle.1);
         let [heading, from] = view.heading(scene);
-        pen.text(
-            (left + MARGIN, top + 17.0),
-            14.0,
-            "start",
-            &format!("fill=\"{INK}\" font-weight=\"bold\""),
-            heading,
-        );
-        let beside = left + MARGIN + width_px(heading, 14.0) + 12.0;
+        pen.text((left + MARGIN, top + 17.0), 14.0, "start", &bold, heading);
+        let beside = left + MARGIN + 1.15 * width_px(heading, 14.0) + 10.0;
         pen.text((beside, top + 17.0), 13.0, "start", &format!("fill=\"{GREY}\""), from);
         Pane { scene, camera, middle, pixels_per_m, reach_m: &reach }.draw(&mut pen);
         if is_parallel(view) {

@@ -13,7 +13,8 @@ body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto
   color: light-dark(#262b33, #e2e6eb); background: light-dark(#fff, #181b20); }
 h1 { font-size: 1.9rem; margin: 0 0 .25rem; }
 h2 { font-size: 1.25rem; margin: 2.5rem 0 .75rem; }
-img { float: right; width: 15rem; border-radius: .5rem; margin: 0 0 1rem 2rem; }
+figure { margin: 0; }
+figure svg { max-width: 100%; height: auto; border-radius: .5rem; }
 table { border-collapse: collapse; width: 100%; font-size: .875rem; }
 th { text-align: left; font-weight: 600; }
 th, td { padding: .3rem .9rem .3rem 0; border-bottom: 1px solid light-dark(#e3e6ea, #31363f); vertical-align: top; }
@@ -36,8 +37,8 @@ const SECTIONS: [(Causality, &str, &str); 6] = [
     (Causality::Independent, "independent", "Independent variable"),
 ];
 
-/// The page; `sources` are quantities and by what they are computed.
-pub fn html(description: &Description, sources: &[(String, String)], picture: bool) -> String {
+/// The page; `sources` are quantities and by what they are computed, `drawing` an SVG of the spacecraft.
+pub fn html(description: &Description, sources: &[(String, String)], drawing: Option<&str>) -> String {
     let mut page = String::new();
     let title = escape(&description.model_name);
     let _ = write!(
@@ -46,14 +47,14 @@ pub fn html(description: &Description, sources: &[(String, String)], picture: bo
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
          <style>{STYLE}</style>\n</head>\n<body>\n"
     );
-    if picture {
-        page.push_str("<img src=\"../model.png\" alt=\"The spacecraft\">\n");
-    }
     let _ = writeln!(page, "<h1>{title}</h1>");
     if let Some(text) = &description.description {
         let _ = writeln!(page, "<p>{}</p>", escape(text));
     }
-    navigation(&mut page, description, sources);
+    navigation(&mut page, description, sources, drawing.is_some());
+    if let Some(svg) = drawing {
+        let _ = writeln!(page, "<h2 id=\"spacecraft\">Spacecraft</h2>\n<figure>{svg}</figure>");
+    }
     facts(&mut page, description);
     options(&mut page, description);
     for (causality, id, heading) in SECTIONS {
@@ -66,8 +67,12 @@ pub fn html(description: &Description, sources: &[(String, String)], picture: bo
     page
 }
 
-fn navigation(page: &mut String, description: &Description, sources: &[(String, String)]) {
-    page.push_str("<nav><a href=\"#facts\">Facts</a>");
+fn navigation(page: &mut String, description: &Description, sources: &[(String, String)], is_drawn: bool) {
+    page.push_str("<nav>");
+    if is_drawn {
+        page.push_str("<a href=\"#spacecraft\">Spacecraft</a>");
+    }
+    page.push_str("<a href=\"#facts\">Facts</a>");
     if has_options(description) {
         page.push_str("<a href=\"#options\">Options</a>");
     }

@@ -20,7 +20,7 @@ use model_description::Description;
 
 use files::{Destination, Entries};
 
-use crate::{args::Pack, outcome::Outcome};
+use crate::{args::Pack, draw, outcome::Outcome};
 use source::Source;
 
 /// A refusal, with the model that takes the file if there is another.
@@ -88,10 +88,10 @@ pub fn run(arguments: &Pack) -> Outcome {
     if let Some((name, text)) = timeline {
         entries.add(&format!("resources/{name}"), text.into_bytes())?;
     }
-    let picture = picture::png(&setup);
-    let page = documentation::html(&description, &described.sources, picture.is_some());
+    let drawing = draw::svg(&setup);
+    let page = documentation::html(&description, &described.sources, drawing.as_deref());
     entries.add("documentation/index.html", page.into_bytes())?;
-    if let Some(png) = picture {
+    if let Some(png) = picture::png(&setup) {
         entries.add("model.png", png)?;
     }
 
