@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::draw::options;
+
 /// The FMU whose library reads and runs new spacecraft unless another is named.
 pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
 
@@ -12,11 +14,6 @@ const PACK_EXAMPLE: &str = "\
 Example:
   heliotorque check my.toml                                  what is wrong with it, by line
   heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
-
-const DRAW_EXAMPLE: &str = "\
-Example:
-  heliotorque draw my.toml                                   writes my.svg, three views and a perspective
-  heliotorque draw my.toml --view perspective --angle +X=30deg --angle -X=-30deg --output turned.svg";
 
 const RUN_EXAMPLE: &str = "\
 Example:
@@ -57,8 +54,8 @@ pub enum Command {
     #[command(after_help = WIRE_EXAMPLE)]
     Wire(Wire),
     /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
-    #[command(after_help = DRAW_EXAMPLE)]
-    Draw(Draw),
+    #[command(after_help = options::EXAMPLE)]
+    Draw(options::Draw),
     /// Make an FMU of your own spacecraft; nothing is compiled
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),
@@ -121,55 +118,6 @@ pub struct Check {
     /// Show every check, not only the findings
     #[arg(long, short)]
     pub verbose: bool,
-}
-
-/// `heliotorque draw`.
-#[derive(Debug, Args)]
-pub struct Draw {
-    /// The spacecraft, a TOML file as for `pack`; otherwise the shipped MESSENGER. A surface with `polygon_m` is drawn as that
-    /// outline, any other as a square of its area about its centre
-    pub spacecraft: Option<PathBuf>,
-    /// Show these views only: front (from the Sun, -Y), side (from +X), top (from +Z), perspective, all
-    #[arg(
-        long,
-        value_enum,
-        value_name = "VIEWS",
-        value_delimiter = ',',
-        default_value = "all",
-        hide_possible_values = true
-    )]
-    pub view: Vec<ViewKind>,
-    /// Turn a panel to this angle, in deg or rad: +X=30deg; without a name every panel; repeatable. Otherwise panels stand as
-    /// the file says with the Sun along -Y
-    #[arg(long, value_name = "PANEL=ANGLE", value_parser = panel_angle, allow_hyphen_values = true)]
-    pub angle: Vec<PanelAngle>,
-    /// The SVG to write; otherwise the file's name with .svg, in this folder; - is the standard output
-    #[arg(long, short, value_name = "SVG")]
-    pub output: Option<PathBuf>,
-}
-
-/// `--view` of `draw`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ViewKind {
-    /// From -Y, where the Sun is
-    Front,
-    /// From +X
-    Side,
-    /// From +Z
-    Top,
-    /// From a corner
-    Perspective,
-    /// All of them
-    All,
-}
-
-/// An angle of one panel, or of all.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PanelAngle {
-    /// The panel's name.
-    pub panel: Option<String>,
-    /// Right-handed about its axis, in rad.
-    pub angle_rad: f64,
 }
 
 /// `heliotorque schema`.
@@ -418,30 +366,11 @@ fn span(text: &str) -> Result<f64, String> {
     }
 }
 
-/// An angle with its unit, in rad.
-fn any_angle(text: &str) -> Result<f64, String> {
-    let number = |unit: &str| text.trim().strip_suffix(unit)?.trim_end().parse::<f64>().ok();
-    let angle_rad = number("deg").map(f64::to_radians).or_else(|| number("rad"));
-    angle_rad
-        .filter(|angle_rad| angle_rad.is_finite())
-        .ok_or_else(|| "an angle carries its unit: 60deg, 1.2rad".to_owned())
-}
-
 /// A turn with its unit, in rad; none and more than half a turn are refused.
 fn angle(text: &str) -> Result<f64, String> {
-    match any_angle(text)? {
+    match options::angle(text)? {
         angle_rad if angle_rad != 0.0 && angle_rad.abs() < core::f64::consts::PI => Ok(angle_rad),
         _ => Err("allowed is more than 0 and less than 180 deg either way".to_owned()),
-    }
-}
-
-/// `panel=angle`, or an angle for every panel.
-fn panel_angle(text: &str) -> Result<PanelAngle, String> {
-    match text.rsplit_once('=') {
-        Some((panel, angle)) => {
-            Ok(PanelAngle { panel: Some(panel.trim().to_owned()), angle_rad: any_angle(angle)? })
-        }
-        None => Ok(PanelAngle { panel: None, angle_rad: any_angle(text)? }),
     }
 }
 

@@ -145,3 +145,60 @@ pub fn contains(outline: &[Flat], point: Flat) -> bool {
     }
     is_inside
 }
+
+#[cfg(test)]
+mod tests {
+    //! What is painted last is what a ray meets first.
+    use super::*;
+    use crate::draw::surface::surfaces;
+
+    const ORBITER: &str = include_str!("../../../../fmu-src/resources/examples/mercury-orbiter.toml");
+
+    #[test]
+    fn the_surface_painted_last_is_the_first_on_the_ray() {
+        let file = physics::spacecraft::Spacecraft::from_toml("", ORBITER).unwrap();
+        let all = surfaces(&file, |_| 0.6);
+        let mut compared = 0;
+        for (viewer, is_perspective) in [
+            ([0.52, -0.75, 0.42], true),
+            ([0.52, -0.75, -0.42], true),
+            ([-0.4, 0.8, 0.3], true),
+            ([0.9, 0.1, 0.2], false),
+            ([0.3, -0.2, -0.8], false),
+        ] {
+            let target_m = [0.1, -0.1, 0.05];
+            let camera = Camera::new(viewer, target_m, 6.5, is_perspective).unwrap();
+            let order = camera.painting_order(&all);
+            let outlines: Vec<Vec<Flat>> = all
+                .iter()
+                .map(|surface| surface.corners.iter().map(|corner| camera.flat(*corner)).collect())
+                .collect();
+            for (i, j) in (-60..60).flat_map(|i| (-30..30).map(move |j| (i, j))) {
+                let seen = (0.05013 * f64::from(i), 0.05007 * f64::from(j));
+                let painted = order.iter().rev().copied().find(|index| contains(&outlines[*index], seen));
+                // Without any projection: from the eye, or far away, through the point of the picture plane.
+                let plane = along(along(target_m, seen.0, camera.right), seen.1, camera.up);
+                let from = match camera.eye_m {
+                    Some(eye_m) => along(target_m, eye_m, camera.viewer),
+                    None => along(plane, 100.0, camera.viewer),
+                };
+                let ray = along(plane, -1.0, from);
+                let met = all.iter().enumerate().filter_map(|(index, surface)| {
+                    let part = -height_m(surface, from) / dot(surface.normal, ray);
+                    let at = along(along(from, part, ray), -1.0, surface.corners[0]);
+                    // Every outline of the file is a rectangle.
+                    let [a, b] = [1, 3].map(|k| along(surface.corners[k], -1.0, surface.corners[0]));
+                    let inside = [a, b].iter().all(|edge| {
+                        let share = dot(at, *edge) / dot(*edge, *edge);
+                        (0.0..=1.0).contains(&share)
+                    });
+                    (inside && part > 0.0).then_some((index, part))
+                });
+                let nearest = met.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(index, _)| index);
+                assert_eq!(painted, nearest, "{seen:?} from {viewer:?}");
+                compared += usize::from(nearest.is_some());
+            }
+        }
+        assert!(compared > 2000, "{compared}");
+    }
+}

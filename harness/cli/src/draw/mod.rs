@@ -2,6 +2,7 @@
 
 mod camera;
 mod labels;
+pub mod options;
 mod pane;
 mod pen;
 mod scene;
@@ -21,11 +22,8 @@ use physics::{
 };
 use toml::de::DeTable;
 
-use crate::{
-    args::{Draw, PanelAngle, ViewKind},
-    outcome::Outcome,
-    output::check_svg_path,
-};
+use crate::{outcome::Outcome, output::check_svg_path};
+use options::{Draw, PanelAngle, ViewKind};
 use scene::Scene;
 use sheet::View;
 
@@ -96,7 +94,6 @@ fn read(file: &str, text: &str, angles: &[PanelAngle]) -> Result<Scene, Box<dyn 
         for (panel, angle_rad) in
             spacecraft.panels.iter().zip(&mut angles_rad).filter(|(panel, _)| is_meant(panel))
         {
-            let _: &Panel = panel;
             *angle_rad = Some(angle.angle_rad);
             is_found = true;
         }

@@ -141,8 +141,11 @@ mod tests {
     fn an_outline_is_drawn_as_it_is() {
         let text = include_str!("../../../../fmu-src/resources/examples/mercury-orbiter.toml");
         let file = physics::spacecraft::Spacecraft::from_toml("", text).unwrap();
-        let drawn = surfaces(&file);
-        assert_eq!(drawn.len(), file.plates_body(SunshadeModel::Plates).len() + file.panels.len());
+        let drawn = surfaces(&file, |_| 0.0);
+        assert_eq!(
+            drawn.len(),
+            file.plates_body(physics::spacecraft::SunshadeModel::Plates).len() + file.panels.len()
+        );
         for (surface, panel) in drawn[drawn.len() - file.panels.len()..].iter().zip(&file.panels) {
             let vertices = panel.polygon.as_ref().unwrap().vertices_m();
             assert!(
@@ -152,7 +155,11 @@ mod tests {
                     .zip(vertices)
                     .all(|(corner, vertex)| *corner == [vertex.x, vertex.y, vertex.z])
             );
-            assert!(surface.cells && surface.corners.len() == vertices.len(), "{}", panel.name);
+            assert!(
+                surface.finish == Finish::Cells && surface.corners.len() == vertices.len(),
+                "{}",
+                panel.name
+            );
         }
     }
 

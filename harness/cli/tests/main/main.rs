@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod checks;
+mod drawings;
 mod files;
 mod hostile;
 mod packs;

@@ -131,7 +131,7 @@ fn shells_complete_commands_and_options() {
     {
         let script = run(&["completions", shell], 0);
         assert!(script.contains(begin), "{shell}: {script}");
-        for part in ["info", "pack", "per-plate", "coefficients", "timeline"] {
+        for part in ["info", "draw", "perspective", "pack", "per-plate", "coefficients", "timeline"] {
             assert!(script.contains(part), "{shell}: {script} lacks {part}");
         }
         assert!(!script.contains("in-child"), "{shell}: a hidden command shows");
@@ -166,7 +166,7 @@ fn every_shell_takes_the_commands_of_the_readme() {
 #[test]
 fn every_command_and_flag_has_help() {
     let all = run(&["--help"], 0);
-    for command in ["info", "check", "run", "wire", "pack", "schema", "study", "completions"] {
+    for command in ["info", "check", "run", "wire", "draw", "pack", "schema", "study", "completions"] {
         assert!(all.contains(command), "{command}");
         let help = run(&[command, "--help"], 0);
         let flags: Vec<&str> = help.lines().filter(|line| line.trim_start().starts_with('-')).collect();
