@@ -5,8 +5,6 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use crate::draw::options;
-
 /// The FMU whose library reads and runs new spacecraft unless another is named.
 pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
 
@@ -54,8 +52,7 @@ pub enum Command {
     #[command(after_help = WIRE_EXAMPLE)]
     Wire(Wire),
     /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
-    #[command(after_help = options::EXAMPLE)]
-    Draw(options::Draw),
+    Draw(crate::draw::options::Draw),
     /// Make an FMU of your own spacecraft; nothing is compiled
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),
@@ -368,7 +365,7 @@ fn span(text: &str) -> Result<f64, String> {
 
 /// A turn with its unit, in rad; none and more than half a turn are refused.
 fn angle(text: &str) -> Result<f64, String> {
-    match options::angle(text)? {
+    match crate::draw::options::angle(text)? {
         angle_rad if angle_rad != 0.0 && angle_rad.abs() < core::f64::consts::PI => Ok(angle_rad),
         _ => Err("allowed is more than 0 and less than 180 deg either way".to_owned()),
     }

@@ -91,10 +91,8 @@ fn read(file: &str, text: &str, angles: &[PanelAngle]) -> Result<Scene, Box<dyn 
         let is_meant =
             |panel: &Panel| angle.panel.as_ref().is_none_or(|name| name.eq_ignore_ascii_case(&panel.name));
         let mut is_found = false;
-        for (panel, angle_rad) in
-            spacecraft.panels.iter().zip(&mut angles_rad).filter(|(panel, _)| is_meant(panel))
-        {
-            *angle_rad = Some(angle.angle_rad);
+        for (index, _) in spacecraft.panels.iter().enumerate().filter(|(_, panel)| is_meant(panel)) {
+            angles_rad[index] = Some(angle.angle_rad);
             is_found = true;
         }
         if !is_found {

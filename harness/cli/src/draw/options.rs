@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 /// Shown with the help.
-pub const EXAMPLE: &str = "\
+const EXAMPLE: &str = "\
 Example:
   heliotorque draw my.toml                                   writes my.svg, three views and a perspective
   heliotorque draw my.toml --view perspective --angle +X=30deg --angle -X=-30deg --output turned.svg";
 
 /// `heliotorque draw`.
 #[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
 pub struct Draw {
     /// The spacecraft, a TOML file as for `pack`; otherwise the shipped MESSENGER. A surface with `polygon_m` is drawn as that
     /// outline, any other as a square of its area about its centre
