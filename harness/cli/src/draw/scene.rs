@@ -82,8 +82,17 @@ impl Scene {
         let mut remarks = Vec::new();
         match (polygons.iter().any(|given| *given), polygons.iter().all(|given| *given)) {
             (_, true) => {}
-            (true, false) => remarks.push("Surfaces without polygon_m are squares of their area."),
-            (false, false) => remarks.push("The file gives no outlines: surfaces are squares of their area."),
+            (true, false) => remarks.push("Plates and panels without polygon_m are squares of their area."),
+            (false, false) => {
+                remarks.push("The file gives no outlines: plates and panels are squares of their area.")
+            }
+        }
+        let follows = |(index, panel): (usize, &physics::spacecraft::Panel)| {
+            let is_given = angles_rad.get(index).is_some_and(Option::is_some);
+            panel.control == physics::spacecraft::PanelControl::SunOffset && !is_given
+        };
+        if panels.iter().enumerate().any(follows) {
+            remarks.push("Panels that follow the Sun stand as they do with it along -Y.");
         }
         let at_angle = physics::spacecraft::with_panels(&spacecraft.mass_properties, panels, angle_rad);
         Self {
@@ -157,8 +166,11 @@ impl Part {
     }
 }
 
+/// To four digits.
 fn area(area_m2: f64) -> String {
-    format!("{} m²", terminal::short(area_m2))
+    let decimals = (3.0 - area_m2.log10().floor()).clamp(0.0, 12.0) as usize;
+    let rounded_m2 = format!("{area_m2:.decimals$}").parse().unwrap_or(area_m2);
+    format!("{} m²", terminal::short(rounded_m2))
 }
 
 /// Facets of a spinner's assumed body.
