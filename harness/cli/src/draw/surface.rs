@@ -210,3 +210,41 @@ pub fn cell_lines(surface: &Surface) -> Vec<[Vector; 2]> {
     }
     lines
 }
+
+#[cfg(test)]
+mod tests {
+    //! Panels stand as the model that takes the light turns them.
+    use super::*;
+
+    #[test]
+    fn panels_turn_as_the_radiation_model_turns_them() {
+        let sailer = include_str!("../../../../fmu-src/resources/examples/solar-sailer.toml");
+        let file = Spacecraft::from_toml("", sailer).unwrap();
+        for angle_rad in [-2.0, -0.4, 0.7, 3.0] {
+            let all = surfaces(&file, |_| angle_rad);
+            for (panel, surface) in file.panels.iter().zip(&all[all.len() - file.panels.len()..]) {
+                let normal: Vector = panel.normal_body(angle_rad).into();
+                assert!((dot(normal, surface.normal) - 1.0).abs() < 1e-12, "{}", panel.name);
+                for corner in &surface.corners {
+                    assert!(
+                        dot(normal, along(*corner, -1.0, surface.center)).abs() < 1e-12,
+                        "{}",
+                        panel.name
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn panels_that_follow_the_sun_keep_their_offset() {
+        let file = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
+        let all = surfaces(&file, |index| angle_of_file_rad(&file.panels[index]));
+        let cells: Vec<&Surface> = all.iter().filter(|surface| surface.finish == Finish::Cells).collect();
+        assert_eq!(cells.len(), 2);
+        for surface in cells {
+            let offset_deg = dot(surface.normal, TO_SUN).acos().to_degrees();
+            assert!((offset_deg - 65.0).abs() < 1e-9, "{offset_deg}");
+        }
+    }
+}
