@@ -215,7 +215,6 @@ impl GyrostatMotion {
         }
     }
 
-    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
     /// the present end on).
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
@@ -344,9 +343,9 @@ impl GyrostatMotion {
         drive
     }
 
+    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// Sets the held rotor free that is driven off most, or holds the one that would move through its rest or beyond its
     /// capacity at once; whether there was one.
-    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     fn settle_one(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) -> bool {
         let mut worst: Option<(usize, f64, Rotor)> = None;
         for k in 0..self.rotors.len() {
@@ -374,6 +373,7 @@ impl GyrostatMotion {
         true
     }
 
+    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is told.
     fn first_event_s(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) -> f64 {
         let mut first: Option<(usize, f64, Rotor)> = None;
