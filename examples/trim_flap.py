@@ -21,7 +21,7 @@ def torques(telescope, flap_rad):
         telescope.set("sun.positionBody", [0.0, -SUN_M * np.cos(pitch), -SUN_M * np.sin(pitch)])
         telescope.set("panel[1].angle", flap_rad)
         telescope.step(1.0)
-        found.append(telescope.get("torque.total[1]"))
+        found.append(telescope.get("torque.solar[1]"))
     return np.array(found)
 
 

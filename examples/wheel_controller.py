@@ -6,7 +6,6 @@ from picture import finish, folders, panels
 
 dist, pictures = folders(__doc__)
 BANDWIDTH, DAMPING, STEP_S, STOP_S = 0.03, 0.8, 0.25, 600.0
-INERTIA = np.diag([199.6, 507.1, 484.9])  # kg m2
 TARGET = np.append(np.sin(np.radians(15.0)) * np.array([0.6, 0.0, 0.8]), np.cos(np.radians(15.0)))  # a turn by 30 deg
 
 
@@ -21,10 +20,11 @@ rows = []
 with Fmu(dist / "MomentumPlant.fmu", {"attitude.source": "free", "orbit.trueAnomaly": np.pi}) as plant:
     axes = np.array([plant.get(f"wheel[{k}].axis") for k in (1, 2, 3, 4)]).T
     share = np.linalg.pinv(axes)  # torque on the body to torque of each wheel
+    inertia = np.reshape(plant.get("spacecraft.inertia"), (3, 3))
     at_start = np.array(plant.get("momentum.inertial"))
     for _ in range(int(STOP_S / STEP_S)):
         q, rate = np.array(plant.get("estimate.q")), np.array(plant.get("estimate.rate"))
-        torque = -INERTIA @ (2 * BANDWIDTH**2 * error(q)[0] + 2 * DAMPING * BANDWIDTH * rate)
+        torque = -inertia @ (2 * BANDWIDTH**2 * error(q)[0] + 2 * DAMPING * BANDWIDTH * rate)
         # The body feels the opposite of what a motor gives its rotor.
         for k, motor in enumerate(share @ -torque, start=1):
             plant.set(f"wheel[{k}].torqueCommand", np.clip(motor, -0.08, 0.08))

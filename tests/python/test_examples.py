@@ -41,9 +41,9 @@ def numbers(pattern, text):
     return [float(number) for number in found] if isinstance(found, tuple) else float(found)
 
 
-def shipped(center_of_mass_m):
+def shipped(file, center_of_mass_m):
     """MESSENGER's plates and panels, for the flat-plate law in plain numpy."""
-    text = (RESOURCES / "messenger.toml").read_text(encoding="utf-8").replace("[[sunshade.plates]]", "[[plates]]")
+    text = (RESOURCES / file).read_text(encoding="utf-8").replace("[[sunshade.plates]]", "[[plates]]")
     return re.sub(r"(?m)^center_of_mass_m = .*$", f"center_of_mass_m = {center_of_mass_m}", text)
 
 
@@ -70,12 +70,16 @@ def test_five_lines(run, dist):
 
 def test_own_controller(run):
     """Light's torque by the flat-plate law; its error of pointing by the gain; momentum in the wheels grows at its rate."""
-    off, torque, momentum = numbers("off the Sun # arcsec, X torque # N.m, X momentum in the wheels # N.m.s", run("own_controller"))
+    off, torque, sunlight, momentum = numbers(
+        r"off the Sun # arcsec, X torque # N.m \(# of sunlight, .*?X momentum in the wheels # N.m.s", run("own_controller")
+    )
     pressure = 1361.0 / LIGHT_M_S * (AU_M / 4.5e10) ** 2
-    expected = solar_torque(shipped([0.0, 0.0, -0.0254]), np.array([0.0, -1.0, 0.0]), pressure, [0.0, 0.0])
-    assert torque == pytest.approx(expected[0], rel=1e-4)
     # Against a spring of inertia times bandwidth squared; the other axes have no torque.
-    assert off == pytest.approx(np.degrees(abs(torque) / (199.6 * 0.05**2)) * 3600.0, rel=1e-3)
+    turn = torque / (199.6 * 0.05**2)
+    assert off == pytest.approx(np.degrees(abs(turn)) * 3600.0, rel=1e-3)
+    sun = np.array([0.0, -np.cos(turn), np.sin(turn)])
+    expected = solar_torque(shipped("messenger-thermal.toml", [0.0, 0.0, -0.0254]), sun, pressure, [0.0, 0.0])
+    assert sunlight == pytest.approx(expected[0], rel=2e-6)
     # It began 10 deg off: the torque there is smaller, for a minute of the half hour.
     assert momentum == pytest.approx(torque * 1800.0, rel=0.03)
 
@@ -86,7 +90,8 @@ def test_commanded_attitude(run):
         "after # s held # N.m.s, at most # N.m.s with a turn in # s", run("commanded_attitude")
     )
     pressure = 1361.0 / LIGHT_M_S * (AU_M / 1.496e11) ** 2
-    torque = np.linalg.norm(solar_torque(shipped([0.0, 0.0, -0.0254]), np.array([0.0, -1.0, 0.0]), pressure, [0.0, 0.0]))
+    craft, sun = shipped("messenger.toml", [0.0, 0.0, -0.0254]), np.array([0.0, -1.0, 0.0])
+    torque = np.linalg.norm(solar_torque(craft, sun, pressure, [0.0, 0.0]))
     # The Sun moves by a third of a degree meanwhile.
     assert held == pytest.approx(torque * stop_s, rel=2e-3)
     assert turning == pytest.approx(torque * period_s / np.pi, rel=1e-2)
