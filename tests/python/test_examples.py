@@ -137,7 +137,7 @@ def test_spinner_manoeuvre(run):
     text = run("spinner_manoeuvre")
     sizes = "# pulses in # min turn the axis by # deg, nutation at most # deg, # deg at the end"
     uniform, tapered = (numbers(f"{name}: {sizes}", text) for name in ("uniform", "tapered"))
-    # Printed minutes are whole seconds of the next communication point, a pulse after the last turn and a drain of it.
+    # The burn is done a turn of 0.2 min after the last pulse begins.
     assert uniform[0] == 114 and uniform[1] == pytest.approx(22.6, abs=0.2) and uniform[2] == pytest.approx(2.0, abs=0.01)
     assert tapered[1] == pytest.approx(11.4, abs=0.2) and tapered[2] == pytest.approx(2.0, abs=0.01)
     assert tapered[4] < 0.0033 < uniform[4]
