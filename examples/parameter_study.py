@@ -1,5 +1,7 @@
 """A parameter study: which centre of mass collects least momentum in 30 days about Mercury, dumps left out."""
 
+import shutil
+
 import numpy as np
 from fmpy import extract, read_model_description, simulate_fmu
 from fmu import start_values
@@ -21,6 +23,7 @@ for offset_m in OFFSETS_M:
     )
     largest.append(abs(result["momentum.body[1]"]).max())
     last.append(result["momentum.body[1]"][-1])
+shutil.rmtree(reused["filename"], ignore_errors=True)
 
 slope, at_zero = np.polyfit(OFFSETS_M, last, 1)
 print(f"X momentum after 30 days {slope / 100:.4f} N.m.s per cm, none at Z = {-at_zero / slope * 100:.4f} cm")

@@ -10,6 +10,9 @@ from fmu import Fmu
 from picture import finish, folders, panels
 
 dist, pictures = folders(__doc__)
+fmu = dist / "SunshieldTelescope.fmu"
+if not fmu.exists():
+    raise SystemExit(f"{fmu} is missing. {__doc__}")
 SUN_M, WEEK_S = 1.51094e11, 7 * 86400.0
 PITCHES = np.radians(np.arange(-5.0, 45.1, 2.5))  # the Sun off -Y, turned about +X: the boresight 85 to 135 deg off it
 
@@ -25,7 +28,7 @@ def torques(telescope, flap_rad):
     return np.array(found)
 
 
-with Fmu(dist / "SunshieldTelescope.fmu") as telescope:
+with Fmu(fmu) as telescope:
     flaps = np.radians(np.arange(0.0, -40.1, -2.0))
     table = np.array([torques(telescope, flap) for flap in flaps])
     mean = table.mean(axis=1)
