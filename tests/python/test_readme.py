@@ -297,6 +297,13 @@ BENCHMARKS = {
     "MomentumPlant at 50 Hz, a new torque from outside at every step": [
         "momentum_plant_50_hz_new_torque_each_step", "momentum_plant_50_hz_new_torque_each_step_light_and_heat",
     ],
+    "MomentumPlant, `controlled` with the orbit phase's guidance, control periods of 20 ms a second, sunlight on its grid of 1 s": [
+        f"momentum_plant_controlled_periods_20ms_in_steps_of_{step}{light}"
+        for step in ("20ms", "1s", "60s") for light in ("", "_light_and_heat")
+    ],
+    "MomentumPlant, `free`, doSteps of 20 ms a second, each with four new wheel torques, attitude and rate read": [
+        "momentum_plant_free_steps_20ms_new_torques", "momentum_plant_free_steps_20ms_new_torques_light_and_heat",
+    ],
     "MomentumPlant, instantiate to first step": ["momentum_plant_first_step"],
     "getReal of 10 variables, setReal of 10 that change": ["get_10_reals", "set_10_reals"],
     "doStep and getReal of an empty model": ["empty_step_and_get"],
@@ -322,7 +329,7 @@ BENCHMARKS = {
 
 def test_every_figure_of_performance_is_a_line_of_bench():
     root = TESTS.parent
-    files = [root / "tests/c/bench.c", root / "xtask/src/bench.rs", *(root / "fmu-src/physics/examples").glob("bench_*.rs")]
+    files = [root / "tests/c/bench.c", root / "tests/c/bench_dynamics.c", root / "xtask/src/bench.rs", *(root / "fmu-src/physics/examples").glob("bench_*.rs")]
     text = "".join(file.read_text(encoding="utf-8") for file in files)
     # What is filled in when it prints may be anything: {name} and %s.
     literals = {literal.removeprefix("bench ").split(" ")[0] for literal in re.findall(r'"((?:bench )?[a-z0-9_{}%]+_[^"]*)"', text)}

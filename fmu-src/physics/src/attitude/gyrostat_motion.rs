@@ -25,6 +25,8 @@ const ORDER: usize = 10;
 const TERMS: usize = ORDER + 1;
 /// Terms below this share of the whole are rounding.
 const ROUNDING: f64 = 1e-17;
+/// How often each rotor may be set free or held at one time until all agree.
+const ROUNDS_A_ROTOR: usize = 3;
 /// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
 const GAUSS: [(f64, f64); 3] = [
     (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
@@ -213,7 +215,6 @@ impl GyrostatMotion {
         }
     }
 
-    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
     /// the present end on).
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
@@ -228,14 +229,7 @@ impl GyrostatMotion {
                 Some(turning) => (turning, relative_n_m_s),
                 None => (it.rotor, relative_n_m_s),
             };
-            let at_capacity = relative_n_m_s.abs() >= wheel.capacity_n_m_s * (1.0 - 4.0 * f64::EPSILON);
-            let turns = matches!(rotor, Rotor::Turning { .. });
-            let pushed_on = !motors[k].failed && motors[k].torque_n_m * relative_n_m_s > 0.0;
-            it.rotor = if turns && at_capacity && pushed_on {
-                Rotor::Held { momentum_n_m_s: relative_n_m_s }
-            } else {
-                rotor
-            };
+            it.rotor = rotor;
             it.axial[0] = relative_n_m_s + carried;
         }
         (self.start_s, self.load) = (start_s, *load);
@@ -245,9 +239,9 @@ impl GyrostatMotion {
         self.momentum_body[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
         let longest_s = limit_s - start_s;
         self.build(gyrostat, motors, longest_s);
-        // Each round sets at least one more rotor free.
-        for _ in 0..self.rotors.len() {
-            if !self.release(gyrostat, motors) {
+        // One rotor after another, as each that is set free or held changes what drives the others.
+        for _ in 0..ROUNDS_A_ROTOR * self.rotors.len() {
+            if !self.settle_one(gyrostat, motors) {
                 break;
             }
             self.build(gyrostat, motors, longest_s);
@@ -350,23 +344,33 @@ impl GyrostatMotion {
     }
 
     #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
-    /// Sets held rotors free that motor and body drive off; whether there was one.
-    fn release(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) -> bool {
-        let mut released = false;
+    /// Sets the held rotor free that is driven off most, or holds the one that would move through its rest or beyond its
+    /// capacity at once; whether there was one.
+    fn settle_one(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) -> bool {
+        let mut worst: Option<(usize, f64, Rotor)> = None;
         for k in 0..self.rotors.len() {
-            let (wheel, motor) = (&gyrostat.wheels()[k], &motors[k]);
-            let Rotor::Held { momentum_n_m_s } = self.rotors[k].rotor else { continue };
-            let drive = self.drive_n_m(wheel, motor, momentum_n_m_s)[0];
-            if wheel.locked || !is_driven_off(wheel, motor, momentum_n_m_s, drive) {
-                continue;
+            let (wheel, motor, it) = (&gyrostat.wheels()[k], &motors[k], &self.rotors[k]);
+            let found = match it.rotor {
+                Rotor::Held { .. } if wheel.locked => None,
+                Rotor::Held { momentum_n_m_s } => {
+                    let drive = self.drive_n_m(wheel, motor, momentum_n_m_s)[0];
+                    driven_off(wheel, motor, momentum_n_m_s, drive)
+                }
+                Rotor::Turning { direction } => {
+                    let relative = it.axial[0] - wheel.carried_n_m_s(&self.rate[0]);
+                    let speeding_up = it.axial[1] - wheel.carried_n_m_s(&self.rate[1]);
+                    held_back(wheel, motor, direction, relative, speeding_up)
+                }
+            };
+            if let Some((excess, rotor)) = found
+                && worst.is_none_or(|(_, most, _)| excess > most)
+            {
+                worst = Some((k, excess, rotor));
             }
-            released = true;
-            let at_rest = momentum_n_m_s == 0.0;
-            let direction = if at_rest { 1.0_f64.copysign(drive) } else { momentum_n_m_s.signum() };
-            let it = &mut self.rotors[k];
-            it.rotor = Rotor::Turning { direction };
         }
-        released
+        let Some((k, _, rotor)) = worst else { return false };
+        self.rotors[k].rotor = rotor;
+        true
     }
 
     #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
@@ -469,13 +473,40 @@ impl GyrostatMotion {
     }
 }
 
-/// Whether a held rotor is driven off its speed by `drive_n_m`.
-fn is_driven_off(wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64, drive_n_m: f64) -> bool {
-    if held_n_m_s == 0.0 {
-        drive_n_m.abs() > wheel.coulomb_friction_n_m
+/// By how much a held rotor is driven off its speed, in N m, and how it then turns.
+fn driven_off(wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64, drive_n_m: f64) -> Option<(f64, Rotor)> {
+    let excess_n_m = if held_n_m_s == 0.0 {
+        drive_n_m.abs() - wheel.coulomb_friction_n_m
+    } else if motor.failed || motor.torque_n_m * held_n_m_s <= 0.0 {
+        // No motor holds it.
+        f64::INFINITY
     } else {
-        motor.failed || motor.torque_n_m * held_n_m_s <= 0.0 || drive_n_m * held_n_m_s < 0.0
+        -drive_n_m * held_n_m_s.signum()
+    };
+    let direction = if held_n_m_s == 0.0 { drive_n_m } else { held_n_m_s };
+    (excess_n_m > 0.0).then(|| (excess_n_m, Rotor::Turning { direction: 1.0_f64.copysign(direction) }))
+}
+
+/// By how much a rotor that turns is driven through its rest or beyond its capacity, in N m, and how it is held there.
+fn held_back(
+    wheel: &ReactionWheel,
+    motor: &Motor,
+    direction: f64,
+    relative_n_m_s: f64,
+    speeding_up_n_m: f64,
+) -> Option<(f64, Rotor)> {
+    let rounding = 4.0 * f64::EPSILON;
+    let at_capacity = relative_n_m_s.abs() >= wheel.capacity_n_m_s * (1.0 - rounding);
+    let outward_n_m = speeding_up_n_m * relative_n_m_s.signum();
+    if at_capacity && !motor.failed && motor.torque_n_m * relative_n_m_s > 0.0 && outward_n_m > 0.0 {
+        return Some((outward_n_m, Rotor::Held { momentum_n_m_s: relative_n_m_s }));
     }
+    let backward_n_m = -speeding_up_n_m * direction;
+    let at_rest = relative_n_m_s.abs() <= rounding * wheel.capacity_n_m_s;
+    if at_rest && wheel.coulomb_friction_n_m > 0.0 && backward_n_m > 0.0 {
+        return Some((backward_n_m, Rotor::Held { momentum_n_m_s: 0.0 }));
+    }
+    None
 }
 
 fn polynomial(terms: &[f64], at: f64) -> f64 {

@@ -79,9 +79,14 @@ impl DisturbanceInterval {
             loads[at] = line(&|it| it.loads[effect].force_body_n);
             loads[at + 1] = line(&|it| it.loads[effect].torque_body_n_m);
         }
-        let lit = line(&|it| Vector3::repeat(it.instant.lit_fraction));
-        let to_sun = line(&|it| it.instant.geometry.to_sun.position_m.normalize());
-        Ok(Self { start_s, end_s, loads, to_sun, lit_fraction: lit.map(|it| it.x) })
+        // The Sun is seen from the start on, however long the interval is.
+        let begin = plant.instant(start_s);
+        let (now, then) = (&begin, &second.instant);
+        let elapsed_s = NODES[1] * span_s;
+        let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
+        let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
+        let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
+        Ok(Self { start_s, end_s, loads, to_sun, lit_fraction })
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.

@@ -25,10 +25,7 @@ pub fn sensors(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, st
     let at_step = &knowns![&inputs.attitude, &failed].only_if(has_sensors);
     let fields = v.sun_sensor.iter().map(|sensor| knowns![sensor.axis, sensor.field_of_view]);
     let eclipse = knowns![v.planet.radius, v.eclipse.method];
-    let solver = &v.solver;
-    let linear = knowns![solver.dynamics_step, solver.disturbance_step, solver.disturbance_tolerance];
-    let seen =
-        &knowns![&start.attitude, failed, fields.collect::<Knowns>(), eclipse, linear].only_if(has_sensors);
+    let seen = &knowns![&start.attitude, failed, fields.collect::<Knowns>(), eclipse].only_if(has_sensors);
     let noise = v.sun_sensor.iter().map(|sensor| sensor.noise).collect::<Knowns>();
     let drawn = knowns![noise, v.noise.seed, v.control.rate].only_if(has_sensors);
     table.output(v.sun.sensed_valid, at_step, seen);

@@ -109,8 +109,8 @@ fn light_and_loads(
         surface.day_temperature,
     ];
     // The same holds for all that acts in controlled and free flight, which is linear in time over an interval that ends
-    // with the stretch of light.
-    let linear = &knowns![fitted, v.solver.dynamics_step];
+    // with the stretch of light, the body turning on through it.
+    let linear = &knowns![fitted, v.solver.dynamics_step, v.start.rate];
     let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, linear];
     let solar = &knowns![by_sun, shade];
     let albedo = &knowns![&start.attitude, reflected, shade, linear];

@@ -110,8 +110,8 @@ fn wheels(bench: &Plant, random: &mut RandomNumbers, is_flown: bool, values: &mu
         let capacity_n_m_s = bench.real(values, &name("capacity"));
         let share = match (10.0 * random.next()) as i32 {
             _ if is_locked || !is_flown => 0.0,
-            0 => 1.0,
-            1 => 0.0,
+            0..=2 => 1.0,
+            3 => 0.0,
             _ => random.between(-1.0, 1.0),
         };
         bench.put(values, &name("startMomentum"), share * capacity_n_m_s);

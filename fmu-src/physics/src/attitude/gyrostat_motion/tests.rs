@@ -303,3 +303,68 @@ fn impossible_bodies_are_refused() {
     light[1].inertia_kg_m2 = 0.0;
     assert!(told(light).contains("wheel[2].inertia"));
 }
+
+#[test]
+fn no_wheels_make_the_motion_stand_still() {
+    // Rest, breakaway, capacity and their edges, drawn at random: no second takes segments without end.
+    let mut seed = 12345_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for case in 0..1_000 {
+        let count = 1 + (4.0 * random()) as usize;
+        let wheels: Vec<_> = (0..count)
+            .map(|_| {
+                let axis = Vector3::new(random() - 0.5, random() - 0.5, random() - 0.5);
+                ReactionWheel {
+                    inertia_kg_m2: 0.005 + 0.045 * random(),
+                    capacity_n_m_s: [8.0, 1e-3, 0.1][(3.0 * random()) as usize],
+                    coulomb_friction_n_m: if random() < 0.5 { 1e-5 * 100_f64.powf(random()) } else { 0.0 },
+                    viscous_friction_n_m_s: if random() < 0.5 { 1e-6 * 100_f64.powf(random()) } else { 0.0 },
+                    locked: random() < 0.1,
+                    ..wheel(axis)
+                }
+            })
+            .collect();
+        let inertia = if random() < 0.3 { [1.0, 1.5, 1.2] } else { INERTIA };
+        let craft = Gyrostat::new(Matrix3::from_diagonal(&inertia.into()), wheels).unwrap();
+        let shares: Vec<f64> = (0..count).map(|_| [1.0, 0.0, -1.0, 0.3][(4.0 * random()) as usize]).collect();
+        let held = |k: usize| {
+            let wheel = &craft.wheels()[k];
+            if wheel.locked { 0.0 } else { shares[k] * wheel.capacity_n_m_s }
+        };
+        let rate = Vector3::new(random() - 0.5, random() - 0.5, random() - 0.5) * 0.02;
+        let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, held);
+        let mut momenta: Vec<f64> = (0..count).map(held).collect();
+        for second in 1..=20 {
+            let motors: Vec<_> = (0..count)
+                .map(|_| {
+                    let torque_n_m = [0.05, -0.05, 1e-4, 0.0, 2e-5][(5.0 * random()) as usize];
+                    let failed = random() < 0.1;
+                    Motor { torque_n_m: if failed { 0.0 } else { torque_n_m }, failed }
+                })
+                .collect();
+            let torque = Vector3::new(random() - 0.5, random() - 0.5, random() - 0.5) * 0.02;
+            let load = BodyLoad { torque_body_n_m: [torque, torque * 0.1], ..BodyLoad::default() };
+            let (end_s, mut segments) = (f64::from(second), 0);
+            while motion.end_s() < end_s {
+                motion.advance(&craft, &motors, &load, end_s);
+                segments += 1;
+                assert!(segments < 2_000, "case {case}, at {}: {motors:?} {craft:?}", motion.end_s());
+            }
+            let at = motion.at(&craft, end_s);
+            for (k, wheel) in craft.wheels().iter().enumerate() {
+                let found = motion.rotor_n_m_s(&craft, k, end_s, &at);
+                // No motor drives a rotor beyond; a body that turns may.
+                let driven = motors[k].torque_n_m * found > 0.0 && momenta[k].abs() <= wheel.capacity_n_m_s;
+                let most = wheel.capacity_n_m_s * (1.0 + 1e-9);
+                assert!(
+                    !driven || wheel.locked || found.abs() <= most,
+                    "case {case}, wheel {k}: {found} of {most}"
+                );
+                momenta[k] = found;
+            }
+        }
+    }
+}
