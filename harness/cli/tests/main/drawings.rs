@@ -69,6 +69,7 @@ fn every_shipped_spacecraft_is_drawn_with_its_names() {
         ("messenger-thermal.toml", &["plates", "panels"]),
         ("examples/mercury-orbiter.toml", &["plates", "panels"]),
         ("examples/solar-sailer.toml", &["plates", "panels"]),
+        ("examples/sunshield-telescope.toml", &["plates", "panels"]),
         ("ace.toml", &["thruster"]),
     ] {
         let path = format!("{RESOURCES}/{file}");
