@@ -314,7 +314,12 @@ fn measure(text: &str, rounds: usize, shapes: bool) {
         }
         let is_flown = is_flown(&bench, &values);
         // The number of a sample counts from zero.
-        let start_s = if random.next() < 0.5 { 0.0 } else { random.between(0.0, 9.0) };
+        let start_s = match random.next() {
+            share if share < if is_flown { 0.2 } else { 0.5 } => 0.0,
+            // Not long before the next sample of guidance.
+            _ if is_flown => random.whole(0, 8) + random.between(0.9, 1.0),
+            _ => random.between(0.0, 9.0),
+        };
         others.extend([1e-3, 100.0].map(|size_n_m_s| limits(&bench, &values, size_n_m_s)));
         for edge in bench.edges_at_start(&values, &others, start_s) {
             bench.look_at_start_edge(&edge, start_s);

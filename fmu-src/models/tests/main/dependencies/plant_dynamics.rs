@@ -36,9 +36,9 @@ pub fn redraw(bench: &Plant, random: &mut RandomNumbers, is_flown: bool, values:
 pub fn step_s(bench: &Plant, random: &mut RandomNumbers, start_s: f64, values: &Tables) -> f64 {
     let rate_hz = bench.real(values, "control.rate");
     match (10.0 * random.next()) as i32 {
-        0 => random.between(0.1, 2.0),
-        1..=5 => start_s.floor() + random.whole(1, 2) - start_s,
-        _ => ((start_s * rate_hz).floor() + random.whole(1, 60)) / rate_hz - start_s,
+        0 => random.between(0.1, 1.0),
+        1..=5 => start_s.floor() + 1.0 - start_s,
+        _ => ((start_s * rate_hz).floor() + random.whole(1, 6)) / rate_hz - start_s,
     }
 }
 
