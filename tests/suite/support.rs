@@ -10,7 +10,7 @@ use client::{InProcess, Names};
 use fmi_export::{Entry, Library, Status};
 use model_description::{BaseType, Description};
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
-use probe::{AllTypes, Empty, Panicking};
+use probe::{AllTypes, Empty, Panicking, RigidBody};
 
 /// Every model at hand.
 pub static LIBRARY: Library = Library {
@@ -18,6 +18,7 @@ pub static LIBRARY: Library = Library {
         Entry::of::<Empty>(),
         Entry::of::<AllTypes>(),
         Entry::of::<Panicking>(),
+        Entry::of::<RigidBody>(),
         Entry::of::<MomentumPlant>(),
         Entry::of::<SpinPlant>(),
         Entry::of::<DisturbanceTorque>(),

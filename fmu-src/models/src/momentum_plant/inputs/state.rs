@@ -3,6 +3,7 @@
 use fmi_export::{Enumeration, Failure, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
+use physics::attitude::control::SunSensor;
 use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
 use physics::guidance::system::CommandKind as Kind;
@@ -62,6 +63,9 @@ pub struct PlantState {
     /// Cache of what parameters say about dynamics and control.
     #[serde(skip)]
     pub dynamics_settings: Option<DynamicsSettings>,
+    /// Cache of the Sun sensors.
+    #[serde(skip)]
+    pub sun_sensors: Option<Vec<SunSensor>>,
     /// Cache of the distribution of momentum over ideal wheels; none unless they span all directions.
     #[serde(skip)]
     pub wheels: Option<Option<WheelArray>>,
@@ -169,6 +173,7 @@ impl PlantState {
             configuration: None,
             light: None,
             dynamics_settings: None,
+            sun_sensors: None,
             wheels: None,
         };
         if is_commanded(context, values) {

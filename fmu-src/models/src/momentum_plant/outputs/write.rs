@@ -118,15 +118,15 @@ pub fn write_ideal(
     values.set_vector(v.estimate.q, Attitude::from_rotation(&frame.inertial_from_body).quaternion(None));
     values.set_vector(v.estimate.rate, frame.rate_body_rad_s.into());
     values.set_boolean(v.estimate.valid, !values.boolean(v.star_tracker.failed));
-    let sensors = dynamics::sun_sensors(context, values)?;
+    if state.sun_sensors.is_none() {
+        state.sun_sensors = Some(dynamics::sun_sensors(context, values)?);
+    }
+    let sensors = state.sun_sensors.as_deref().unwrap_or_default();
     let failed = |k: usize| v.sun_sensor.get(k).is_some_and(|sensor| values.boolean(sensor.failed));
     let seed = values.integer(v.noise.seed).unsigned_abs().into();
     let sample = sample_number(time_s, values.real(v.control.rate));
-    let seen = if state.waiting {
-        None
-    } else {
-        sensed_sun(&sensors, failed, sun_body, *lit_fraction, seed, sample)
-    };
+    let seen =
+        if state.waiting { None } else { sensed_sun(sensors, failed, sun_body, *lit_fraction, seed, sample) };
     write_sensed_sun(context, values, seen);
     Ok(())
 }

@@ -128,6 +128,23 @@ impl<M: Model> Bench<M> {
         }
     }
 
+    /// Leaves aside what another craft declares too, where its own search shows it.
+    pub fn with_shown(mut self, other: &Self) -> Self {
+        let names = |bench: &Self, pair: &(usize, usize)| {
+            let name = |at: usize| bench.variables[at].name.clone();
+            (name(pair.0), name(pair.1))
+        };
+        let theirs = &other.description.structure;
+        let shown = |left: &Pairs, by: &[Unknown]| -> Pairs {
+            let declared_there: BTreeSet<_> = declared(by).iter().map(|pair| names(other, pair)).collect();
+            left.iter().filter(|pair| !declared_there.contains(&names(&self, pair))).copied().collect()
+        };
+        let in_steps = shown(&self.left_in_steps, &theirs.outputs);
+        let at_start = shown(&self.left_at_start, &theirs.initial_unknowns);
+        (self.left_in_steps, self.left_at_start) = (in_steps, at_start);
+        self
+    }
+
     /// Unknowns that change seldom, by the beginning of their names, each with a quantity it is computed from: a known that
     /// was seen to move the quantity counts as seen to move the unknown, once the unknown was seen to move at all.
     pub fn with_carriers(mut self, carriers: &[(&'static str, &'static str)]) -> Self {

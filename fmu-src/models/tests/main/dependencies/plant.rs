@@ -78,6 +78,7 @@ const CARRIERS: &[(&str, &str)] = &[
     ("torque.", "attitude.q"),
     ("force.", "attitude.q"),
     ("panel[", "attitude.q"),
+    ("plate[", "attitude.q"),
     ("estimate.valid", "estimate.q"),
     ("wheel", "attitude.q"),
     ("wheel", "wheel.momentum"),
@@ -296,6 +297,9 @@ fn limits(bench: &Plant, values: &Tables, size_n_m_s: f64) -> Tables {
 /// Starts and flights from drawn configurations, and from where a flag is about to change.
 fn measure(text: &str, rounds: usize, shapes: bool) {
     let mut bench = Plant::new(text).with_carriers(CARRIERS);
+    if text != MomentumPlant::DEFAULT_SETUP {
+        bench = bench.with_shown(&Plant::new(MomentumPlant::DEFAULT_SETUP));
+    }
     let mut random = RandomNumbers(11);
     let mut flown = 0;
     for round in 0..rounds {
@@ -375,7 +379,7 @@ fn measure(text: &str, rounds: usize, shapes: bool) {
                 bench.look_at_step_edge(&edge);
             }
         }
-        if round > 40 && round % 8 == 0 && bench.is_done() {
+        if round > 160 && round % 8 == 0 && bench.is_done() {
             break;
         }
     }
