@@ -103,7 +103,7 @@ impl Model for MomentumPlant {
             Some(configuration) if !changed => configuration,
             previous => {
                 let configuration = inputs::refreshed(context, values, state, previous)?;
-                outputs::write_calculated(context, values, &configuration);
+                outputs::write_calculated(context, values, state, &configuration);
                 configuration
             }
         };
@@ -213,7 +213,7 @@ fn begin(
     flyable(&evaluation, &state.integrator.totals(time_s), time_s)?;
     outputs::write_plates(context, values, state, &configuration, time_s)?;
     let totals = state.integrator.totals(time_s);
-    outputs::write_calculated(context, values, &configuration);
+    outputs::write_calculated(context, values, state, &configuration);
     outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
     outputs::write_ideal(context, values, state, &evaluation, &totals, time_s)?;
     state.configuration = Some(configuration);
@@ -227,7 +227,7 @@ fn wait(context: &Plan<'_>, values: &mut Values, state: &mut PlantState, time_s:
     let totals = start_totals(context, values, &evaluation);
     state.integrator = MomentumIntegrator::new(time_s, totals);
     outputs::write_plates(context, values, state, &configuration, time_s)?;
-    outputs::write_calculated(context, values, &configuration);
+    outputs::write_calculated(context, values, state, &configuration);
     outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
     outputs::write_ideal(context, values, state, &evaluation, &totals, time_s)?;
     Ok(())

@@ -86,7 +86,7 @@ pub fn begin(
     let begun = AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held);
     state.dynamics = Some(Box::new(begun));
     state.take_first_command(context, values, attitude, time_s)?;
-    outputs::write_calculated(context, values, &configuration);
+    outputs::write_calculated(context, values, state, &configuration);
     // The sample at the start is taken anew by the first step, with its inputs.
     let begun = state.dynamics.clone();
     let over_time = InputsOverTime::held();
@@ -123,7 +123,7 @@ pub fn step(
         Some(known) => known,
         None => {
             let configuration = inputs::configuration(context, values, state)?;
-            outputs::write_calculated(context, values, &configuration);
+            outputs::write_calculated(context, values, state, &configuration);
             let settings = dynamics::settings(context, values, &configuration)?;
             (configuration, settings)
         }

@@ -199,7 +199,12 @@ pub fn write_plates(
 }
 
 /// Writes what follows from parameters alone.
-pub fn write_calculated(context: &Plan<'_>, values: &mut Values, configuration: &Configuration) {
+pub fn write_calculated(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    configuration: &Configuration,
+) {
     let spacecraft = &context.setup.spacecraft;
     let shade = spacecraft.sunshade.as_ref();
     let polynomial = shade.and_then(|shade| {
@@ -208,7 +213,7 @@ pub fn write_calculated(context: &Plan<'_>, values: &mut Values, configuration: 
     });
     values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
     let capacities_n_m_s = context.variables.wheel.iter().map(|wheel| values.real(wheel.capacity));
-    let array = wheels(context, values);
+    let array = state.wheels.get_or_insert_with(|| wheels(context, values)).as_ref();
     let guaranteed_n_m_s = array.map_or(0.0, |it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }
