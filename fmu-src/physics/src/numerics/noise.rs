@@ -23,6 +23,12 @@ pub enum Channel {
     GyroBias,
     /// Sun sensor of a three-axis spacecraft, with its number.
     SunSensorDirection(u16),
+    /// Thrust of a thruster's pulses, with its number.
+    Thruster(u16),
+    /// Misalignment and drift of a delta-v's thrust.
+    ThrustDirection,
+    /// Jitter of a delta-v's thrust, by second.
+    ThrustJitter,
 }
 
 impl Channel {
@@ -35,6 +41,9 @@ impl Channel {
             Self::GyroAngle => (4, 0),
             Self::GyroBias => (5, 0),
             Self::SunSensorDirection(number) => (6, u64::from(number)),
+            Self::Thruster(number) => (7, u64::from(number)),
+            Self::ThrustDirection => (8, 0),
+            Self::ThrustJitter => (9, 0),
         };
         (code << 56) ^ (number << 40) ^ event
     }
@@ -120,6 +129,10 @@ mod tests {
             Channel::SunSensorDirection(0),
             Channel::SunSensorDirection(1),
             Channel::SunSensorDirection(u16::MAX),
+            Channel::Thruster(0),
+            Channel::Thruster(u16::MAX),
+            Channel::ThrustDirection,
+            Channel::ThrustJitter,
         ];
         let mut found = Vec::new();
         for channel in channels {
