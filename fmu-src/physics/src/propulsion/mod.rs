@@ -3,9 +3,11 @@
 mod propellant;
 mod pulse_command;
 mod selection;
+mod thrust_direction;
 mod valve;
 
 pub use propellant::PropellantState;
 pub use pulse_command::PulseCommand;
 pub use selection::{Preference, SelectionError, ThrusterSelection};
+pub use thrust_direction::ThrustErrors;
 pub use valve::Valve;
