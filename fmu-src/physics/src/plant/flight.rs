@@ -1,11 +1,12 @@
 //! Where the body flies: everything that its loads follow from, with the attitude that dynamics give it.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, MovingFrame};
 use crate::environment::ephemeris::Ephemeris;
 use crate::momentum::TorqueModel;
 use crate::propulsion::PropellantState;
+use crate::spacecraft::MassProperties;
 
 use super::configuration::{AttitudeSource, Command, Configuration, DynamicAttitude};
 use super::error::PlantError;
@@ -42,8 +43,8 @@ impl Flight<'_> {
         Ok(plant.guided_frame(time_s))
     }
 
-    /// Inertia with the panels as they stand where the flight begins in this attitude, in kg m2.
-    pub fn inertia_at_start(&mut self, time_s: f64, attitude: Attitude) -> Matrix3<f64> {
+    /// Mass properties with the panels as they stand where the flight begins in this attitude.
+    pub fn mass_at_start(&mut self, time_s: f64, attitude: Attitude) -> MassProperties {
         let body = BodyMotion {
             attitude: attitude.unit_quaternion(),
             rate_body_rad_s: Vector3::zeros(),
@@ -52,7 +53,7 @@ impl Flight<'_> {
         };
         let mut plant = self.plant(time_s, &body, u32::MAX);
         let instant = plant.instant(time_s);
-        plant.mass_properties(&instant).inertia_body_kg_m2
+        plant.mass_properties(&instant)
     }
 
     /// The plant with the body as it turns now.
@@ -73,7 +74,7 @@ impl Flight<'_> {
     }
 
     /// The plant in the attitude of its configuration.
-    fn as_configured(&mut self, work_limit: u32) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
+    pub(super) fn as_configured(&mut self, work_limit: u32) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
         Plant::new(
             self.prepared,
             self.configuration,

@@ -23,6 +23,7 @@ mod error;
 mod evaluation;
 mod flight;
 mod geometry;
+mod ideal_flight;
 mod instant;
 mod kinematics;
 mod light_and_heat;
@@ -48,12 +49,13 @@ pub use error::PlantError;
 pub use evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
 pub use flight::Flight;
 pub use geometry::Geometry;
+pub use ideal_flight::{DumpSideEffect, IdealFlight};
 pub use instant::{Instant, Regime};
 pub use propagator_state::PropagatorState;
 pub use radiation_segment::RadiationSegment;
 pub use radiation_solver::RadiationSolver;
 pub use reaction_control::{
-    ImpulsiveDump, ReactionControl, ReactionControlSettings, ThrustCommand, ThrusterLoad, ThrusterTotals,
+    ReactionControl, ReactionControlSettings, ThrustCommand, ThrusterLoad, ThrusterTotals,
 };
 pub use settings::RadiationSettings;
 pub use trajectory::Trajectory;

@@ -631,10 +631,21 @@ impl ReactionControl {
             .is_some()
     }
 
-    /// Thrust of thruster `k` at `time_s`, as a share of its nominal one.
-    pub fn thrust_at(&self, settings: &ReactionControlSettings, k: usize, time_s: f64) -> f64 {
-        let [fraction, slope] = self.valves[k].thrust(&settings.thrusters[k].valve, self.load.since_s);
-        fraction + slope * (time_s - self.load.since_s).max(0.0)
+    /// Thrust of thruster `k` at `time_s`, in N.
+    pub fn thrust_n(
+        &self,
+        settings: &ReactionControlSettings,
+        propellant: &PropellantState,
+        k: usize,
+        time_s: f64,
+    ) -> f64 {
+        let thruster = &settings.thrusters[k];
+        let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.since_s);
+        let share = fraction + slope * (time_s - self.load.since_s).max(0.0);
+        if share == 0.0 {
+            return 0.0;
+        }
+        thruster.force_body_n.norm() * share * pressure_ratio(settings, propellant, thruster, time_s)
     }
 
     /// Pulses that thruster `k` has begun.
@@ -702,29 +713,4 @@ fn opens_for_s(
 /// Times up to this one are due at `time_s`.
 fn due_s(time_s: f64) -> f64 {
     time_s + 4.0 * spacing(time_s)
-}
-
-/// An impulsive dump: what it takes without lasting.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImpulsiveDump {
-    /// Velocity change, body frame, in m/s.
-    pub delta_v_body_m_s: Vector3<f64>,
-}
-
-impl ImpulsiveDump {
-    /// Thrusters give this angular impulse, body frame, in N m s, at once; their propellant is taken.
-    pub fn book(
-        settings: &ReactionControlSettings,
-        selection: &ThrusterSelection,
-        propellant: &mut PropellantState,
-        impulse_body_n_m_s: &Vector3<f64>,
-        mass_kg: f64,
-    ) -> Self {
-        let mut force_body_n_s = Vector3::zeros();
-        for (thruster, full_s) in settings.thrusters.iter().zip(selection.on_times_s(impulse_body_n_m_s)) {
-            force_body_n_s += thruster.force_body_n * full_s;
-            propellant.take(thruster.tank, thruster.flow_kg_s * full_s);
-        }
-        Self { delta_v_body_m_s: force_body_n_s / mass_kg }
-    }
 }
