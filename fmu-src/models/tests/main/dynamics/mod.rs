@@ -5,6 +5,7 @@ mod momentum;
 mod panels;
 mod refusals;
 mod sensors;
+mod thrusters;
 
 use models::MomentumPlant;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
