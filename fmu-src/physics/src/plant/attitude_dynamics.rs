@@ -248,12 +248,13 @@ impl AttitudeDynamics {
         }
     }
 
-    /// Whether its numbers can come from a flight of a body with so many wheels; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, wheels: usize) -> bool {
+    /// Whether its numbers can come from a flight of a body with so many wheels and modal coordinates; bytes from elsewhere may
+    /// hold anything.
+    pub fn is_sound(&self, wheels: usize, oscillators: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let vector = |vector: &Vector3<f64>| vector.iter().all(sound);
         let Estimate { attitude, rate_body_rad_s, .. } = &self.estimate;
-        self.motion.is_sound(wheels)
+        self.motion.is_sound(wheels, oscillators)
             && self.inertia_body_kg_m2.iter().all(sound)
             && self.disturbance.is_sound()
             && [self.next_sample.1, self.sampled_s, self.next_guidance_s].iter().all(sound)
@@ -556,10 +557,8 @@ impl AttitudeDynamics {
         let dump = self.dump.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m);
         BodyLoad {
             torque_body_n_m: [torque + now.torque_body_n_m + dump, torque_slope + slope.torque_body_n_m],
-            acceleration_body_m_s2: [
-                (force + now.force_body_n) / mass_kg,
-                (force_slope + slope.force_body_n) / mass_kg,
-            ],
+            force_body_n: [force + now.force_body_n, force_slope + slope.force_body_n],
+            mass_kg: [mass_kg, 0.0],
         }
     }
 
@@ -588,6 +587,25 @@ impl AttitudeDynamics {
     /// Momentum of wheel `k` (0-based) relative to the body, in N m s.
     pub fn wheel_n_m_s(&self, settings: &DynamicsSettings, k: usize, time_s: f64, body: &BodyMotion) -> f64 {
         self.motion.rotor_n_m_s(&settings.gyrostat, k, time_s, body)
+    }
+
+    /// Displacement of modal coordinate `k` (0-based, [`Gyrostat::oscillator_count`]), in sqrt(kg) m.
+    pub fn displacement_sqrt_kg_m(&self, k: usize, time_s: f64, body: &BodyMotion) -> f64 {
+        self.motion.oscillator(k, time_s, body)[0]
+    }
+
+    /// Torque in N m and force in N of all rotors out of balance, body frame.
+    pub fn imbalance_body(
+        &self,
+        settings: &DynamicsSettings,
+        time_s: f64,
+        body: &BodyMotion,
+    ) -> [Vector3<f64>; 2] {
+        let each = 0..settings.gyrostat.appendages().imbalances.len();
+        each.fold([Vector3::zeros(); 2], |[torque, force], k| {
+            let [more_torque, more_force] = self.motion.imbalance(&settings.gyrostat, k, time_s, body);
+            [torque + more_torque, force + more_force]
+        })
     }
 
     /// Torque of the motor of wheel `k` (0-based), in N m.

@@ -21,7 +21,7 @@ fn wheel(axis_body: Vector3<f64>) -> ReactionWheel {
     }
 }
 
-fn pyramid() -> Vec<ReactionWheel> {
+pub(super) fn pyramid() -> Vec<ReactionWheel> {
     let c = (1.0f64 / 3.0).sqrt();
     [(c, c), (c, -c), (-c, -c), (-c, c)].iter().map(|&(x, z)| wheel(Vector3::new(x, c, z))).collect()
 }
@@ -31,7 +31,7 @@ fn craft(wheels: Vec<ReactionWheel>) -> Gyrostat {
 }
 
 /// Flies on to `end_s` in pieces of at most `piece_s`.
-fn fly(
+pub(super) fn fly(
     motion: &mut GyrostatMotion,
     craft: &Gyrostat,
     motors: &[Motor],
@@ -241,7 +241,8 @@ fn torque_and_force_add_up() {
     while time_s < 100.0 {
         let load = BodyLoad {
             torque_body_n_m: [Vector3::y() * (torque + slope * time_s), Vector3::y() * slope],
-            acceleration_body_m_s2: [Vector3::z() * 1e-3, Vector3::zeros()],
+            force_body_n: [Vector3::z() * 0.5, Vector3::zeros()],
+            mass_kg: [500.0, 0.0],
         };
         motion.advance(&craft, &[Motor::default(); 4], &load, time_s + 0.5);
         time_s = motion.end_s();
