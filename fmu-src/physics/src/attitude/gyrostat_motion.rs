@@ -37,29 +37,26 @@ const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
 ];
 
-/// What acts on the body over a segment, body frame, linear in time from its start on.
+/// What acts on the body over a segment, body frame, polynomials of the time since its start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyLoad {
     /// Torque about the centre of mass in N m, and its slope in N m/s.
     pub torque_body_n_m: [Vector3<f64>; 2],
     /// Force other than gravity in N, and its slope in N/s.
     pub force_body_n: [Vector3<f64>; 2],
-    /// Mass at the start in kg, and its slope in kg/s.
-    pub mass_kg: [f64; 2],
-}
-
-impl Default for BodyLoad {
-    /// Nothing acts.
-    fn default() -> Self {
-        Self {
-            torque_body_n_m: [Vector3::zeros(); 2],
-            force_body_n: [Vector3::zeros(); 2],
-            mass_kg: [1.0, 0.0],
-        }
-    }
+    /// Mass in kg at the start.
+    pub mass_kg: f64,
+    /// What leaves the body in kg/s at the start, and its slope in kg/s2.
+    pub flow_kg_s: [f64; 2],
 }
 
 impl BodyLoad {
+    /// Nothing, on a body of this mass.
+    pub fn none(mass_kg: f64) -> Self {
+        let nothing = [Vector3::zeros(); 2];
+        Self { torque_body_n_m: nothing, force_body_n: nothing, mass_kg, flow_kg_s: [0.0; 2] }
+    }
+
     /// Whether nothing acts.
     fn is_zero(&self) -> bool {
         self.torque_body_n_m.iter().chain(&self.force_body_n).all(|it| *it == Vector3::zeros())
@@ -73,19 +70,21 @@ impl BodyLoad {
     }
 
     fn mass_after_kg(&self, elapsed_s: f64) -> f64 {
-        self.mass_kg[0] + self.mass_kg[1] * elapsed_s
+        let [flow_kg_s, slope_kg_s2] = self.flow_kg_s;
+        self.mass_kg - (flow_kg_s + 0.5 * slope_kg_s2 * elapsed_s) * elapsed_s
     }
 
     /// Acceleration at the start and its slope there, in m/s2 and m/s3.
     fn acceleration_body_m_s2(&self) -> [Vector3<f64>; 2] {
-        let [mass_kg, mass_rate_kg_s] = self.mass_kg;
-        let start = self.force_body_n[0] / mass_kg;
-        [start, (self.force_body_n[1] - start * mass_rate_kg_s) / mass_kg]
+        let start = self.force_body_n[0] / self.mass_kg;
+        [start, (self.force_body_n[1] + start * self.flow_kg_s[0]) / self.mass_kg]
     }
 
-    fn is_finite(&self) -> bool {
+    fn is_sound(&self) -> bool {
         let vectors = self.torque_body_n_m.iter().chain(&self.force_body_n);
-        vectors.flatten_all().chain(&self.mass_kg).all(|x| x.abs() <= GREATEST_IN_STATE)
+        vectors.flatten_all().chain(&self.flow_kg_s).all(|x| x.abs() <= GREATEST_IN_STATE)
+            && self.mass_kg > 0.0
+            && self.mass_kg <= GREATEST_IN_STATE
     }
 }
 
@@ -162,7 +161,7 @@ impl GyrostatMotion {
             oscillators: vec![OscillatorMotion::at_rest(); gyrostat.oscillator_count()],
             imbalances: Vec::with_capacity(gyrostat.appendages().imbalances.len()),
             inverse_inertia: Matrix3::zeros(),
-            load: BodyLoad::default(),
+            load: BodyLoad::none(1.0),
             momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
             delta_v_inertial_m_s: Vector3::zeros(),
         };
@@ -201,7 +200,7 @@ impl GyrostatMotion {
             && self.attitude.iter().flatten().all(sound)
             && vectors.chain(totals).flatten_all().all(sound)
             && self.inverse_inertia.iter().all(sound)
-            && self.load.is_finite()
+            && self.load.is_sound()
             && self.rotors.iter().all(|it| {
                 it.rotor.is_sound()
                     && it.next.is_none_or(|next| next.is_sound())
@@ -306,7 +305,7 @@ impl GyrostatMotion {
             let acceleration = load.acceleration_body_m_s2();
             let order = self.order;
             for (it, oscillator) in
-                self.oscillators.iter_mut().zip(gyrostat.oscillators(load.mass_kg[0], &acceleration))
+                self.oscillators.iter_mut().zip(gyrostat.oscillators(load.mass_kg, &acceleration))
             {
                 let state = it.after(order, elapsed_s, &motion.rate_body_rad_s);
                 it.begin(oscillator, state, &motion.rate_body_rad_s);

@@ -558,7 +558,8 @@ impl AttitudeDynamics {
         BodyLoad {
             torque_body_n_m: [torque + now.torque_body_n_m + dump, torque_slope + slope.torque_body_n_m],
             force_body_n: [force + now.force_body_n, force_slope + slope.force_body_n],
-            mass_kg: [mass_kg, 0.0],
+            mass_kg,
+            flow_kg_s: [0.0; 2],
         }
     }
 

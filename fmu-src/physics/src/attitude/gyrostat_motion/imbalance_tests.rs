@@ -31,7 +31,7 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
     let craft = Gyrostat::new(Matrix3::from_diagonal_element(inertia), vec![wheel]).unwrap();
     let craft = craft.with_appendages(appendages, mass_kg).unwrap();
     let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| held);
-    let load = BodyLoad { mass_kg: [mass_kg, 0.0], ..BodyLoad::default() };
+    let load = BodyLoad::none(mass_kg);
     let i = Complex::<f64>::i();
     let precession = held / inertia;
     let (mut largest, mut moved) = (0.0_f64, 0.0_f64);

@@ -33,7 +33,7 @@ fn craft(pivot_m: f64, damping: f64) -> Gyrostat {
 /// Through the centre of mass of all at rest, along Y, a little along X.
 fn thrust() -> BodyLoad {
     let force = Vector3::new(ASIDE, 1.0, 0.0) * (MASS_KG * ACCELERATION_M_S2);
-    BodyLoad { force_body_n: [force, Vector3::zeros()], mass_kg: [MASS_KG, 0.0], ..BodyLoad::default() }
+    BodyLoad { force_body_n: [force, Vector3::zeros()], ..BodyLoad::none(MASS_KG) }
 }
 
 /// Angular frequency of body and pendulum together, from the determinant of the linear system of both.

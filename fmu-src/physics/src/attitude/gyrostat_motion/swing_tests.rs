@@ -30,7 +30,8 @@ fn a_mode_rings_at_its_free_frequency_and_damping() {
     let (frequency, damping, coupling, inertia, torque) = (3.0, 0.02, 15.0, INERTIA[2], 0.4);
     let craft = craft(Vec::new(), &[mode(frequency, damping, [0.0, 0.0, coupling])]);
     let mut motion = start(&craft, Vector3::zeros());
-    let load = BodyLoad { torque_body_n_m: [Vector3::z() * torque, Vector3::zeros()], ..BodyLoad::default() };
+    let load =
+        BodyLoad { torque_body_n_m: [Vector3::z() * torque, Vector3::zeros()], ..BodyLoad::none(MASS_KG) };
     // e'' (1 - d^2/J) + 2 z w e' + w^2 e = -d T/J: a step from rest.
     let ratio = 1.0 / (1.0 - coupling * coupling / inertia).sqrt();
     assert!(ratio > 1.3);
@@ -71,7 +72,7 @@ fn ringing() -> (Gyrostat, [Motor; 4], GyrostatMotion) {
 fn modes_keep_the_momentum() {
     let (craft, motors, mut motion) = ringing();
     let total = motion.momentum_inertial_n_m_s;
-    fly(&mut motion, &craft, &motors, &BodyLoad::default(), 100.0, 0.02);
+    fly(&mut motion, &craft, &motors, &BodyLoad::none(MASS_KG), 100.0, 0.02);
     let at = motion.at(&craft, 100.0);
     assert_eq!(at.momentum_inertial_n_m_s, total);
     // The inertia holds the modes at rest.
@@ -92,8 +93,10 @@ fn only_damping_takes_energy() {
     let craft = self::craft(locked, &craft.appendages().modes);
     motion.rotors.iter_mut().for_each(|it| it.rotor = Rotor::Held { momentum_n_m_s: 0.0 });
     let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &motion.rate[0], |_| 0.0);
-    let load =
-        BodyLoad { torque_body_n_m: [Vector3::new(0.5, -1.0, 2.0), Vector3::zeros()], ..BodyLoad::default() };
+    let load = BodyLoad {
+        torque_body_n_m: [Vector3::new(0.5, -1.0, 2.0), Vector3::zeros()],
+        ..BodyLoad::none(MASS_KG)
+    };
     fly(&mut motion, &craft, &[Motor::default(); 4], &load, 1.0, 0.02);
     let state = |motion: &GyrostatMotion, time_s: f64| {
         let at = motion.at(&craft, time_s);
@@ -113,9 +116,9 @@ fn only_damping_takes_energy() {
     for step in 0..6_000 {
         let time_s = 1.0 + 0.01 * f64::from(step);
         let begin = state(&motion, time_s)[1];
-        fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::default(), time_s + 0.005, 0.005);
+        fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::none(MASS_KG), time_s + 0.005, 0.005);
         let middle = state(&motion, time_s + 0.005)[1];
-        fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::default(), time_s + 0.01, 0.005);
+        fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::none(MASS_KG), time_s + 0.01, 0.005);
         lost += (begin + 4.0 * middle + state(&motion, time_s + 0.01)[1]) * (0.01 / 6.0);
     }
     let [last, _] = state(&motion, 61.0);
@@ -133,7 +136,7 @@ fn an_integration_of_order_twelve_agrees() {
     let craft = Gyrostat::new(inertia, Vec::new()).unwrap().with_appendages(appendages, MASS_KG).unwrap();
     let (rate, torque) = (Vector3::new(0.02, -0.03, 0.05), Vector3::new(0.3, 0.1, -0.2));
     let mut motion = start(&craft, rate);
-    let load = BodyLoad { torque_body_n_m: [torque, Vector3::zeros()], ..BodyLoad::default() };
+    let load = BodyLoad { torque_body_n_m: [torque, Vector3::zeros()], ..BodyLoad::none(MASS_KG) };
     fly(&mut motion, &craft, &[], &load, 50.0, 0.02);
     let at = motion.at(&craft, 50.0);
 
@@ -189,7 +192,7 @@ fn an_integration_of_order_twelve_agrees() {
 fn long_segments_give_what_short_ones_give() {
     let fly_in = |piece_s: f64| {
         let (craft, motors, mut motion) = ringing();
-        fly(&mut motion, &craft, &motors, &BodyLoad::default(), 20.0, piece_s);
+        fly(&mut motion, &craft, &motors, &BodyLoad::none(MASS_KG), 20.0, piece_s);
         let at = motion.at(&craft, 20.0);
         (at.rate_body_rad_s, motion.oscillator(2, 20.0, &at))
     };
