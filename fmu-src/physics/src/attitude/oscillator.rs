@@ -13,7 +13,7 @@ use super::series::{TERMS, polynomial};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// One flexible mode, its displacement normalised to a mass of 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FlexibleMode {
     /// Angular frequency with the body held, in rad/s.
     pub frequency_rad_s: f64,
