@@ -25,7 +25,7 @@ use variables::choices::OrbitSource;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 5;
+    const STATE_VERSION: u32 = 6;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
@@ -157,7 +157,7 @@ impl Model for MomentumPlant {
     }
 
     fn check_state(setup: &PlantSetup, state: &PlantState) -> Result<(), Failure> {
-        state.check(setup.spacecraft.wheels.len())
+        state.check(&setup.spacecraft)
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {

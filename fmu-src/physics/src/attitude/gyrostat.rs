@@ -29,6 +29,8 @@ pub struct Gyrostat {
     carrier_body_kg_m2: Matrix3<f64>,
     wheels: Vec<ReactionWheel>,
     appendages: Appendages,
+    /// Where what swings and what is out of balance is counted from.
+    center_of_mass_body_m: Vector3<f64>,
 }
 
 /// Why there is no such body.
@@ -103,22 +105,29 @@ impl Gyrostat {
             carrier_body_kg_m2: inertia_body_kg_m2,
             wheels,
             appendages: Appendages::default(),
+            center_of_mass_body_m: Vector3::zeros(),
         };
         body.carrier_body_kg_m2 = body.without(body.wheels.iter().filter(|wheel| !wheel.locked));
         let found = SymmetricEigen::new(body.carrier_body_kg_m2).eigenvalues.min();
         if found > 0.0 { Ok(body) } else { Err(GyrostatError::Body { found }) }
     }
 
-    /// With what swings on it and rotors out of balance, in a body of this mass.
+    /// With what swings on it and rotors out of balance, in a body of this mass about this centre.
     ///
     /// # Errors
     /// More propellant than mass, or so much that swings that no inertia is left.
-    pub fn with_appendages(mut self, appendages: Appendages, mass_kg: f64) -> Result<Self, GyrostatError> {
+    pub fn with_appendages(
+        mut self,
+        appendages: Appendages,
+        mass_kg: f64,
+        center_of_mass_body_m: Vector3<f64>,
+    ) -> Result<Self, GyrostatError> {
         let found = appendages.sloshes.iter().map(|slosh| slosh.mass_kg).sum();
         if found >= mass_kg {
             return Err(GyrostatError::Propellant { found, whole_kg: mass_kg });
         }
         self.appendages = appendages;
+        self.center_of_mass_body_m = center_of_mass_body_m;
         let still = [Vector3::zeros(); 2];
         let rest = self
             .oscillators(mass_kg, &still)
@@ -130,6 +139,11 @@ impl Gyrostat {
     /// What moves besides the body and its wheels.
     pub fn appendages(&self) -> &Appendages {
         &self.appendages
+    }
+
+    /// Centre of mass, body frame, in m.
+    pub fn center_of_mass_body_m(&self) -> &Vector3<f64> {
+        &self.center_of_mass_body_m
     }
 
     /// How many modal coordinates there are: one of each flexible mode, then two of each pendulum.
@@ -144,8 +158,9 @@ impl Gyrostat {
         acceleration_body_m_s2: &[Vector3<f64>; 2],
     ) -> impl Iterator<Item = Oscillator> {
         let Appendages { modes, sloshes, .. } = &self.appendages;
-        let sloshes =
-            sloshes.iter().flat_map(move |slosh| slosh.oscillators(mass_kg, acceleration_body_m_s2));
+        let sloshes = sloshes.iter().flat_map(move |slosh| {
+            slosh.oscillators(mass_kg, &self.center_of_mass_body_m, acceleration_body_m_s2)
+        });
         modes.iter().map(FlexibleMode::oscillator).chain(sloshes)
     }
 

@@ -176,7 +176,7 @@ impl GyrostatMotion {
         let unbalanced = gyrostat.appendages().imbalances.iter();
         motion.imbalances.extend(unbalanced.filter_map(|imbalance| {
             let wheel = gyrostat.wheels().get(imbalance.wheel)?;
-            Some(ImbalanceMotion::new(imbalance, &wheel.axis_body))
+            Some(ImbalanceMotion::new(imbalance, &wheel.axis_body, gyrostat.center_of_mass_body_m()))
         }));
         motion.set_inverse_inertia(gyrostat);
         motion
@@ -265,19 +265,21 @@ impl GyrostatMotion {
         self.oscillators[k].after(self.order, time_s - self.start_s, &motion.rate_body_rad_s)
     }
 
-    /// Torque about the centre of mass in N m and force in N of imbalance `k` (0-based, as the gyrostat lists them), body frame,
-    /// where the body moves like this.
-    pub fn imbalance(
-        &self,
-        gyrostat: &Gyrostat,
-        k: usize,
-        time_s: f64,
-        motion: &BodyMotion,
-    ) -> [Vector3<f64>; 2] {
-        let wheel = gyrostat.appendages().imbalances[k].wheel;
-        let held_n_m_s = self.rotor_n_m_s(gyrostat, wheel, time_s, motion);
-        let speed_rad_s = gyrostat.wheels()[wheel].speed_rad_s(held_n_m_s);
-        self.imbalances[k].at_speed(self.order, time_s - self.start_s, speed_rad_s)
+    /// Torque about the centre of mass in N m and force in N by rotors out of balance and by what swings under the load, body
+    /// frame, where the body moves like this.
+    pub fn swinging_load(&self, gyrostat: &Gyrostat, time_s: f64, motion: &BodyMotion) -> [Vector3<f64>; 2] {
+        let elapsed_s = time_s - self.start_s;
+        let unbalanced = self.imbalances.iter().zip(&gyrostat.appendages().imbalances);
+        let mut sum = [Vector3::zeros(); 2];
+        for (it, imbalance) in unbalanced {
+            let held_n_m_s = self.rotor_n_m_s(gyrostat, imbalance.wheel, time_s, motion);
+            let speed_rad_s = gyrostat.wheels()[imbalance.wheel].speed_rad_s(held_n_m_s);
+            let load = it.at_speed(self.order, elapsed_s, speed_rad_s);
+            sum.iter_mut().zip(load).for_each(|(sum, it)| *sum += it);
+        }
+        sum[0] +=
+            self.oscillators.iter().map(|it| it.torque_after(self.order, elapsed_s)).sum::<Vector3<f64>>();
+        sum
     }
 
     /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
@@ -299,7 +301,7 @@ impl GyrostatMotion {
         }
         let elapsed_s = start_s - self.start_s;
         for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
-            it.begin(imbalance, self.order, elapsed_s);
+            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.order, elapsed_s);
         }
         if !self.oscillators.is_empty() {
             let acceleration = load.acceleration_body_m_s2();

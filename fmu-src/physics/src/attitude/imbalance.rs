@@ -21,8 +21,8 @@ pub struct RotorImbalance {
     pub wheel: usize,
     /// Mass times its distance from the axis, in kg m.
     pub static_imbalance_kg_m: f64,
-    /// Place of the rotor from the centre of mass, body frame, in m.
-    pub from_center_body_m: Vector3<f64>,
+    /// Place of the rotor, body frame, in m.
+    pub position_body_m: Vector3<f64>,
 }
 
 /// The force of one rotor over a segment.
@@ -42,13 +42,17 @@ pub(super) struct ImbalanceMotion {
 
 impl ImbalanceMotion {
     /// At the phase 0, the rotor's axis a unit vector.
-    pub(super) fn new(imbalance: &RotorImbalance, axis_body: &Vector3<f64>) -> Self {
+    pub(super) fn new(
+        imbalance: &RotorImbalance,
+        axis_body: &Vector3<f64>,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Self {
         let zeros = [0.0; TERMS];
         let mut cosine = zeros;
         cosine[0] = 1.0;
         Self {
             across_body_kg_m: across(axis_body).map(|it| it * imbalance.static_imbalance_kg_m),
-            from_center_body_m: imbalance.from_center_body_m,
+            from_center_body_m: imbalance.position_body_m - center_of_mass_body_m,
             cosine,
             sine: zeros,
             speed: zeros,
@@ -58,9 +62,15 @@ impl ImbalanceMotion {
     }
 
     /// Begins a segment at the phase that the last one has after `elapsed_s`.
-    pub(super) fn begin(&mut self, imbalance: &RotorImbalance, order: usize, elapsed_s: f64) {
+    pub(super) fn begin(
+        &mut self,
+        imbalance: &RotorImbalance,
+        center_of_mass_body_m: &Vector3<f64>,
+        order: usize,
+        elapsed_s: f64,
+    ) {
         [self.cosine[0], self.sine[0]] = self.phase_after(order, elapsed_s);
-        self.from_center_body_m = imbalance.from_center_body_m;
+        self.from_center_body_m = imbalance.position_body_m - center_of_mass_body_m;
     }
 
     /// Coefficient `j` of the torque, and of cosine and sine the next, from the speed's coefficient `j` in rad/s.

@@ -6,6 +6,8 @@
 //! Reference: Likins, Dynamics and Control of Flexible Space Vehicles, JPL TR 32-1329, 1970; Hughes, Spacecraft Attitude
 //! Dynamics, 4.4 and 8.3.
 
+use core::f64::consts::TAU;
+
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -15,8 +17,8 @@ use crate::numerics::chebyshev::GREATEST_IN_STATE;
 /// One flexible mode, its displacement normalised to a mass of 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FlexibleMode {
-    /// Angular frequency with the body held, in rad/s.
-    pub frequency_rad_s: f64,
+    /// Frequency with the body held, in Hz.
+    pub frequency_hz: f64,
     /// Damping ratio with the body held.
     pub damping: f64,
     /// Angular momentum of the body by unit speed of the mode, body frame, in sqrt(kg) m.
@@ -25,11 +27,12 @@ pub struct FlexibleMode {
 
 impl FlexibleMode {
     pub(super) fn oscillator(&self) -> Oscillator {
+        let frequency_rad_s = self.frequency_hz * TAU;
         Oscillator {
             coupling_body_sqrt_kg_m: self.coupling_body_sqrt_kg_m,
             mass_share: 1.0,
-            stiffness_1_s2: self.frequency_rad_s * self.frequency_rad_s,
-            damping_1_s: 2.0 * self.damping * self.frequency_rad_s,
+            stiffness_1_s2: frequency_rad_s * frequency_rad_s,
+            damping_1_s: 2.0 * self.damping * frequency_rad_s,
             ..Oscillator::default()
         }
     }

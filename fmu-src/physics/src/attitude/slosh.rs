@@ -11,23 +11,26 @@
 //! Reference: Abramson (ed.), The Dynamic Behavior of Liquids in Moving Containers, NASA SP-106, ch. 6; Sidi, Spacecraft
 //! Dynamics and Control, 10.3.
 
+use core::f64::consts::TAU;
+
 use nalgebra::Vector3;
+use serde::Serialize;
 
 use super::oscillator::Oscillator;
 
 /// Propellant as a pendulum.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SloshPendulum {
     /// Mass that swings, part of the body's and at rest in its inertia, in kg.
     pub mass_kg: f64,
     /// Length, in m.
     pub length_m: f64,
-    /// Pivot from the centre of mass, body frame, in m.
-    pub pivot_from_center_body_m: Vector3<f64>,
+    /// Pivot, body frame, in m.
+    pub pivot_body_m: Vector3<f64>,
     /// Unit vector from the pivot to the bob at rest: against the acceleration.
     pub axis_body: Vector3<f64>,
-    /// Angular frequency without acceleration, in rad/s.
-    pub coast_frequency_rad_s: f64,
+    /// Frequency without acceleration, in Hz.
+    pub coast_frequency_hz: f64,
     /// Damping ratio, the body held.
     pub damping: f64,
 }
@@ -52,21 +55,22 @@ impl SloshPendulum {
         displacement_sqrt_kg_m / (self.mass_kg.sqrt() * self.length_m)
     }
 
-    /// Its two coordinates in a body of this mass under this acceleration and its slope.
+    /// Its two coordinates in a body of this mass about this centre, under this acceleration and its slope.
     pub(super) fn oscillators(
         &self,
         body_mass_kg: f64,
+        center_of_mass_body_m: &Vector3<f64>,
         acceleration_body_m_s2: &[Vector3<f64>; 2],
     ) -> [Oscillator; 2] {
         let root = self.mass_kg.sqrt();
-        let bob_body_m = self.pivot_from_center_body_m + self.axis_body * self.length_m;
+        let bob_from_center_m = self.pivot_body_m - center_of_mass_body_m + self.axis_body * self.length_m;
         let [start, slope] = acceleration_body_m_s2;
-        let stiffness_1_s2 =
-            start.norm() / self.length_m + self.coast_frequency_rad_s * self.coast_frequency_rad_s;
+        let coast_rad_s = self.coast_frequency_hz * TAU;
+        let stiffness_1_s2 = start.norm() / self.length_m + coast_rad_s * coast_rad_s;
         self.across_body().map(|direction| {
             let direction = direction * root;
             Oscillator {
-                coupling_body_sqrt_kg_m: bob_body_m.cross(&direction),
+                coupling_body_sqrt_kg_m: bob_from_center_m.cross(&direction),
                 mass_share: 1.0 - self.mass_kg / body_mass_kg,
                 stiffness_1_s2,
                 damping_1_s: 2.0 * self.damping * stiffness_1_s2.sqrt(),

@@ -12,7 +12,9 @@ use crate::attitude::control::{
     Allocation, ControlTarget, ControllerSettings, ControllerState, Estimate, EstimatorState, SensorHealth,
     SensorSettings, SunSensor, WheelAllocator, sensed_sun,
 };
-use crate::attitude::{Attitude, BodyLoad, BodyMotion, Gyrostat, GyrostatMotion, Motor, MovingFrame};
+use crate::attitude::{
+    Appendages, Attitude, BodyLoad, BodyMotion, Gyrostat, GyrostatMotion, Motor, MovingFrame,
+};
 use crate::environment::ephemeris::Ephemeris;
 use crate::momentum::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, TorqueModel};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
@@ -571,6 +573,7 @@ impl AttitudeDynamics {
     /// Where everything is and what acts at `time_s`, as the motion takes it.
     pub fn evaluation(
         &self,
+        settings: &DynamicsSettings,
         flight: &mut Flight<'_>,
         body: &BodyMotion,
         external: ExternalLoad,
@@ -580,8 +583,11 @@ impl AttitudeDynamics {
         let instant = plant.instant(time_s);
         let mass = plant.mass_properties(&instant);
         let mut loads = self.disturbance.loads_at(time_s);
-        loads[Effect::Applied] =
-            ForceTorque { force_body_n: external.force_body_n, torque_body_n_m: external.torque_body_n_m };
+        let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
+        loads[Effect::Applied] = ForceTorque {
+            force_body_n: external.force_body_n + force_body_n,
+            torque_body_n_m: external.torque_body_n_m + torque_body_n_m,
+        };
         Evaluation { instant, loads, mass }
     }
 
@@ -590,22 +596,23 @@ impl AttitudeDynamics {
         self.motion.rotor_n_m_s(&settings.gyrostat, k, time_s, body)
     }
 
-    /// Displacement of modal coordinate `k` (0-based, [`Gyrostat::oscillator_count`]), in sqrt(kg) m.
-    pub fn displacement_sqrt_kg_m(&self, k: usize, time_s: f64, body: &BodyMotion) -> f64 {
+    /// Displacement of flexible mode `k` (0-based), in sqrt(kg) m.
+    pub fn mode_sqrt_kg_m(&self, k: usize, time_s: f64, body: &BodyMotion) -> f64 {
         self.motion.oscillator(k, time_s, body)[0]
     }
 
-    /// Torque in N m and force in N of all rotors out of balance, body frame.
-    pub fn imbalance_body(
+    /// Angles of slosh pendulum `k` (0-based), in rad.
+    pub fn slosh_rad(
         &self,
         settings: &DynamicsSettings,
+        k: usize,
         time_s: f64,
         body: &BodyMotion,
-    ) -> [Vector3<f64>; 2] {
-        let each = 0..settings.gyrostat.appendages().imbalances.len();
-        each.fold([Vector3::zeros(); 2], |[torque, force], k| {
-            let [more_torque, more_force] = self.motion.imbalance(&settings.gyrostat, k, time_s, body);
-            [torque + more_torque, force + more_force]
+    ) -> [f64; 2] {
+        let Appendages { modes, sloshes, .. } = settings.gyrostat.appendages();
+        [0, 1].map(|axis| {
+            let [displacement, _] = self.motion.oscillator(modes.len() + 2 * k + axis, time_s, body);
+            sloshes[k].angle_rad(displacement)
         })
     }
 

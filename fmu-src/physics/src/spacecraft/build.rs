@@ -28,7 +28,7 @@ use super::spelling::nearest;
 use super::start::{StartEntry, start_entries};
 use super::sun_sensors::{HALF_FIELD_OF_VIEW_DEG, MountedSunSensor};
 use super::surface::{Cylinder, Plate, Sunshade, SunshadeModel};
-use super::swinging::{NamedMode, Slosh};
+use super::swinging::{NamedMode, NamedSlosh};
 use super::tank::Tank;
 use super::thruster::Thruster;
 use super::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
@@ -54,7 +54,7 @@ pub struct Spacecraft {
     /// Flexible modes.
     pub flexible_modes: Vec<NamedMode>,
     /// Propellant that swings.
-    pub sloshes: Vec<Slosh>,
+    pub sloshes: Vec<NamedSlosh>,
     /// Propellant tanks.
     pub tanks: Vec<Tank>,
     /// Thrusters.
@@ -109,6 +109,11 @@ impl Spacecraft {
         let mut builder = Builder { check: Checker::new(&document, findings), materials: BTreeMap::new() };
         let spacecraft = builder.spacecraft(&description);
         builder.check.finish(spacecraft)
+    }
+
+    /// How many modal coordinates swing on it: one of each flexible mode, two of each pendulum.
+    pub fn oscillator_count(&self) -> usize {
+        self.flexible_modes.len() + 2 * self.sloshes.len()
     }
 
     /// The plates of body and sunshade in the body frame, the body's first; a cylindrical shade adds none.

@@ -1,13 +1,11 @@
 //! Flexible modes and propellant, from their descriptions: checks every value, and that the body has an inertia without them.
 
-use core::f64::consts::TAU;
-
 use super::checker::Checker;
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::mass::MassProperties;
 use super::place::Place;
-use super::swinging::{COAST_FREQUENCY_HZ, NamedMode, Slosh};
-use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError};
+use super::swinging::{COAST_FREQUENCY_HZ, NamedMode, NamedSlosh};
+use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
 
 /// Damping ratio where the file gives none. Assumed.
 const DAMPING: f64 = 0.005;
@@ -18,9 +16,9 @@ fn name_or_number(name: Option<&str>, kind: &str, index: usize) -> String {
     name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
 }
 
-fn frequency_rad_s(check: &mut Checker<'_>, at: &Place, frequency_hz: f64) -> f64 {
+fn frequency(check: &mut Checker<'_>, at: &Place, frequency_hz: f64) -> f64 {
     let allowed = "a number above 0 and at most 1000 Hz";
-    check.within(at, frequency_hz, f64::MIN_POSITIVE, FASTEST_HZ, allowed) * TAU
+    check.within(at, frequency_hz, f64::MIN_POSITIVE, FASTEST_HZ, allowed)
 }
 
 /// A flexible mode.
@@ -33,7 +31,7 @@ pub(super) fn mode(
     NamedMode {
         name: name_or_number(description.name.as_deref(), "flexible mode", index),
         mode: FlexibleMode {
-            frequency_rad_s: frequency_rad_s(check, &at.key("frequency_hz"), description.frequency_hz),
+            frequency_hz: frequency(check, &at.key("frequency_hz"), description.frequency_hz),
             damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
             coupling_body_sqrt_kg_m: check
                 .vector(&at.key("coupling_sqrt_kg_m"), description.coupling_sqrt_kg_m),
@@ -47,16 +45,18 @@ pub(super) fn slosh(
     at: &Place,
     index: usize,
     description: &SloshDescription,
-) -> Slosh {
+) -> NamedSlosh {
     let coast_hz = description.coast_frequency_hz.unwrap_or(COAST_FREQUENCY_HZ);
-    Slosh {
+    NamedSlosh {
         name: name_or_number(description.name.as_deref(), "slosh", index),
-        mass_kg: check.positive(&at.key("mass_kg"), description.mass_kg),
-        length_m: check.positive(&at.key("length_m"), description.length_m),
-        pivot_body_m: check.vector(&at.key("pivot_m"), description.pivot_m),
-        axis_body: check.unit_vector(&at.key("axis"), description.axis),
-        damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
-        coast_frequency_rad_s: frequency_rad_s(check, &at.key("coast_frequency_hz"), coast_hz),
+        pendulum: SloshPendulum {
+            mass_kg: check.positive(&at.key("mass_kg"), description.mass_kg),
+            length_m: check.positive(&at.key("length_m"), description.length_m),
+            pivot_body_m: check.vector(&at.key("pivot_m"), description.pivot_m),
+            axis_body: check.unit_vector(&at.key("axis"), description.axis),
+            damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
+            coast_frequency_hz: frequency(check, &at.key("coast_frequency_hz"), coast_hz),
+        },
     }
 }
 
@@ -64,28 +64,32 @@ pub(super) fn slosh(
 pub(super) fn swinging_fits(
     check: &mut Checker<'_>,
     modes: &[NamedMode],
-    sloshes: &[Slosh],
+    sloshes: &[NamedSlosh],
     mass: &MassProperties,
 ) {
     let root = Place::root();
     let appendages = Appendages {
         modes: modes.iter().map(|it| it.mode).collect(),
-        sloshes: sloshes.iter().map(|it| it.pendulum(&mass.center_of_mass_body_m)).collect(),
+        sloshes: sloshes.iter().map(|it| it.pendulum).collect(),
         ..Appendages::default()
     };
+    if (modes.is_empty() && sloshes.is_empty()) || mass.mass_kg <= 0.0 {
+        return;
+    }
     // What is wrong with the body itself is reported with it.
     let Ok(rigid) = Gyrostat::new(mass.inertia_body_kg_m2, Vec::new()) else { return };
-    let (key, found, allowed) = match rigid.with_appendages(appendages, mass.mass_kg) {
-        Ok(_) => return,
-        Err(GyrostatError::Propellant { found, whole_kg }) => (
-            "slosh",
-            format!("mass_kg of {found} together"),
-            format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part"),
-        ),
-        Err(error) => {
-            let key = if modes.is_empty() { "slosh" } else { "flexible_modes" };
-            (key, error.to_string(), "modes and propellant that leave an inertia".to_owned())
-        }
-    };
+    let (key, found, allowed) =
+        match rigid.with_appendages(appendages, mass.mass_kg, mass.center_of_mass_body_m) {
+            Ok(_) => return,
+            Err(GyrostatError::Propellant { found, whole_kg }) => (
+                "slosh",
+                format!("mass_kg of {found} together"),
+                format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part"),
+            ),
+            Err(error) => {
+                let key = if modes.is_empty() { "slosh" } else { "flexible_modes" };
+                (key, error.to_string(), "modes and propellant that leave an inertia".to_owned())
+            }
+        };
     check.report(&root.key(key), found, allowed);
 }

@@ -2,6 +2,7 @@
 
 pub mod center;
 pub mod dynamics;
+mod flexibility;
 pub mod state;
 
 use fmi_export::{Failure, Values};

@@ -11,6 +11,7 @@ use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals, WheelArray};
 use physics::plant::{
     AttitudeDynamics, Command, Configuration, DynamicsSettings, PropagatorState, RadiationSolver,
 };
+use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
@@ -115,7 +116,8 @@ impl Request {
 
 impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
-    pub fn check(&self, wheels: usize) -> Result<(), Failure> {
+    pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
+        let (wheels, oscillators) = (spacecraft.wheels.len(), spacecraft.oscillator_count());
         let finite = |x: &f64| x.is_finite();
         let CommandInputs { q, rate, error, .. } = &self.command_inputs;
         let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
@@ -134,7 +136,7 @@ impl PlantState {
             ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
             (
                 "body, wheels, sensors and control",
-                self.dynamics.as_ref().is_none_or(|dynamics| dynamics.is_sound(wheels)),
+                self.dynamics.as_ref().is_none_or(|dynamics| dynamics.is_sound(wheels, oscillators)),
             ),
             ("the orbit, light and heat", self.propagator.is_sound()),
         ];

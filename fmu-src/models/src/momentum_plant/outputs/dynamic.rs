@@ -201,8 +201,13 @@ fn show(
     let Some(flown) = state.dynamics.take() else { return Ok(()) };
     let body = flown.body(settings, time_s);
     let [external, _] = dynamics::external(context, values, over_time, time_s);
-    let evaluation =
-        flown.evaluation(&mut flight(context, state, configuration, &|_| external)?, &body, external, time_s);
+    let evaluation = flown.evaluation(
+        settings,
+        &mut flight(context, state, configuration, &|_| external)?,
+        &body,
+        external,
+        time_s,
+    );
     let totals = Totals {
         momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
         delta_v_inertial_m_s: body.delta_v_inertial_m_s,

@@ -5,6 +5,7 @@ pub mod choices;
 mod control;
 pub mod defaults;
 mod effects;
+mod flexibility;
 mod motion;
 mod surroundings;
 
@@ -19,6 +20,7 @@ use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
+use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
 use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
 
@@ -64,6 +66,10 @@ pub struct PlantVariables {
     pub panel: Vec<PanelVariables>,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
+    #[group(count = setup.spacecraft.flexible_modes.len())]
+    pub flexible_mode: Vec<FlexibleModeVariables>,
+    #[group(count = setup.spacecraft.sloshes.len())]
+    pub slosh: Vec<SloshVariables>,
     #[group]
     pub control: ControlVariables,
     #[group]

@@ -24,12 +24,12 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
         imbalances: vec![RotorImbalance {
             wheel: 0,
             static_imbalance_kg_m: imbalance,
-            from_center_body_m: Vector3::z() * lever_m,
+            position_body_m: Vector3::new(0.1, 0.2, 0.3 + lever_m),
         }],
         ..Appendages::default()
     };
     let craft = Gyrostat::new(Matrix3::from_diagonal_element(inertia), vec![wheel]).unwrap();
-    let craft = craft.with_appendages(appendages, mass_kg).unwrap();
+    let craft = craft.with_appendages(appendages, mass_kg, Vector3::new(0.1, 0.2, 0.3)).unwrap();
     let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| held);
     let load = BodyLoad::none(mass_kg);
     let i = Complex::<f64>::i();
@@ -41,7 +41,7 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
         let time_s = 0.01 * f64::from(step) + 1e-4;
         fly(&mut motion, &craft, &[Motor::default()], &load, time_s, 0.02);
         let at = motion.at(&craft, time_s);
-        let [_, found] = motion.imbalance(&craft, 0, time_s, &at);
+        let [_, found] = motion.swinging_load(&craft, time_s, &at);
         let found = Complex::new(found.x, found.y);
         assert!((found - force(time_s)).norm() < 1e-9 * force(0.0).norm(), "{found} {}", force(time_s));
         let amplitude = imbalance * speed * speed * lever_m / (inertia * (speed - precession));

@@ -12,6 +12,7 @@ const BOB_KG: f64 = 180.0;
 const LENGTH_M: f64 = 0.35;
 /// Pivot before and behind the centre of mass along the thrust.
 const PIVOTS_M: [f64; 2] = [0.9, -0.5];
+const CENTER_M: Vector3<f64> = Vector3::new(0.2, 0.3, -0.1);
 const INERTIA: f64 = 450.0;
 const ACCELERATION_M_S2: f64 = 0.3;
 /// Share of the force across.
@@ -21,13 +22,15 @@ fn craft(pivot_m: f64, damping: f64) -> Gyrostat {
     let pendulum = SloshPendulum {
         mass_kg: BOB_KG,
         length_m: LENGTH_M,
-        pivot_from_center_body_m: Vector3::y() * pivot_m,
+        pivot_body_m: CENTER_M + Vector3::y() * pivot_m,
         axis_body: -Vector3::y(),
-        coast_frequency_rad_s: 0.0,
+        coast_frequency_hz: 0.0,
         damping,
     };
     let rigid = Gyrostat::new(Matrix3::from_diagonal_element(INERTIA), Vec::new()).unwrap();
-    rigid.with_appendages(Appendages { sloshes: vec![pendulum], ..Appendages::default() }, MASS_KG).unwrap()
+    rigid
+        .with_appendages(Appendages { sloshes: vec![pendulum], ..Appendages::default() }, MASS_KG, CENTER_M)
+        .unwrap()
 }
 
 /// Through the centre of mass of all at rest, along Y, a little along X.
@@ -160,14 +163,14 @@ fn a_pendulum_on_a_heavy_body_is_a_plain_one() {
     let pendulum = SloshPendulum {
         mass_kg: 1e-9,
         length_m: LENGTH_M,
-        pivot_from_center_body_m: Vector3::y(),
+        pivot_body_m: CENTER_M + Vector3::y(),
         axis_body: -Vector3::y(),
-        coast_frequency_rad_s: coast,
+        coast_frequency_hz: coast / core::f64::consts::TAU,
         damping,
     };
     let rigid = Gyrostat::new(Matrix3::from_diagonal_element(INERTIA), Vec::new()).unwrap();
     let craft = rigid
-        .with_appendages(Appendages { sloshes: vec![pendulum], ..Appendages::default() }, MASS_KG)
+        .with_appendages(Appendages { sloshes: vec![pendulum], ..Appendages::default() }, MASS_KG, CENTER_M)
         .unwrap();
     let mut motion =
         GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| unreachable!());

@@ -1,5 +1,7 @@
 //! Flexible modes against the damped oscillator about one axis, the balance of energy and an integration of order 12.
 
+use core::f64::consts::TAU;
+
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Matrix6, SVector, Vector6};
 
@@ -12,13 +14,13 @@ const INERTIA: [f64; 3] = [199.6, 507.1, 484.9];
 const MASS_KG: f64 = 700.0;
 
 fn mode(frequency_rad_s: f64, damping: f64, coupling: [f64; 3]) -> FlexibleMode {
-    FlexibleMode { frequency_rad_s, damping, coupling_body_sqrt_kg_m: coupling.into() }
+    FlexibleMode { frequency_hz: frequency_rad_s / TAU, damping, coupling_body_sqrt_kg_m: coupling.into() }
 }
 
 fn craft(wheels: Vec<ReactionWheel>, modes: &[FlexibleMode]) -> Gyrostat {
     let appendages = Appendages { modes: modes.to_vec(), ..Appendages::default() };
     let rigid = Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap();
-    rigid.with_appendages(appendages, MASS_KG).unwrap()
+    rigid.with_appendages(appendages, MASS_KG, Vector3::zeros()).unwrap()
 }
 
 fn start(craft: &Gyrostat, rate: Vector3<f64>) -> GyrostatMotion {
@@ -104,10 +106,10 @@ fn only_damping_takes_energy() {
         let rigid = 0.5 * rate.dot(&(craft.inertia_body_kg_m2() * rate));
         craft.appendages().modes.iter().enumerate().fold([rigid, 0.0], |[energy, loss], (k, mode)| {
             let [displacement, speed] = motion.oscillator(k, time_s, &at);
-            let spring = mode.frequency_rad_s * displacement;
+            let spring = (TAU * mode.frequency_hz) * displacement;
             let coupled = speed * mode.coupling_body_sqrt_kg_m.dot(&rate);
             let own = 0.5 * (speed * speed + spring * spring);
-            [energy + own + coupled, loss + 2.0 * mode.damping * mode.frequency_rad_s * speed * speed]
+            [energy + own + coupled, loss + 2.0 * mode.damping * (TAU * mode.frequency_hz) * speed * speed]
         })
     };
     let [first, _] = state(&motion, 1.0);
@@ -133,7 +135,10 @@ fn an_integration_of_order_twelve_agrees() {
     let modes = [mode(1.3, 0.005, [6.0, -1.0, 2.0]), mode(4.1, 0.3, [-2.0, 9.0, 4.0])];
     let inertia = Matrix3::new(200.0, 11.0, -7.0, 11.0, 480.0, 5.0, -7.0, 5.0, 440.0);
     let appendages = Appendages { modes: modes.to_vec(), ..Appendages::default() };
-    let craft = Gyrostat::new(inertia, Vec::new()).unwrap().with_appendages(appendages, MASS_KG).unwrap();
+    let craft = Gyrostat::new(inertia, Vec::new())
+        .unwrap()
+        .with_appendages(appendages, MASS_KG, Vector3::zeros())
+        .unwrap();
     let (rate, torque) = (Vector3::new(0.02, -0.03, 0.05), Vector3::new(0.3, 0.1, -0.2));
     let mut motion = start(&craft, rate);
     let load = BodyLoad { torque_body_n_m: [torque, Vector3::zeros()], ..BodyLoad::none(MASS_KG) };
@@ -152,7 +157,7 @@ fn an_integration_of_order_twelve_agrees() {
             momentum += coupling * speeds[k];
             matrix.fixed_view_mut::<3, 1>(0, 3 + k).copy_from(&coupling);
             matrix.fixed_view_mut::<1, 3>(3 + k, 0).copy_from(&coupling.transpose());
-            let w = mode.frequency_rad_s;
+            let w = TAU * mode.frequency_hz;
             right[3 + k] = -2.0 * mode.damping * w * speeds[k] - w * w * y[7 + k];
         }
         right.fixed_rows_mut::<3>(0).copy_from(&(torque - rate.cross(&momentum)));
@@ -184,7 +189,7 @@ fn an_integration_of_order_twelve_agrees() {
         let [displacement, speed] = motion.oscillator(k, 50.0, &at);
         let size = y[7].hypot(y[8]);
         assert!((displacement - y[7 + k]).abs() < 1e-10 * size, "{displacement} {}", y[7 + k]);
-        assert!((speed - y[9 + k]).abs() < 1e-10 * size * modes[1].frequency_rad_s);
+        assert!((speed - y[9 + k]).abs() < 1e-10 * size * TAU * modes[1].frequency_hz);
     }
 }
 
@@ -209,6 +214,6 @@ fn long_segments_give_what_short_ones_give() {
 fn bodies_with_too_much_that_swings_are_refused() {
     let appendages = Appendages { modes: vec![mode(1.0, 0.0, [14.2, 0.0, 0.0])], ..Appendages::default() };
     let rigid = Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), Vec::new()).unwrap();
-    let told = rigid.with_appendages(appendages, MASS_KG).unwrap_err().to_string();
+    let told = rigid.with_appendages(appendages, MASS_KG, Vector3::zeros()).unwrap_err().to_string();
     assert!(told.contains("flexibleMode[k].coupling"), "{told}");
 }
