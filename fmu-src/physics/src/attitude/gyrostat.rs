@@ -169,8 +169,13 @@ impl Gyrostat {
         &self.inertia_body_kg_m2
     }
 
-    /// Takes another inertia, the rotors in it as before.
-    pub fn set_inertia(&mut self, inertia_body_kg_m2: Matrix3<f64>) {
+    /// Takes another inertia, the rotors in it as before, and another centre of mass.
+    pub fn set_mass_properties(
+        &mut self,
+        inertia_body_kg_m2: Matrix3<f64>,
+        center_of_mass_body_m: Vector3<f64>,
+    ) {
+        self.center_of_mass_body_m = center_of_mass_body_m;
         self.inertia_body_kg_m2 = inertia_body_kg_m2;
         self.carrier_body_kg_m2 = self.without(self.wheels.iter().filter(|wheel| !wheel.locked));
     }

@@ -3,6 +3,7 @@
 mod dynamics;
 mod flexibility;
 mod groups;
+mod propulsion;
 mod table;
 
 pub use table::table;

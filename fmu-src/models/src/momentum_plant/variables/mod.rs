@@ -7,6 +7,7 @@ pub mod defaults;
 mod effects;
 mod flexibility;
 mod motion;
+mod propulsion;
 mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
@@ -22,6 +23,9 @@ use effects::{
 };
 use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
+use propulsion::{
+    AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
+};
 use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
 
 use super::setup::PlantSetup;
@@ -80,6 +84,16 @@ pub struct PlantVariables {
     pub gyro: GyroVariables,
     #[group(count = setup.spacecraft.sun_sensors.len())]
     pub sun_sensor: Vec<SunSensorVariables>,
+    #[group]
+    pub accelerometer: AccelerometerVariables,
+    #[group(count = setup.spacecraft.thrusters.len())]
+    pub thruster: Vec<ThrusterVariables>,
+    #[group(count = setup.spacecraft.tanks.len())]
+    pub tank: Vec<TankVariables>,
+    #[group]
+    pub propellant: PropellantVariables,
+    #[group]
+    pub thrust: ThrustVariables,
     #[group]
     pub noise: NoiseVariables,
     #[group]
