@@ -144,6 +144,38 @@ fn every_rule_has_its_message() {
         ("= 4.0", "= 4.0\nmax_torque_n_m = -1", "wheels[1].max_torque_n_m", "above 0"),
         ("= 4.0", "= 4.0\ncoulomb_friction_n_m = -1", "wheels[1].coulomb_friction_n_m", "from 0"),
         ("= 4.0", "= 4.0\nviscous_friction_n_m_s = nan", "wheels[1].viscous_friction_n_m_s", "from 0"),
+        ("= 4.0", "= 4.0\nstatic_imbalance_kg_m = -1", "wheels[1].static_imbalance_kg_m", "from 0"),
+        ("= 4.0", "= 4.0\nstatic_imbalance_kg_m = 1e-5", "wheels[1].position_m", "place"),
+        (
+            "[[wheels]]",
+            "[[flexible_modes]]\nfrequency_hz = 0\ncoupling_sqrt_kg_m = [1, 0, 0]\n[[wheels]]",
+            "flexible_modes[1].frequency_hz",
+            "above 0",
+        ),
+        (
+            "[[wheels]]",
+            "[[flexible_modes]]\nfrequency_hz = 1\ndamping = -1\ncoupling_sqrt_kg_m = [1, 0, 0]\n[[wheels]]",
+            "flexible_modes[1].damping",
+            "from 0",
+        ),
+        (
+            "[[wheels]]",
+            "[[flexible_modes]]\nfrequency_hz = 1\ncoupling_sqrt_kg_m = [9, 0, 0]\n[[wheels]]",
+            "flexible_modes",
+            "leave an inertia",
+        ),
+        (
+            "[[wheels]]",
+            "[[slosh]]\nmass_kg = 100\nlength_m = 1\npivot_m = [0, 0, 0]\naxis = [0, 0, 1]\n[[wheels]]",
+            "slosh",
+            "less than mass_properties.mass_kg",
+        ),
+        (
+            "[[wheels]]",
+            "[[slosh]]\nmass_kg = 10\nlength_m = 0\npivot_m = [0, 0, 0]\naxis = [0, 0, 1]\n[[wheels]]",
+            "slosh[1].length_m",
+            "above 0",
+        ),
         ("[[wheels]]", "[[sun_sensors]]\naxis = [0, 0, 2]\n[[wheels]]", "sun_sensors[1].axis", "unit vector"),
         (
             "[[wheels]]",

@@ -2,6 +2,7 @@
 
 pub mod center;
 pub mod dynamics;
+mod flexibility;
 pub mod propulsion;
 pub mod state;
 

@@ -5,6 +5,7 @@ pub mod choices;
 mod control;
 pub mod defaults;
 mod effects;
+mod flexibility;
 mod motion;
 mod propulsion;
 mod surroundings;
@@ -20,6 +21,7 @@ use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
+use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
 use propulsion::{
     AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
@@ -68,6 +70,10 @@ pub struct PlantVariables {
     pub panel: Vec<PanelVariables>,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
+    #[group(count = setup.spacecraft.flexible_modes.len())]
+    pub flexible_mode: Vec<FlexibleModeVariables>,
+    #[group(count = setup.spacecraft.sloshes.len())]
+    pub slosh: Vec<SloshVariables>,
     #[group]
     pub control: ControlVariables,
     #[group]

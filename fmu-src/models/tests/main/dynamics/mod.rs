@@ -1,6 +1,7 @@
 //! Controlled and free flight: rigid body, wheels, controller, sensors.
 
 mod control;
+mod flexibility;
 mod momentum;
 mod panels;
 mod refusals;
