@@ -282,6 +282,10 @@ pub struct Pack {
     /// Commands over time, a TOML file (see `heliotorque schema timeline`), for models that take one; the GUID stays
     #[arg(long, value_name = "TOML")]
     pub timeline: Option<PathBuf>,
+    /// Positions of Sun, Earth and planets over time, a TOML file (see `heliotorque ephemeris`), for models that take one;
+    /// read where ephemeris.source is chebyshev or coarse; the GUID stays
+    #[arg(long, value_name = "TOML")]
+    pub ephemeris: Option<PathBuf>,
     /// Add outputs of every plate: plate[k].temperature and plate[k].force[i], as with `per_plate_outputs = true` in the
     /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
     #[arg(long)]

@@ -20,11 +20,13 @@ use effects::{
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
-use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
+use surroundings::{
+    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables,
+};
 
 use super::setup::PlantSetup;
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, EphemerisVariables, GuidedVariables};
+use crate::common::variables::{EclipseVariables, GuidedVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]

@@ -16,11 +16,9 @@ pub(super) struct Description {
     /// Where the positions come from, for people.
     pub source: Option<String>,
     /// The precise models: Chebyshev segments.
-    #[serde(default)]
-    pub body: Vec<BodyDescription>,
+    pub body: Option<Vec<BodyDescription>>,
     /// The coarse models: polynomials of fourth degree of Keplerian elements.
-    #[serde(default)]
-    pub coarse: Vec<CoarseDescription>,
+    pub coarse: Option<Vec<CoarseDescription>>,
 }
 
 /// A frame.

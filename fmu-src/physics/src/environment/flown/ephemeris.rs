@@ -50,11 +50,13 @@ impl FlownEphemeris {
         let Frame::Eme2000 = description.frame;
         let mut check = Checker::new(&document, findings);
         let root = Place::root();
-        if description.body.is_empty() && description.coarse.is_empty() {
+        let bodies = description.body.as_deref().unwrap_or_default();
+        let coarse_bodies = description.coarse.as_deref().unwrap_or_default();
+        if bodies.is_empty() && coarse_bodies.is_empty() {
             check.report(&root, "no body", "at least one [[body]] or [[coarse]]");
         }
         let mut found = Self { source: description.source.clone(), ..Self::default() };
-        for (index, body) in description.body.iter().enumerate() {
+        for (index, body) in bodies.iter().enumerate() {
             let at = root.key("body").item(index);
             let is_new = found.precise.iter().all(|other| other.target != body.body);
             check_target(&mut check, &at, body.body, body.center, is_new);
@@ -69,7 +71,7 @@ impl FlownEphemeris {
                 found.precise.push(FittedBody { target: body.body, center: body.center, motion, error });
             }
         }
-        for (index, body) in description.coarse.iter().enumerate() {
+        for (index, body) in coarse_bodies.iter().enumerate() {
             let at = root.key("coarse").item(index);
             let is_new = found.coarse.iter().all(|other| other.target != body.body);
             check_target(&mut check, &at, body.body, body.center, is_new);
@@ -153,6 +155,12 @@ impl FlownEphemeris {
     /// Position and velocity by the coarse model of a target about its own centre; `None` without one or outside its span.
     pub fn coarse_state(&self, target: FlownTarget, epoch_s: f64) -> Option<CartesianState> {
         self.coarse.iter().find(|body| body.target == target)?.motion.state(epoch_s)
+    }
+
+    /// The same of the spacecraft, if its model is about `center`.
+    pub fn coarse_spacecraft(&self, center: Body, epoch_s: f64) -> Option<CartesianState> {
+        let spacecraft = self.coarse.iter().find(|body| body.target == FlownTarget::Spacecraft)?;
+        if spacecraft.center == center { spacecraft.motion.state(epoch_s) } else { None }
     }
 
     /// Visits the models from `from` up to the first centre that `other` counts from as well, or is; `None` where the chain
@@ -296,7 +304,11 @@ fn coarse(check: &mut Checker<'_>, at: &Place, body: &CoarseDescription) -> Coar
             epochs.clone().map(|at_s| motion.elements.value(at_s)[row]).find(|value| !is_good(*value))
         };
         if let Some(a_m) = bad(0, |a_m| a_m > 0.0) {
-            check.report(&at.key("semi_major_axis_m"), format_args!("{a_m:e} m"), "above 0 all over the span");
+            check.report(
+                &at.key("semi_major_axis_m"),
+                format_args!("{a_m:e} m"),
+                "above 0 all over the span",
+            );
         }
         if let Some(e) = bad(1, |e| (0.0..1.0).contains(&e)) {
             check.report(

@@ -70,7 +70,6 @@ fn stated_errors_bound_the_fit_and_are_nearly_reached() {
         }
         let [position, velocity] =
             [found.position_m / body.error.position_m, found.velocity_m_s / body.error.velocity_m_s];
-        println!("{}: {:?}, found over stated {position} {velocity}", body.target, body.error);
         assert!(position < 1.05 && velocity < 1.05, "{}: {position} {velocity}", body.target);
         assert!(position > 0.5 && velocity > 0.5, "{}: {position} {velocity}", body.target);
     }
@@ -174,8 +173,8 @@ fn a_coarse_model_follows_elements_that_drift() {
     assert!((found[1] - first.eccentricity - 0.01).abs() < 1e-8);
     // 730 turns, give or take what the drift of the eccentricity makes of the mean anomaly.
     let turns = (found[5] - motion.elements.value(span_s[0])[5]) / core::f64::consts::TAU;
-    let period_s = core::f64::consts::TAU
-        * (MESSENGER_AS_PRINTED.semi_major_axis_m.powi(3) / GM_MERCURY_M3_S2).sqrt();
+    let period_s =
+        core::f64::consts::TAU * (MESSENGER_AS_PRINTED.semi_major_axis_m.powi(3) / GM_MERCURY_M3_S2).sqrt();
     assert!((turns - 365.0 * DAY_S / period_s).abs() < 0.05, "{turns}");
 }
 
@@ -196,17 +195,18 @@ fn coarse_error(body: Body) -> (f64, FitError) {
 #[test]
 fn coarse_planets_stay_within_the_stated_error_of_vsop87() {
     let cases = [
-        (Body::Mercury, 1.0, 1e9),
-        (Body::Venus, 1.0, 1e9),
-        (Body::Earth, 1.0, 1e9),
-        (Body::Mars, 1.0, 1e9),
-        (Body::Jupiter, 1.0, 1e9),
+        (Body::Mercury, 1.1e-4, 4.6),
+        (Body::Venus, 1.3e-4, 3.2),
+        // The Earth swings about its barycentre with the Moon: 4,700 km and 12 m/s of it.
+        (Body::Earth, 1.3e-4, 15.5),
+        (Body::Mars, 2.9e-4, 4.4),
+        (Body::Jupiter, 1.4e-4, 7.4),
     ];
     let found = cases.map(|(body, ..)| coarse_error(body));
-    println!("{found:?}");
     for ((body, allowed_rad, allowed_m_s), (angle_rad, error)) in cases.into_iter().zip(found) {
-        assert!(angle_rad < allowed_rad && angle_rad > 0.5 * allowed_rad, "{body:?}: {angle_rad:e} rad");
-        assert!(error.velocity_m_s < allowed_m_s, "{body:?}: {error:?}");
+        assert!(angle_rad < allowed_rad && angle_rad > 0.8 * allowed_rad, "{body:?}: {angle_rad:e} rad");
+        let velocity_m_s = error.velocity_m_s;
+        assert!(velocity_m_s < allowed_m_s && velocity_m_s > 0.8 * allowed_m_s, "{body:?}: {error:?}");
     }
 }
 
@@ -263,10 +263,22 @@ fn the_small_file_is_right_and_a_straight_line() {
 fn what_is_wrong_is_told_by_line_and_key() {
     let second = "{ start_s = 10.0, end_s = 20.0";
     for (old, new, said) in [
-        (second, "{ start_s = 11.0, end_s = 20.0", "e.toml:11: body[1].segment[2].start_s: found 1.1e1, a gap of 1e0 s"),
-        (second, "{ start_s = 9.0, end_s = 20.0", "e.toml:11: body[1].segment[2].start_s: found 9e0, an overlap of 1e0 s"),
+        (
+            second,
+            "{ start_s = 11.0, end_s = 20.0",
+            "e.toml:11: body[1].segment[2].start_s: found 1.1e1, a gap of 1e0 s",
+        ),
+        (
+            second,
+            "{ start_s = 9.0, end_s = 20.0",
+            "e.toml:11: body[1].segment[2].start_s: found 9e0, an overlap of 1e0 s",
+        ),
         (second, "{ start_s = 10.0, end_s = 10.0", "segment[2].end_s: found 1e1, allowed: more than start_s"),
-        (second, "{ start_s = 10.0, end_s = 1e12", "segment[2].end_s: found 1000000000000, allowed: s past J2000"),
+        (
+            second,
+            "{ start_s = 10.0, end_s = 1e12",
+            "segment[2].end_s: found 1000000000000, allowed: s past J2000",
+        ),
         ("x_m = [5e10, 1.0]", "x_m = [5e10, nan]", "body[1].segment[1].x_m[2]: found NaN, allowed: a finite"),
         ("x_m = [5e10, 1.0]", "x_m = [5e10]", "segment[1].x_m: found 1 coefficients, allowed: 2, one more"),
         ("degree = 1", "degree = 99", "body[1].degree: found 99, allowed: a degree from 0 to 24"),
@@ -281,7 +293,8 @@ fn what_is_wrong_is_told_by_line_and_key() {
         ("[1.5e11, 0.0,", "[1.5e11,", "semi_major_axis_m: found a list of length 4"),
     ] {
         assert!(SMALL.contains(old), "{old}");
-        let error = FlownEphemeris::from_toml("e.toml", &SMALL.replacen(old, new, 1)).unwrap_err().to_string();
+        let error =
+            FlownEphemeris::from_toml("e.toml", &SMALL.replacen(old, new, 1)).unwrap_err().to_string();
         assert!(error.contains(said), "{new}: {error}");
     }
     let cut = SMALL.find("center = \"sun\"").unwrap() - 3;
@@ -293,11 +306,15 @@ fn what_is_wrong_is_told_by_line_and_key() {
     for (other, said) in [
         (entry.to_owned(), "body[2].body: found sun for the second time, allowed: each body once"),
         (
-            entry.replace("\"sun\"", "\"m\"").replace("\"mercury\"", "\"sun\"").replace("\"m\"", "\"mercury\""),
+            entry
+                .replace("\"sun\"", "\"m\"")
+                .replace("\"mercury\"", "\"sun\"")
+                .replace("\"m\"", "\"mercury\""),
             "body[2].center: found sun, whose own position counts from mercury",
         ),
     ] {
-        let error = FlownEphemeris::from_toml("e.toml", &format!("{SMALL}\n{other}")).unwrap_err().to_string();
+        let error =
+            FlownEphemeris::from_toml("e.toml", &format!("{SMALL}\n{other}")).unwrap_err().to_string();
         assert!(error.contains(said), "{error}");
     }
 }
