@@ -7,7 +7,7 @@
 
 use nalgebra::SVector;
 
-use super::table::EphemerisSegment;
+use super::table::{EphemerisSegment, SegmentTable};
 use crate::environment::CartesianState;
 use crate::numerics::chebyshev::Segment;
 
@@ -64,9 +64,7 @@ enum Purpose {
 
 impl FitPlan {
     /// Segments over a span; inner edges are whole multiples of their length past J2000.
-    ///
-    /// # Panics
-    /// Never; a length that is not above 0 makes one segment of the whole span.
+    /// A length that is not above 0 makes one segment of the whole span.
     pub fn new([start_s, end_s]: [f64; 2], segment_s: f64) -> Self {
         let mut edges_s = vec![start_s];
         if segment_s > 0.0 {
@@ -100,7 +98,7 @@ impl FitPlan {
     }
 
     /// The segments of this degree through the states at [`FitPlan::epochs_s`], and their error.
-    pub fn fit(&self, states: &[CartesianState], degree: usize) -> (Vec<EphemerisSegment>, FitError) {
+    pub fn fit(&self, states: &[CartesianState], degree: usize) -> (SegmentTable, FitError) {
         let mut error = FitError::default();
         let mut fitted = Vec::with_capacity(self.len());
         for (edge, states) in self.edges_s.windows(2).zip(states.chunks(SAMPLES + CHECKS)) {
@@ -122,7 +120,7 @@ impl FitPlan {
             }
             fitted.push(segment);
         }
-        (fitted, error)
+        (SegmentTable::joined(fitted), error)
     }
 }
 

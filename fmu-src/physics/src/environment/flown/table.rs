@@ -46,6 +46,11 @@ impl SegmentTable {
         (!segments.is_empty() && is_ordered && is_whole).then_some(Self { segments })
     }
 
+    /// Of segments that are known to be in order and without gaps, at least one.
+    pub(super) fn joined(segments: Vec<EphemerisSegment>) -> Self {
+        Self { segments }
+    }
+
     /// The segments in the order of time.
     pub fn segments(&self) -> &[EphemerisSegment] {
         &self.segments

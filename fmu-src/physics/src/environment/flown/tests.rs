@@ -33,8 +33,8 @@ fn motion(target: FlownTarget) -> impl FnMut(f64) -> CartesianState {
 fn fitted(target: FlownTarget, center: Body, segment_s: f64, degree: usize) -> FittedBody<SegmentTable> {
     let plan = FitPlan::new(SPAN_S, segment_s);
     let states: Vec<_> = plan.epochs_s().into_iter().map(motion(target)).collect();
-    let (segments, error) = plan.fit(&states, degree);
-    FittedBody { target, center, motion: SegmentTable::new(segments).unwrap(), error }
+    let (motion, error) = plan.fit(&states, degree);
+    FittedBody { target, center, motion, error }
 }
 
 fn mission() -> FlownEphemeris {
