@@ -56,7 +56,7 @@ pub fn precise(source: &mut Source, asked: &Asked) -> Result<FittedBody<SegmentT
     }
     if let Some(degree) = asked.degree {
         let plan = FitPlan::new(span_s, asked.segment_s.unwrap_or(SEGMENT_S));
-        let states = flown(source, target, &plan.epochs_s(), asked.is_quiet)?;
+        let [states] = flown(source, [target], &plan.epochs_s(), asked.is_quiet)?;
         let (motion, error) = plan.fit(&states, degree.min(GREATEST_DEGREE));
         return Ok(FittedBody { target, center: source.center, motion, error });
     }
@@ -66,7 +66,7 @@ pub fn precise(source: &mut Source, asked: &Asked) -> Result<FittedBody<SegmentT
     let mut best: Option<(FitError, f64)> = None;
     for _ in 0..=halvings {
         let plan = FitPlan::new(span_s, segment_s);
-        let states = flown(source, target, &plan.epochs_s(), asked.is_quiet)?;
+        let [states] = flown(source, [target], &plan.epochs_s(), asked.is_quiet)?;
         for degree in DEGREES {
             let (motion, error) = plan.fit(&states, degree);
             if error.position_m <= asked.tolerance_m {
@@ -93,14 +93,15 @@ pub fn precise(source: &mut Source, asked: &Asked) -> Result<FittedBody<SegmentT
     .into())
 }
 
-fn flown(
+fn flown<const N: usize>(
     source: &Source,
-    target: FlownTarget,
+    targets: [FlownTarget; N],
     epochs_s: &[f64],
     is_quiet: bool,
-) -> Result<Vec<CartesianState>, Failure> {
-    let bar = terminal::progress(epochs_s.len() as u64, &format!("epochs of {target}"), is_quiet);
-    let states = source.states(target, epochs_s, || bar.inc(1));
+) -> Result<[Vec<CartesianState>; N], Failure> {
+    let named = targets.map(|target| target.to_string()).join(", ");
+    let bar = terminal::progress(epochs_s.len() as u64, &format!("epochs of {named}"), is_quiet);
+    let states = source.states(targets, epochs_s, || bar.inc(1));
     bar.finish_and_clear();
     states
 }
@@ -114,7 +115,8 @@ pub fn coarse(
 ) -> Result<Vec<FittedBody<CoarseElements>>, Failure> {
     let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
     let length_s = span_s[1] - span_s[0];
-    let checks = (0..=COARSE_CHECKS).map(|k| span_s[0] + length_s * (f64::from(k) / f64::from(COARSE_CHECKS)));
+    let checks =
+        (0..=COARSE_CHECKS).map(|k| span_s[0] + length_s * (f64::from(k) / f64::from(COARSE_CHECKS)));
     let mut epochs: Vec<(f64, Option<usize>)> = checks.map(|at_s| (at_s.min(span_s[1]), None)).collect();
     epochs.extend(nodes_s.into_iter().enumerate().map(|(node, at_s)| (at_s, Some(node))));
     epochs.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -149,21 +151,16 @@ pub fn coarse(
         };
         states.iter().zip(sun).map(difference).collect()
     };
-    let sun = if center == Body::Sun {
-        vec![CartesianState::default(); epochs_s.len()]
-    } else {
-        flown(source, FlownTarget::Sun, &epochs_s, is_quiet)?
-    };
+    let [sun, earth, spacecraft] =
+        flown(source, [FlownTarget::Sun, FlownTarget::Earth, FlownTarget::Spacecraft], &epochs_s, is_quiet)?;
     let origin = vec![CartesianState::default(); epochs_s.len()];
     if center != Body::Sun {
         add(center.into(), Body::Sun, &from_sun(&origin, &sun))?;
     }
     if center != Body::Earth {
-        let earth = flown(source, FlownTarget::Earth, &epochs_s, is_quiet)?;
         add(FlownTarget::Earth, Body::Sun, &from_sun(&earth, &sun))?;
     }
     if targets.contains(&FlownTarget::Spacecraft) {
-        let spacecraft = flown(source, FlownTarget::Spacecraft, &epochs_s, is_quiet)?;
         add(FlownTarget::Spacecraft, center, &spacecraft)?;
     }
     Ok(models)

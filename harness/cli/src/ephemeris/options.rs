@@ -83,7 +83,10 @@ impl Ephemeris {
         let start_s = epoch_s("--start", &self.start)?;
         let stop_s = epoch_s("--stop", &self.stop)?;
         if stop_s <= start_s {
-            return Err(format!("--stop: found {:?}, allowed: a date after --start, {:?}", self.stop, self.start));
+            return Err(format!(
+                "--stop: found {:?}, allowed: a date after --start, {:?}",
+                self.stop, self.start
+            ));
         }
         Ok([start_s, stop_s])
     }

@@ -64,9 +64,13 @@ pub fn summary(ephemeris: &FlownEphemeris) -> String {
 
 /// Bodies, spans and errors as a table.
 pub fn table(ephemeris: &FlownEphemeris, bytes: usize) -> String {
-    let mut table = terminal::table(&["model", "body", "from", "begin", "end", "segments", "degree", "error", ""]);
+    let mut table =
+        terminal::table(&["model", "body", "from", "begin", "end", "segments", "degree", "error", ""]);
     let errors = |error: &FitError| {
-        [format!("{} m", terminal::short(error.position_m)), format!("{} m/s", terminal::short(error.velocity_m_s))]
+        [
+            format!("{} m", terminal::short(error.position_m)),
+            format!("{} m/s", terminal::short(error.velocity_m_s)),
+        ]
     };
     for body in &ephemeris.precise {
         let ([start_s, end_s], segments) = (body.motion.span_s(), body.motion.segments());
@@ -86,7 +90,7 @@ pub fn table(ephemeris: &FlownEphemeris, bytes: usize) -> String {
         ]);
     }
     for body in &ephemeris.coarse {
-        let [start_s, end_s] = body.motion.span_s();
+        let [start_s, end_s] = body.motion.span_s;
         let [position, velocity] = errors(&body.error);
         table.add_row([
             "coarse".to_owned(),

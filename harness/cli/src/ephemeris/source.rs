@@ -35,7 +35,8 @@ impl Source {
         let fmu = Fmu::open(path)?;
         let shown = path.display().to_string();
         let description = fmu.description();
-        let names = [START_EPOCH, CENTER, "sun.positionInertial[1]", "earth.positionInertial[1]", "position[1]"];
+        let names =
+            [START_EPOCH, CENTER, "sun.positionInertial[1]", "earth.positionInertial[1]", "position[1]"];
         if let Some(name) = names.into_iter().find(|name| fmu.variable(name).is_err()) {
             return Err(format!(
                 "{shown}: {} has no variable {name}, allowed: a MomentumPlant, which places Sun, Earth and spacecraft",
@@ -70,40 +71,44 @@ impl Source {
         format!("{} {}{with}", description.model_name, description.guid)
     }
 
-    /// Position and velocity of a target from the centre at epochs that do not fall; `told` hears of each.
-    pub fn states(
+    /// Positions and velocities of targets from the centre at epochs that do not fall, of one flight; `told` hears of each
+    /// epoch.
+    pub fn states<const N: usize>(
         &self,
-        target: FlownTarget,
+        targets: [FlownTarget; N],
         epochs_s: &[f64],
         mut told: impl FnMut(),
-    ) -> Result<Vec<CartesianState>, Box<dyn std::error::Error>> {
-        let (position, velocity) = match target {
-            FlownTarget::Sun => ("sun.positionInertial", "sun.velocityInertial"),
-            FlownTarget::Earth => ("earth.positionInertial", "earth.velocityInertial"),
-            _ => ("position", "velocity"),
-        };
-        let mut outputs: Outputs = [0; 6];
-        for (slot, (name, i)) in outputs.iter_mut().zip((0..6).map(|i| {
-            if i < 3 { (position, i + 1) } else { (velocity, i - 2) }
-        })) {
-            *slot = self.fmu.variable(&format!("{name}[{i}]"))?.value_reference;
+    ) -> Result<[Vec<CartesianState>; N], Box<dyn std::error::Error>> {
+        let mut outputs: [Outputs; N] = [[0; 6]; N];
+        for (outputs, target) in outputs.iter_mut().zip(targets) {
+            let (position, velocity) = match target {
+                FlownTarget::Sun => ("sun.positionInertial", "sun.velocityInertial"),
+                FlownTarget::Earth => ("earth.positionInertial", "earth.velocityInertial"),
+                _ => ("position", "velocity"),
+            };
+            let names = [position, velocity].into_iter().flat_map(|name| (1..=3).map(move |i| (name, i)));
+            for (slot, (name, i)) in outputs.iter_mut().zip(names) {
+                *slot = self.fmu.variable(&format!("{name}[{i}]"))?.value_reference;
+            }
         }
         let mut instance = self.started()?;
         let mut time_s = 0.0;
-        let mut states = Vec::with_capacity(epochs_s.len());
+        let mut states = targets.map(|_| Vec::with_capacity(epochs_s.len()));
         for epoch_s in epochs_s {
             let next_s = epoch_s - self.start_s;
             if next_s > time_s {
                 instance.do_step(time_s, next_s - time_s, true).map_err(|error| self.in_fmu(&error))?;
                 time_s = next_s;
             }
-            let mut values = [0.0; 6];
-            instance.get_reals(&outputs, &mut values)?;
-            let [x, y, z, vx, vy, vz] = values;
-            states.push(CartesianState {
-                position_m: Vector3::new(x, y, z),
-                velocity_m_s: Vector3::new(vx, vy, vz),
-            });
+            for (outputs, states) in outputs.iter().zip(&mut states) {
+                let mut values = [0.0; 6];
+                instance.get_reals(outputs, &mut values)?;
+                let [x, y, z, vx, vy, vz] = values;
+                states.push(CartesianState {
+                    position_m: Vector3::new(x, y, z),
+                    velocity_m_s: Vector3::new(vx, vy, vz),
+                });
+            }
             told();
             if interrupt::raised() {
                 return Err("interrupted".into());

@@ -28,6 +28,8 @@ pub type KeplerianElements = SVector<f64, 6>;
 pub struct CoarseElements {
     /// What it moves about.
     pub center: Body,
+    /// First and last epoch; those of the polynomials are rounded otherwise.
+    pub span_s: [f64; 2],
     /// The elements over the span.
     pub elements: Segment<6, COARSE_TERMS>,
 }
@@ -36,12 +38,13 @@ impl CoarseElements {
     /// Of elements given at the nodes of a span, [`Segment::nodes`]; mean anomalies run on over full turns.
     pub fn of_elements<const N: usize>(
         center: Body,
-        [start_s, end_s]: [f64; 2],
+        span_s: [f64; 2],
         elements: &[KeplerianElements; N],
     ) -> Self {
+        let [start_s, end_s] = span_s;
         let whole = Segment::from_samples(start_s, end_s, elements);
         let lowest = whole.coefficients().fixed_columns::<COARSE_TERMS>(0).into_owned();
-        Self { center, elements: Segment::from_coefficients(start_s, end_s, lowest) }
+        Self { center, span_s, elements: Segment::from_coefficients(start_s, end_s, lowest) }
     }
 
     /// Of states about the centre at the nodes of a span, from the last to the first; `None` where one is no ellipse.
@@ -71,14 +74,9 @@ impl CoarseElements {
         Some(Self::of_elements(center, span_s, &elements))
     }
 
-    /// First and last epoch.
-    pub fn span_s(&self) -> [f64; 2] {
-        [self.elements.start(), self.elements.end()]
-    }
-
     /// Position and velocity about the centre; `None` outside the span and where the polynomials give no ellipse.
     pub fn state(&self, epoch_s: f64) -> Option<CartesianState> {
-        let [start_s, end_s] = self.span_s();
+        let [start_s, end_s] = self.span_s;
         if !(start_s..=end_s).contains(&epoch_s) {
             return None;
         }

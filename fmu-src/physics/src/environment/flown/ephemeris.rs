@@ -296,6 +296,7 @@ fn coarse(check: &mut Checker<'_>, at: &Place, body: &CoarseDescription) -> Coar
     let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row].1[k]);
     let motion = CoarseElements {
         center: body.center,
+        span_s: [start_s, end_s],
         elements: Segment::from_coefficients(start_s, end_s, coefficients),
     };
     if !check.has_reported(at) {

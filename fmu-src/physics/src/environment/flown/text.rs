@@ -33,7 +33,7 @@ pub fn to_toml(ephemeris: &FlownEphemeris) -> String {
         }
     }
     for body in &ephemeris.coarse {
-        let [start_s, end_s] = body.motion.span_s();
+        let [start_s, end_s] = body.motion.span_s;
         let _ = writeln!(
             text,
             "\n[[coarse]]\nbody = \"{}\"\ncenter = \"{}\"",
