@@ -18,9 +18,9 @@ use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
 use super::propulsion::{SaidOfThrusters, reaction_control};
-use crate::common::choices::{CommandKind, EphemerisSource, OrbitCenter};
+use crate::common::choices::{CommandKind, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
-use crate::momentum_plant::variables::choices::{AttitudeSource, OrbitSource};
+use crate::momentum_plant::variables::choices::{AttitudeSource, EphemerisSource, OrbitSource};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]

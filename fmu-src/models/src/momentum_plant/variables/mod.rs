@@ -26,11 +26,13 @@ use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables
 use propulsion::{
     AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
-use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
+use surroundings::{
+    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables,
+};
 
 use super::setup::PlantSetup;
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, EphemerisVariables, GuidedVariables};
+use crate::common::variables::{EclipseVariables, GuidedVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]

@@ -81,7 +81,11 @@ fn a_pulse_train_gives_force_times_lever_times_time() {
         flight.set("thruster[13].onTime", 0.0);
         // About an axis of inertia from rest: the momentum keeps its direction.
         let expected = Vector3::x() * (22.0 * 0.8 * on_s);
-        assert!((momentum(&flight) - expected).norm() < 1e-13 * expected.norm(), "{}", momentum(&flight) - expected);
+        assert!(
+            (momentum(&flight) - expected).norm() < 1e-13 * expected.norm(),
+            "{}",
+            momentum(&flight) - expected
+        );
         assert!((flight.vector("attitude.rate").x - expected.x / 200.0).abs() < 1e-15);
         let used_kg = 22.0 * on_s / EXHAUST_M_S;
         assert!((flight.real("propellant.used") / used_kg - 1.0).abs() < 1e-12);
@@ -93,8 +97,10 @@ fn a_pulse_train_gives_force_times_lever_times_time() {
 #[test]
 fn a_long_thrust_follows_the_rocket_equation() {
     // Four through the centre of mass: no torque.
-    let main: String =
-        [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)].iter().map(|&(x, y)| thruster([x, y, -1.0], [0.0, 0.0, 1.0], 22.0, "set = \"c22\"")).collect();
+    let main: String = [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]
+        .iter()
+        .map(|&(x, y)| thruster([x, y, -1.0], [0.0, 0.0, 1.0], 22.0, "set = \"c22\""))
+        .collect();
     let named = craft(&(couples("") + &main));
     let mut flight = fly(&named, &[FREE, DARK]);
     flight.set("thrust.request", 2.0);
@@ -114,8 +120,13 @@ fn a_long_thrust_follows_the_rocket_equation() {
 
 #[test]
 fn a_tank_runs_dry_and_blowdown_weakens() {
-    let file = format!("{SIMPLE}ullage_m3 = 0.02\ndensity_kg_m3 = 1000.0\nallowed_pressure_pa = [6e5, 3e6]\n");
-    let main: String = (0..2).map(|k| thruster([0.0, if k == 0 { 0.5 } else { -0.5 }, -1.0], [0.0, 0.0, 1.0], 100.0, "set = \"lva\"")).collect();
+    let file =
+        format!("{SIMPLE}ullage_m3 = 0.02\ndensity_kg_m3 = 1000.0\nallowed_pressure_pa = [6e5, 3e6]\n");
+    let main: String = (0..2)
+        .map(|k| {
+            thruster([0.0, if k == 0 { 0.5 } else { -0.5 }, -1.0], [0.0, 0.0, 1.0], 100.0, "set = \"lva\"")
+        })
+        .collect();
     let named = NamedModel::<MomentumPlant>::with("blowdown.toml", &format!("{file}{}{main}", couples("")));
     let mut flight = fly(&named, &[FREE, DARK]);
     flight.set("thrust.request", 1.0);
@@ -125,7 +136,11 @@ fn a_tank_runs_dry_and_blowdown_weakens() {
     // rho (sqrt(V^2 + 2 c V t / rho) - V) with the flow c at the start.
     let flow = 200.0 / EXHAUST_M_S;
     let used = 1000.0 * ((0.02_f64.powi(2) + 2.0 * flow * 0.02 * time_s / 1000.0).sqrt() - 0.02);
-    assert!((flight.real("propellant.used") / used - 1.0).abs() < 1e-9, "{}", flight.real("propellant.used") / used - 1.0);
+    assert!(
+        (flight.real("propellant.used") / used - 1.0).abs() < 1e-9,
+        "{}",
+        flight.real("propellant.used") / used - 1.0
+    );
     let pressure = 2e6 * 0.02 / (0.02 + used / 1000.0);
     assert!((flight.real("tank[1].pressureActual") / pressure - 1.0).abs() < 1e-9);
     assert!((flight.vector("force.thruster").z / (200.0 * pressure / 2e6) - 1.0).abs() < 1e-9);
@@ -263,7 +278,13 @@ fn thrusters_stand_in_for_failed_wheels() {
 #[test]
 fn cutting_and_saving_change_no_bit() {
     let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
-    let held: Start<'_> = &[("wheel[1].startMomentum", 3.0), ("thrust.misalignment", 0.01), ("thrust.drift", 1e-5), ("thrust.jitter", 1e-3), ("accelerometer.noise", 1e-4)];
+    let held: Start<'_> = &[
+        ("wheel[1].startMomentum", 3.0),
+        ("thrust.misalignment", 0.01),
+        ("thrust.drift", 1e-5),
+        ("thrust.jitter", 1e-3),
+        ("accelerometer.noise", 1e-4),
+    ];
     let fly_in = |step_s: f64| {
         let mut flight = fly(&named, &[CONTROLLED, held]);
         flight.set("dump.request", 1.0);
@@ -272,8 +293,21 @@ fn cutting_and_saving_change_no_bit() {
         flight.set("thrust.command", 1.0);
         flight.set("thrust.stop", 75.321);
         flight.fly_to(90.0, step_s).unwrap();
-        let names = ["attitude.q[1]", "attitude.rate[2]", "momentum.inertial[3]", "deltaV[3]", "propellant.used", "mass", "accelerometer.deltaV[3]", "wheel[3].momentum", "thruster[6].pulses"];
-        names.map(|name| if name.ends_with("pulses") { f64::from(flight.integer(name)) } else { flight.real(name) }.to_bits())
+        let names = [
+            "attitude.q[1]",
+            "attitude.rate[2]",
+            "momentum.inertial[3]",
+            "deltaV[3]",
+            "propellant.used",
+            "mass",
+            "accelerometer.deltaV[3]",
+            "wheel[3].momentum",
+            "thruster[6].pulses",
+        ];
+        names.map(|name| {
+            if name.ends_with("pulses") { f64::from(flight.integer(name)) } else { flight.real(name) }
+                .to_bits()
+        })
     };
     let whole = fly_in(30.0);
     for step_s in [0.013, 0.25, 7.0] {
@@ -305,8 +339,16 @@ fn what_cannot_fire_is_refused_or_flagged() {
     flight.step_to(2.0).unwrap();
     flight.step_to(3.0).unwrap();
     let warnings = named.warnings();
-    assert_eq!(warnings.iter().filter(|it| it.contains("thruster[1].onDelay and onTime reach beyond")).count(), 1, "{warnings:?}");
-    assert_eq!(warnings.iter().filter(|it| it.contains("thrust.request asks for")).count(), 1, "{warnings:?}");
+    assert_eq!(
+        warnings.iter().filter(|it| it.contains("thruster[1].onDelay and onTime reach beyond")).count(),
+        1,
+        "{warnings:?}"
+    );
+    assert_eq!(
+        warnings.iter().filter(|it| it.contains("thrust.request asks for")).count(),
+        1,
+        "{warnings:?}"
+    );
     // Cut at each step and commanded anew there, it fires through.
     assert_eq!(flight.integer("thruster[1].pulses"), 1);
     assert!((momentum(&flight).norm() - 5.0 * 2.0).abs() < 1e-9, "{}", momentum(&flight).norm());
