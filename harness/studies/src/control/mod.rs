@@ -3,6 +3,7 @@
 //! Large slews, saturation and a failed wheel; jitter of a flexible structure; the safe modes of paper 001; the estimated curves of its Figures 7 and 8.
 
 mod cosimulation;
+mod dump;
 mod guided_loop;
 mod jitter;
 mod jitter_flight;
@@ -17,6 +18,7 @@ mod slew_limits;
 mod spectrum;
 mod transition;
 
+pub use dump::dump;
 pub use jitter::jitter;
 pub use safe_mode::safe_mode;
 pub use slew::slew;
