@@ -23,6 +23,20 @@ pub enum Channel {
     GyroBias,
     /// Sun sensor of a three-axis spacecraft, with its number.
     SunSensorDirection(u16),
+    /// Bias of accelerometers at the start, by body axis.
+    AccelerometerBias,
+    /// Scale error of accelerometers, by body axis.
+    AccelerometerScale,
+    /// Noise of accelerometers, by body axis.
+    AccelerometerNoise,
+    /// Random walk of the accelerometers' bias, by body axis.
+    AccelerometerDrift,
+    /// Thrust of a thruster's pulses, with its number.
+    Thruster(u16),
+    /// Misalignment and drift of a delta-v's thrust.
+    ThrustDirection,
+    /// Jitter of a delta-v's thrust, by second.
+    ThrustJitter,
 }
 
 impl Channel {
@@ -35,6 +49,13 @@ impl Channel {
             Self::GyroAngle => (4, 0),
             Self::GyroBias => (5, 0),
             Self::SunSensorDirection(number) => (6, u64::from(number)),
+            Self::AccelerometerBias => (7, 0),
+            Self::AccelerometerScale => (8, 0),
+            Self::AccelerometerNoise => (9, 0),
+            Self::AccelerometerDrift => (10, 0),
+            Self::Thruster(number) => (11, u64::from(number)),
+            Self::ThrustDirection => (12, 0),
+            Self::ThrustJitter => (13, 0),
         };
         (code << 56) ^ (number << 40) ^ event
     }
@@ -120,6 +141,14 @@ mod tests {
             Channel::SunSensorDirection(0),
             Channel::SunSensorDirection(1),
             Channel::SunSensorDirection(u16::MAX),
+            Channel::AccelerometerBias,
+            Channel::AccelerometerScale,
+            Channel::AccelerometerNoise,
+            Channel::AccelerometerDrift,
+            Channel::Thruster(0),
+            Channel::Thruster(u16::MAX),
+            Channel::ThrustDirection,
+            Channel::ThrustJitter,
         ];
         let mut found = Vec::new();
         for channel in channels {

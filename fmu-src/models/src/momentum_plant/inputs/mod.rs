@@ -2,6 +2,8 @@
 
 pub mod center;
 pub mod dynamics;
+mod flexibility;
+pub mod propulsion;
 pub mod state;
 
 use fmi_export::{Failure, Values};
@@ -79,7 +81,7 @@ pub fn refreshed(
             },
         }
     }));
-    Ok(Configuration {
+    let mut configuration = Configuration {
         epoch_minus_time_s,
         center: body,
         attitude: attitude(context, values, state, body, &orbit)?,
@@ -102,6 +104,7 @@ pub fn refreshed(
         },
         sunshade: values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0),
         panels,
+        left: None,
         center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
@@ -111,7 +114,13 @@ pub fn refreshed(
             0.0
         },
         momentum: settings(variables, values),
-    })
+    };
+    if let Some(thrusters) = &state.thrusters {
+        let loaded = configuration.loaded();
+        let left = state.propellant.mass_properties(&loaded, &thrusters.tanks, state.start_s);
+        configuration.left = Some(left);
+    }
+    Ok(configuration)
 }
 
 /// Refuses a step that leaves the span of the flown ephemerides it goes by.

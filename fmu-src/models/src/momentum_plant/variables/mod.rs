@@ -5,7 +5,9 @@ pub mod choices;
 mod control;
 pub mod defaults;
 mod effects;
+mod flexibility;
 mod motion;
+mod propulsion;
 mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
@@ -19,7 +21,11 @@ use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
+use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
+use propulsion::{
+    AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
+};
 use surroundings::{
     EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables,
 };
@@ -66,6 +72,10 @@ pub struct PlantVariables {
     pub panel: Vec<PanelVariables>,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
+    #[group(count = setup.spacecraft.flexible_modes.len())]
+    pub flexible_mode: Vec<FlexibleModeVariables>,
+    #[group(count = setup.spacecraft.sloshes.len())]
+    pub slosh: Vec<SloshVariables>,
     #[group]
     pub control: ControlVariables,
     #[group]
@@ -76,6 +86,16 @@ pub struct PlantVariables {
     pub gyro: GyroVariables,
     #[group(count = setup.spacecraft.sun_sensors.len())]
     pub sun_sensor: Vec<SunSensorVariables>,
+    #[group]
+    pub accelerometer: AccelerometerVariables,
+    #[group(count = setup.spacecraft.thrusters.len())]
+    pub thruster: Vec<ThrusterVariables>,
+    #[group(count = setup.spacecraft.tanks.len())]
+    pub tank: Vec<TankVariables>,
+    #[group]
+    pub propellant: PropellantVariables,
+    #[group]
+    pub thrust: ThrustVariables,
     #[group]
     pub noise: NoiseVariables,
     #[group]

@@ -4,6 +4,7 @@
 //! [`Estimate`]; [`ControllerState`] follows the [`ControlTarget`] with it and gives the torque on the body over the
 //! interval that begins at the sample; [`WheelAllocator`] spreads that over the wheels.
 
+mod accelerometer;
 mod allocation;
 mod controller;
 mod estimate;
@@ -13,6 +14,7 @@ mod sensors;
 mod settings;
 mod sun_sensors;
 
+pub use accelerometer::{AccelerometerSettings, AccelerometerState};
 pub use allocation::{Allocation, WheelAllocator};
 pub use controller::ControllerState;
 pub use estimate::Estimate;

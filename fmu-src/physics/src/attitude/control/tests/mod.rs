@@ -1,5 +1,6 @@
 //! Attitude control against closed forms, searches, and a rigid body integrated by other means.
 
+mod accelerometer;
 mod allocation;
 mod closed_loop;
 mod degraded;
