@@ -178,9 +178,10 @@ impl State {
             operational.keep_in = entry.keep_in.applied(&settings.keep_in, operational.keep_in.is_some());
         }
         let line = entry.map(|entry| entry.line);
+        let names_a_scenario = entry.is_some_and(|entry| entry.command.scenario.is_some());
         let entries = TimedEntries {
             scan: line.filter(|_| given.scan.frame.is_none()),
-            scenario: line.filter(|_| given.scenario.is_none()),
+            scenario: line.filter(|_| given.scenario.is_none() && names_a_scenario),
             mode: line.filter(|_| !reader.asks_for_a_mode()),
         };
         let command = self.system.continued(&command);
