@@ -15,6 +15,8 @@ pub mod attitude;
 
 pub mod spacecraft;
 
+pub mod propulsion;
+
 pub mod environment;
 
 pub mod radiation;

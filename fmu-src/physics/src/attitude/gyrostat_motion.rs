@@ -34,28 +34,45 @@ const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
 ];
 
-/// What acts on the body over a segment, body frame, linear in time from its start on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// What acts on the body over a segment, body frame, polynomials of the time since its start.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyLoad {
     /// Torque about the centre of mass in N m, and its slope in N m/s.
     pub torque_body_n_m: [Vector3<f64>; 2],
-    /// Acceleration by forces other than gravity in m/s2, and its slope in m/s3.
-    pub acceleration_body_m_s2: [Vector3<f64>; 2],
+    /// Force other than gravity in N, and its slope in N/s.
+    pub force_body_n: [Vector3<f64>; 2],
+    /// Mass in kg at the start.
+    pub mass_kg: f64,
+    /// What leaves the body in kg/s at the start, and its slope in kg/s2.
+    pub flow_kg_s: [f64; 2],
 }
 
 impl BodyLoad {
+    /// Nothing, on a body of this mass.
+    pub fn none(mass_kg: f64) -> Self {
+        let nothing = [Vector3::zeros(); 2];
+        Self { torque_body_n_m: nothing, force_body_n: nothing, mass_kg, flow_kg_s: [0.0; 2] }
+    }
+
     /// Whether nothing acts.
     fn is_zero(&self) -> bool {
-        *self == Self::default()
+        self.torque_body_n_m.iter().chain(&self.force_body_n).all(|it| *it == Vector3::zeros())
     }
 
+    /// Torque in N m and acceleration in m/s2.
     fn after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
-        [self.torque_body_n_m, self.acceleration_body_m_s2].map(|[start, slope]| start + slope * elapsed_s)
+        let [torque, force] =
+            [self.torque_body_n_m, self.force_body_n].map(|[start, slope]| start + slope * elapsed_s);
+        let [flow_kg_s, slope_kg_s2] = self.flow_kg_s;
+        let left_kg = self.mass_kg - (flow_kg_s + 0.5 * slope_kg_s2 * elapsed_s) * elapsed_s;
+        [torque, force / left_kg]
     }
 
-    fn is_finite(&self) -> bool {
-        let vectors = self.torque_body_n_m.iter().chain(&self.acceleration_body_m_s2);
-        vectors.flatten_all().all(|x| x.abs() <= GREATEST_IN_STATE)
+    fn is_sound(&self) -> bool {
+        let vectors = self.torque_body_n_m.iter().chain(&self.force_body_n);
+        vectors.flatten_all().chain(&self.flow_kg_s).all(|x| x.abs() <= GREATEST_IN_STATE)
+            && self.mass_kg > 0.0
+            && self.mass_kg <= GREATEST_IN_STATE
     }
 }
 
@@ -128,7 +145,7 @@ impl GyrostatMotion {
             momentum_body: [Vector3::zeros(); TERMS],
             rotors: Vec::with_capacity(gyrostat.wheels().len()),
             inverse_inertia: Matrix3::zeros(),
-            load: BodyLoad::default(),
+            load: BodyLoad::none(1.0),
             momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
             delta_v_inertial_m_s: Vector3::zeros(),
         };
@@ -158,7 +175,7 @@ impl GyrostatMotion {
             && self.attitude.iter().flatten().all(sound)
             && vectors.chain(totals).flatten_all().all(sound)
             && self.inverse_inertia.iter().all(sound)
-            && self.load.is_finite()
+            && self.load.is_sound()
             && self.rotors.iter().all(|it| {
                 it.rotor.is_sound()
                     && it.next.is_none_or(|next| next.is_sound())

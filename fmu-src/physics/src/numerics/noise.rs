@@ -31,6 +31,12 @@ pub enum Channel {
     AccelerometerNoise,
     /// Random walk of the accelerometers' bias, by body axis.
     AccelerometerDrift,
+    /// Thrust of a thruster's pulses, with its number.
+    Thruster(u16),
+    /// Misalignment and drift of a delta-v's thrust.
+    ThrustDirection,
+    /// Jitter of a delta-v's thrust, by second.
+    ThrustJitter,
 }
 
 impl Channel {
@@ -47,6 +53,9 @@ impl Channel {
             Self::AccelerometerScale => (8, 0),
             Self::AccelerometerNoise => (9, 0),
             Self::AccelerometerDrift => (10, 0),
+            Self::Thruster(number) => (11, u64::from(number)),
+            Self::ThrustDirection => (12, 0),
+            Self::ThrustJitter => (13, 0),
         };
         (code << 56) ^ (number << 40) ^ event
     }
@@ -136,6 +145,10 @@ mod tests {
             Channel::AccelerometerScale,
             Channel::AccelerometerNoise,
             Channel::AccelerometerDrift,
+            Channel::Thruster(0),
+            Channel::Thruster(u16::MAX),
+            Channel::ThrustDirection,
+            Channel::ThrustJitter,
         ];
         let mut found = Vec::new();
         for channel in channels {

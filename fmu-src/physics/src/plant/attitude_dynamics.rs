@@ -556,10 +556,9 @@ impl AttitudeDynamics {
         let dump = self.dump.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m);
         BodyLoad {
             torque_body_n_m: [torque + now.torque_body_n_m + dump, torque_slope + slope.torque_body_n_m],
-            acceleration_body_m_s2: [
-                (force + now.force_body_n) / mass_kg,
-                (force_slope + slope.force_body_n) / mass_kg,
-            ],
+            force_body_n: [force + now.force_body_n, force_slope + slope.force_body_n],
+            mass_kg,
+            flow_kg_s: [0.0; 2],
         }
     }
 

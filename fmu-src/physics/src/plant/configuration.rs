@@ -190,8 +190,13 @@ pub fn orbit_from_elements(
 }
 
 impl Configuration {
-    /// Mass, centre of mass and inertia with every panel at angle 0.
+    /// Mass, centre of mass and inertia with every panel at angle 0, of what is left.
     pub fn mass_at_zero(&self) -> MassProperties {
+        self.left.unwrap_or_else(|| self.loaded())
+    }
+
+    /// The same with full tanks.
+    pub fn loaded(&self) -> MassProperties {
         MassProperties {
             mass_kg: self.mass_kg,
             center_of_mass_body_m: self.center_of_mass_body_m,
@@ -233,11 +238,13 @@ pub struct Configuration {
     pub sunshade: SunshadeModel,
     /// One setting a panel.
     pub panels: Vec<PanelSetting>,
-    /// Centre of mass, body frame, in m, with every panel at angle 0.
+    /// Mass properties without the propellant used, with every panel at angle 0; absent while none is.
+    pub left: Option<MassProperties>,
+    /// Centre of mass, body frame, in m, with every panel at angle 0 and full tanks.
     pub center_of_mass_body_m: Vector3<f64>,
-    /// Mass, in kg.
+    /// Mass, in kg, with full tanks.
     pub mass_kg: f64,
-    /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0.
+    /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0 and full tanks.
     pub inertia_body_kg_m2: Matrix3<f64>,
     /// Gravitational parameter whose gradient turns the body, in m3/s2; 0 = left out.
     pub gravity_gradient_m3_s2: f64,

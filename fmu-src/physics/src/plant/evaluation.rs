@@ -265,8 +265,7 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
         Sample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
-            acceleration_inertial_m_s2: evaluation
-                .acceleration_inertial_m_s2(self.kinematics.configuration.mass_kg),
+            acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),
             events: evaluation.instant.events,
         }
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
+use super::build_propulsion::{tank, tanks_fit, thruster};
 use super::build_thermal::{
     Material, checked_area, checked_center, checked_normal, checked_outline, face_thermal, thermal,
 };
@@ -26,6 +27,8 @@ use super::spelling::nearest;
 use super::start::{StartEntry, start_entries};
 use super::sun_sensors::{HALF_FIELD_OF_VIEW_DEG, MountedSunSensor};
 use super::surface::{Cylinder, Plate, Sunshade, SunshadeModel};
+use super::tank::Tank;
+use super::thruster::Thruster;
 use super::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
 
 /// How far absorptivity + specular + diffuse may be off 1.
@@ -46,6 +49,10 @@ pub struct Spacecraft {
     pub panels: Vec<Panel>,
     /// Reaction wheels.
     pub wheels: Vec<Wheel>,
+    /// Propellant tanks.
+    pub tanks: Vec<Tank>,
+    /// Thrusters.
+    pub thrusters: Vec<Thruster>,
     /// Sun sensors.
     pub sun_sensors: Vec<MountedSunSensor>,
     /// Instruments that are pointed.
@@ -135,6 +142,14 @@ impl Builder<'_> {
         }
         self.distinct_names(description);
         self.panels_fit(description);
+        let tanks = self.list(&root.key("tanks"), description.tanks.as_deref(), |builder, at, index, it| {
+            tank(&mut builder.check, at, index, it)
+        });
+        tanks_fit(&mut self.check, &tanks, description.mass_properties.mass_kg);
+        let thrusters =
+            self.list(&root.key("thrusters"), description.thrusters.as_deref(), |builder, at, index, it| {
+                thruster(&mut builder.check, &tanks, at, index, it)
+            });
         let keep_in = root.key("sun_keep_in");
         let threshold = root.key("momentum").key("dump_threshold_n_m_s");
         Spacecraft {
@@ -144,6 +159,8 @@ impl Builder<'_> {
             sunshade: description.sunshade.as_ref().map(|s| self.sunshade(&root.key("sunshade"), s)),
             panels: self.list(&root.key("panels"), description.panels.as_deref(), Self::panel),
             wheels: self.list(&root.key("wheels"), description.wheels.as_deref(), Self::wheel),
+            tanks,
+            thrusters,
             sun_sensors: match description.sun_sensors.as_deref() {
                 Some(sensors) => self.list(&root.key("sun_sensors"), Some(sensors), Self::sun_sensor),
                 None => MountedSunSensor::six(),
@@ -178,7 +195,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Two plates, the shade's among them, two panels, wheels, Sun sensors or instruments with one name could not be told apart.
+    /// Two plates, the shade's among them, two panels, wheels, Sun sensors, instruments, tanks or thrusters with one name could not be told apart.
     fn distinct_names(&mut self, description: &Description) {
         let root = Place::root();
         let plate = |plate: &PlateDescription| plate.name.clone();
@@ -203,7 +220,12 @@ impl Builder<'_> {
             named(&root.key("instruments"), description.instruments.as_deref(), "instrument", |instrument| {
                 Some(instrument.name.clone())
             });
-        for list in [plates, panels, wheels, sensors, instruments] {
+        let tanks = named(&root.key("tanks"), description.tanks.as_deref(), "tank", |tank| tank.name.clone());
+        let thrusters =
+            named(&root.key("thrusters"), description.thrusters.as_deref(), "thruster", |thruster| {
+                thruster.name.clone()
+            });
+        for list in [plates, panels, wheels, sensors, instruments, tanks, thrusters] {
             let mut known: BTreeMap<String, (Place, bool)> = BTreeMap::new();
             for (at, name, is_given) in list {
                 match known.get(&name) {

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use super::panel::PanelControl;
 use super::start::StartTable;
 use super::surface::SunshadeModel;
+use super::thruster::ThrusterSet;
 
 /// A spacecraft: what light falls on, what it weighs, what stores its momentum.
 #[derive(Debug, Deserialize)]
@@ -31,6 +32,12 @@ pub(crate) struct Description {
     /// Reaction wheels.
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub wheels: Option<Vec<WheelDescription>>,
+    /// Propellant tanks.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub tanks: Option<Vec<TankDescription>>,
+    /// Thrusters; they need a tank.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 24)))]
+    pub thrusters: Option<Vec<ThrusterDescription>>,
     /// Sun sensors; left out, six along the body axes.
     pub sun_sensors: Option<Vec<SunSensorDescription>>,
     /// Instruments fixed in the body frame, which Guidance points by their number from 1.
@@ -288,6 +295,75 @@ pub(crate) struct WheelDescription {
     /// Viscous friction, in N m per rad/s; 0 unless given.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub viscous_friction_n_m_s: Option<f64>,
+}
+
+/// A propellant tank.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TankDescription {
+    /// Name for thrusters and messages; numbered unless given.
+    pub name: Option<String>,
+    /// Where its propellant is, taken as a point, body frame, in m.
+    pub position_m: [f64; 3],
+    /// Propellant loaded, in kg; a part of mass_properties.mass_kg.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub propellant_kg: f64,
+    /// Pressure when loaded, in Pa; 2e6 unless given.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub pressure_pa: Option<f64>,
+    /// Least and greatest pressure at which thrusters may be fed, in Pa; any unless given.
+    pub allowed_pressure_pa: Option<[f64; 2]>,
+    /// Volume of the gas that drives the propellant out, in m3: the pressure falls as it expands (blowdown). Left out, the
+    /// pressure is regulated.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub ullage_m3: Option<f64>,
+    /// Density of the propellant in blowdown, in kg/m3; hydrazine's unless given.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub density_kg_m3: Option<f64>,
+}
+
+/// A thruster.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ThrusterDescription {
+    /// Name for messages; numbered unless given.
+    pub name: Option<String>,
+    /// Where it stands, body frame, in m.
+    pub position_m: [f64; 3],
+    /// Unit vector of its force on the spacecraft, body frame; the plume goes the other way.
+    pub direction: [f64; 3],
+    /// Full thrust, in N.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub force_n: f64,
+    /// Pressure at which it has that thrust, in Pa; its tank's when loaded unless given. Thrust and flow are proportional to
+    /// the pressure.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub at_pressure_pa: Option<f64>,
+    /// Specific impulse, in s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1e8)))]
+    pub specific_impulse_s: f64,
+    /// Name of the tank that feeds it; the first unless given.
+    pub tank: Option<String>,
+    /// The delta-v that it takes part in: `lva`, `c22` or `mono4`; none unless given. Those of `lva` never control the
+    /// attitude.
+    pub set: Option<ThrusterSet>,
+    /// Shortest time for which its valve opens, in s; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub min_on_time_s: Option<f64>,
+    /// Time over which the thrust rises linearly, in s; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub rise_time_s: Option<f64>,
+    /// Time over which the full thrust falls linearly to nothing, in s; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub tail_off_time_s: Option<f64>,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
+    pub scatter: Option<f64>,
+    /// Half angle of the plume, in deg: surfaces within it are flagged while it fires; 0, which is none, unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 90)))]
+    pub plume_half_angle_deg: Option<f64>,
 }
 
 /// A Sun sensor.

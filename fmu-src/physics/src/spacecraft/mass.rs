@@ -1,10 +1,10 @@
 //! Mass, centre of mass and inertia, and which of them a body can have.
 
 use nalgebra::{Matrix3, Vector3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Mass properties of the whole spacecraft.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassProperties {
     /// Mass in kg.
     pub mass_kg: f64,
@@ -48,6 +48,11 @@ impl PanelMass {
         let inertia_body_kg_m2 = (Matrix3::identity() + normal_body * normal_body.transpose()) * across;
         Self { mass_kg, center_body_m, inertia_body_kg_m2 }
     }
+}
+
+/// Inertia of a unit mass at `place` about the origin, in m2.
+pub fn steiner(place: &Vector3<f64>) -> Matrix3<f64> {
+    Matrix3::from_diagonal_element(place.norm_squared()) - place * place.transpose()
 }
 
 /// Relative slack of the checks below: a thin plate sits exactly on the triangle inequality's edge.

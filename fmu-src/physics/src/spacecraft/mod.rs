@@ -8,6 +8,7 @@
 //! axis of the panels; the origin is wherever the file's coordinates start, not the centre of mass.
 
 mod build;
+mod build_propulsion;
 mod build_thermal;
 mod checker;
 mod description;
@@ -28,6 +29,7 @@ mod spelling;
 mod start;
 mod sun_sensors;
 mod surface;
+mod tank;
 mod thermal;
 mod thruster;
 mod wheels;
@@ -40,6 +42,7 @@ pub(crate) use checker::Checker;
 pub(crate) use document::Document;
 pub use error::{Problem, SpacecraftError};
 pub use instruments::Instrument;
+pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use optics::Optics;
 pub use panel::{Panel, PanelControl};
@@ -54,10 +57,11 @@ pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;
 pub use surface::{Cylinder, Plate, Sunshade, SunshadeModel};
+pub use tank::{Blowdown, Tank};
 pub use thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
 };
-pub use thruster::{Thrust, Thruster};
+pub use thruster::{MOST_THRUSTERS, Thrust, Thruster, ThrusterSet, ValveTiming};
 pub use wheels::{PAPER_DUMP_THRESHOLDS_N_M_S, Wheel};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.

@@ -4,15 +4,10 @@
 //! (J_p' + m_p [r_p']) - (J_p + m_p [r_p]) about the origin and [r] = r.r 1 - r r^T (Steiner). The mass properties of the
 //! spacecraft are those with every panel at angle 0. Momentum that a panel has by turning against the body is left out.
 
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{Rotation3, Unit};
 
-use super::mass::MassProperties;
+use super::mass::{MassProperties, steiner};
 use super::panel::Panel;
-
-/// Inertia of a unit mass at `place` about the origin.
-fn steiner(place: &Vector3<f64>) -> Matrix3<f64> {
-    Matrix3::from_diagonal_element(place.norm_squared()) - place * place.transpose()
-}
 
 /// Mass properties of a spacecraft that has `at_zero` with every panel at angle 0, with the panels at these angles (by index,
 /// in rad).
@@ -51,6 +46,7 @@ pub fn with_panels(
 mod tests {
     //! Against the same body put together from point masses.
     use approx::assert_relative_eq;
+    use nalgebra::{Matrix3, Vector3};
 
     use super::*;
     use crate::spacecraft::{PanelMass, Spacecraft};

@@ -1,28 +1,83 @@
-//! Thrusters: force, torque and propellant flow of one and of a set.
+//! Thrusters: where each stands, its force, torque, propellant flow and valve.
 
 use nalgebra::Vector3;
 use serde::Serialize;
+
+/// Most thrusters of a spacecraft: a set of them is a bit mask.
+pub const MOST_THRUSTERS: usize = 24;
+
+/// Thrusters that give a delta-v together (paper 001, "Delta-V").
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum ThrusterSet {
+    /// The large velocity adjust thruster; it never controls the attitude.
+    Lva,
+    /// The 22 N thrusters about it.
+    C22,
+    /// Monopropellant thrusters of 4.4 N.
+    Mono4,
+}
+
+/// How a valve opens and closes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ValveTiming {
+    /// Shortest time for which it opens, in s; what is asked for less does not fire.
+    pub min_on_s: f64,
+    /// Time over which the thrust rises linearly after the valve opens, in s.
+    pub rise_s: f64,
+    /// Time over which the full thrust falls linearly to nothing after the valve closes, in s.
+    pub tail_off_s: f64,
+}
+
+impl ValveTiming {
+    /// Seconds of full thrust of a pulse whose valve is open for `on_s`, at least the time it takes to rise.
+    pub fn full_thrust_s(&self, on_s: f64) -> f64 {
+        on_s + 0.5 * (self.tail_off_s - self.rise_s)
+    }
+
+    /// How long the valve is open for so many seconds of full thrust.
+    pub fn on_s(&self, full_thrust_s: f64) -> f64 {
+        full_thrust_s - 0.5 * (self.tail_off_s - self.rise_s)
+    }
+}
 
 /// One thruster.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Thruster {
     /// Name.
     pub name: String,
-    /// Where it stands from the centre of mass, body frame, in m; for pictures, the torque is what acts.
-    #[serde(skip)]
+    /// Where it stands, body frame, in m. A spinner's is from the centre of mass.
     pub position_body_m: Vector3<f64>,
-    /// Force on the spacecraft, body components, in N.
+    /// Force on the spacecraft at full thrust, body components, in N.
     pub force_body_n: Vector3<f64>,
-    /// Torque about the centre of mass, body components, in N m.
+    /// Torque about the body frame's origin, body components, in N m.
     pub torque_body_n_m: Vector3<f64>,
-    /// Propellant flow, in kg/s.
+    /// Propellant flow at full thrust, in kg/s.
     pub flow_kg_s: f64,
+    /// How its valve opens and closes.
+    pub valve: ValveTiming,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it.
+    pub scatter: f64,
+    /// The delta-v that it takes part in.
+    pub set: Option<ThrusterSet>,
+    /// The tank that feeds it, from 0; a spinner has one for all.
+    pub tank: usize,
+    /// Pressure at which it has that force, in Pa; that of its tank at the start where there is none.
+    pub at_pressure_pa: Option<f64>,
+    /// Half angle of its plume about the opposite of its force, in rad; 0 where none is given.
+    pub plume_half_angle_rad: f64,
 }
 
 impl Thruster {
     /// Moment arm across the body's Z axis, in m (paper 002 Table 1).
     pub fn arm_across_z_m(&self) -> f64 {
         self.torque_body_n_m.xy().norm() / self.force_body_n.norm()
+    }
+
+    /// Torque about a point of the body frame, in N m.
+    pub fn torque_about_n_m(&self, point_body_m: &Vector3<f64>) -> Vector3<f64> {
+        self.torque_body_n_m - point_body_m.cross(&self.force_body_n)
     }
 }
 

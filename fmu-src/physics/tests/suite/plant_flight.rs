@@ -50,6 +50,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         sunshade: SunshadeModel::Plates,
         panels: vec![PanelSetting::Disabled; 2],
         center_of_mass_body_m: Vector3::new(0.0, 0.01, -0.03),
+        left: None,
         mass_kg: 700.0,
         inertia_body_kg_m2: Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9)),
         gravity_gradient_m3_s2: GM_MERCURY_M3_S2,

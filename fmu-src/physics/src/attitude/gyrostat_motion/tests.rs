@@ -93,7 +93,7 @@ fn a_free_body_turns_as_jacobi_says() {
     let mut worst = 0.0_f64;
     for minute in 1..=60 {
         let time_s = 60.0 * f64::from(minute);
-        fly(&mut motion, &craft, &[], &BodyLoad::default(), time_s, 0.02);
+        fly(&mut motion, &craft, &[], &BodyLoad::none(1.0), time_s, 0.02);
         let found = motion.at(&craft, time_s);
         let [sn, cn, dn] = jacobi(tau * time_s, m);
         // c = x, b = z, a = y is a left-handed order: the middle axis runs the other way.
@@ -150,7 +150,7 @@ fn momentum_and_energy_are_kept_for_a_day() {
         0.5 * motion.rate_body_rad_s.dot(&(craft.inertia_body_kg_m2() * motion.rate_body_rad_s))
     };
     let first = motion.at(&craft, 0.0);
-    fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::default(), 86_400.0, 0.02);
+    fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::none(1.0), 86_400.0, 0.02);
     let last = motion.at(&craft, 86_400.0);
     assert_eq!(last.momentum_inertial_n_m_s, first.momentum_inertial_n_m_s);
     assert_relative_eq!(energy(&last), energy(&first), max_relative = 1e-10);
@@ -167,7 +167,7 @@ fn a_rotor_runs_up_and_down_as_the_exponential_says() {
     let craft = Gyrostat::new(Matrix3::from_diagonal_element(1e9), vec![one]).unwrap();
     let still = Vector3::zeros();
     let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |_| 0.0);
-    let free = BodyLoad::default();
+    let free = BodyLoad::none(1.0);
     let torque = 0.02;
     let up = [Motor { torque_n_m: torque, failed: false }];
     let momentum =
@@ -207,7 +207,7 @@ fn a_rotor_stops_at_its_capacity_and_leaves_it() {
     let mut motion =
         GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |k| if k == 0 { 7.0 } else { 0.0 });
     let total = motion.momentum_inertial_n_m_s;
-    let free = BodyLoad::default();
+    let free = BodyLoad::none(1.0);
     let mut motors = [Motor::default(); 4];
     motors[0].torque_n_m = 0.075;
     fly(&mut motion, &craft, &motors, &free, 60.0, 0.02);
@@ -241,7 +241,8 @@ fn torque_and_force_add_up() {
     while time_s < 100.0 {
         let load = BodyLoad {
             torque_body_n_m: [Vector3::y() * (torque + slope * time_s), Vector3::y() * slope],
-            acceleration_body_m_s2: [Vector3::z() * 1e-3, Vector3::zeros()],
+            force_body_n: [Vector3::z() * 0.5, Vector3::zeros()],
+            ..BodyLoad::none(500.0)
         };
         motion.advance(&craft, &[Motor::default(); 4], &load, time_s + 0.5);
         time_s = motion.end_s();
@@ -279,7 +280,7 @@ fn long_segments_give_what_short_ones_give() {
     let motors = [0.01, -0.02, 0.03, 0.005].map(|torque_n_m| Motor { torque_n_m, failed: false });
     let fly_in = |piece_s: f64| {
         let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |k| k as f64 - 1.0);
-        fly(&mut motion, &craft, &motors, &BodyLoad::default(), 50.0, piece_s);
+        fly(&mut motion, &craft, &motors, &BodyLoad::none(1.0), 50.0, piece_s);
         motion.at(&craft, 50.0)
     };
     let (short, long) = (fly_in(0.01), fly_in(10.0));
@@ -346,7 +347,7 @@ fn no_wheels_make_the_motion_stand_still() {
                 })
                 .collect();
             let torque = Vector3::new(random() - 0.5, random() - 0.5, random() - 0.5) * 0.02;
-            let load = BodyLoad { torque_body_n_m: [torque, torque * 0.1], ..BodyLoad::default() };
+            let load = BodyLoad { torque_body_n_m: [torque, torque * 0.1], ..BodyLoad::none(1.0) };
             let (end_s, mut segments) = (f64::from(second), 0);
             while motion.end_s() < end_s {
                 motion.advance(&craft, &motors, &load, end_s);

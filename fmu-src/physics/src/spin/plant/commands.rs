@@ -3,17 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::spacing::spacing;
-use crate::spin::{series::BodyTorque, spinner::MOST_THRUSTERS};
-
-/// A thruster command within a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PulseCommand {
-    /// From the start of the step, in s.
-    pub delay_s: f64,
-    /// How long, in s.
-    pub on_s: f64,
-}
+use crate::propulsion::PulseCommand;
+use crate::spacecraft::MOST_THRUSTERS;
+use crate::spin::series::BodyTorque;
 
 /// What the master commands for a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,19 +18,6 @@ pub struct Commands {
     pub any_pulse: bool,
     /// Outside torque, body components.
     pub torque: BodyTorque,
-}
-
-impl PulseCommand {
-    /// A pulse whose times are rounded to whole steps of `resolution_s`; 0 = not rounded.
-    pub fn rounded(delay_s: f64, on_s: f64, resolution_s: f64) -> Self {
-        let rounded = |time_s: f64| {
-            let time_s = time_s.max(0.0);
-            let steps = time_s / resolution_s;
-            // So many steps that doubles do not count them are as fine as no rounding.
-            if resolution_s > 0.0 && steps < 1e15 { steps.round() * resolution_s } else { time_s }
-        };
-        Self { delay_s: rounded(delay_s), on_s: rounded(on_s) }
-    }
 }
 
 impl Commands {
@@ -54,17 +33,12 @@ impl Commands {
 
     /// The first thruster, from 0, whose pulse does not end within a step, by more than the rounding of times.
     pub fn cut_by(&self, start_s: f64, end_s: f64) -> Option<usize> {
-        let length_s = end_s - start_s;
-        let rounding_s = 1e-9 * length_s + 8.0 * spacing(start_s.abs().max(end_s.abs()));
-        let is_cut =
-            |pulse: &PulseCommand| pulse.on_s > 0.0 && pulse.delay_s + pulse.on_s > length_s + rounding_s;
-        self.pulses.iter().position(is_cut)
+        self.pulses.iter().position(|pulse| pulse.is_cut(start_s, end_s))
     }
 
     /// Whether decoded commands can be some.
     pub(super) fn is_sound(&self) -> bool {
-        let pulse = |pulse: &PulseCommand| pulse.delay_s >= 0.0 && pulse.on_s >= 0.0;
-        self.pulses.iter().all(pulse) && self.torque.is_sound()
+        self.pulses.iter().all(PulseCommand::is_sound) && self.torque.is_sound()
     }
 
     /// Thrusters on just after `time_s`, in a step from `from_s`.

@@ -8,7 +8,8 @@ mod sound;
 mod start;
 mod state;
 
-pub use commands::{Commands, PulseCommand};
+pub use crate::propulsion::PulseCommand;
+pub use commands::Commands;
 pub use directions::Directions;
 pub use propulsion::{MassSource, Propulsion};
 pub use sensors::{Sampling, Sensors, StarSample};

@@ -4,10 +4,10 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::hardware::{Group, Limits, MOST_THRUSTERS, MassTable, StarTracker, SunSensor};
+use super::hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
 use crate::spacecraft::{
-    Checker, Document, Place, SpacecraftError, StartEntry, StartTable, Thrust, Thruster, nearest,
-    start_entries,
+    Checker, Document, MOST_THRUSTERS, Place, SpacecraftError, StartEntry, StartTable, Thrust, Thruster,
+    ValveTiming, nearest, start_entries,
 };
 use crate::spin::geometry::L1Orbit;
 
@@ -256,6 +256,12 @@ impl Builder<'_> {
                 position_body_m: position_m,
                 torque_body_n_m: position_m.cross(&force_body_n),
                 flow_kg_s: entry.force_n / exhaust_m_s,
+                valve: ValveTiming::default(),
+                scatter: 0.0,
+                set: None,
+                tank: 0,
+                at_pressure_pa: None,
+                plume_half_angle_rad: 0.0,
             });
         }
         thrusters

@@ -4,9 +4,6 @@ use crate::attitude::{Inertia, InertiaError};
 use crate::constants::{DEG_RAD, RPM_RAD_S};
 use serde::{Deserialize, Serialize};
 
-/// A set of thrusters is a bit mask.
-pub const MOST_THRUSTERS: usize = 24;
-
 /// Mass and inertia as functions of the propellant on board.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

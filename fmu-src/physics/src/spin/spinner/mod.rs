@@ -4,4 +4,4 @@ mod file;
 mod hardware;
 
 pub use file::Spinner;
-pub use hardware::{Group, Limits, MOST_THRUSTERS, MassTable, StarTracker, SunSensor};
+pub use hardware::{Group, Limits, MassTable, StarTracker, SunSensor};

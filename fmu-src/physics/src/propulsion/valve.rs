@@ -1,0 +1,172 @@
+//! Valve of a thruster: its thrust over time as a fraction of the full one, from edge to edge.
+//!
+//! The fraction rises linearly to 1 while the valve is open and falls linearly to 0 after it closes ([`ValveTiming`]). It is
+//! the same from the last edge or the end of a ramp on, whoever asks when. A pulse's thrust is scattered about the nominal one
+//! by a draw that depends on seed, thruster and number of the pulse alone.
+
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::noise::{Channel, normal};
+use crate::spacecraft::ValveTiming;
+
+/// State of a valve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Valve {
+    is_open: bool,
+    /// When it last opened, closed or came to the end of a ramp, in s, and the fraction then.
+    since_s: f64,
+    fraction: f64,
+    /// Thrust of the present pulse over the nominal one.
+    scale: f64,
+    pulses: u32,
+}
+
+impl Valve {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.since_s.abs() <= GREATEST_IN_STATE
+            && (0.0..=1.0).contains(&self.fraction)
+            && (0.0..=10.0).contains(&self.scale)
+    }
+
+    /// Whether it is open.
+    pub fn is_open(&self) -> bool {
+        self.is_open
+    }
+
+    /// Pulses begun so far.
+    pub fn pulses(&self) -> u32 {
+        self.pulses
+    }
+
+    /// Opens it; nothing where it is open.
+    pub fn open(&mut self, timing: &ValveTiming, time_s: f64, scatter: f64, seed: u64, thruster: u16) {
+        if self.is_open {
+            return;
+        }
+        self.fraction = self.ramp(timing, time_s)[0];
+        (self.since_s, self.is_open) = (time_s, true);
+        let drawn = if scatter > 0.0 {
+            scatter * normal(seed, Channel::Thruster(thruster), self.pulses.into())
+        } else {
+            0.0
+        };
+        self.scale = (1.0 + drawn).clamp(0.0, 10.0);
+        self.pulses = self.pulses.saturating_add(1);
+    }
+
+    /// Closes it; nothing where it is closed.
+    pub fn close(&mut self, timing: &ValveTiming, time_s: f64) {
+        if self.is_open {
+            self.fraction = self.ramp(timing, time_s)[0];
+            (self.since_s, self.is_open) = (time_s, false);
+        }
+    }
+
+    /// When its thrust next stops rising or falling; infinite where it is constant.
+    pub fn ramp_end_s(&self, timing: &ValveTiming) -> f64 {
+        let left_s = if self.is_open {
+            (1.0 - self.fraction) * timing.rise_s
+        } else {
+            self.fraction * timing.tail_off_s
+        };
+        if left_s > 0.0 { self.since_s + left_s } else { f64::INFINITY }
+    }
+
+    /// Takes note that the ramp which ends at `time_s` is over.
+    pub fn end_ramp(&mut self, time_s: f64) {
+        (self.since_s, self.fraction) = (time_s, if self.is_open { 1.0 } else { 0.0 });
+    }
+
+    /// Thrust over the nominal full one at `time_s` and its slope per second, as they are just after that time.
+    pub fn thrust(&self, timing: &ValveTiming, time_s: f64) -> [f64; 2] {
+        self.ramp(timing, time_s).map(|it| it * self.scale)
+    }
+
+    fn ramp(&self, timing: &ValveTiming, time_s: f64) -> [f64; 2] {
+        if time_s >= self.ramp_end_s(timing) {
+            return [if self.is_open { 1.0 } else { 0.0 }, 0.0];
+        }
+        let elapsed_s = time_s - self.since_s;
+        match (self.is_open, self.fraction) {
+            (true, from) if timing.rise_s > 0.0 && from < 1.0 => {
+                [from + elapsed_s / timing.rise_s, timing.rise_s.recip()]
+            }
+            (true, _) => [1.0, 0.0],
+            (false, from) if timing.tail_off_s > 0.0 && from > 0.0 => {
+                [from - elapsed_s / timing.tail_off_s, -timing.tail_off_s.recip()]
+            }
+            (false, _) => [0.0, 0.0],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Impulse of pulses against the area of a trapezoid, and ramps that are cut short.
+    use super::*;
+    use approx::assert_relative_eq;
+
+    const TIMING: ValveTiming = ValveTiming { min_on_s: 0.0, rise_s: 0.01, tail_off_s: 0.03 };
+
+    /// Area under the thrust of a valve that is open from 1 s to `close_s`, by the trapezoidal rule between its edges.
+    fn area(close_s: f64) -> f64 {
+        let mut valve = Valve::default();
+        let (mut sum, mut now_s) = (0.0, 0.0);
+        let mut edges = vec![(1.0, true), (close_s, false)];
+        loop {
+            let edge_s = edges.first().map_or(f64::INFINITY, |edge| edge.0);
+            let next_s = edge_s.min(valve.ramp_end_s(&TIMING));
+            if next_s.is_infinite() {
+                return sum;
+            }
+            let [from, slope] = valve.thrust(&TIMING, now_s);
+            let span_s = next_s - now_s;
+            sum += (from + 0.5 * slope * span_s) * span_s;
+            now_s = next_s;
+            if edge_s <= now_s {
+                let (_, opens) = edges.remove(0);
+                if opens {
+                    valve.open(&TIMING, now_s, 0.0, 0, 0);
+                } else {
+                    valve.close(&TIMING, now_s);
+                }
+            } else {
+                valve.end_ramp(now_s);
+            }
+        }
+    }
+
+    #[test]
+    fn a_pulse_is_a_trapezoid() {
+        for on_s in [0.01, 0.02, 1.0, 100.0] {
+            assert_relative_eq!(area(1.0 + on_s), TIMING.full_thrust_s(on_s), max_relative = 1e-11);
+            assert_relative_eq!(TIMING.on_s(TIMING.full_thrust_s(on_s)), on_s, max_relative = 1e-12);
+        }
+        // Closed halfway up: the triangle of the rise and that of a tail-off from there.
+        assert_relative_eq!(area(1.005), 0.5 * 0.5 * (0.005 + 0.015), max_relative = 1e-11);
+    }
+
+    #[test]
+    fn pulses_scatter_by_their_number_alone() {
+        let timing = ValveTiming::default();
+        let draws = |scatter: f64| {
+            let mut valve = Valve::default();
+            let pulse = |k: u32| {
+                valve.open(&timing, f64::from(k), scatter, 3, 7);
+                let [thrust, _] = valve.thrust(&timing, f64::from(k) + 0.1);
+                valve.close(&timing, f64::from(k) + 0.2);
+                thrust
+            };
+            (0..4000).map(pulse).collect::<Vec<_>>()
+        };
+        let (scattered, exact) = (draws(0.02), draws(0.0));
+        assert!(exact.iter().all(|thrust| *thrust == 1.0));
+        let mean = scattered.iter().sum::<f64>() / 4000.0;
+        let square = scattered.iter().map(|it| (it - 1.0).powi(2)).sum::<f64>() / 4000.0;
+        assert!((mean - 1.0).abs() < 4.0 * 0.02 / 4000f64.sqrt(), "{mean}");
+        assert_relative_eq!(square.sqrt(), 0.02, max_relative = 0.05);
+        assert_eq!(scattered, draws(0.02));
+    }
+}

@@ -1,0 +1,127 @@
+//! Tanks and thrusters, from their descriptions: checks every value, and that they belong together.
+
+use nalgebra::Vector3;
+
+use super::checker::Checker;
+use super::description::{TankDescription, ThrusterDescription};
+use super::place::Place;
+use super::spelling::nearest;
+use super::tank::{Blowdown, HYDRAZINE_KG_M3, Tank};
+use super::thruster::{MOST_THRUSTERS, Thruster, ValveTiming};
+use crate::constants::STANDARD_GRAVITY_M_S2;
+
+/// Pressure of a tank whose file gives none, in Pa; only its ratio counts. Assumed.
+const PRESSURE_PA: f64 = 2e6;
+
+fn name_or_number(name: Option<&str>, kind: &str, index: usize) -> String {
+    name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
+}
+
+/// A tank that holds a part of `mass_kg`.
+pub(super) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, description: &TankDescription) -> Tank {
+    let mut positive = |key: &str, value: f64| check.positive(&at.key(key), value);
+    let propellant_kg = positive("propellant_kg", description.propellant_kg);
+    let pressure_pa = description.pressure_pa.map_or(PRESSURE_PA, |value| positive("pressure_pa", value));
+    let blowdown = description.ullage_m3.map(|ullage_m3| Blowdown {
+        ullage_m3: positive("ullage_m3", ullage_m3),
+        density_kg_m3: description.density_kg_m3.map_or(HYDRAZINE_KG_M3, |it| positive("density_kg_m3", it)),
+    });
+    if blowdown.is_none() && description.density_kg_m3.is_some() {
+        check.report(&at.key("density_kg_m3"), "no ullage_m3 beside it", "with ullage_m3 alone (blowdown)");
+    }
+    let allowed_pa = description.allowed_pressure_pa.unwrap_or([0.0, f64::MAX]);
+    let place = at.key("allowed_pressure_pa");
+    let [least_pa, greatest_pa] = allowed_pa;
+    if !(least_pa >= 0.0 && greatest_pa > least_pa) {
+        check.report(&place, format_args!("{allowed_pa:?}"), "two rising numbers, not negative");
+    } else if !(least_pa..=greatest_pa).contains(&pressure_pa) {
+        let allowed = format!("a range around pressure_pa = {pressure_pa}");
+        check.report(&place, format_args!("{allowed_pa:?}"), allowed);
+    }
+    Tank {
+        name: name_or_number(description.name.as_deref(), "tank", index),
+        position_body_m: check.vector(&at.key("position_m"), description.position_m),
+        propellant_kg,
+        pressure_pa,
+        allowed_pa,
+        blowdown,
+    }
+}
+
+/// Tanks hold a part of the spacecraft's mass.
+pub(super) fn tanks_fit(check: &mut Checker<'_>, tanks: &[Tank], whole_kg: f64) {
+    let mut sum_kg = 0.0;
+    for (index, tank) in tanks.iter().enumerate() {
+        sum_kg += tank.propellant_kg;
+        if sum_kg >= whole_kg {
+            let at = Place::root().key("tanks").item(index).key("propellant_kg");
+            let found = format!("{}, with the tanks before it {sum_kg}", tank.propellant_kg);
+            let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
+            check.report(&at, found, allowed);
+            return;
+        }
+    }
+}
+
+/// A thruster that one of `tanks` feeds.
+pub(super) fn thruster(
+    check: &mut Checker<'_>,
+    tanks: &[Tank],
+    at: &Place,
+    index: usize,
+    description: &ThrusterDescription,
+) -> Thruster {
+    if index == MOST_THRUSTERS {
+        check.report(at, "one more", format_args!("at most {MOST_THRUSTERS} thrusters"));
+    }
+    let mut positive = |key: &str, value: f64| check.positive(&at.key(key), value);
+    let force_n = positive("force_n", description.force_n);
+    let at_pressure_pa = description.at_pressure_pa.map(|value| positive("at_pressure_pa", value));
+    let impulse_s = description.specific_impulse_s;
+    check.within(&at.key("specific_impulse_s"), impulse_s, 1.0, 1e8, "a number from 1 to 1e8 s");
+    let mut not_negative =
+        |key: &str, value: Option<f64>| value.map_or(0.0, |value| check.not_negative(&at.key(key), value));
+    let valve = ValveTiming {
+        min_on_s: not_negative("min_on_time_s", description.min_on_time_s),
+        rise_s: not_negative("rise_time_s", description.rise_time_s),
+        tail_off_s: not_negative("tail_off_time_s", description.tail_off_time_s),
+    };
+    let scatter = check.fraction(&at.key("scatter"), description.scatter.unwrap_or(0.0));
+    let plume_deg = description.plume_half_angle_deg.unwrap_or(0.0);
+    let plume_half_angle_rad = check.angle(&at.key("plume_half_angle_deg"), plume_deg, 0.0, 90.0);
+    let position_body_m = check.vector(&at.key("position_m"), description.position_m);
+    let direction: Vector3<f64> = check.unit_vector(&at.key("direction"), description.direction);
+    let force_body_n = direction * force_n;
+    Thruster {
+        name: name_or_number(description.name.as_deref(), "thruster", index),
+        position_body_m,
+        force_body_n,
+        torque_body_n_m: position_body_m.cross(&force_body_n),
+        flow_kg_s: force_n / (impulse_s * STANDARD_GRAVITY_M_S2),
+        valve,
+        scatter,
+        set: description.set,
+        tank: tank_of(check, tanks, at, description.tank.as_deref()),
+        at_pressure_pa,
+        plume_half_angle_rad,
+    }
+}
+
+/// Index of the tank of this name, the first without one.
+fn tank_of(check: &mut Checker<'_>, tanks: &[Tank], at: &Place, name: Option<&str>) -> usize {
+    let place = at.key("tank");
+    if tanks.is_empty() {
+        if !check.is_stand_in(&Place::root().key("tanks")) {
+            check.report(at, "a thruster without a tank", "at least one of [[tanks]] in the file");
+        }
+        return 0;
+    }
+    let Some(name) = name else { return 0 };
+    let names: Vec<&str> = tanks.iter().map(|tank| tank.name.as_str()).collect();
+    names.iter().position(|known| *known == name).unwrap_or_else(|| {
+        let hint = nearest(name, &names).map(|it| format!(" (did you mean `{it}`?)")).unwrap_or_default();
+        let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
+        check.report(&place, format_args!("the unknown tank `{name}`{hint}"), allowed);
+        0
+    })
+}

@@ -1,0 +1,54 @@
+//! Propellant tanks: where each stands, what it holds, and the pressure that it feeds at.
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// Density of hydrazine at 20 degrees Celsius, in kg/m3.
+pub const HYDRAZINE_KG_M3: f64 = 1_008.0;
+
+/// Gas that drives the propellant out without being renewed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Blowdown {
+    /// Volume of the gas when the tank is loaded, in m3.
+    pub ullage_m3: f64,
+    /// Density of the propellant, in kg/m3.
+    pub density_kg_m3: f64,
+}
+
+/// One tank; its propellant counts as a point there.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tank {
+    /// Name.
+    pub name: String,
+    /// Where its propellant is, body frame, in m.
+    pub position_body_m: Vector3<f64>,
+    /// Propellant loaded, in kg; a part of the spacecraft's mass.
+    pub propellant_kg: f64,
+    /// Pressure when loaded, in Pa.
+    pub pressure_pa: f64,
+    /// Least and greatest pressure at which thrusters may be fed, in Pa.
+    pub allowed_pa: [f64; 2],
+    /// The gas's expansion in blowdown; none where the pressure is regulated.
+    pub blowdown: Option<Blowdown>,
+}
+
+impl Tank {
+    /// Pressure when so much is used, in Pa: constant, or that of a gas that expands at constant temperature.
+    pub fn pressure_pa(&self, used_kg: f64) -> f64 {
+        self.blowdown.map_or(self.pressure_pa, |gas| {
+            self.pressure_pa * gas.ullage_m3 / (gas.ullage_m3 + used_kg / gas.density_kg_m3)
+        })
+    }
+
+    /// Its change with the propellant used, in Pa/kg.
+    pub fn pressure_slope_pa_kg(&self, used_kg: f64) -> f64 {
+        self.blowdown
+            .map_or(0.0, |gas| -self.pressure_pa(used_kg) / (gas.density_kg_m3 * gas.ullage_m3 + used_kg))
+    }
+
+    /// Whether thrusters may be fed when so much is used.
+    pub fn feeds(&self, used_kg: f64) -> bool {
+        let [least_pa, greatest_pa] = self.allowed_pa;
+        (least_pa..=greatest_pa).contains(&self.pressure_pa(used_kg)) && used_kg < self.propellant_kg
+    }
+}
