@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use super::moving::{MovingVector, moving};
 use super::velocity_path::VelocityPath;
-use crate::attitude::Attitude;
+use crate::attitude::{Attitude, angle_between_rad};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// Look-ahead, assumed; paper 001 gives none.
@@ -246,11 +246,10 @@ impl BurnState {
         let ahead_m_s = measured_m_s2.unwrap_or(0.0) * settings.look_ahead_s;
         let turn = if settings.reactive && ahead_m_s > 0.0 {
             let aim_m_s = path.point(self.magnitude_m_s + ahead_m_s).velocity_m_s;
-            Rotation3::rotation_between(&(aim_m_s - here.velocity_m_s), &(aim_m_s - self.velocity_m_s))
+            rotation(&(aim_m_s - here.velocity_m_s), &(aim_m_s - self.velocity_m_s), 1.0)
         } else {
-            None
+            Rotation3::identity()
         };
-        let turn = turn.unwrap_or_else(Rotation3::identity);
         let is_burning = matches!(self.phase, BurnPhase::Burning { .. });
         let speed_m_s2 = measured_m_s2.filter(|_| is_burning).unwrap_or(0.0);
         Some(BurnAim {
@@ -270,9 +269,8 @@ impl BurnState {
         self.accelerations_m_s2 = [acceleration_m_s2, self.accelerations_m_s2[0]];
         if settings.predictive && settings.is_thrust(acceleration_m_s2) {
             let thrust_body = self.thrust_body(settings);
-            let turn = Rotation3::scaled_rotation_between(&thrust_body, &increment_body_m_s, settings.gain);
-            let turned = turn.and_then(|turn| (turn * thrust_body).try_normalize(0.0));
-            self.thrust_body = turned.or(self.thrust_body);
+            let turned = rotation(&thrust_body, &increment_body_m_s, settings.gain) * thrust_body;
+            self.thrust_body = turned.try_normalize(0.0).or(self.thrust_body);
         }
     }
 
@@ -296,4 +294,12 @@ impl BurnState {
         let stop_s = if acceleration_m_s2 > 0.0 { now_s + left_m_s / acceleration_m_s2 } else { timeout_s };
         stop_s.min(timeout_s)
     }
+}
+
+/// A `share` of the smallest rotation that takes the direction of one vector to that of the other; none where they are
+/// opposite or one is zero.
+fn rotation(from: &Vector3<f64>, to: &Vector3<f64>, share: f64) -> Rotation3<f64> {
+    let normal = from.cross(to);
+    let angle_rad = angle_between_rad(from, to) * share;
+    normal.try_normalize(0.0).map_or_else(Rotation3::identity, |axis| Rotation3::new(axis * angle_rad))
 }

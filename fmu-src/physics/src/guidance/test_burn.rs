@@ -68,8 +68,6 @@ pub struct Flown {
     pub thrust_body: Vector3<f64>,
     /// Guidance after it.
     pub guidance: GuidanceState,
-    /// When thrust ended, in s.
-    pub ended_s: f64,
     /// Greatest distance of the true velocity from the path, in m/s.
     pub farthest_m_s: f64,
     /// Greatest commanded rate while thrust was commanded, in rad/s.
@@ -250,7 +248,6 @@ impl BurnFlight {
             velocity_m_s,
             thrust_body: self.thrust_body(ended_s - began_s.unwrap_or(0.0)),
             guidance,
-            ended_s,
             farthest_m_s,
             fastest_rad_s,
         }
