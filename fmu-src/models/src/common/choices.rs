@@ -4,7 +4,7 @@ use fmi_export::Enumeration;
 use physics::bodies::{Body, surface};
 use physics::environment::eclipse::ShadowModel;
 use physics::guidance::system;
-use physics::spacecraft::{Spacecraft, SunshadeModel};
+use physics::spacecraft::{Spacecraft, SunshadeModel, ThrusterSet};
 
 /// An enumeration whose items are the variants of an enum of physics: `item = value => Variant`, each with its description.
 macro_rules! enumeration_of {
@@ -188,4 +188,18 @@ pub enum EphemerisSource {
     Kepler = 2,
     /// The inputs sun.position and earth.position.
     Inputs = 3,
+}
+
+optional_enumeration_of! {
+    /// Thrusters for a delta-v.
+    ThrustRequest(ThrusterSet) {
+        /// None.
+        none = 0,
+        /// The large velocity adjust thruster.
+        lva = 1 => Lva,
+        /// The 22 N thrusters.
+        c22 = 2 => C22,
+        /// The 4.4 N thrusters.
+        mono4 = 3 => Mono4,
+    }
 }

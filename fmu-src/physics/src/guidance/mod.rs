@@ -23,6 +23,7 @@ pub mod lvlh;
 pub mod modes;
 pub mod monitor;
 pub mod moving;
+pub mod nominal_thrust;
 pub mod orbit_phase;
 pub mod planet_point;
 pub mod roll;

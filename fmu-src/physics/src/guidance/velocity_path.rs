@@ -28,6 +28,14 @@ pub struct VelocityPath {
     rule: Rule<NODES>,
 }
 
+/// A profile that does not end where the delta-v does.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("the coefficients add up to ({}, {}, {}) m/s, not to the delta-v", .end_m_s.x, .end_m_s.y, .end_m_s.z)]
+pub struct PathError {
+    /// Where it ends, in m/s.
+    pub end_m_s: Vector3<f64>,
+}
+
 /// A point of a path, EME2000.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
@@ -50,6 +58,27 @@ impl VelocityPath {
         let mut path = Self { coefficients_m_s, length_m_s: 0.0, rule: Rule::gauss_legendre() };
         path.length_m_s = path.length_to_m_s(1.0);
         (path.length_m_s.is_finite() && path.length_m_s > 0.0).then_some(path)
+    }
+
+    /// Straight to `delta_v_m_s` where all coefficients are zero, otherwise by them; `None` for a path without length.
+    ///
+    /// # Errors
+    ///
+    /// Coefficients that end elsewhere than at `delta_v_m_s`, where that is not zero.
+    pub fn of_burn(
+        delta_v_m_s: Vector3<f64>,
+        coefficients_m_s: [Vector3<f64>; 3],
+    ) -> Result<Option<Self>, PathError> {
+        const ROUNDING: f64 = 1e-6;
+        if coefficients_m_s.iter().all(|it| *it == Vector3::zeros()) {
+            return Ok(Self::linear(delta_v_m_s));
+        }
+        let end_m_s: Vector3<f64> = coefficients_m_s.iter().sum();
+        let size_m_s: f64 = coefficients_m_s.iter().map(|it| it.norm()).sum();
+        if delta_v_m_s != Vector3::zeros() && (end_m_s - delta_v_m_s).norm() > ROUNDING * size_m_s {
+            return Err(PathError { end_m_s });
+        }
+        Ok(Self::cubic(coefficients_m_s))
     }
 
     /// Its length: the magnitude of delta-v that it takes, in m/s.
@@ -205,6 +234,22 @@ mod tests {
             assert_relative_eq!(turn, here.curvature_s_m, epsilon = 1e-6 / path.length_m_s());
             assert_relative_eq!(here.tangent.norm(), 1.0, epsilon = 1e-14);
         }
+    }
+
+    #[test]
+    fn a_profile_has_to_end_at_the_delta_v() {
+        let zero = Vector3::zeros();
+        let profile = [Vector3::x() * 3.0, Vector3::y(), Vector3::y()];
+        let end = Vector3::new(3.0, 2.0, 0.0);
+        let straight = VelocityPath::of_burn(end, [zero; 3]).unwrap().unwrap();
+        assert_eq!(straight, VelocityPath::linear(end).unwrap());
+        for delta_v in [zero, end] {
+            let path = VelocityPath::of_burn(delta_v, profile).unwrap().unwrap();
+            assert_eq!(path, VelocityPath::cubic(profile).unwrap());
+        }
+        let error = VelocityPath::of_burn(end * 1.01, profile).unwrap_err();
+        assert!(error.to_string().contains("(3, 2, 0) m/s"), "{error}");
+        assert_eq!(VelocityPath::of_burn(zero, [zero; 3]), Ok(None));
     }
 
     #[test]
