@@ -230,12 +230,14 @@ impl BurnState {
         }
         let timeout_s = since_s + settings.timeout_s;
         let is_seen = self.accelerations_m_s2.iter().any(|it| settings.is_thrust(*it));
-        if now.time_s >= timeout_s || (is_seen && now.time_s >= stop_s) {
-            self.phase = BurnPhase::Ended { timed_out: stop_s >= timeout_s || !is_seen };
-            return;
-        }
-        let stop_s = self.predicted_stop_s(settings, &path, now.time_s, since_s);
-        self.phase = BurnPhase::Burning { since_s, stop_s };
+        let predicted_s = self.predicted_stop_s(settings, &path, now.time_s, since_s);
+        // The spacecraft stopped by the last prediction, where that is over.
+        let is_spent = is_seen && now.time_s >= stop_s.min(predicted_s);
+        self.phase = if is_spent || now.time_s >= timeout_s {
+            BurnPhase::Ended { timed_out: !is_spent || stop_s >= timeout_s }
+        } else {
+            BurnPhase::Burning { since_s, stop_s: predicted_s }
+        };
     }
 
     /// Where the thrust is to point; `None` without a path.
