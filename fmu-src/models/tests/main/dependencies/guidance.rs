@@ -623,8 +623,8 @@ fn measure(text: &str, rounds: usize) {
             break;
         }
     }
-    // Rare: a scan about the local axes of a point in space, which only another compatibility allows.
-    for aim in [4.0, 10.0, 11.0] {
+    // Rare: a scan about the local axes of a direction or a point in space, which only another compatibility allows.
+    for aim in [1.0, 4.0, 10.0, 11.0] {
         let mut values = draw(&bench, &mut random, Subject::Scan(5));
         for (name, value) in [
             ("keepIn.enabled", 0.0),
