@@ -60,7 +60,7 @@ pub struct PlateVariables {
 }
 
 impl TorqueBySource {
-    /// The output of an effect; none for what is applied from outside.
+    /// The output of an effect; none for what is applied from outside and the thrusters.
     pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
         match effect {
             Effect::Solar => Some(self.solar),
@@ -68,20 +68,20 @@ impl TorqueBySource {
             Effect::Infrared => Some(self.infrared),
             Effect::Thermal => Some(self.thermal),
             Effect::GravityGradient => Some(self.gravity_gradient),
-            Effect::Applied => None,
+            Effect::Applied | Effect::Thrusters => None,
         }
     }
 }
 
 impl ForceBySource {
-    /// The output of an effect; none for what is applied from outside and what exerts no force.
+    /// The output of an effect; none for what is applied from outside, the thrusters, and what exerts no force.
     pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
         match effect {
             Effect::Solar => Some(self.solar),
             Effect::Albedo => Some(self.albedo),
             Effect::Infrared => Some(self.infrared),
             Effect::Thermal => Some(self.thermal),
-            Effect::GravityGradient | Effect::Applied => None,
+            Effect::GravityGradient | Effect::Applied | Effect::Thrusters => None,
         }
     }
 }

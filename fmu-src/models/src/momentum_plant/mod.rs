@@ -12,8 +12,10 @@ use fmi_export::{
     StepEnd, Values,
 };
 use nalgebra::Vector3;
-use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, TorqueModel, Totals};
-use physics::plant::{Evaluation, ExternalLoad, Plant, PropagatorState};
+use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Totals};
+use physics::plant::{
+    Configuration, Evaluation, ExternalLoad, Flight, IdealFlight, PropagatorState, ReactionControlSettings,
+};
 
 use inputs::dynamics;
 use inputs::state::{Changes, PlantState, unset_places};
@@ -25,7 +27,7 @@ use variables::choices::OrbitSource;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 5;
+    const STATE_VERSION: u32 = 6;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
@@ -99,7 +101,7 @@ impl Model for MomentumPlant {
         if changed {
             state.integrator.cut(step.start_s);
         }
-        let configuration = match state.configuration.take() {
+        let mut configuration = match state.configuration.take() {
             Some(configuration) if !changed => configuration,
             previous => {
                 let configuration = inputs::refreshed(context, values, state, previous)?;
@@ -123,26 +125,19 @@ impl Model for MomentumPlant {
                 time_s,
             )),
         };
-        let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
         if state.light.is_none() {
             state.light = inputs::light(context, values, &configuration)?;
         }
-        let limit = context.variables.solver.work.units(values);
-        let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
-        let mut plant =
-            Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), load, limit);
-        let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
-        if state.request.rises(values.boolean(context.variables.dump.request)) {
+        let thrusters = take_thrusters(context, values, state)?;
+        let rises = state.request.rises(values.boolean(context.variables.dump.request));
+        let (mut flown, spacing) = ideal(context, values, state, &mut configuration, &thrusters, &load)?;
+        if rises {
             let target = Vector3::from(values.vector(context.variables.dump.target));
-            let event = integrator.dump_to(&mut plant, &configuration.momentum, step.start_s, target);
-            note_dump(context, spacing, &event);
+            note_dump(context, spacing, &flown.dump_to(step.start_s, target));
         }
-        integrator
-            .advance(&mut plant, &configuration.momentum, step.end_s, |event| {
-                note_dump(context, spacing, event)
-            })
-            .map_err(outputs::failure)?;
-        let evaluation = plant.evaluate(step.end_s);
+        flown.advance(step.end_s, |event| note_dump(context, spacing, event)).map_err(outputs::failure)?;
+        let evaluation = flown.evaluate(step.end_s);
+        state.thrusters = Some(thrusters);
         flyable(&evaluation, &state.integrator.totals(step.end_s), step.end_s)?;
         outputs::write_plates(context, values, state, &configuration, step.end_s)?;
         let totals = state.integrator.totals(step.end_s);
@@ -157,7 +152,7 @@ impl Model for MomentumPlant {
     }
 
     fn check_state(setup: &PlantSetup, state: &PlantState) -> Result<(), Failure> {
-        state.check(setup.spacecraft.wheels.len())
+        state.check(&setup.spacecraft)
     }
 
     fn check_time(state: &PlantState, time_s: f64) -> Result<(), Failure> {
@@ -193,23 +188,19 @@ fn begin(
     if dynamics::is_dynamic(context, values) {
         return dynamic::begin(context, values, state, time_s);
     }
-    let configuration = inputs::configuration(context, values, state)?;
+    let mut configuration = inputs::configuration(context, values, state)?;
     let load = applied(context, values);
-    let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
-    let limit = context.variables.solver.work.units(values);
     state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
     state.light = inputs::light(context, values, &configuration)?;
-    let (propagator, ephemeris) = (&mut state.propagator, &mut state.ephemeris);
-    let mut plant =
-        Plant::new(prepared, &configuration, propagator, ephemeris, state.light.as_mut(), |_| load, limit);
-    plant.prepare(time_s, time_s).map_err(outputs::failure)?;
-    let totals = start_totals(context, values, &plant.evaluate(time_s));
-    state.integrator = MomentumIntegrator::new(time_s, totals);
-    let (integrator, spacing) = (&mut state.integrator, &mut state.spacing);
-    integrator
-        .advance(&mut plant, &configuration.momentum, time_s, |event| note_dump(context, spacing, event))
-        .map_err(outputs::failure)?;
-    let evaluation = plant.evaluate(time_s);
+    let thrusters = take_thrusters(context, values, state)?;
+    inputs::propulsion::check(&thrusters, &configuration)?;
+    let load = |_: f64| load;
+    let (mut flown, spacing) = ideal(context, values, state, &mut configuration, &thrusters, &load)?;
+    let begun = flown.begin(time_s).map_err(outputs::failure)?;
+    *flown.integrator = MomentumIntegrator::new(time_s, start_totals(context, values, &begun));
+    flown.advance(time_s, |event| note_dump(context, spacing, event)).map_err(outputs::failure)?;
+    let evaluation = flown.evaluate(time_s);
+    state.thrusters = Some(thrusters);
     flyable(&evaluation, &state.integrator.totals(time_s), time_s)?;
     outputs::write_plates(context, values, state, &configuration, time_s)?;
     let totals = state.integrator.totals(time_s);
@@ -218,6 +209,45 @@ fn begin(
     outputs::write_ideal(context, values, state, &evaluation, &totals, time_s)?;
     state.configuration = Some(configuration);
     Ok(())
+}
+
+/// Thrusters and tanks, worked out once.
+fn take_thrusters(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &mut PlantState,
+) -> Result<ReactionControlSettings, Failure> {
+    match state.thrusters.take() {
+        Some(known) => Ok(known),
+        None => inputs::propulsion::reaction_control(context, values),
+    }
+}
+
+/// The flight in an attitude that is followed ideally, and the time between its dumps.
+fn ideal<'f>(
+    context: &'f Plan<'_>,
+    values: &Values,
+    state: &'f mut PlantState,
+    configuration: &'f mut Configuration,
+    thrusters: &'f ReactionControlSettings,
+    load: &'f dyn Fn(f64) -> ExternalLoad,
+) -> Result<(IdealFlight<'f, 'f>, &'f mut DumpSpacing), Failure> {
+    let flown = IdealFlight {
+        flight: Flight {
+            prepared: context.setup.prepared_spacecraft(configuration.sunshade)?,
+            configuration,
+            propagator: &mut state.propagator,
+            ephemeris: &mut state.ephemeris,
+            light: state.light.as_mut(),
+            propellant: &mut state.propellant,
+            external: load,
+        },
+        integrator: &mut state.integrator,
+        thrusters,
+        side_effect: &mut state.dump_side_effect,
+        work_limit: context.variables.solver.work.units(values),
+    };
+    Ok((flown, &mut state.spacing))
 }
 
 /// At `time_s` the flight still waits for inputs: the attitude is held as commanded, and nothing acts.

@@ -464,6 +464,11 @@ impl GyrostatMotion {
         fit.sign_changes(0.0, longest_s).iter().find(falls)
     }
 
+    /// EME2000 to body at `time_s` within the segment.
+    pub fn attitude_at(&self, time_s: f64) -> Quaternion {
+        self.attitude_after(time_s - self.start_s)
+    }
+
     fn attitude_after(&self, elapsed_s: f64) -> Quaternion {
         let mut sum = self.attitude[self.order];
         for terms in self.attitude[..self.order].iter().rev() {

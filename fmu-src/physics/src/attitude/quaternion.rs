@@ -40,6 +40,14 @@ impl Quaternion {
         ])
     }
 
+    /// The attitude in the middle of the shorter turn from this one to `other`.
+    #[must_use]
+    pub fn halfway(self, other: &Self) -> Self {
+        let product: f64 = self.0.iter().zip(&other.0).map(|(a, b)| a * b).sum();
+        let sign = 1.0_f64.copysign(product);
+        Self(core::array::from_fn(|i| self.0[i] + sign * other.0[i])).normalized()
+    }
+
     /// The same attitude with norm 1 to rounding.
     #[inline]
     #[must_use]

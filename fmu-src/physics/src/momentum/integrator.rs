@@ -73,27 +73,54 @@ impl MomentumIntegrator {
         time_s: f64,
         mut report: impl FnMut(&DumpEvent),
     ) -> Result<(), F::Failure> {
+        let mut dumped_s = None;
+        while let Some(event) = self.advance_to_dump(flight, settings, time_s, dumped_s)? {
+            report(&event);
+            dumped_s = Some(event.time_s);
+        }
+        Ok(())
+    }
+
+    /// The same up to the next dump, which is over; one at `dumped_s` is not watched for again.
+    ///
+    /// # Errors
+    /// What ends the flight; everything before stays.
+    pub fn advance_to_dump<F: TorqueModel>(
+        &mut self,
+        flight: &mut F,
+        settings: &Settings,
+        time_s: f64,
+        dumped_s: Option<f64>,
+    ) -> Result<Option<DumpEvent>, F::Failure> {
         let edge_tolerance_s = edge_tolerance_s(time_s);
         while self.segment.end_s() <= time_s + edge_tolerance_s {
             let start_s = self.segment.end_s();
             let longest_s = self.segment.next_longest_s();
-            let mut totals = self.segment.totals(start_s);
+            let totals = self.segment.totals(start_s);
             let horizon_s = flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
             let first = flight.sample(start_s);
             let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
-            if settings.policy.exceeded(&momentum) {
+            if dumped_s != Some(start_s) && settings.policy.exceeded(&momentum) {
                 flight.spend(Effort::Dump, start_s)?;
                 let event = self.dump(settings.convention, start_s, totals, &first, |before| {
                     settings.policy.after(before)
                 });
-                report(&event);
+                self.segment = self.segment.expecting(longest_s);
                 self.dumps.check()?;
-                totals = self.segment.totals(start_s);
+                return Ok(Some(event));
             }
             self.segment =
                 MomentumSegment::build(flight, settings, start_s, horizon_s, totals, &first, longest_s)?;
         }
-        Ok(())
+        Ok(None)
+    }
+
+    /// The velocity changes by `delta_v_inertial_m_s` where a dump just ended.
+    pub fn push(&mut self, delta_v_inertial_m_s: &Vector3<f64>) {
+        let (time_s, longest_s) = (self.segment.end_s(), self.segment.next_longest_s());
+        let mut totals = self.segment.totals(time_s);
+        totals.delta_v_inertial_m_s += delta_v_inertial_m_s;
+        self.segment = MomentumSegment::point(time_s, totals).expecting(longest_s);
     }
 
     fn dump(

@@ -4,6 +4,8 @@ use crate::constants::DEG_RAD;
 use crate::momentum::WheelArray;
 use crate::spacecraft::{Spacecraft, Wheel};
 
+use super::reaction_control::ReactionControlSettings;
+
 /// Greatest rate of a turn, assumed.
 const GREATEST_SLEW_RATE_RAD_S: f64 = 0.5 * DEG_RAD;
 /// Torque of a dump of a spacecraft without wheels, in N m, assumed.
@@ -17,6 +19,8 @@ pub struct ControlDefaults {
     /// Acceleration of a turn in rad/s2: half of what the wheels' torque gives the axis of largest inertia; 0 without wheels
     /// in all directions.
     pub slew_acceleration_rad_s2: f64,
+    /// Acceleration of a turn by thrusters in rad/s2: half of what they give the axis of largest inertia; 0 without.
+    pub thruster_acceleration_rad_s2: f64,
     /// Torque of a dump in N m: half of what the wheels can hold against.
     pub dump_torque_n_m: f64,
 }
@@ -31,6 +35,12 @@ impl ControlDefaults {
         let largest_kg_m2 = spacecraft.mass_properties.inertia_body_kg_m2.diagonal().max();
         let momentum_n_m_s = guaranteed(|wheel| wheel.capacity_n_m_s);
         let torque_n_m = guaranteed(|wheel| wheel.max_torque_n_m);
+        let thrusters = ReactionControlSettings {
+            thrusters: spacecraft.thrusters.clone(),
+            ..ReactionControlSettings::default()
+        };
+        let center = &spacecraft.mass_properties.center_of_mass_body_m;
+        let by_thrusters = thrusters.attitude_selection(None, center).map_or(0.0, |it| it.least_torque_n_m());
         let fastest_rad_s = 0.25 * momentum_n_m_s / largest_kg_m2;
         Self {
             slew_rate_rad_s: if momentum_n_m_s > 0.0 {
@@ -39,6 +49,7 @@ impl ControlDefaults {
                 GREATEST_SLEW_RATE_RAD_S
             },
             slew_acceleration_rad_s2: 0.5 * torque_n_m / largest_kg_m2,
+            thruster_acceleration_rad_s2: 0.5 * by_thrusters / largest_kg_m2,
             dump_torque_n_m: if torque_n_m > 0.0 { 0.5 * torque_n_m } else { TORQUE_WITHOUT_WHEELS_N_M },
         }
     }

@@ -21,8 +21,8 @@ use super::evaluation::{Evaluation, ExternalLoad, Plant};
 
 /// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
 const NODES: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
-/// Force and torque of every effect, Sun line, lit fraction.
-const ROWS: usize = 2 * Effect::ALL.len();
+/// Force and torque of every effect of the surroundings; what is applied is known at any time and kept apart.
+const ROWS: usize = 2 * Effect::DISTURBANCES.len();
 
 /// A vector that changes linearly: at the start, and per second.
 type Linear = [Vector3<f64>; 2];
@@ -73,8 +73,7 @@ impl DisturbanceInterval {
             [a - slope * NODES[0], slope / span_s]
         };
         let mut loads = [[Vector3::zeros(); 2]; ROWS];
-        // What is applied is known at any time and kept apart.
-        for effect in Effect::ALL.into_iter().filter(|effect| *effect != Effect::Applied) {
+        for effect in Effect::DISTURBANCES {
             let at = 2 * effect as usize;
             loads[at] = line(&|it| it.loads[effect].force_body_n);
             loads[at + 1] = line(&|it| it.loads[effect].torque_body_n_m);
@@ -113,7 +112,7 @@ impl DisturbanceInterval {
     pub fn loads_at(&self, time_s: f64) -> Loads {
         let elapsed_s = time_s - self.start_s;
         let mut loads = Loads::zero();
-        for effect in Effect::ALL {
+        for effect in Effect::DISTURBANCES {
             let at = 2 * effect as usize;
             let [force_body_n, torque_body_n_m] =
                 [self.loads[at], self.loads[at + 1]].map(|[start, slope]| start + slope * elapsed_s);

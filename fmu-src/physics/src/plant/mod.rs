@@ -18,9 +18,12 @@ mod attitude_dynamics;
 mod configuration;
 mod control_defaults;
 mod disturbance_interval;
+mod dynamics_settings;
 mod error;
 mod evaluation;
+mod flight;
 mod geometry;
+mod ideal_flight;
 mod instant;
 mod kinematics;
 mod light_and_heat;
@@ -28,24 +31,33 @@ mod propagator_state;
 mod radiation_node;
 mod radiation_segment;
 mod radiation_solver;
+mod reaction_control;
 mod settings;
 mod stored_heat;
 mod trajectory;
+mod wheel_control;
 mod work;
 
-pub use attitude_dynamics::{AttitudeDynamics, Control, DynamicsInputs, DynamicsSettings, Flight, Tracked};
+pub use attitude_dynamics::AttitudeDynamics;
 pub use configuration::{
     AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, Motion, PanelSetting, SunLight,
     orbit_from_elements,
 };
 pub use control_defaults::ControlDefaults;
+pub use dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, ThrusterControl, Tracked};
 pub use error::PlantError;
 pub use evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
+pub use flight::Flight;
 pub use geometry::Geometry;
+pub use ideal_flight::{DumpSideEffect, IdealFlight};
 pub use instant::{Instant, Regime};
 pub use propagator_state::PropagatorState;
 pub use radiation_segment::RadiationSegment;
 pub use radiation_solver::RadiationSolver;
+pub use reaction_control::{
+    ReactionControl, ReactionControlSettings, ThrustCommand, ThrusterLoad, ThrusterTotals,
+};
 pub use settings::RadiationSettings;
 pub use trajectory::Trajectory;
+pub use wheel_control::{WheelControl, WheelControlSettings};
 pub use work::{Cost, Work, WorkExceeded};

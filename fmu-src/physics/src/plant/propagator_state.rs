@@ -1,5 +1,6 @@
 //! State of the propagator: trajectory and the present segment of light and heat.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::configuration::{Configuration, Motion};
@@ -46,9 +47,26 @@ impl PropagatorState {
     /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far;
     /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
     pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
-        self.trajectory.cut(configuration, time_s);
+        self.cut_with_jump_where(configuration, time_s, &Vector3::zeros(), light_changes);
+    }
+
+    /// The same where light changes, and forces have changed the velocity by `jump_m_s`, EME2000, since the last time: an orbit
+    /// that forces act on takes it.
+    pub fn cut_with_jump(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
+        self.cut_with_jump_where(configuration, time_s, jump_m_s, true);
+    }
+
+    fn cut_with_jump_where(
+        &mut self,
+        configuration: &Configuration,
+        time_s: f64,
+        jump_m_s: &Vector3<f64>,
+        light_changes: bool,
+    ) {
         // An orbit that light and forces act on goes elsewhere from here.
         let orbit_changes = matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
+        let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
+        self.trajectory.cut(configuration, time_s, &taken_m_s);
         if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
             light.cut(time_s);
         }

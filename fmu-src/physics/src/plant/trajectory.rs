@@ -152,11 +152,11 @@ impl Trajectory {
         }
     }
 
-    /// Forgets the orbit beyond `time_s`: what acts on the spacecraft changes there.
-    pub fn cut(&mut self, configuration: &Configuration, time_s: f64) {
+    /// Forgets the orbit beyond `time_s`: what acts on the spacecraft changes there, or its velocity by `jump_m_s`, EME2000.
+    pub fn cut(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
         self.leave(configuration, time_s);
         let Some(orbit) = &mut self.orbit else { return };
-        orbit.cut(time_s, &Vector3::zeros());
+        orbit.cut(time_s, jump_m_s);
         self.periapses.forget_after(time_s, radial(&orbit.state_at(time_s)));
     }
 

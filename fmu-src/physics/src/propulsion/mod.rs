@@ -1,11 +1,15 @@
 //! Thrusters in use: valves that open and close, propellant, and which thrusters give a torque.
 
+mod plume;
 mod propellant;
 mod pulse_command;
 mod selection;
+mod thrust_direction;
 mod valve;
 
+pub use plume::hits_a_surface;
 pub use propellant::PropellantState;
 pub use pulse_command::PulseCommand;
 pub use selection::{Preference, SelectionError, ThrusterSelection};
+pub use thrust_direction::ThrustErrors;
 pub use valve::Valve;

@@ -70,10 +70,10 @@ impl PropellantState {
         }
     }
 
-    /// Takes this much from tank `k` at once, in kg.
-    pub fn take(&mut self, k: usize, propellant_kg: f64) {
-        if let Some(tank) = self.tanks.get_mut(k) {
-            tank.used_kg += propellant_kg;
+    /// Takes this much from tank `k` at once, in kg, and no more than is left.
+    pub fn take(&mut self, k: usize, tank: &Tank, propellant_kg: f64) {
+        if let Some(used) = self.tanks.get_mut(k) {
+            used.used_kg = (used.used_kg + propellant_kg).min(tank.propellant_kg);
         }
     }
 
@@ -175,7 +175,7 @@ mod tests {
         };
         let mut used = PropellantState::new(2, 5.0);
         used.add_flow(0, [0.5, 0.01]);
-        used.take(1, 12.0);
+        used.take(1, &tanks[1], 12.0);
         let found = used.mass_properties(&with([40.0, 20.0]), &tanks, 15.0);
         let expected = with([40.0 - 5.5, 8.0]);
         assert_relative_eq!(found.mass_kg, expected.mass_kg, max_relative = 1e-14);

@@ -103,7 +103,7 @@ impl ThrusterSelection {
     }
 
     /// Seconds of full thrust of each thruster for an angular impulse about the centre of mass, in N m s, body frame.
-    pub fn on_times_s(&self, impulse_body_n_m_s: &Vector3<f64>) -> impl Iterator<Item = f64> {
+    pub fn on_times_s(&self, impulse_body_n_m_s: &Vector3<f64>) -> impl Iterator<Item = f64> + Clone + use<> {
         let mut sum = [0.0; MOST_THRUSTERS];
         for ((axis, sign, _), on_times) in SENSES.iter().zip(&self.per_impulse_s) {
             let part = impulse_body_n_m_s[*axis] * sign;

@@ -64,6 +64,11 @@ impl Valve {
         }
     }
 
+    /// Closes it with nothing left to come out.
+    pub fn shut(&mut self, time_s: f64) {
+        (self.since_s, self.is_open, self.fraction) = (time_s, false, 0.0);
+    }
+
     /// When its thrust next stops rising or falling; infinite where it is constant.
     pub fn ramp_end_s(&self, timing: &ValveTiming) -> f64 {
         let left_s = if self.is_open {

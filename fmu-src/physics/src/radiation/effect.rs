@@ -20,12 +20,24 @@ pub enum Effect {
     GravityGradient,
     /// What is applied from outside.
     Applied,
+    /// The spacecraft's own thrusters.
+    Thrusters,
 }
 
 impl Effect {
     /// All of them, in the order in which they are added up.
-    pub const ALL: [Self; 6] =
-        [Self::Solar, Self::Albedo, Self::Infrared, Self::Thermal, Self::GravityGradient, Self::Applied];
+    pub const ALL: [Self; 7] = [
+        Self::Solar,
+        Self::Albedo,
+        Self::Infrared,
+        Self::Thermal,
+        Self::GravityGradient,
+        Self::Applied,
+        Self::Thrusters,
+    ];
+    /// Those of the surroundings.
+    pub const DISTURBANCES: [Self; 5] =
+        [Self::Solar, Self::Albedo, Self::Infrared, Self::Thermal, Self::GravityGradient];
     /// Those of light and heat.
     pub const RADIATION: [Self; 4] = [Self::Solar, Self::Albedo, Self::Infrared, Self::Thermal];
 }
@@ -76,8 +88,8 @@ mod tests {
                 torque_body_n_m: Vector3::new(0.0, -size, 0.0),
             };
         }
-        assert_eq!(loads.total().force_body_n, Vector3::new(111_111.0, 0.0, 0.0));
-        assert_eq!(loads.total().torque_body_n_m, Vector3::new(0.0, -111_111.0, 0.0));
+        assert_eq!(loads.total().force_body_n, Vector3::new(1_111_111.0, 0.0, 0.0));
+        assert_eq!(loads.total().torque_body_n_m, Vector3::new(0.0, -1_111_111.0, 0.0));
         assert_eq!(loads[Effect::Thermal].force_body_n.x, 1000.0);
     }
 }

@@ -46,6 +46,11 @@ impl Tank {
             .map_or(0.0, |gas| -self.pressure_pa(used_kg) / (gas.density_kg_m3 * gas.ullage_m3 + used_kg))
     }
 
+    /// Propellant left when so much is used, in kg.
+    pub fn left_kg(&self, used_kg: f64) -> f64 {
+        (self.propellant_kg - used_kg).max(0.0)
+    }
+
     /// Whether thrusters may be fed when so much is used.
     pub fn feeds(&self, used_kg: f64) -> bool {
         let [least_pa, greatest_pa] = self.allowed_pa;

@@ -2,6 +2,7 @@
 
 mod dynamics;
 mod groups;
+mod propulsion;
 mod table;
 
 pub use table::table;

@@ -6,6 +6,7 @@ use super::super::setup::PlantSetup;
 use super::super::variables::PlantVariables;
 use super::dynamics::{momentum, sensors, wheels_and_control};
 use super::groups::{Inputs, Start, panels_weigh};
+use super::propulsion::thrusters;
 use crate::common::spacecraft::{
     across, can_shadow, has_both_shapes, inertia_about_others, shape_recoils_along, stores_heat_in_shadow,
     turns_out_of,
@@ -21,6 +22,7 @@ pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
     momentum(&mut table, v, inputs, start);
     wheels_and_control(&mut table, setup, v, inputs, start);
     craft(&mut table, setup, v, inputs, start);
+    thrusters(&mut table, setup, v, inputs, start);
     table
 }
 

@@ -3,12 +3,16 @@
 use fmi_export::{Failure, InputsOverTime, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::attitude::control::{
-    Allocation, ControllerSettings, Gyro, SensorHealth, SensorSettings, StarTracker, SunSensor,
-    WheelAllocator,
+    AccelerometerSettings, Allocation, ControllerSettings, Gyro, SensorHealth, SensorSettings, StarTracker,
+    SunSensor, WheelAllocator,
 };
 use physics::attitude::{Attitude, Gyrostat, ReactionWheel};
 use physics::momentum::Convention;
-use physics::plant::{Configuration, Control, DynamicsSettings, ExternalLoad};
+use physics::plant::{
+    Configuration, Control, DynamicsSettings, ExternalLoad, ThrusterControl, WheelControlSettings,
+};
+
+use super::propulsion::reaction_control;
 
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::choices::{AttitudeSource, CommandSource};
@@ -117,8 +121,15 @@ pub fn settings(
         },
         sun_sensors: sun_sensors(context, values)?,
         control,
+        accelerometer: AccelerometerSettings {
+            bias_m_s2: real(v.accelerometer.bias),
+            scale: real(v.accelerometer.scale),
+            noise_m_s2: real(v.accelerometer.noise),
+            drift_m_s2_sqrt_s: real(v.accelerometer.drift),
+            seed,
+        },
         dump: configuration.momentum.policy,
-        dump_torque_n_m: real(v.dump.torque),
+        thrusters: reaction_control(context, values)?,
         grid_s: real(v.solver.dynamics_step),
         panels_have_mass: context.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
         work_limit: v.solver.work.units(values),
@@ -134,6 +145,7 @@ fn controller(context: &Plan<'_>, values: &Values) -> ControllerSettings {
         integral: values.real(control.integral),
         slew_rate_rad_s: values.real(control.slew_rate),
         slew_acceleration_rad_s2: values.real(control.slew_acceleration),
+        keeps_reference: false,
     }
 }
 
@@ -143,11 +155,29 @@ fn control(context: &Plan<'_>, values: &Values) -> Result<Control, Failure> {
     controller.check().map_err(|error| {
         Failure::new(format!("control.bandwidth, control.damping, control.integral: {error}"))
     })?;
+    let by_thrusters = ThrusterControl::new(
+        ControllerSettings {
+            bandwidth_rad_s: values.real(control.thruster_bandwidth),
+            slew_acceleration_rad_s2: values.real(control.thruster_acceleration),
+            ..controller
+        },
+        values.real(control.pulse_period),
+    );
+    if !context.variables.thruster.is_empty() {
+        by_thrusters.controller.check().map_err(|error| {
+            Failure::new(format!(
+                "control.thrusterBandwidth, control.pulsePeriod, control.damping, control.integral: {error}"
+            ))
+        })?;
+    }
     Ok(Control {
         controller,
-        allocation: values.choice(control.allocation).map_or(Allocation::PseudoInverse, |it| it.0),
-        balance_time_s: or_none(values.real(control.balance_time)),
-        compensates_friction: values.boolean(control.friction_compensation),
+        wheels: WheelControlSettings {
+            allocation: values.choice(control.allocation).map_or(Allocation::PseudoInverse, |it| it.0),
+            balance_time_s: or_none(values.real(control.balance_time)),
+            compensates_friction: values.boolean(control.friction_compensation),
+        },
+        thrusters: by_thrusters,
     })
 }
 

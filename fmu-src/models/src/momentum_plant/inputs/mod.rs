@@ -2,6 +2,7 @@
 
 pub mod center;
 pub mod dynamics;
+pub mod propulsion;
 pub mod state;
 
 use fmi_export::{Failure, Values};
@@ -85,7 +86,7 @@ pub fn refreshed(
             },
         }
     }));
-    Ok(Configuration {
+    let mut configuration = Configuration {
         epoch_minus_time_s,
         center: body,
         attitude: attitude(context, values, state, body, &orbit)?,
@@ -118,7 +119,13 @@ pub fn refreshed(
             0.0
         },
         momentum: settings(variables, values),
-    })
+    };
+    if let Some(thrusters) = &state.thrusters {
+        let loaded = configuration.loaded();
+        let left = state.propellant.mass_properties(&loaded, &thrusters.tanks, state.start_s);
+        configuration.left = Some(left);
+    }
+    Ok(configuration)
 }
 
 /// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.

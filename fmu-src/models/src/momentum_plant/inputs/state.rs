@@ -9,11 +9,15 @@ use physics::environment::ephemeris::Ephemeris;
 use physics::guidance::system::CommandKind as Kind;
 use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals, WheelArray};
 use physics::plant::{
-    AttitudeDynamics, Command, Configuration, DynamicsSettings, PropagatorState, RadiationSolver,
+    AttitudeDynamics, Command, Configuration, DumpSideEffect, DynamicsSettings, PropagatorState,
+    RadiationSolver, ReactionControlSettings,
 };
+use physics::propulsion::PropellantState;
+use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
+use super::propulsion::{SaidOfThrusters, reaction_control};
 use crate::common::choices::{CommandKind, EphemerisSource, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::choices::{AttitudeSource, OrbitSource};
@@ -29,6 +33,12 @@ pub struct PlantState {
     pub integrator: MomentumIntegrator,
     /// Body, wheels, sensors and control of controlled and free flight.
     pub dynamics: Option<Box<AttitudeDynamics>>,
+    /// Propellant used so far.
+    pub propellant: PropellantState,
+    /// What the last dump of guided and commanded flight left beside its impulse.
+    pub dump_side_effect: DumpSideEffect,
+    /// Which warnings about thrusters were given.
+    pub said_of_thrusters: SaidOfThrusters,
     /// Whether the flight waits for inputs that are not set yet: nothing acts, and the attitude is held.
     pub waiting: bool,
     /// Whether the warning was given which inputs are not set yet.
@@ -63,6 +73,9 @@ pub struct PlantState {
     /// Cache of what parameters say about dynamics and control.
     #[serde(skip)]
     pub dynamics_settings: Option<DynamicsSettings>,
+    /// Cache of thrusters and tanks in guided and commanded flight.
+    #[serde(skip)]
+    pub thrusters: Option<ReactionControlSettings>,
     /// Cache of the Sun sensors.
     #[serde(skip)]
     pub sun_sensors: Option<Vec<SunSensor>>,
@@ -115,7 +128,8 @@ impl Request {
 
 impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
-    pub fn check(&self, wheels: usize) -> Result<(), Failure> {
+    pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
+        let (wheels, thrusters) = (spacecraft.wheels.len(), spacecraft.thrusters.len());
         let finite = |x: &f64| x.is_finite();
         let CommandInputs { q, rate, error, .. } = &self.command_inputs;
         let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
@@ -133,8 +147,12 @@ impl PlantState {
             ("the command", self.command.is_sound()),
             ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
             (
-                "body, wheels, sensors and control",
-                self.dynamics.as_ref().is_none_or(|dynamics| dynamics.is_sound(wheels)),
+                "body, wheels, thrusters, sensors and control",
+                self.dynamics.as_ref().is_none_or(|dynamics| dynamics.is_sound(wheels, thrusters)),
+            ),
+            (
+                "propellant and dumps",
+                self.propellant.is_sound(spacecraft.tanks.len()) && self.dump_side_effect.is_sound(),
             ),
             ("the orbit, light and heat", self.propagator.is_sound()),
         ];
@@ -157,6 +175,9 @@ impl PlantState {
             propagator: PropagatorState::default(),
             integrator: MomentumIntegrator::new(start_s, Totals::default()),
             dynamics: None,
+            propellant: PropellantState::new(context.setup.spacecraft.tanks.len(), start_s),
+            dump_side_effect: DumpSideEffect::default(),
+            said_of_thrusters: SaidOfThrusters::default(),
             waiting: !unset_places(context, values).is_empty(),
             said_unset: false,
             command: Command { attitude, rate_body_rad_s, since_s: start_s },
@@ -173,6 +194,7 @@ impl PlantState {
             configuration: None,
             light: None,
             dynamics_settings: None,
+            thrusters: Some(reaction_control(context, values)?),
             sun_sensors: None,
             wheels: None,
         };

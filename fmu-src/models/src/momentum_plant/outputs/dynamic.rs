@@ -11,9 +11,10 @@ use physics::plant::{
 };
 
 use super::super::inputs::state::{Changes, PlantState};
-use super::super::inputs::{self, dynamics};
+use super::super::inputs::{self, dynamics, propulsion};
 use super::super::setup::Plan;
 use super::super::variables::choices::OrbitSource;
+use super::propulsion::write_thrusters;
 use super::write::{self as outputs, flyable, log_dump};
 use crate::common::choices::CommandKind;
 
@@ -35,6 +36,8 @@ impl Stretch<'_> {
             wheel_torque_n_m: &|k| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.torque_command)),
             wheel_failed: &|k| wheels.get(k).is_some_and(|wheel| values.boolean(wheel.failed)),
             sun_sensor_failed: &|k| sensors.get(k).is_some_and(|sensor| values.boolean(sensor.failed)),
+            pulse: &|k| propulsion::pulse(context, values, k),
+            thrust: propulsion::thrust_command(context, values),
             health: dynamics::health(context, values),
             external: &|time_s| dynamics::external(context, values, self.over_time, time_s),
         })
@@ -61,6 +64,7 @@ pub fn begin(
 ) -> Result<(), Failure> {
     let mut configuration = inputs::configuration(context, values, state)?;
     let mut settings = dynamics::settings(context, values, &configuration)?;
+    propulsion::check(&settings.thrusters, &configuration)?;
     state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
     state.light = inputs::light(context, values, &configuration)?;
     let (mut attitude, is_default) = dynamics::start_attitude(context, values)?;
@@ -76,19 +80,20 @@ pub fn begin(
             rate_body_rad_s = frame.rate_body_rad_s;
         }
     }
+    let mut mass = configuration.loaded();
     if settings.panels_have_mass {
-        let inertia_body_kg_m2 =
-            flight(context, state, &mut configuration, &acting)?.inertia_at_start(time_s, attitude);
-        settings.gyrostat.set_inertia(inertia_body_kg_m2);
+        mass = flight(context, state, &mut configuration, &acting)?.mass_at_start(time_s, attitude);
+        settings.gyrostat.set_inertia(mass.inertia_body_kg_m2);
     }
     let wheels = &context.variables.wheel;
     let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
-    let begun = AttitudeDynamics::new(&settings, time_s, attitude, rate_body_rad_s, held);
+    let begun = AttitudeDynamics::new(&settings, mass, time_s, attitude, rate_body_rad_s, held);
     state.dynamics = Some(Box::new(begun));
     state.take_first_command(context, values, attitude, time_s)?;
     outputs::write_calculated(context, values, state, &configuration);
     // The sample at the start is taken anew by the first step, with its inputs.
     let begun = state.dynamics.clone();
+    let propellant = state.propellant.clone();
     let over_time = InputsOverTime::held();
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
     let limit = settings.work_limit;
@@ -103,7 +108,7 @@ pub fn begin(
         state.dynamics = Some(shown);
     }
     show(context, values, state, &mut configuration, &settings, over_time, time_s)?;
-    state.dynamics = begun;
+    (state.dynamics, state.propellant) = (begun, propellant);
     state.configuration = Some(configuration);
     state.dynamics_settings = Some(settings);
     Ok(())
@@ -159,9 +164,11 @@ pub fn step(
     let over_time = step.inputs;
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
     let acting = |time_s: f64| dynamics::external(context, stretch.values, over_time, time_s)[0];
+    propulsion::warn(context, stretch.values, &settings.thrusters, &mut state.said_of_thrusters, step);
     let mut flight = flight(context, state, &mut configuration, &acting)?;
     stretch
         .with_inputs(|inputs| {
+            flown.command_thrusters(&settings, inputs, step.start_s, step.end_s);
             flown.advance(&mut settings, &mut flight, inputs, step.end_s, |event| log_dump(context, event))
         })
         .map_err(outputs::failure)?;
@@ -184,6 +191,7 @@ fn flight<'f>(
         propagator: &mut state.propagator,
         ephemeris: &mut state.ephemeris,
         light: state.light.as_mut(),
+        propellant: &mut state.propellant,
         external,
     })
 }
@@ -212,7 +220,12 @@ fn show(
     outputs::write_plates(context, values, state, configuration, time_s)?;
     outputs::write(context, values, state, configuration, &evaluation, &totals, time_s);
     outputs::write_dumps(context, values, flown.dumps(), flown.spacing(), flown.is_dumping(time_s));
+    if let Some([impulse, delta_v]) = flown.dumped_at(time_s) {
+        values.set_vector(context.variables.dump.impulse, impulse.into());
+        values.set_vector(context.variables.dump.delta_v, delta_v.into());
+    }
     outputs::write_dynamics(context, values, settings, &flown, &body, time_s);
+    write_thrusters(context, values, settings, &flown, &state.propellant, time_s);
     state.dynamics = Some(flown);
     Ok(())
 }

@@ -15,6 +15,7 @@ use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 use super::super::inputs::dynamics;
 use super::super::inputs::state::PlantState;
 use super::super::setup::Plan;
+use super::propulsion::write_tanks;
 
 /// Writes every output at `time_s`.
 pub fn write(
@@ -42,10 +43,13 @@ pub fn write(
             values.set_vector(force, loads[effect].force_body_n.into());
         }
     }
+    let own = &loads[Effect::Thrusters];
+    values.set_vector(variables.torque.thruster, own.torque_body_n_m.into());
+    values.set_vector(variables.force.thruster, own.force_body_n.into());
     values.set_vector(variables.torque.total, total.torque_body_n_m.into());
     values.set_vector(variables.force.total, total.force_body_n.into());
     values.set_vector(variables.force.inertial, evaluation.force_inertial_n().into());
-    let acceleration_m_s2 = evaluation.acceleration_inertial_m_s2(configuration.mass_kg);
+    let acceleration_m_s2 = evaluation.acceleration_inertial_m_s2(mass.mass_kg);
     values.set_vector(variables.acceleration, acceleration_m_s2.into());
     values.set_vector(variables.delta_v, totals.delta_v_inertial_m_s.into());
 
@@ -80,7 +84,7 @@ pub fn write(
         state.propagator.trajectory.time_since_periapsis_s(configuration, time_s)
     };
     values.set_real(variables.orbit.time_since_periapsis, since_s);
-    values.set_real(variables.mass, configuration.mass_kg);
+    values.set_real(variables.mass, mass.mass_kg);
     values.set_vector(variables.center_of_mass, mass.center_of_mass_body_m.into());
 
     let valid = context
@@ -113,6 +117,11 @@ pub fn write_ideal(
 ) -> Result<(), Failure> {
     write_wheels(context, values, state, totals, evaluation);
     write_dumps(context, values, state.integrator.dumps(), &state.spacing, false);
+    let dump_delta_v_m_s = state.dump_side_effect.delta_v_inertial_m_s;
+    values.set_vector(context.variables.dump.delta_v, dump_delta_v_m_s.into());
+    if let Some(thrusters) = &state.thrusters {
+        write_tanks(context, values, thrusters, &state.propellant, time_s);
+    }
     let v = context.variables;
     let Instant { frame, sun_body, lit_fraction, .. } = &evaluation.instant;
     values.set_vector(v.estimate.q, Attitude::from_rotation(&frame.inertial_from_body).quaternion(None));
@@ -275,10 +284,7 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     }
     let variables = context.variables;
     let convention = state.configuration.as_ref()?.momentum.convention;
-    let mut torque_body = Vector3::from(values.vector(variables.torque.total));
-    if let Some(flown) = state.dynamics.as_ref().filter(|_| values.boolean(variables.dump.active)) {
-        torque_body = flown.with_dump_body_n_m(&torque_body);
-    }
+    let torque_body = Vector3::from(values.vector(variables.torque.total));
     if let Some(element) = variables.attitude.q.index_of(output) {
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
         return Some(attitude.quaternion_rate(&values.vector(variables.attitude.rate).into())[element]);

@@ -31,6 +31,15 @@ pub struct ControlVariables {
     /// uses.
     #[parameter(unit = "rad/s2", display = "deg/s2", min = 0.0, max = 10.0, start = setup.control.slew_acceleration_rad_s2)]
     pub slew_acceleration: Real,
+    /// Bandwidth where thrusters control the attitude: during a delta-v, and where wheels fail.
+    #[parameter(unit = "rad/s", min = 1e-5, max = 1e3, start = 3.0)]
+    pub thruster_bandwidth: Real,
+    /// Greatest angular acceleration of a turn by thrusters; 0 = no limit.
+    #[parameter(unit = "rad/s2", display = "deg/s2", min = 0.0, max = 10.0, start = setup.control.thruster_acceleration_rad_s2)]
+    pub thruster_acceleration: Real,
+    /// Time from one decision on the thrusters' pulses to the next; a whole number of samples.
+    #[parameter(unit = "s", min = 1e-3, max = 1e3, start = 0.1)]
+    pub pulse_period: Real,
     /// How torque is spread over the wheels.
     #[parameter(start = WheelAllocation(Allocation::PseudoInverse))]
     pub allocation: Choice<WheelAllocation>,
@@ -46,7 +55,7 @@ pub struct ControlVariables {
     /// Whether the reference that the slew limits make of the command has come to it.
     #[output]
     pub settled: Boolean,
-    /// Whether the wheels could not give the torque that was asked for at the last sample.
+    /// Whether wheels or thrusters could not give the torque that was asked for at the last sample.
     #[output]
     pub saturated: Boolean,
 }

@@ -62,6 +62,9 @@ pub struct TorqueVariables {
     pub applied: RealVector<3>,
     #[group(name = "")]
     pub by_source: TorqueBySource,
+    /// The spacecraft's own thrusters, in controlled and free flight.
+    #[output(unit = "N.m", nominal = 1.0)]
+    pub thruster: RealVector<3>,
     /// Sum of all sources, the external one included.
     #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
     pub total: RealVector<3>,
@@ -76,6 +79,9 @@ pub struct ForceVariables {
     pub applied: RealVector<3>,
     #[group(name = "")]
     pub by_source: ForceBySource,
+    /// The spacecraft's own thrusters, in controlled and free flight.
+    #[output(unit = "N", nominal = 1.0)]
+    pub thruster: RealVector<3>,
     /// Sum of all sources, the external one included.
     #[output(unit = "N", display = "uN", nominal = 1e-4)]
     pub total: RealVector<3>,
@@ -125,7 +131,8 @@ pub struct MomentumVariables {
     pub inertial: RealVector<3>,
 }
 
-/// Thruster dumps, in guided and commanded flight taken as instantaneous.
+/// Thruster dumps: in guided and commanded flight an impulse, in controlled and free flight pulses of the file's thrusters, or
+/// the constant dump.torque where it has none.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct DumpVariables {
@@ -152,10 +159,13 @@ pub struct DumpVariables {
     /// and the distribution of wheel[k].momentum; 0 without wheels in all directions. Paper 000 states 4, 5.5 and 7 N.m.s for wheels of 4, 8 and 12 N.m.s without printing the axes.
     #[calculated_parameter(unit = "N.m.s")]
     pub guaranteed_threshold: Real,
-    /// Greatest component of the thrusters' torque in controlled and free flight, where a dump lasts as long as this takes;
+    /// Greatest component of the thrusters' mean torque in controlled and free flight, where a dump lasts as long as this takes;
     /// the default is half of what the wheels can hold against.
     #[parameter(unit = "N.m", min = 1e-9, max = 1e6, start = setup.control.dump_torque_n_m)]
     pub torque: Real,
+    /// Shortest time from pulse to pulse of a dump.
+    #[parameter(unit = "s", min = 1e-3, max = 1e4, start = 2.0)]
+    pub pulse_period: Real,
     /// Whether thrusters are dumping.
     #[output]
     pub active: Boolean,
@@ -171,7 +181,10 @@ pub struct DumpVariables {
     /// Shortest time between two dumps so far; -1 before the second.
     #[output(discrete, unit = "s", display = "d")]
     pub closest: Real,
-    /// Angular impulse of the last dump, body frame.
-    #[output(discrete, unit = "N.m.s")]
+    /// Angular impulse of the last dump so far, in the body frame at its start.
+    #[output(unit = "N.m.s")]
     pub impulse: RealVector<3>,
+    /// Velocity change by the last dump so far, which the thrusters' forces leave beside their torque, in EME2000.
+    #[output(unit = "m/s", display = "mm/s", nominal = 1e-3)]
+    pub delta_v: RealVector<3>,
 }

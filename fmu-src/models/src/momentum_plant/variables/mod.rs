@@ -6,6 +6,7 @@ mod control;
 pub mod defaults;
 mod effects;
 mod motion;
+mod propulsion;
 mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
@@ -20,6 +21,9 @@ use effects::{
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
+use propulsion::{
+    AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
+};
 use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
 
 use super::setup::PlantSetup;
@@ -74,6 +78,16 @@ pub struct PlantVariables {
     pub gyro: GyroVariables,
     #[group(count = setup.spacecraft.sun_sensors.len())]
     pub sun_sensor: Vec<SunSensorVariables>,
+    #[group]
+    pub accelerometer: AccelerometerVariables,
+    #[group(count = setup.spacecraft.thrusters.len())]
+    pub thruster: Vec<ThrusterVariables>,
+    #[group(count = setup.spacecraft.tanks.len())]
+    pub tank: Vec<TankVariables>,
+    #[group]
+    pub propellant: PropellantVariables,
+    #[group]
+    pub thrust: ThrustVariables,
     #[group]
     pub noise: NoiseVariables,
     #[group]

@@ -112,7 +112,8 @@ impl ControllerState {
         let is_limited = missing_body_n_m != Vector3::zeros();
         let mut tracking = self.track(settings, target, estimate, &rate, is_limited);
         let greatest_rad = LOST_REFERENCE * settings.slew_acceleration_rad_s2 / gains.proportional_1_s2;
-        if settings.slew_acceleration_rad_s2 > 0.0 && tracking.angle_rad.norm() > greatest_rad {
+        let may_begin_anew = settings.slew_acceleration_rad_s2 > 0.0 && !settings.keeps_reference;
+        if may_begin_anew && tracking.angle_rad.norm() > greatest_rad {
             self.begin_reference(&estimate.attitude, &rate);
             tracking = self.track(settings, target, estimate, &rate, is_limited);
         }
@@ -138,6 +139,12 @@ impl ControllerState {
         };
         self.asked_body_n_m = inertia_body_kg_m2 * acceleration + gyroscopic - external_body_n_m;
         self.asked_body_n_m
+    }
+
+    /// Other actuators give the torque from the next sample on: what the integral holds against the old ones is void.
+    pub fn change_actuators(&mut self) {
+        self.integral_rad_s = Vector3::zeros();
+        self.missing_body_n_m = Vector3::zeros();
     }
 
     /// Tells that of the last torque only this could be given: at the next sample the integral does not grow toward

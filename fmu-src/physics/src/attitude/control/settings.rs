@@ -20,6 +20,8 @@ pub struct ControllerSettings {
     pub slew_rate_rad_s: f64,
     /// Greatest acceleration of the reference, in rad/s2; 0 for no limit.
     pub slew_acceleration_rad_s2: f64,
+    /// Whether the reference goes on however far the body is off: with actuators that are far stronger than slews ask for.
+    pub keeps_reference: bool,
 }
 
 /// Feedback gains per unit of inertia.

@@ -58,6 +58,7 @@ fn a_small_step_without_limits_answers_as_the_continuous_loop() {
         integral: 0.0,
         slew_rate_rad_s: 0.0,
         slew_acceleration_rad_s2: 0.0,
+        keeps_reference: false,
         ..settings()
     };
     let (start, axis, angle) = (random_attitude(5), random_unit(6), 1e-3);
@@ -124,6 +125,7 @@ fn at_the_bound_of_stability_the_loop_turns_from_decay_to_growth() {
             integral,
             slew_rate_rad_s: 0.0,
             slew_acceleration_rad_s2: 0.0,
+            keeps_reference: false,
             ..settings()
         };
         let Err(GainError::Unstable { allowed_rad_s, .. }) = with(1e3).check() else { panic!("{damping}") };

@@ -41,6 +41,7 @@ fn the_integral_does_not_grow_toward_torque_that_is_missing() {
         integral: 0.5,
         slew_rate_rad_s: 0.0,
         slew_acceleration_rad_s2: 0.0,
+        keeps_reference: false,
         ..settings()
     };
     let (attitude, direction) = (random_attitude(20), random_unit(21));

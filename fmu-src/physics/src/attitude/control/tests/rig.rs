@@ -15,6 +15,7 @@ pub(super) fn settings() -> ControllerSettings {
         integral: 0.1,
         slew_rate_rad_s: 8e-3,
         slew_acceleration_rad_s2: 1e-4,
+        keeps_reference: false,
     }
 }
 

@@ -12,6 +12,7 @@ fn settings(bandwidth_rad_s: f64, damping: f64, integral: f64) -> ControllerSett
         integral,
         slew_rate_rad_s: 0.0,
         slew_acceleration_rad_s2: 0.0,
+        keeps_reference: false,
     }
 }
 

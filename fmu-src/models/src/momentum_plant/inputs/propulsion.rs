@@ -1,0 +1,131 @@
+//! From parameters and inputs to thrusters, tanks and delta-v; refuses what cannot be flown, by name.
+
+use fmi_export::{Failure, Step, Values};
+use physics::plant::{Configuration, ReactionControlSettings, ThrustCommand};
+use physics::propulsion::{PulseCommand, ThrustErrors};
+use physics::spacecraft::{Tank, Thruster, ValveTiming};
+
+use super::super::setup::Plan;
+
+/// Thrusters and tanks as parameters say.
+pub fn reaction_control(context: &Plan<'_>, values: &Values) -> Result<ReactionControlSettings, Failure> {
+    let v = context.variables;
+    let spacecraft = &context.setup.spacecraft;
+    let thrusters = spacecraft.thrusters.iter().zip(&v.thruster).map(|(thruster, variables)| Thruster {
+        valve: ValveTiming {
+            min_on_s: values.real(variables.min_on_time),
+            rise_s: values.real(variables.rise_time),
+            tail_off_s: values.real(variables.tail_off_time),
+        },
+        scatter: values.real(variables.scatter),
+        ..thruster.clone()
+    });
+    let tanks = spacecraft.tanks.iter().zip(&v.tank).map(|(tank, variables)| Tank {
+        propellant_kg: values.real(variables.propellant),
+        pressure_pa: values.real(variables.pressure),
+        ..tank.clone()
+    });
+    let settings = ReactionControlSettings {
+        thrusters: thrusters.collect(),
+        tanks: tanks.collect(),
+        errors: ThrustErrors {
+            misalignment_rad: values.real(v.thrust.misalignment),
+            drift_rad_s: values.real(v.thrust.drift),
+            jitter_rad: values.real(v.thrust.jitter),
+            seed: values.integer(v.noise.seed).unsigned_abs().into(),
+        },
+        dump_torque_n_m: values.real(v.dump.torque),
+        dump_period_s: values.real(v.dump.pulse_period),
+    };
+    for (k, tank) in settings.tanks.iter().enumerate() {
+        let [least_pa, greatest_pa] = tank.allowed_pa;
+        if !(least_pa..=greatest_pa).contains(&tank.pressure_pa) {
+            return Err(Failure::new(format!(
+                "tank[{}].pressure: found {:?} Pa, allowed: {least_pa:?} to {greatest_pa:?} Pa, the range of tank {}",
+                k.saturating_add(1),
+                tank.pressure_pa,
+                tank.name
+            )));
+        }
+    }
+    Ok(settings)
+}
+
+/// Refuses tanks that hold more than there is, and thrusters that cannot dump.
+pub fn check(settings: &ReactionControlSettings, configuration: &Configuration) -> Result<(), Failure> {
+    let held_kg: f64 = settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
+    if held_kg >= configuration.mass_kg {
+        return Err(Failure::new(format!(
+            "tank[k].propellant: found {held_kg:?} kg in all tanks, allowed: less than spacecraft.mass = {:?} kg, of which it \
+             is a part",
+            configuration.mass_kg
+        )));
+    }
+    if settings.thrusters.is_empty() {
+        return Ok(());
+    }
+    settings.dump_selection(&configuration.center_of_mass_body_m).map(|_| ()).map_err(|error| {
+        Failure::new(format!(
+            "spacecraft.centerOfMass, [[thrusters]] of the spacecraft file: {error}; dumps need all"
+        ))
+    })
+}
+
+/// The pulse that thruster `k` (0-based) is commanded.
+pub fn pulse(context: &Plan<'_>, values: &Values, k: usize) -> PulseCommand {
+    context.variables.thruster.get(k).map_or(PulseCommand::default(), |thruster| PulseCommand {
+        delay_s: values.real(thruster.on_delay),
+        on_s: values.real(thruster.on_time),
+    })
+}
+
+/// The delta-v commanded.
+pub fn thrust_command(context: &Plan<'_>, values: &Values) -> ThrustCommand {
+    let thrust = &context.variables.thrust;
+    let set = values.choice(thrust.request).and_then(|it| it.0);
+    let stop_s = values.real(thrust.stop);
+    ThrustCommand {
+        set: set.filter(|_| values.boolean(thrust.command)),
+        stop_s: if stop_s < 0.0 { f64::INFINITY } else { stop_s },
+    }
+}
+
+/// What a step's commands to thrusters leave undone, once each.
+pub fn warn(
+    context: &Plan<'_>,
+    values: &Values,
+    settings: &ReactionControlSettings,
+    said: &mut SaidOfThrusters,
+    step: &Step<'_>,
+) {
+    if !said.cut {
+        let is_cut = |k: &usize| pulse(context, values, *k).is_cut(step.start_s, step.end_s);
+        if let Some(k) = (0..settings.thrusters.len()).find(is_cut) {
+            said.cut = true;
+            context.log.warning(&format!(
+                "thruster[{}].onDelay and onTime reach beyond the step from {} to {} s: the pulse is cut there, and others \
+                 like it",
+                k.saturating_add(1),
+                step.start_s,
+                step.end_s
+            ));
+        }
+    }
+    if let Some(set) = thrust_command(context, values).set
+        && !said.no_set
+        && settings.thrusters.iter().all(|thruster| thruster.set != Some(set))
+    {
+        said.no_set = true;
+        context.log.warning(&format!(
+            "thrust.request asks for {set:?}, which no thruster of {} belongs to (key set of [[thrusters]]): nothing fires",
+            context.setup.spacecraft.name
+        ));
+    }
+}
+
+/// Which warnings were given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct SaidOfThrusters {
+    cut: bool,
+    no_set: bool,
+}

@@ -1,0 +1,126 @@
+//! Thrusters, tanks, what is commanded for a delta-v, accelerometers.
+
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
+
+use super::super::setup::PlantSetup;
+use crate::common::choices::ThrustRequest;
+
+/// One thruster, in controlled and free flight.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ThrusterVariables {
+    /// Name in the spacecraft's file.
+    #[output(constant, start = setup.spacecraft.thrusters[index].name.as_str())]
+    pub name: Text,
+    /// Shortest time for which its valve opens; what is asked for less does not fire.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.min_on_s)]
+    pub min_on_time: Real,
+    /// Time over which the thrust rises linearly after the valve opens.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.rise_s)]
+    pub rise_time: Real,
+    /// Time over which the full thrust falls linearly to nothing after the valve closes.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.tail_off_s)]
+    pub tail_off_time: Real,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it.
+    #[parameter(unit = "1", display = "%", min = 0.0, max = 1.0, start = setup.spacecraft.thrusters[index].scatter)]
+    pub scatter: Real,
+    /// From the start of each step to the pulse.
+    #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
+    pub on_delay: Real,
+    /// Length of a pulse in each step; 0 = none. A pulse that reaches beyond the step is cut there. While the thruster takes part
+    /// in a dump or a delta-v it does not count.
+    #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
+    pub on_time: Real,
+    /// Thrust, its scatter and the tank's pressure counted in.
+    #[output(unit = "N", nominal = 1.0)]
+    pub thrust: Real,
+    /// Pulses begun so far.
+    #[output]
+    pub pulses: Integer,
+    /// Whether the last step commanded less than the shortest time that the valve opens.
+    #[output]
+    pub too_short: Boolean,
+    /// Whether it fires and a plate or panel stands in its plume.
+    #[output]
+    pub plume: Boolean,
+}
+
+/// One propellant tank.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct TankVariables {
+    /// Name in the spacecraft's file.
+    #[output(constant, start = setup.spacecraft.tanks[index].name.as_str())]
+    pub name: Text,
+    /// Propellant loaded, a part of spacecraft.mass; inertia and centre of mass are those of the loaded spacecraft.
+    #[parameter(unit = "kg", min = 1e-9, max = 1e12, start = setup.spacecraft.tanks[index].propellant_kg)]
+    pub propellant: Real,
+    /// Pressure when loaded.
+    #[parameter(unit = "Pa", display = "bar", min = 1.0, max = 1e12, start = setup.spacecraft.tanks[index].pressure_pa)]
+    pub pressure: Real,
+    /// Propellant left.
+    #[output(unit = "kg", nominal = 100.0)]
+    pub propellant_left: Real,
+    /// Pressure now.
+    #[output(unit = "Pa", display = "bar", nominal = 1e6)]
+    pub pressure_actual: Real,
+    /// Whether it feeds thrusters: there is propellant, and the pressure is within the file's range.
+    #[output]
+    pub feeds: Boolean,
+}
+
+/// A delta-v, in controlled and free flight. While it lasts the other thrusters control the attitude of controlled flight, the
+/// wheels go on as they are, and no dump begins.
+#[derive(Variables)]
+pub struct ThrustVariables {
+    /// The thrusters that fire.
+    #[input(start = ThrustRequest(None))]
+    pub request: Choice<ThrustRequest>,
+    /// Whether they fire.
+    #[input(start = false)]
+    pub command: Boolean,
+    /// When they stop at the latest, in simulation time, exactly; -1 = when thrust.command falls.
+    #[input(unit = "s", start = -1.0)]
+    pub stop: Real,
+    /// Angle between the thrust and its nominal direction; which way, noise.seed tells.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = 0.5, start = 0.0)]
+    pub misalignment: Real,
+    /// Rate at which the thrust's direction moves on from there, as the centre of mass does; which way, noise.seed tells.
+    #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 0.1, start = 0.0)]
+    pub drift: Real,
+    /// Standard deviation of the thrust's direction about each axis across it, drawn anew every second.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = 0.5, start = 0.0)]
+    pub jitter: Real,
+    /// Whether thrusters give a delta-v.
+    #[output]
+    pub active: Boolean,
+}
+
+/// Accelerometers along the body axes, sampled at control.rate in controlled and free flight.
+#[derive(Variables)]
+pub struct AccelerometerVariables {
+    /// Standard deviation of each axis's bias, drawn once.
+    #[parameter(unit = "m/s2", min = 0.0, max = 1.0, start = 0.0)]
+    pub bias: Real,
+    /// Standard deviation of each axis's scale error, drawn once.
+    #[parameter(unit = "1", display = "%", min = 0.0, max = 0.5, start = 0.0)]
+    pub scale: Real,
+    /// Standard deviation of each axis's mean acceleration over a sample.
+    #[parameter(unit = "m/s2", min = 0.0, max = 1.0, start = 0.0)]
+    pub noise: Real,
+    /// Standard deviation by which the bias moves in one second.
+    #[parameter(unit = "m/s2", min = 0.0, max = 1.0, start = 0.0)]
+    pub drift: Real,
+    /// Sum of the measured velocity increments along the body axes since the start, without gravity; 0 in guided and
+    /// commanded flight.
+    #[output(unit = "m/s", display = "mm/s", nominal = 1e-3)]
+    pub delta_v: RealVector<3>,
+}
+
+/// Propellant.
+#[derive(Variables)]
+pub struct PropellantVariables {
+    /// Propellant used since the start.
+    #[output(unit = "kg", nominal = 1.0)]
+    pub used: Real,
+}

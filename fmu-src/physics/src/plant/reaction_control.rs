@@ -1,0 +1,716 @@
+//! Reaction control of the plant: pulses of the thrusters, on command from outside, for a delta-v, a dump or the attitude, and
+//! what they exert.
+//!
+//! Every thruster has a valve and at most one pulse ahead of it. Edges of pulses, ends of ramps and an empty tank are times at
+//! which the motion's segments end; between them force, torque and flow are linear in time:
+//! F = F0 f p(u) / p0 with the valve's fraction f and the tank's pressure p, T = (r - c) x F about the centre of mass c.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::{GyrostatMotion, Quaternion};
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::spacing::spacing;
+use crate::propulsion::{
+    Preference, PropellantState, PulseCommand, SelectionError, ThrustErrors, ThrusterSelection, Valve,
+};
+use crate::spacecraft::{MassProperties, Tank, Thruster, ThrusterSet};
+
+/// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
+    (0.5, 0.444_444_444_444_444_4),
+    (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
+];
+
+/// What parameters say about thrusters and tanks.
+#[derive(Clone, Debug, Default)]
+pub struct ReactionControlSettings {
+    /// Thrusters.
+    pub thrusters: Vec<Thruster>,
+    /// Tanks.
+    pub tanks: Vec<Tank>,
+    /// How far a delta-v's thrust is off; its seed scatters pulses too.
+    pub errors: ThrustErrors,
+    /// Greatest mean torque of a dump about a body axis, in N m.
+    pub dump_torque_n_m: f64,
+    /// Shortest time between two pulses of a dump, in s.
+    pub dump_period_s: f64,
+}
+
+impl ReactionControlSettings {
+    /// The thrusters that dump: the weakest that give torque all ways.
+    ///
+    /// # Errors
+    /// A way about an axis that no thruster gives.
+    pub fn dump_selection(
+        &self,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Result<ThrusterSelection, SelectionError> {
+        let may_fire = |k: usize| self.thrusters[k].set != Some(ThrusterSet::Lva);
+        ThrusterSelection::of_the_finest(
+            &self.thrusters,
+            may_fire,
+            center_of_mass_body_m,
+            Preference::LeastForce,
+        )
+    }
+
+    /// The thrusters that control the attitude while those of a set give a delta-v.
+    ///
+    /// # Errors
+    /// A way about an axis that no thruster gives.
+    pub fn attitude_selection(
+        &self,
+        burning: Option<ThrusterSet>,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Result<ThrusterSelection, SelectionError> {
+        let may_fire = |k: usize| {
+            let set = self.thrusters[k].set;
+            set != Some(ThrusterSet::Lva) && (burning.is_none() || set != burning)
+        };
+        ThrusterSelection::new(&self.thrusters, may_fire, center_of_mass_body_m, Preference::LeastOnTime)
+    }
+
+    /// Sum of the nominal forces of a set, body frame, in N, and their torque about a centre of mass, in N m.
+    pub fn nominal_thrust(
+        &self,
+        set: ThrusterSet,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> [Vector3<f64>; 2] {
+        let members = self.thrusters.iter().filter(|thruster| thruster.set == Some(set));
+        members.fold([Vector3::zeros(); 2], |[force, torque], it| {
+            [force + it.force_body_n, torque + it.torque_about_n_m(center_of_mass_body_m)]
+        })
+    }
+}
+
+/// What is commanded for a delta-v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThrustCommand {
+    /// The thrusters that are to fire; none = no thrust.
+    pub set: Option<ThrusterSet>,
+    /// When they stop at the latest, in s; infinite without end.
+    pub stop_s: f64,
+}
+
+/// What thrusters exert from a time on, linear in time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ThrusterLoad {
+    since_s: f64,
+    /// Force in N and its slope in N/s, body frame.
+    pub force_body_n: [Vector3<f64>; 2],
+    /// Torque about the centre of mass in N m and its slope in N m/s, body frame.
+    pub torque_body_n_m: [Vector3<f64>; 2],
+    /// Mass in kg at the start.
+    pub mass_kg: f64,
+    /// Flow out of the tanks in kg/s and its slope in kg/s2.
+    pub flow_kg_s: [f64; 2],
+}
+
+impl ThrusterLoad {
+    fn none(time_s: f64, mass_kg: f64) -> Self {
+        let nothing = [Vector3::zeros(); 2];
+        Self {
+            since_s: time_s,
+            force_body_n: nothing,
+            torque_body_n_m: nothing,
+            mass_kg,
+            flow_kg_s: [0.0; 2],
+        }
+    }
+
+    /// Whether nothing fires.
+    pub fn is_none(&self) -> bool {
+        self.force_body_n == [Vector3::zeros(); 2]
+    }
+
+    /// Force in N and torque in N m at `time_s`, body frame.
+    pub fn at(&self, time_s: f64) -> [Vector3<f64>; 2] {
+        let elapsed_s = time_s - self.since_s;
+        [self.force_body_n, self.torque_body_n_m].map(|[start, slope]| start + slope * elapsed_s)
+    }
+
+    fn acceleration_body_m_s2(&self, time_s: f64) -> Vector3<f64> {
+        let elapsed_s = time_s - self.since_s;
+        let [flow, slope] = self.flow_kg_s;
+        self.at(time_s)[0] / (self.mass_kg - (flow + 0.5 * slope * elapsed_s) * elapsed_s)
+    }
+}
+
+/// What thrusters did so far, EME2000.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThrusterTotals {
+    /// Angular impulse about the centre of mass, in N m s.
+    pub impulse_inertial_n_m_s: Vector3<f64>,
+    /// Velocity change, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+}
+
+/// The pulses of a valve at hand and ahead, and what became of the last command.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct ScheduledPulses {
+    /// When the open valve closes.
+    closes_s: f64,
+    /// When it next opens, and closes then.
+    next_s: [f64; 2],
+    /// Whether the last command was for less than the shortest time that the valve opens.
+    was_too_short: bool,
+}
+
+impl ScheduledPulses {
+    const NONE: Self = Self { closes_s: f64::INFINITY, next_s: [f64::INFINITY; 2], was_too_short: false };
+
+    /// Nothing ahead.
+    fn clear(&mut self) {
+        *self = Self { was_too_short: self.was_too_short, ..Self::NONE };
+    }
+}
+
+/// A delta-v at hand.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Burn {
+    set: ThrusterSet,
+    since_s: f64,
+    stop_s: f64,
+}
+
+/// A dump by pulses: at hand, or the last one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct PulsedDump {
+    /// Where the momentum is to go, EME2000, in N m s.
+    target_inertial_n_m_s: Vector3<f64>,
+    attitude_at_start: Quaternion,
+    before: ThrusterTotals,
+    /// Totals when it ended; absent while it lasts.
+    after: Option<ThrusterTotals>,
+    /// When pulses are next decided, in s.
+    next_s: f64,
+    /// Whether the pulses at hand are the last.
+    is_last: bool,
+    /// Mean torque of the pulses at hand, body frame, in N m.
+    mean_torque_body_n_m: Vector3<f64>,
+}
+
+/// Thrusters of the plant.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ReactionControl {
+    valves: Vec<Valve>,
+    schedule: Vec<ScheduledPulses>,
+    burn: Option<Burn>,
+    dump: Option<PulsedDump>,
+    load: ThrusterLoad,
+    totals: ThrusterTotals,
+    #[serde(skip)]
+    for_dumps: Option<Selected>,
+    #[serde(skip)]
+    for_attitude: Option<Selected>,
+}
+
+/// Which thrusters give which torque about a centre of mass while a set fires; a cache.
+#[derive(Clone, Debug)]
+struct Selected {
+    center_of_mass_body_m: Vector3<f64>,
+    burning: Option<ThrusterSet>,
+    selection: Option<ThrusterSelection>,
+}
+
+impl ReactionControl {
+    /// With every valve closed.
+    pub fn new(settings: &ReactionControlSettings, time_s: f64) -> Self {
+        let count = settings.thrusters.len();
+        Self {
+            valves: vec![Valve::default(); count],
+            schedule: vec![ScheduledPulses::NONE; count],
+            burn: None,
+            dump: None,
+            load: ThrusterLoad::none(time_s, 1.0),
+            totals: ThrusterTotals::default(),
+            for_dumps: None,
+            for_attitude: None,
+        }
+    }
+
+    /// Whether its numbers can come from a flight with so many thrusters; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, thrusters: usize) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let later = |x: &f64| sound(x) || *x == f64::INFINITY;
+        let vector = |it: &Vector3<f64>| it.iter().all(sound);
+        let totals =
+            |it: &ThrusterTotals| vector(&it.impulse_inertial_n_m_s) && vector(&it.delta_v_inertial_m_s);
+        let ThrusterLoad { since_s, force_body_n, torque_body_n_m, mass_kg, flow_kg_s } = &self.load;
+        self.valves.len() == thrusters
+            && self.schedule.len() == thrusters
+            && self.valves.iter().all(Valve::is_sound)
+            && self.schedule.iter().all(|it| later(&it.closes_s) && it.next_s.iter().all(later))
+            && self.burn.is_none_or(|it| sound(&it.since_s) && later(&it.stop_s))
+            && self.dump.is_none_or(|it| {
+                let norm: f64 = it.attitude_at_start.0.iter().map(|x| x * x).sum();
+                vector(&it.target_inertial_n_m_s)
+                    && vector(&it.mean_torque_body_n_m)
+                    && (norm - 1.0).abs() < 1e-9
+                    && totals(&it.before)
+                    && it.after.as_ref().is_none_or(totals)
+                    && sound(&it.next_s)
+            })
+            && force_body_n.iter().chain(torque_body_n_m).all(vector)
+            && [since_s, mass_kg].into_iter().chain(flow_kg_s).all(sound)
+            && *mass_kg > 0.0
+            && totals(&self.totals)
+    }
+
+    /// Takes the pulses commanded for the step from `start_s` to `end_s`; they end there at the latest. Whether there are any.
+    pub fn command_pulses(
+        &mut self,
+        settings: &ReactionControlSettings,
+        pulse: &dyn Fn(usize) -> PulseCommand,
+        start_s: f64,
+        end_s: f64,
+    ) -> bool {
+        let mut any = false;
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            let PulseCommand { delay_s, on_s } = pulse(k);
+            // What thrusters do on their own goes on.
+            let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || self.is_dumping();
+            let shortest_s = thruster.valve.min_on_s - 4.0 * spacing(end_s);
+            self.schedule[k].was_too_short = on_s > 0.0 && on_s < shortest_s;
+            let opens_s = start_s + delay_s;
+            if on_s > 0.0 && on_s >= shortest_s && opens_s < end_s && !is_own {
+                any = true;
+                self.plan(k, opens_s, (opens_s + on_s).min(end_s));
+            }
+        }
+        any
+    }
+
+    /// Takes the command of a delta-v that holds from `time_s` on; whether it changes what was going to happen.
+    pub fn command_thrust(
+        &mut self,
+        settings: &ReactionControlSettings,
+        command: &ThrustCommand,
+        time_s: f64,
+    ) -> bool {
+        let wanted = command.set.filter(|_| command.stop_s > due_s(time_s));
+        let before = self.burn.map(|burn| (burn.set, burn.stop_s));
+        if wanted.map(|set| (set, command.stop_s)) == before {
+            return false;
+        }
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            if self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) {
+                self.schedule[k].clear();
+                self.schedule[k].closes_s = time_s;
+            }
+            if wanted.is_some() && thruster.set == wanted {
+                self.plan(k, time_s, command.stop_s);
+            }
+        }
+        let goes_on = self.burn.filter(|burn| Some(burn.set) == wanted);
+        self.burn = wanted.map(|set| Burn {
+            set,
+            since_s: goes_on.map_or(time_s, |burn| burn.since_s),
+            stop_s: command.stop_s,
+        });
+        true
+    }
+
+    /// Plans a pulse; one that begins before the present one ends makes that longer.
+    fn plan(&mut self, k: usize, opens_s: f64, closes_s: f64) {
+        let pulse = &mut self.schedule[k];
+        if self.valves[k].is_open() && opens_s <= due_s(pulse.closes_s) {
+            pulse.closes_s = closes_s;
+        } else {
+            pulse.next_s = [opens_s, closes_s];
+        }
+    }
+
+    /// When something about the thrusters next changes by itself, in s.
+    pub fn next_edge_s(&self, settings: &ReactionControlSettings, propellant: &PropellantState) -> f64 {
+        let mut next_s = f64::INFINITY;
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            let (valve, pulse) = (&self.valves[k], &self.schedule[k]);
+            let closes_s = if valve.is_open() { pulse.closes_s } else { f64::INFINITY };
+            next_s = next_s.min(pulse.next_s[0]).min(closes_s).min(valve.ramp_end_s(&thruster.valve));
+        }
+        if !self.load.is_none() {
+            for (k, tank) in settings.tanks.iter().enumerate() {
+                next_s = next_s.min(propellant.dry_s(k, tank));
+            }
+        }
+        next_s
+    }
+
+    /// Opens and closes the valves whose time has come.
+    pub fn take_edges(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &mut PropellantState,
+        time_s: f64,
+    ) {
+        let due_s = due_s(time_s);
+        for (index, tank) in settings.tanks.iter().enumerate() {
+            if propellant.dry_s(index, tank) <= due_s {
+                propellant.empty(index, tank);
+            }
+        }
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            let (valve, pulse) = (&mut self.valves[k], &mut self.schedule[k]);
+            let feeds = || {
+                let tank = settings.tanks.get(thruster.tank);
+                tank.is_some_and(|tank| tank.feeds(propellant.used_kg(thruster.tank, time_s)))
+            };
+            if valve.is_open() && !feeds() {
+                valve.shut(time_s);
+                pulse.clear();
+            }
+            if valve.ramp_end_s(&thruster.valve) <= due_s {
+                valve.end_ramp(time_s);
+            }
+            if valve.is_open() && pulse.closes_s <= due_s {
+                valve.close(&thruster.valve, time_s);
+                pulse.closes_s = f64::INFINITY;
+            }
+            if pulse.next_s[0] <= due_s {
+                pulse.closes_s = pulse.next_s[1];
+                pulse.next_s = [f64::INFINITY; 2];
+                if feeds() {
+                    valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
+                }
+            }
+        }
+        if self.burn.is_some_and(|burn| burn.stop_s <= due_s) {
+            self.burn = None;
+        }
+    }
+
+    /// Counts what thrusters did up to `time_s`, the end of the motion's present segment.
+    pub fn settle(&mut self, motion: &GyrostatMotion, propellant: &mut PropellantState, time_s: f64) {
+        if !self.load.is_none() {
+            self.totals = self.totals_at(motion, time_s);
+            propellant.settle(time_s);
+        }
+    }
+
+    /// Works out what the thrusters exert from `time_s` on, a spacecraft of `loaded_kg` with full tanks having its centre of
+    /// mass there, body frame, in m.
+    pub fn exert(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &mut PropellantState,
+        loaded_kg: f64,
+        center_of_mass_body_m: &Vector3<f64>,
+        time_s: f64,
+    ) {
+        self.load = ThrusterLoad::none(time_s, loaded_kg - propellant.total_used_kg(time_s));
+        let thrusters = || settings.thrusters.iter().enumerate();
+        let thrust = |k: usize, thruster: &Thruster| self.valves[k].thrust(&thruster.valve, time_s);
+        if thrusters().all(|(k, thruster)| thrust(k, thruster) == [0.0; 2]) {
+            return;
+        }
+        propellant.settle(time_s);
+        let mut load = self.load;
+        for (index, tank) in settings.tanks.iter().enumerate() {
+            let fed = || thrusters().filter(|(_, thruster)| thruster.tank == index);
+            let used_kg = propellant.used_kg(index, time_s);
+            // Pressure over that of the nominal thrust, and its slope.
+            let over = |thruster: &Thruster| {
+                let nominal_pa = thruster.at_pressure_pa.unwrap_or(tank.pressure_pa);
+                [tank.pressure_pa(used_kg), tank.pressure_slope_pa_kg(used_kg)].map(|it| it / nominal_pa)
+            };
+            let flow_kg_s: f64 = fed()
+                .map(|(k, thruster)| thruster.flow_kg_s * thrust(k, thruster)[0] * over(thruster)[0])
+                .sum();
+            for (k, thruster) in fed() {
+                let ([fraction, slope], [pressure, per_kg]) = (thrust(k, thruster), over(thruster));
+                let share = [fraction * pressure, slope * pressure + fraction * per_kg * flow_kg_s];
+                if share == [0.0; 2] {
+                    continue;
+                }
+                let force_body_n = self.force_body_n(settings, k, time_s);
+                let arm_m = thruster.position_body_m - center_of_mass_body_m;
+                let torque_body_n_m = arm_m.cross(&force_body_n);
+                let flow_kg_s = share.map(|part| thruster.flow_kg_s * part);
+                propellant.add_flow(index, flow_kg_s);
+                for (order, part) in share.into_iter().enumerate() {
+                    load.force_body_n[order] += force_body_n * part;
+                    load.torque_body_n_m[order] += torque_body_n_m * part;
+                    load.flow_kg_s[order] += flow_kg_s[order];
+                }
+            }
+        }
+        self.load = load;
+    }
+
+    /// Full thrust of thruster `k` as it points now.
+    fn force_body_n(&self, settings: &ReactionControlSettings, k: usize, time_s: f64) -> Vector3<f64> {
+        let thruster = &settings.thrusters[k];
+        match self.burn {
+            Some(burn) if thruster.set == Some(burn.set) => {
+                let [along, _] = settings.nominal_thrust(burn.set, &Vector3::zeros());
+                settings.errors.turned(&thruster.force_body_n, &along, time_s - burn.since_s)
+            }
+            _ => thruster.force_body_n,
+        }
+    }
+
+    /// What the thrusters exert in the motion's present segment.
+    pub fn load(&self) -> &ThrusterLoad {
+        &self.load
+    }
+
+    /// What they did up to `time_s` in the motion's present segment.
+    pub fn totals_at(&self, motion: &GyrostatMotion, time_s: f64) -> ThrusterTotals {
+        let mut totals = self.totals;
+        if self.load.is_none() {
+            return totals;
+        }
+        let span_s = time_s - self.load.since_s;
+        for (node, weight) in GAUSS {
+            let at_s = self.load.since_s + node * span_s;
+            let attitude = motion.attitude_at(at_s);
+            let [_, torque] = self.load.at(at_s);
+            let acceleration = self.load.acceleration_body_m_s2(at_s);
+            totals.impulse_inertial_n_m_s += attitude.inertial_from_body(&torque) * (weight * span_s);
+            totals.delta_v_inertial_m_s += attitude.inertial_from_body(&acceleration) * (weight * span_s);
+        }
+        totals
+    }
+
+    /// The set that gives a delta-v at hand.
+    pub fn burning(&self) -> Option<ThrusterSet> {
+        self.burn.map(|burn| burn.set)
+    }
+
+    /// Begins a dump at `time_s` toward a total momentum, EME2000, in N m s.
+    pub fn begin_dump(&mut self, motion: &GyrostatMotion, target_inertial_n_m_s: Vector3<f64>, time_s: f64) {
+        self.dump = Some(PulsedDump {
+            target_inertial_n_m_s,
+            attitude_at_start: motion.attitude_at(time_s),
+            before: self.totals_at(motion, time_s),
+            after: None,
+            next_s: time_s,
+            is_last: false,
+            mean_torque_body_n_m: Vector3::zeros(),
+        });
+    }
+
+    /// Whether a dump lasts.
+    pub fn is_dumping(&self) -> bool {
+        self.dump.is_some_and(|dump| dump.after.is_none())
+    }
+
+    /// Mean torque of the dump's pulses at hand, body frame, in N m.
+    pub fn dump_torque_body_n_m(&self) -> Vector3<f64> {
+        self.dump
+            .filter(|dump| dump.after.is_none())
+            .map_or(Vector3::zeros(), |dump| dump.mean_torque_body_n_m)
+    }
+
+    /// Angular impulse of the dump at hand or the last one, in the body frame at its start, in N m s, and its velocity change,
+    /// EME2000, in m/s.
+    pub fn dumped_at(&self, motion: &GyrostatMotion, time_s: f64) -> Option<[Vector3<f64>; 2]> {
+        self.dump.map(|dump| {
+            let now = dump.after.unwrap_or_else(|| self.totals_at(motion, time_s));
+            let impulse = now.impulse_inertial_n_m_s - dump.before.impulse_inertial_n_m_s;
+            let delta_v = now.delta_v_inertial_m_s - dump.before.delta_v_inertial_m_s;
+            [dump.attitude_at_start.body_from_inertial(&impulse), delta_v]
+        })
+    }
+
+    /// Decides the next pulses of a dump where that is due, the total momentum being this, EME2000, in N m s.
+    pub fn sample_dump(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &PropellantState,
+        motion: &GyrostatMotion,
+        momentum_inertial_n_m_s: &Vector3<f64>,
+        mass: &MassProperties,
+        time_s: f64,
+    ) {
+        let Some(mut dump) = self.dump.filter(|dump| dump.after.is_none() && dump.next_s <= due_s(time_s))
+        else {
+            return;
+        };
+        let selection = selected(&mut self.for_dumps, None, &mass.center_of_mass_body_m, || {
+            settings.dump_selection(&mass.center_of_mass_body_m).ok()
+        });
+        let fires = self
+            .valves
+            .iter()
+            .zip(&settings.thrusters)
+            .any(|(valve, it)| valve.thrust(&it.valve, time_s) != [0.0; 2]);
+        let Some(selection) = selection.filter(|_| !(dump.is_last && !fires)) else {
+            dump.after = Some(self.totals_at(motion, time_s));
+            self.dump = Some(dump);
+            return;
+        };
+        if dump.is_last {
+            // What is left in the valves still comes out.
+            return;
+        }
+        let attitude = motion.attitude_at(time_s);
+        let left_body_n_m_s =
+            attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
+        let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
+        let part = (most_n_m_s / left_body_n_m_s.amax()).min(1.0);
+        dump.is_last = part == 1.0;
+        let mut given_body_n_m_s = Vector3::zeros();
+        for (k, full_s) in selection.on_times_s(&left_body_n_m_s).enumerate() {
+            let thruster = &settings.thrusters[k];
+            let shortest_s = thruster.valve.min_on_s;
+            let [whole_s, part_s] =
+                [full_s, full_s * part].map(|it| opens_for_s(settings, propellant, k, it, time_s));
+            // Smaller pulses than the valve's shortest are rounded to it or to none.
+            let on_s = if part_s >= shortest_s {
+                part_s
+            } else if whole_s >= shortest_s || (dump.is_last && whole_s >= 0.5 * shortest_s) {
+                shortest_s
+            } else {
+                0.0
+            };
+            if on_s > 0.0 {
+                self.plan(k, time_s, time_s + on_s);
+                let full_s = thruster.valve.full_thrust_s(on_s)
+                    * pressure_ratio(settings, propellant, thruster, time_s);
+                given_body_n_m_s += thruster.torque_about_n_m(&mass.center_of_mass_body_m) * full_s;
+            }
+        }
+        // A pulse that gives more than the mean torque allows is followed by a longer pause.
+        let pause_s = settings.dump_period_s.max(given_body_n_m_s.amax() / settings.dump_torque_n_m);
+        dump.mean_torque_body_n_m = given_body_n_m_s / pause_s;
+        dump.next_s = time_s + pause_s;
+        // All that is left may be too small for any valve.
+        dump.is_last |= given_body_n_m_s == Vector3::zeros();
+        self.dump = Some(dump);
+    }
+
+    /// Pulses over `period_s` whose mean is this torque, body frame, in N m; the part of it that they give, none where no
+    /// thrusters give torque all ways.
+    pub fn give(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &PropellantState,
+        torque_body_n_m: &Vector3<f64>,
+        mass: &MassProperties,
+        period_s: f64,
+        time_s: f64,
+    ) -> Option<f64> {
+        let burning = self.burning();
+        let center = &mass.center_of_mass_body_m;
+        let selection = selected(&mut self.for_attitude, burning, center, || {
+            settings.attitude_selection(burning, center).ok()
+        })?;
+        let impulse_body_n_m_s = torque_body_n_m * period_s;
+        let on_s = |k: usize, full_s: f64| opens_for_s(settings, propellant, k, full_s, time_s);
+        let times = selection.on_times_s(&impulse_body_n_m_s).enumerate();
+        let longest_s = times.clone().map(|(k, full_s)| on_s(k, full_s)).fold(0.0, f64::max);
+        let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
+        for (k, full_s) in times {
+            let shortest_s = settings.thrusters[k].valve.min_on_s;
+            let wanted_s = on_s(k, full_s * given).min(period_s);
+            let opens_s = if wanted_s >= shortest_s {
+                wanted_s
+            } else if wanted_s >= 0.5 * shortest_s {
+                shortest_s
+            } else {
+                0.0
+            };
+            if opens_s > 0.0 {
+                self.plan(k, time_s, time_s + opens_s);
+            }
+        }
+        Some(given)
+    }
+
+    /// Whether thrusters other than a delta-v's give torque all ways.
+    pub fn spans(&mut self, settings: &ReactionControlSettings, mass: &MassProperties) -> bool {
+        let (burning, center) = (self.burning(), &mass.center_of_mass_body_m);
+        !settings.thrusters.is_empty()
+            && selected(&mut self.for_attitude, burning, center, || {
+                settings.attitude_selection(burning, center).ok()
+            })
+            .is_some()
+    }
+
+    /// Thrust of thruster `k` at `time_s`, in N.
+    pub fn thrust_n(
+        &self,
+        settings: &ReactionControlSettings,
+        propellant: &PropellantState,
+        k: usize,
+        time_s: f64,
+    ) -> f64 {
+        let thruster = &settings.thrusters[k];
+        let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.since_s);
+        let share = fraction + slope * (time_s - self.load.since_s).max(0.0);
+        if share == 0.0 {
+            return 0.0;
+        }
+        thruster.force_body_n.norm() * share * pressure_ratio(settings, propellant, thruster, time_s)
+    }
+
+    /// Pulses that thruster `k` has begun.
+    pub fn pulses(&self, k: usize) -> u32 {
+        self.valves[k].pulses()
+    }
+
+    /// Whether the last command for thruster `k` was for less than the shortest time that its valve opens.
+    pub fn was_too_short(&self, k: usize) -> bool {
+        self.schedule[k].was_too_short
+    }
+}
+
+/// The selection about this centre of mass, worked out where it is another.
+fn selected<'c>(
+    cache: &'c mut Option<Selected>,
+    burning: Option<ThrusterSet>,
+    center_of_mass_body_m: &Vector3<f64>,
+    select: impl FnOnce() -> Option<ThrusterSelection>,
+) -> Option<&'c ThrusterSelection> {
+    let is_known = cache
+        .as_ref()
+        .is_some_and(|it| it.center_of_mass_body_m == *center_of_mass_body_m && it.burning == burning);
+    if !is_known {
+        *cache = None;
+    }
+    cache
+        .get_or_insert_with(|| Selected {
+            center_of_mass_body_m: *center_of_mass_body_m,
+            burning,
+            selection: select(),
+        })
+        .selection
+        .as_ref()
+}
+
+/// Thrust of a thruster over the nominal one by the pressure of its tank.
+fn pressure_ratio(
+    settings: &ReactionControlSettings,
+    propellant: &PropellantState,
+    thruster: &Thruster,
+    time_s: f64,
+) -> f64 {
+    settings.tanks.get(thruster.tank).map_or(0.0, |tank| {
+        let used_kg = propellant.used_kg(thruster.tank, time_s);
+        tank.pressure_pa(used_kg) / thruster.at_pressure_pa.unwrap_or(tank.pressure_pa)
+    })
+}
+
+/// How long the valve of thruster `k` opens for so many seconds of nominal thrust; not below zero.
+fn opens_for_s(
+    settings: &ReactionControlSettings,
+    propellant: &PropellantState,
+    k: usize,
+    full_s: f64,
+    time_s: f64,
+) -> f64 {
+    let thruster = &settings.thrusters[k];
+    if full_s <= 0.0 {
+        return 0.0;
+    }
+    thruster.valve.on_s(full_s / pressure_ratio(settings, propellant, thruster, time_s)).max(0.0)
+}
+
+/// Times up to this one are due at `time_s`.
+fn due_s(time_s: f64) -> f64 {
+    time_s + 4.0 * spacing(time_s)
+}

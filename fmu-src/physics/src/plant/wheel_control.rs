@@ -1,0 +1,174 @@
+//! Wheel control: how a torque on the body becomes motor torques, and what the motors give of it.
+//!
+//! Equation: u_k = -s_k + f_k + (b_k - h_k) / T with the shares s of the torque, friction f, and the shares b of what the
+//! working wheels hold together; where a motor would have to give more than it can, all s are reduced alike.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::control::{Allocation, WheelAllocator};
+use crate::attitude::{Gyrostat, Motor};
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+
+/// How torque reaches the wheels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelControlSettings {
+    /// How torque is spread over the wheels.
+    pub allocation: Allocation,
+    /// Time constant with which the wheels' momenta are brought to the same distribution, in s; infinite = not at all.
+    pub balance_time_s: f64,
+    /// Whether the motors make up for the wheels' known friction.
+    pub compensates_friction: bool,
+}
+
+/// Motors of the wheels.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct WheelControl {
+    motors: Vec<Motor>,
+    /// Whether the wheels could not give the torque that was asked for.
+    is_limited: bool,
+    #[serde(skip)]
+    allocator: Option<CachedAllocator>,
+}
+
+/// The distribution over the wheels that work; a cache.
+#[derive(Clone, Debug)]
+struct CachedAllocator {
+    works: Vec<bool>,
+    allocator: Option<WheelAllocator>,
+    shares: Vec<f64>,
+    balance: Vec<f64>,
+}
+
+impl WheelControl {
+    /// Of so many wheels, without torque.
+    pub fn new(wheels: usize) -> Self {
+        Self { motors: vec![Motor::default(); wheels], is_limited: false, allocator: None }
+    }
+
+    /// Whether its numbers can come from a flight with so many wheels; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, wheels: usize) -> bool {
+        self.motors.len() == wheels
+            && self.motors.iter().all(|motor| motor.torque_n_m.abs() <= GREATEST_IN_STATE)
+    }
+
+    /// The motors.
+    pub fn motors(&self) -> &[Motor] {
+        &self.motors
+    }
+
+    /// Whether the wheels could not give the torque asked for last.
+    pub fn is_limited(&self) -> bool {
+        self.is_limited
+    }
+
+    /// Takes note of which wheels (0-based) failed: their motors give nothing.
+    pub fn fail(&mut self, failed: &dyn Fn(usize) -> bool) {
+        for (k, motor) in self.motors.iter_mut().enumerate() {
+            motor.failed = failed(k);
+            if motor.failed {
+                motor.torque_n_m = 0.0;
+            }
+        }
+    }
+
+    /// Torques from outside, in N m, as far as the motors give them.
+    pub fn drive(&mut self, gyrostat: &Gyrostat, torque_n_m: &dyn Fn(usize) -> f64) {
+        for (k, (motor, wheel)) in self.motors.iter_mut().zip(gyrostat.wheels()).enumerate() {
+            if !motor.failed {
+                motor.torque_n_m = torque_n_m(k).clamp(-wheel.max_torque_n_m, wheel.max_torque_n_m);
+            }
+        }
+    }
+
+    /// Whether the wheels that work give torque in all directions.
+    pub fn spans(&mut self, gyrostat: &Gyrostat) -> bool {
+        self.known(gyrostat).allocator.is_some()
+    }
+
+    /// The rotors go on as they are: the motors make up for friction alone.
+    pub fn coast(
+        &mut self,
+        settings: &WheelControlSettings,
+        gyrostat: &Gyrostat,
+        momentum_n_m_s: impl Fn(usize) -> f64,
+    ) {
+        for (k, (motor, wheel)) in self.motors.iter_mut().zip(gyrostat.wheels()).enumerate() {
+            let friction =
+                if settings.compensates_friction { wheel.friction_n_m(momentum_n_m_s(k)) } else { 0.0 };
+            let turns = !motor.failed && !wheel.locked;
+            motor.torque_n_m =
+                if turns { friction.clamp(-wheel.max_torque_n_m, wheel.max_torque_n_m) } else { 0.0 };
+        }
+        self.is_limited = false;
+    }
+
+    /// The motors give this torque on the body, in N m, while the rotors hold these momenta; the part of it that they do.
+    pub fn give(
+        &mut self,
+        settings: &WheelControlSettings,
+        gyrostat: &Gyrostat,
+        torque_body_n_m: &Vector3<f64>,
+        momentum_n_m_s: impl Fn(usize) -> f64,
+    ) -> f64 {
+        self.known(gyrostat);
+        let Self { motors, is_limited, allocator: Some(CachedAllocator { allocator, shares, balance, .. }) } =
+            self
+        else {
+            return 0.0;
+        };
+        let Some(allocator) = allocator else {
+            motors.iter_mut().for_each(|motor| motor.torque_n_m = 0.0);
+            *is_limited = true;
+            return 0.0;
+        };
+        // The body feels the opposite of what the motors exert on the rotors.
+        allocator.distribute(settings.allocation, &-torque_body_n_m, shares);
+        let turns = |k: usize| !motors[k].failed && !gyrostat.wheels()[k].locked;
+        let working_body_n_m_s = gyrostat.along_axes(|k| if turns(k) { momentum_n_m_s(k) } else { 0.0 });
+        allocator.distribute(settings.allocation, &working_body_n_m_s, balance);
+        let mut given = 1.0_f64;
+        for (k, wheel) in gyrostat.wheels().iter().enumerate() {
+            let friction =
+                if settings.compensates_friction { wheel.friction_n_m(momentum_n_m_s(k)) } else { 0.0 };
+            // Motor torque without the share that is asked for: friction and balance.
+            balance[k] = if turns(k) {
+                friction + (balance[k] - momentum_n_m_s(k)) / settings.balance_time_s
+            } else {
+                0.0
+            };
+            balance[k] = balance[k].clamp(-wheel.max_torque_n_m, wheel.max_torque_n_m);
+            let most = wheel.max_torque_n_m - balance[k] * shares[k].signum();
+            if shares[k].abs() > most {
+                given = given.min(most / shares[k].abs());
+            }
+        }
+        for (motor, (share, other)) in motors.iter_mut().zip(shares.iter().zip(balance.iter())) {
+            motor.torque_n_m = share * given + other;
+        }
+        *is_limited = given < 1.0;
+        given
+    }
+
+    /// The distribution over the wheels that work now.
+    fn known(&mut self, gyrostat: &Gyrostat) -> &CachedAllocator {
+        let motors = &self.motors;
+        let stale = self.allocator.as_ref().is_none_or(|cached| {
+            !cached.works.iter().zip(motors).all(|(works, motor)| *works != motor.failed)
+        });
+        if stale {
+            self.allocator = None;
+        }
+        self.allocator.get_or_insert_with(|| {
+            let works: Vec<bool> = motors.iter().map(|motor| !motor.failed).collect();
+            let axes: Vec<_> = gyrostat.wheels().iter().map(|wheel| wheel.axis_body).collect();
+            let can_turn = |k: usize| works[k] && !gyrostat.wheels()[k].locked;
+            CachedAllocator {
+                allocator: WheelAllocator::new(&axes, can_turn),
+                shares: vec![0.0; works.len()],
+                balance: vec![0.0; works.len()],
+                works,
+            }
+        })
+    }
+}

@@ -1,0 +1,86 @@
+//! Plume of a thruster: whether a surface stands in the cone that its exhaust fills.
+
+use nalgebra::{Rotation3, Unit, Vector3};
+
+use crate::spacecraft::{Panel, Polygon, Spacecraft, Thruster};
+
+/// Whether a corner or the centre of a plate or panel stands in the cone of the thruster's plume, the panels at these angles (by
+/// index, in rad; none = left out). A surface that the thruster stands on is not in it.
+pub fn hits_a_surface(
+    spacecraft: &Spacecraft,
+    thruster: &Thruster,
+    panel_angle_rad: impl Fn(usize) -> Option<f64>,
+) -> bool {
+    if thruster.plume_half_angle_rad <= 0.0 {
+        return false;
+    }
+    let exhaust = -thruster.force_body_n.normalize();
+    let least = thruster.plume_half_angle_rad.cos();
+    let is_in = |point: &Vector3<f64>| {
+        let from_nozzle = point - thruster.position_body_m;
+        from_nozzle.dot(&exhaust) > least * from_nozzle.norm()
+    };
+    let any_in = |center: &Vector3<f64>,
+                  outline: Option<&Polygon>,
+                  place: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
+        is_in(&place(center))
+            || outline.is_some_and(|outline| outline.vertices_m().iter().any(|vertex| is_in(&place(vertex))))
+    };
+    let fixed = |point: &Vector3<f64>| *point;
+    let plates =
+        spacecraft.plates.iter().any(|plate| any_in(&plate.center_m, plate.polygon.as_ref(), &fixed));
+    let shade = spacecraft.sunshade.iter().any(|shade| {
+        let turned = |point: &Vector3<f64>| shade.dcm_body_from_shade * point;
+        shade.plates.iter().any(|plate| any_in(&plate.center_m, plate.polygon.as_ref(), &turned))
+    });
+    plates
+        || shade
+        || spacecraft.panels.iter().enumerate().any(|(k, panel)| {
+            panel_angle_rad(k).is_some_and(|angle_rad| panel_hit(panel, angle_rad, &any_in))
+        })
+}
+
+type AnyIn<'a> = dyn Fn(&Vector3<f64>, Option<&Polygon>, &dyn Fn(&Vector3<f64>) -> Vector3<f64>) -> bool + 'a;
+
+fn panel_hit(panel: &Panel, angle_rad: f64, any_in: &AnyIn<'_>) -> bool {
+    let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(panel.axis_body), angle_rad);
+    let turned = |point: &Vector3<f64>| panel.center_body_m + turn * (point - panel.center_body_m);
+    any_in(&panel.center_body_m, panel.polygon.as_ref(), &turned)
+}
+
+#[cfg(test)]
+mod tests {
+    //! A nozzle that looks at a panel's edge, and away from it.
+    use super::*;
+    use crate::spacecraft::{MESSENGER_TOML, ValveTiming};
+
+    fn nozzle(position: [f64; 3], exhaust: [f64; 3], half_angle_deg: f64) -> Thruster {
+        let (position_body_m, force_body_n) = (Vector3::from(position), -Vector3::from(exhaust) * 4.4);
+        Thruster {
+            name: String::new(),
+            position_body_m,
+            force_body_n,
+            torque_body_n_m: position_body_m.cross(&force_body_n),
+            flow_kg_s: 0.002,
+            valve: ValveTiming::default(),
+            scatter: 0.0,
+            set: None,
+            tank: 0,
+            at_pressure_pa: None,
+            plume_half_angle_rad: half_angle_deg.to_radians(),
+        }
+    }
+
+    #[test]
+    fn a_panel_in_the_cone_is_hit() {
+        let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+        let hits = |thruster: &Thruster| hits_a_surface(&craft, thruster, |_| Some(0.0));
+        // The panel's centre is at (2.28, 0, 0): 45 deg off the exhaust.
+        let aside = |half_deg: f64| nozzle([1.28, 0.0, 1.0], [0.0, 0.0, -1.0], half_deg);
+        assert!(!hits(&aside(44.9)) && hits(&aside(45.1)));
+        assert!(!hits(&aside(0.0)), "no plume is given");
+        assert!(!hits(&nozzle([1.28, 0.0, 1.0], [0.0, 0.0, 1.0], 80.0)));
+        let left_out = hits_a_surface(&craft, &aside(50.0), |_| None);
+        assert!(!left_out, "panels that are left out are not there");
+    }
+}
