@@ -1,7 +1,10 @@
 //! Control: `MomentumPlant` with its own controller, alone and in a loop with `Guidance`.
 //!
-//! Large slews, saturation and a failed wheel; the safe modes of paper 001; the estimated curves of its Figures 7 and 8.
+//! Burns with delta-V steering, large slews, saturation and a failed wheel; the safe modes of paper 001; the estimated curves
+//! of its Figures 7 and 8.
 
+mod burn;
+mod burn_flight;
 mod cosimulation;
 mod guided_loop;
 mod safe_mode;
@@ -13,6 +16,7 @@ mod slew_flight;
 mod slew_limits;
 mod transition;
 
+pub use burn::burn;
 pub use safe_mode::safe_mode;
 pub use slew::slew;
 pub use transition::transition;
