@@ -98,6 +98,13 @@ pub const STUDIES: &[Study] = &[
         run: momentum::assumptions,
     },
     Study {
+        name: "pointing/burn",
+        paper: "001",
+        title: "a burn with each correction of its direction over seeds: Figures 10 and 11",
+        takes: &[Extra::Step],
+        run: control::burn,
+    },
+    Study {
         name: "pointing/limb",
         paper: "001",
         title: "limb points at azimuths and on the terminator, and a scan of the limb's height",
