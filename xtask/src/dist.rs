@@ -4,12 +4,13 @@ use crate::build::{Built, build, scratch};
 use crate::shell::{Outcome, command, root, run};
 use crate::systems;
 
-/// Model name and the shipped spacecraft it is packed with.
-const SHIPPED: &[(&str, &str)] = &[
-    ("MomentumPlant", "messenger.toml"),
-    ("SpinPlant", "ace.toml"),
-    ("DisturbanceTorque", "messenger-thermal.toml"),
-    ("Guidance", "messenger.toml"),
+/// File name, model and the shipped spacecraft it is packed with.
+const SHIPPED: &[(&str, &str, &str)] = &[
+    ("MomentumPlant", "MomentumPlant", "messenger.toml"),
+    ("SpinPlant", "SpinPlant", "ace.toml"),
+    ("DisturbanceTorque", "DisturbanceTorque", "messenger-thermal.toml"),
+    ("Guidance", "Guidance", "messenger.toml"),
+    ("FlexibleCraft", "MomentumPlant", "examples/flexible-craft.toml"),
 ];
 
 /// Builds, then packs everything that is shipped.
@@ -21,14 +22,14 @@ pub fn dist() -> Result<Built, String> {
 }
 
 fn pack(built: &Built) -> Outcome {
-    for (model, spacecraft) in SHIPPED {
+    for (name, model, spacecraft) in SHIPPED {
         run(command(&built.heliotorque)
             .args(["pack", "--model", model, "--library"])
             .arg(&built.library)
             .arg("--spacecraft")
             .arg(root().join("fmu-src").join("resources").join(spacecraft))
             .arg("--output")
-            .arg(root().join("dist").join(format!("{model}.fmu"))))?;
+            .arg(root().join("dist").join(format!("{name}.fmu"))))?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use fmi_export::{Real, Values};
 use physics::guidance::system::GuidanceState;
 
 use super::setup::Plan;
-use super::variables::choices::{ActiveMode, AntennaSelect};
+use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
 use crate::common::choices::CommandKind;
 
 /// Writes every output at `time_s`, the epoch there being `epoch_s`.
@@ -19,6 +19,14 @@ pub fn write(context: &Plan<'_>, values: &mut Values, state: &GuidanceState, tim
     values.set_vector(v.command.error, command.error);
     values.set_choice(v.mode.active, ActiveMode(state.mode()));
     values.set_real(v.epoch, epoch_s);
+    values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());
+    let is_coarse = match values.choice(v.ephemeris.source) {
+        Some(EphemerisSource::Chebyshev) => state.uses_coarse_ephemeris(),
+        Some(EphemerisSource::Coarse) => true,
+        _ => false,
+    };
+    let active = if is_coarse { EphemerisModel::Coarse } else { EphemerisModel::Precise };
+    values.set_choice(v.ephemeris.active, active);
 
     let sun = state.sun_angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);

@@ -1,9 +1,12 @@
 //! Control: `MomentumPlant` with its own controller, alone and in a loop with `Guidance`.
 //!
-//! Large slews, saturation and a failed wheel; the safe modes of paper 001; the estimated curves of its Figures 7 and 8.
+//! Large slews, saturation and a failed wheel; jitter of a flexible structure; the safe modes of paper 001; the estimated curves of its Figures 7 and 8.
 
 mod cosimulation;
 mod guided_loop;
+mod jitter;
+mod jitter_flight;
+mod jitter_theory;
 mod safe_mode;
 mod safe_mode_checks;
 mod safe_mode_flight;
@@ -11,8 +14,10 @@ mod slew;
 mod slew_figures;
 mod slew_flight;
 mod slew_limits;
+mod spectrum;
 mod transition;
 
+pub use jitter::jitter;
 pub use safe_mode::safe_mode;
 pub use slew::slew;
 pub use transition::transition;

@@ -2,6 +2,7 @@
 
 pub mod choices;
 pub mod commands;
+pub mod ephemeris;
 pub mod limits;
 pub mod outputs;
 pub mod surroundings;
@@ -10,11 +11,12 @@ use fmi_export::{Real, RealVector, Variables};
 use physics::guidance::scan::SCANS;
 
 use super::setup::GuidanceSetup;
-use crate::common::variables::{EphemerisVariables, GuidedVariables, WorkLimit};
+use crate::common::variables::{GuidedVariables, WorkLimit};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
     ModeVariables, PointingVariables, ScanCompatibilityVariables, ScanVariables,
 };
+use ephemeris::EphemerisVariables;
 use limits::{
     AntennaVariables, EarthAcquisitionVariables, HotPoleVariables, KeepInVariables, LinkVariables,
     MdisVariables, MonitorVariables, SafeHoldVariables, SunSearchVariables,
