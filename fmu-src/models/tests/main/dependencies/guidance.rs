@@ -591,6 +591,12 @@ fn measure(text: &str, rounds: usize) {
                 bench.put(&mut other, "monitor.margin", margin_rad);
                 others.push(other);
             }
+            // Safe Hold's own zone from nothing to everything.
+            for limit_rad in [0.0, 1.5] {
+                let mut other = values.clone();
+                bench.put(&mut other, "safeHold.keepIn.elevation", limit_rad);
+                others.push(other);
+            }
         } else if subject == Subject::Ephemeris {
             // From where the Sun sensors contradict to where they do not.
             for (name, value) in
