@@ -1,5 +1,5 @@
 //! The functions beside FMI's that a library of this project exports: packers obtain a model's description from
-//! `fmi_export_describe`, and have a schedule judged by `fmi_export_check_schedule`.
+//! `fmi_export_describe`, and have a schedule judged by `fmi_export_check_schedule_file`.
 
 use core::ffi::{c_char, c_int, c_void};
 
@@ -13,7 +13,7 @@ pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize
 /// `fmi_export_describe(model, setup_file, setup_text, context, receive)`.
 ///
 /// With `model` NULL the models are listed: for each one its name, the name of its setup file under `resources/` (left
-/// out if it has none), that of its schedule file likewise, its compiled-in setup text, and by what it computes, one
+/// out if it has none), those of its schedule files likewise, one at a time, its compiled-in setup text, and by what it computes, one
 /// `quantity TAB source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for
 /// the compiled-in text if that is NULL. `setup_file` names the text in errors; NULL means the model's own file name. Returns
 /// 0, or 1 after an error was sent. The texts given stay the caller's and are not kept; `context` goes to `receive` unread.
@@ -21,13 +21,16 @@ pub type Describe =
     unsafe extern "C" fn(*const c_char, *const c_char, *const c_char, *mut c_void, Option<Receive>) -> c_int;
 
 /// Name of the symbol of [`CheckSchedule`].
-pub const CHECK_SCHEDULE_SYMBOL: &str = "fmi_export_check_schedule";
+pub const CHECK_SCHEDULE_SYMBOL: &str = "fmi_export_check_schedule_file";
 
-/// `fmi_export_check_schedule(model, setup_file, setup_text, schedule_file, schedule_text, context, receive)`.
+/// `fmi_export_check_schedule_file(model, setup_file, setup_text, schedule, schedule_file, schedule_text, context,
+/// receive)`.
 ///
-/// Whether the model takes this schedule with this setup: 0, or 1 after an error was sent. Everything else as in
-/// [`Describe`]; `schedule_file` names the schedule in errors.
+/// Whether the model takes this text as its `schedule`, one of the [`kind::SCHEDULE_FILE`]s it was introduced with, with this
+/// setup: 0, or 1 after an error was sent. Everything else as in [`Describe`]; `schedule_file` names the text in errors; NULL
+/// means `schedule` itself.
 pub type CheckSchedule = unsafe extern "C" fn(
+    *const c_char,
     *const c_char,
     *const c_char,
     *const c_char,
@@ -51,6 +54,6 @@ pub mod kind {
     pub const SETUP_FILE: i32 = 4;
     /// A quantity, a tab and by what it is computed.
     pub const SOURCE: i32 = 5;
-    /// Name of the schedule file under `resources/`.
+    /// Name of a schedule file under `resources/`.
     pub const SCHEDULE_FILE: i32 = 6;
 }

@@ -156,5 +156,5 @@ const EXPORTS: [&str; 36] = [
     "fmi2GetBooleanStatus",
     "fmi2GetStringStatus",
     "fmi_export_describe",
-    "fmi_export_check_schedule",
+    "fmi_export_check_schedule_file",
 ];

@@ -11,8 +11,8 @@ use crate::variables::{Real, RealVector, Values, Variables};
 
 /// A co-simulation model.
 ///
-/// The order of calls in one instance: [`Model::parse_setup`] once, [`Model::parse_schedule`] once if there is a schedule,
-/// then [`Model::initialize`] whenever
+/// The order of calls in one instance: [`Model::parse_setup`] once, [`Model::parse_schedule`] once for each schedule there
+/// is, then [`Model::initialize`] whenever
 /// parameters changed before the first step (it is a pure function of its arguments and may run several
 /// times), then [`Model::step`] with strictly increasing times. Between two steps the state may be cloned,
 /// serialised, restored or thrown away. All a model knows is in `Setup` (immutable, shared), `Values` (what
@@ -25,9 +25,9 @@ pub trait Model: Sized + 'static {
     const STATE_VERSION: u32;
     /// File under `resources/` that holds the setup, or `None` for a model without resources.
     const SETUP_FILE: Option<&'static str>;
-    /// File under `resources/` that holds a schedule, which may be there beside the setup, or `None` for a model that takes
-    /// none. A schedule does not enter the GUID: one FMU flies many.
-    const SCHEDULE_FILE: Option<&'static str> = None;
+    /// Files under `resources/` that hold schedules, what is commanded or known over time, each of which may be there beside
+    /// the setup. A schedule does not enter the GUID: one FMU flies many.
+    const SCHEDULE_FILES: &'static [&'static str] = &[];
     /// The compiled-in setup text, used when an importer gives no resource location.
     const DEFAULT_SETUP: &'static str;
     /// By what the model computes, for its manual.
@@ -45,9 +45,14 @@ pub trait Model: Sized + 'static {
     /// Parses and validates the setup text; `file` names it in errors.
     fn parse_setup(file: &str, text: &str) -> Result<Self::Setup, SetupError>;
 
-    /// Parses and validates a schedule and puts it into the setup, where it may not change what is declared; `file` names it
-    /// in errors. Called at most once, before the first instance call.
-    fn parse_schedule(_setup: &mut Self::Setup, file: &str, _text: &str) -> Result<(), SetupError> {
+    /// Parses and validates one of [`Model::SCHEDULE_FILES`], `schedule`, and puts it into the setup, where it may not change
+    /// what is declared; `file` names it in errors. Called at most once for each, before the first instance call.
+    fn parse_schedule(
+        _setup: &mut Self::Setup,
+        _schedule: &str,
+        file: &str,
+        _text: &str,
+    ) -> Result<(), SetupError> {
         Err(SetupError(format!("{file}: {} takes no schedule", Self::NAME)))
     }
 

@@ -11,7 +11,7 @@ pub(crate) type ErasedState = Box<dyn Any + Send>;
 /// One model instance; every method is one call of the [`Model`] trait.
 pub(crate) trait Runtime: Send {
     /// Takes a schedule, before anything else is called.
-    fn take_schedule(&mut self, file: &str, text: &str) -> Result<(), SetupError>;
+    fn take_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError>;
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure>;
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
     /// Whether the model knows how fast its outputs change.
@@ -63,8 +63,8 @@ impl<M: Model> Typed<M> {
 }
 
 impl<M: Model> Runtime for Typed<M> {
-    fn take_schedule(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
-        M::parse_schedule(&mut self.setup, file, text)
+    fn take_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError> {
+        M::parse_schedule(&mut self.setup, schedule, file, text)
     }
 
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure> {

@@ -79,7 +79,10 @@ pub const MOMENTUM_PLANT: &[Source] = &[
         "orbit",
         "Kepler's equation, or Gauss-Legendre integration with J2, the Sun's tide and the surface forces; paper 004 eqs 9 to 21",
     ),
-    source("planets", "VSOP87, or an ellipse as paper 004 Table 4 prints it"),
+    source(
+        "planets",
+        "VSOP87, an ellipse as paper 004 Table 4 prints it, or Chebyshev segments of resources/ephemeris.toml",
+    ),
     LIT_FRACTION,
     source(
         "guided attitude",
@@ -225,6 +228,18 @@ pub const GUIDANCE: &[Source] = &[
          ephemeris.source asks for them) is not connected yet: the last command stays and nothing is judged. A zero estimate.q, \
          or one that still has its start value, is not connected: the monitor watches nothing. Without a scenario the last law \
          stays, within its constraints, without its scan",
+    ),
+    source(
+        "ephemerides as flown",
+        "with ephemeris.source chebyshev: Chebyshev segments of resources/ephemeris.toml, or VSOP87's own, and coarse polynomials \
+         of fourth degree of the Keplerian elements. Operational goes by the precise ones alone, Safe Hold until they are lost, \
+         Earth Acquisition by the coarse ones. They are lost where their Sun, in the frame of estimate.q, is farther than \
+         ephemeris.tolerance from sun.sensed for ephemeris.persistence, and where their span ends; that ends Operational, and \
+         a new request for it trusts them again. Positions that the file has of the spacecraft stand in for position and velocity",
+    ),
+    source(
+        "planet's rotation",
+        "the IAU's with its pole fixed at J2000, as in paper 001: Rz(W) Rx(90 deg - dec) Rz(90 deg + ra), W = W0 + rate t",
     ),
     source(
         "local frames",

@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command, SchemaKind},
-    check, completions, draw, info, interrupt,
+    check, completions, draw, ephemeris, info, interrupt,
     outcome::Outcome,
     pack, plan, run as simulation, study, wire,
 };
@@ -14,6 +14,7 @@ use crate::{
 // JSON Schemas, kept in step with their readers by tests of `physics`.
 const SPACECRAFT_SCHEMA: &str = include_str!("../../../fmu-src/resources/spacecraft.schema.json");
 const TIMELINE_SCHEMA: &str = include_str!("../../../fmu-src/resources/timeline.schema.json");
+const EPHEMERIS_SCHEMA: &str = include_str!("../../../fmu-src/resources/ephemeris.schema.json");
 
 /// Parses the arguments and runs the command.
 pub fn run() -> Outcome {
@@ -38,10 +39,12 @@ pub fn run() -> Outcome {
             let schema = match arguments.kind {
                 SchemaKind::Spacecraft => SPACECRAFT_SCHEMA,
                 SchemaKind::Timeline => TIMELINE_SCHEMA,
+                SchemaKind::Ephemeris => EPHEMERIS_SCHEMA,
             };
             terminal::print(schema.trim_end())?;
             Ok(ExitCode::SUCCESS)
         }
+        Command::Ephemeris(arguments) => ephemeris::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),

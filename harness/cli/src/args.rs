@@ -56,6 +56,8 @@ pub enum Command {
     /// Make an FMU of your own spacecraft; nothing is compiled
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),
+    /// Fit the positions of an FMU's flight: an ephemeris that spacecraft carry, with its error
+    Ephemeris(crate::ephemeris::Ephemeris),
     /// Print the JSON Schema of a file, for editors that complete and check TOML
     Schema(Schema),
     /// Run a study of the papers, or list them
@@ -98,7 +100,7 @@ pub struct Info {
 /// `heliotorque check`.
 #[derive(Debug, Args)]
 pub struct Check {
-    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; or a spacecraft, a .toml file
+    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; a spacecraft or an ephemeris, a .toml file
     pub subject: PathBuf,
     /// For a spacecraft only: the FMU whose library shall read it, as for `pack`; otherwise dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
@@ -120,7 +122,7 @@ pub struct Check {
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of which kind of file: spacecraft, or timeline, which `pack --timeline` takes
+    /// Of which kind of file: spacecraft; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
@@ -141,6 +143,8 @@ pub enum SchemaKind {
     Spacecraft,
     /// Commands over time.
     Timeline,
+    /// Positions over time.
+    Ephemeris,
 }
 
 /// `heliotorque probe-in-child`.
@@ -282,6 +286,10 @@ pub struct Pack {
     /// Commands over time, a TOML file (see `heliotorque schema timeline`), for models that take one; the GUID stays
     #[arg(long, value_name = "TOML")]
     pub timeline: Option<PathBuf>,
+    /// Positions of Sun, Earth and planets over time, a TOML file (see `heliotorque ephemeris`), for models that take one;
+    /// read where ephemeris.source is chebyshev or coarse; the GUID stays
+    #[arg(long, value_name = "TOML")]
+    pub ephemeris: Option<PathBuf>,
     /// Add outputs of every plate: plate[k].temperature and plate[k].force[i], as with `per_plate_outputs = true` in the
     /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
     #[arg(long)]
@@ -356,7 +364,7 @@ fn duration(text: &str) -> Result<f64, String> {
 }
 
 /// A time that passes, so more than 0 s.
-fn span(text: &str) -> Result<f64, String> {
+pub fn span(text: &str) -> Result<f64, String> {
     match duration(text)? {
         span_s if span_s > 0.0 => Ok(span_s),
         _ => Err("allowed is more than 0 s".to_owned()),

@@ -10,7 +10,7 @@ use model_description::{
 };
 use systems::System;
 
-use crate::{args::Info, coefficients, epoch, outcome::Outcome, timeline};
+use crate::{args::Info, coefficients, ephemeris, epoch, outcome::Outcome, timeline};
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
@@ -118,6 +118,13 @@ fn summary(fmu: &Fmu) -> String {
         "timeline",
         timeline::of(fmu).map(|read| match read {
             Ok(timeline) => timeline::summary(&timeline),
+            Err(problems) => format!("with {} problems: see `heliotorque check`", problems.lines().count()),
+        }),
+    );
+    row(
+        "ephemeris",
+        ephemeris::of(fmu).map(|read| match read {
+            Ok(carried) => ephemeris::summary(&carried),
             Err(problems) => format!("with {} problems: see `heliotorque check`", problems.lines().count()),
         }),
     );

@@ -10,6 +10,7 @@ mod child;
 mod coefficients;
 mod completions;
 mod draw;
+mod ephemeris;
 mod epoch;
 mod info;
 mod interrupt;

@@ -56,6 +56,13 @@ pub const STUDIES: &[Study] = &[
         run: control::transition,
     },
     Study {
+        name: "control/jitter",
+        paper: "000",
+        title: "attitude jitter of a flexible structure by a wheel out of balance, with its spectrum",
+        takes: &[],
+        run: control::jitter,
+    },
+    Study {
         name: "momentum/table2",
         paper: "000",
         title: "number of thruster dumps in 90 days, with a picture like Figure 4",

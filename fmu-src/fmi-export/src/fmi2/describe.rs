@@ -1,4 +1,4 @@
-//! The bodies of `fmi_export_describe` and `fmi_export_check_schedule`, see [`model_description::describe`].
+//! The bodies of `fmi_export_describe` and `fmi_export_check_schedule_file`, see [`model_description::describe`].
 
 use core::ffi::{c_char, c_int, c_void};
 
@@ -26,7 +26,7 @@ impl Sender {
         if let Some(file) = entry.setup_file() {
             self.send(kind::SETUP_FILE, file);
         }
-        if let Some(file) = entry.schedule_file() {
+        for file in entry.schedule_files() {
             self.send(kind::SCHEDULE_FILE, file);
         }
         self.send(kind::SETUP_TEXT, entry.default_setup());
@@ -83,7 +83,7 @@ pub unsafe fn describe(
     })
 }
 
-/// `fmi_export_check_schedule` over the models of a library.
+/// `fmi_export_check_schedule_file` over the models of a library.
 ///
 /// # Safety
 /// As [`describe`].
@@ -93,6 +93,7 @@ pub unsafe fn check_schedule(
     model: *const c_char,
     setup_file: *const c_char,
     setup_text: *const c_char,
+    schedule: *const c_char,
     schedule_file: *const c_char,
     schedule_text: *const c_char,
     context: *mut c_void,
@@ -101,19 +102,21 @@ pub unsafe fn check_schedule(
     let Some(receive) = receive else { return 1 };
     Sender { context, receive }.run(|| {
         // SAFETY: the caller's promise.
-        let (model, file, setup, schedule_file, schedule) = unsafe {
+        let (model, file, setup, schedule, schedule_file, text) = unsafe {
             (
                 optional(model, "model")?,
                 optional(setup_file, "setup_file")?,
                 optional(setup_text, "setup_text")?,
+                optional(schedule, "schedule")?,
                 optional(schedule_file, "schedule_file")?,
                 optional(schedule_text, "schedule_text")?,
             )
         };
         let entry = found(library, model.unwrap_or_default())?;
-        let schedule = schedule.ok_or("argument schedule_text is NULL")?;
+        let schedule = schedule.ok_or("argument schedule is NULL")?;
+        let text = text.ok_or("argument schedule_text is NULL")?;
         library
-            .check_schedule(entry, file, setup, schedule_file, schedule)
+            .check_schedule(entry, file, setup, schedule, schedule_file, text)
             .map_err(|error| said(entry.name(), &error))
     })
 }

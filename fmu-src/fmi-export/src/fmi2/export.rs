@@ -64,10 +64,11 @@ macro_rules! export {
 
             /// See [`CheckSchedule`](describe::CheckSchedule).
             #[unsafe(no_mangle)]
-            unsafe extern "C" fn fmi_export_check_schedule(
+            unsafe extern "C" fn fmi_export_check_schedule_file(
                 model: *const c_char,
                 setup_file: *const c_char,
                 setup_text: *const c_char,
+                schedule: *const c_char,
                 schedule_file: *const c_char,
                 schedule_text: *const c_char,
                 context: *mut c_void,
@@ -77,12 +78,13 @@ macro_rules! export {
                 // SAFETY: the caller keeps the contract of `CheckSchedule`.
                 unsafe {
                     $crate::fmi2::check_schedule(
-                        &super::LIBRARY, model, setup_file, setup_text, schedule_file, schedule_text, context, receive,
+                        &super::LIBRARY, model, setup_file, setup_text, schedule, schedule_file, schedule_text, context,
+                        receive,
                     )
                 }
             }
 
-            const _: describe::CheckSchedule = fmi_export_check_schedule;
+            const _: describe::CheckSchedule = fmi_export_check_schedule_file;
         }
     };
 }

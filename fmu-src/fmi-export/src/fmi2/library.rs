@@ -13,7 +13,7 @@ use crate::panics::contain;
 pub struct Entry {
     name: &'static str,
     setup_file: Option<&'static str>,
-    schedule_file: Option<&'static str>,
+    schedule_files: &'static [&'static str],
     default_setup: &'static str,
     sources: &'static [Source],
     prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
@@ -26,7 +26,7 @@ impl Entry {
         Self {
             name: M::NAME,
             setup_file: M::SETUP_FILE,
-            schedule_file: M::SCHEDULE_FILE,
+            schedule_files: M::SCHEDULE_FILES,
             default_setup: M::DEFAULT_SETUP,
             sources: M::SOURCES,
             prepare: prepare::<M>,
@@ -44,9 +44,9 @@ impl Entry {
         self.setup_file
     }
 
-    /// The file under `resources/` that may hold a schedule.
-    pub const fn schedule_file(&self) -> Option<&'static str> {
-        self.schedule_file
+    /// The files under `resources/` that may hold schedules.
+    pub const fn schedule_files(&self) -> &'static [&'static str] {
+        self.schedule_files
     }
 
     /// The compiled-in setup text.
@@ -92,24 +92,29 @@ impl Entry {
         contain(|| (self.prepare)(file, text, &others)).unwrap_or_else(|text| Err(DescribeError::Panic(text)))
     }
 
-    /// The prepared model with the schedule in its resources, if there is one.
-    fn with_schedule_at(
+    /// The prepared model with the schedules in its resources, if there are any.
+    fn with_schedules_at(
         &self,
         mut prepared: Prepared,
         resources: &Result<Resources, String>,
     ) -> Result<Prepared, String> {
-        let (Some(file), Ok(Resources::Folder(folder))) = (self.schedule_file, resources) else {
-            return Ok(prepared);
-        };
-        if let Some(text) = location::read_if_there(folder, file)? {
-            Self::take_schedule(&mut prepared, file, &text).map_err(|error| error.to_string())?;
+        let Ok(Resources::Folder(folder)) = resources else { return Ok(prepared) };
+        for file in self.schedule_files {
+            if let Some(text) = location::read_if_there(folder, file)? {
+                Self::take_schedule(&mut prepared, file, file, &text).map_err(|error| error.to_string())?;
+            }
         }
         Ok(prepared)
     }
 
     /// Has the prepared model take a schedule.
-    fn take_schedule(prepared: &mut Prepared, file: &str, text: &str) -> Result<(), DescribeError> {
-        match contain(|| prepared.runtime.take_schedule(file, text)) {
+    fn take_schedule(
+        prepared: &mut Prepared,
+        schedule: &str,
+        file: &str,
+        text: &str,
+    ) -> Result<(), DescribeError> {
+        match contain(|| prepared.runtime.take_schedule(schedule, file, text)) {
             Ok(taken) => taken.map_err(DescribeError::Setup),
             Err(panic) => Err(DescribeError::Panic(panic)),
         }
@@ -146,15 +151,16 @@ impl Library {
         entry: &Entry,
         file: Option<&str>,
         setup_text: Option<&str>,
-        schedule_file: Option<&str>,
         schedule: &str,
+        schedule_file: Option<&str>,
+        schedule_text: &str,
     ) -> Result<(), DescribeError> {
-        let schedule_file = schedule_file.or(entry.schedule_file).unwrap_or("the schedule");
-        if entry.schedule_file.is_none() {
-            return Err(SetupError(format!("{schedule_file}: {} takes no schedule", entry.name)).into());
+        let schedule_file = schedule_file.unwrap_or(schedule);
+        if !entry.schedule_files.contains(&schedule) {
+            return Err(SetupError(format!("{schedule_file}: {} takes no {schedule}", entry.name)).into());
         }
         let mut prepared = entry.prepare(file, setup_text, self.entries)?;
-        Entry::take_schedule(&mut prepared, schedule_file, schedule)?;
+        Entry::take_schedule(&mut prepared, schedule, schedule_file, schedule_text)?;
         Ok(())
     }
 
@@ -184,7 +190,7 @@ impl Library {
             let was_read = text.is_ok();
             let outcome = match text.map(|text| entry.prepare(None, text, self.entries)) {
                 Ok(Ok(prepared)) if prepared.description.guid == guid => {
-                    return entry.with_schedule_at(prepared, &resources);
+                    return entry.with_schedules_at(prepared, &resources);
                 }
                 Ok(Ok(prepared)) => Ok(prepared.description.guid),
                 Ok(Err(error)) => Err(error.to_string()),

@@ -178,18 +178,6 @@ enumeration_of! {
     }
 }
 
-/// Origin of the Sun's and the planets' positions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum EphemerisSource {
-    /// The analytic theory VSOP87.
-    Vsop87 = 1,
-    /// The planet on an ellipse about the Sun by ephemeris.semiMajorAxis and so on, as paper 004 prints it; the Earth by
-    /// VSOP87.
-    Kepler = 2,
-    /// The inputs sun.position and earth.position.
-    Inputs = 3,
-}
-
 optional_enumeration_of! {
     /// Thrusters for a delta-v.
     ThrustRequest(ThrusterSet) {

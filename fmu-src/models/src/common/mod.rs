@@ -1,6 +1,7 @@
 //! What several models have in common: choices, groups of variables, what they read from a spacecraft.
 
 pub mod choices;
+pub mod ephemeris;
 pub mod loads;
 pub mod spacecraft;
 pub mod start_values;

@@ -8,7 +8,7 @@ use physics::environment::orbit::Elements;
 use physics::environment::paper004::MERCURY_AS_PRINTED;
 use physics::guidance::{self, Guided, Schedule};
 
-use super::choices::{DayTemperature, EclipseMethod, EphemerisSource, ScienceRule};
+use super::choices::{DayTemperature, EclipseMethod, ScienceRule};
 
 /// What a planet's surface does with sunlight; the defaults are Mercury's as they fit paper 004, which prints none.
 #[derive(Variables)]
@@ -101,12 +101,9 @@ pub struct GuidedVariables {
     pub slew_rate: Real,
 }
 
-/// Positions of the Sun, the orbit's centre and the Earth.
+/// The planet's ellipse about the Sun when `ephemeris.source` is kepler.
 #[derive(Variables)]
-pub struct EphemerisVariables {
-    /// Where the positions of Sun and Earth come from.
-    #[parameter(start = EphemerisSource::Vsop87)]
-    pub source: Choice<EphemerisSource>,
+pub struct EllipseVariables {
     /// Semi-major axis of the planet's orbit about the Sun when source is kepler; elements are in the ecliptic and
     /// equinox of J2000, paper 004's Table 4 (whose axis is printed a digit short).
     #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = MERCURY_AS_PRINTED.semi_major_axis_m)]
@@ -174,9 +171,9 @@ impl GuidedVariables {
     }
 }
 
-impl EphemerisVariables {
+impl EllipseVariables {
     /// Elements of a body's own ellipse about the Sun, in the ecliptic of J2000.
-    pub fn ellipse(&self, values: &Values, body: Body) -> Elements {
+    pub fn read(&self, values: &Values, body: Body) -> Elements {
         let (default, own) = (MERCURY_AS_PRINTED, Elements::mean_orbit_of(body.data()));
         let followed = |parameter, default, own| followed(values, body, parameter, default, own);
         Elements {

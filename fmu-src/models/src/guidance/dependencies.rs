@@ -43,7 +43,9 @@ impl Inputs {
         let (body_roll, external_roll) = (&v.body_roll, &v.external_roll);
         let (limb, scan) = (&v.limb, &v.scan);
         let places = knowns![v.position, v.sun.position, v.earth.position];
-        let mode = knowns![v.mode.request, v.estimate.q, v.estimate.valid, places];
+        let sensed = knowns![v.sun.sensed, v.sun.sensed_valid];
+        // The Sun sensors judge flown ephemerides, without which Operational ends.
+        let mode = knowns![v.mode.request, v.estimate.q, v.estimate.valid, &sensed, places];
         let existence = knowns![
             &mode,
             v.pointing.scenario,
@@ -85,7 +87,7 @@ impl Inputs {
         Self {
             mode,
             existence,
-            sensed: knowns![v.sun.sensed, v.sun.sensed_valid],
+            sensed,
             attitude,
             instrument: instrument(|it| it.cross(&Vector3::z()) != Vector3::zeros() || it.z < 0.0),
             instrument_along_roll: instrument(|it| it.cross(&Vector3::y()) == Vector3::zeros()),
@@ -131,12 +133,12 @@ impl Parameters {
         ];
         let places = knowns![
             ephemeris.source,
-            ephemeris.semi_major_axis,
-            ephemeris.eccentricity,
-            ephemeris.inclination,
-            ephemeris.ascending_node,
-            ephemeris.periapsis_argument,
-            ephemeris.true_anomaly,
+            ephemeris.ellipse.semi_major_axis,
+            ephemeris.ellipse.eccentricity,
+            ephemeris.ellipse.inclination,
+            ephemeris.ellipse.ascending_node,
+            ephemeris.ellipse.periapsis_argument,
+            ephemeris.ellipse.true_anomaly,
         ];
         let zones = knowns![
             keep_in.enabled,
@@ -151,7 +153,13 @@ impl Parameters {
             hot_pole.angle,
             hot_pole.cone,
         ];
-        let monitor = knowns![monitor.enabled, monitor.persistence, monitor.margin];
+        let monitor = knowns![
+            monitor.enabled,
+            monitor.persistence,
+            monitor.margin,
+            ephemeris.tolerance,
+            ephemeris.persistence,
+        ];
         Self {
             mode: knowns![v.start.epoch, body, places, zones, monitor],
             device: knowns![v.mdis.minimum, v.mdis.maximum, v.subsolar.method],
@@ -186,7 +194,9 @@ pub fn table(setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
 /// The command, its mode, and the Sun in its frame.
 fn command(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Parameters) {
     let (scan, method) = (&v.scan, v.keep_in.method);
-    table.output(v.mode.active, &i.mode, knowns![&i.mode, &p.mode]);
+    for output in [knowns![v.mode.active], knowns![v.ephemeris.valid], knowns![v.ephemeris.active]] {
+        table.output(output, &i.mode, knowns![&i.mode, &p.mode]);
+    }
     let kind = &knowns![&i.existence, &i.sensed];
     for output in [knowns![v.command.kind], knowns![v.command.error]] {
         table.output(output, kind, knowns![kind, &p.mode, &p.path]);

@@ -6,8 +6,9 @@ use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::environment::CartesianState;
 use physics::environment::bodies_from_center::BodiesFromCenter;
-use physics::environment::ephemeris::{Ephemeris, VALID_EPOCH_S};
-use physics::environment::paper004::KeplerPlanet;
+use physics::environment::coarse_ephemeris::CoarseEphemeris;
+use physics::environment::ephemeris::Ephemeris;
+use physics::environment::flown::FlownTarget;
 use physics::guidance::boresight::MdisRange;
 use physics::guidance::command::{
     AimpointCommand, AimpointOption, BodyRollCommand, BoresightCommand, ExternalRollCommand, LimbCommand,
@@ -22,6 +23,7 @@ use physics::guidance::lighting::SubsolarMethod;
 use physics::guidance::modes::{ModeSettings, Sensed};
 use physics::guidance::monitor::Monitor;
 use physics::guidance::nominal_thrust::NominalThrust;
+use physics::guidance::places::Places;
 use physics::guidance::scan::ScanCompatibility;
 use physics::guidance::scenario::GuidanceHardware;
 use physics::guidance::system::GuidanceSettings;
@@ -29,16 +31,16 @@ use physics::guidance::velocity_path::VelocityPath;
 use physics::guidance::{Surroundings, TargetPlanet};
 
 use super::setup::Plan;
+use super::variables::choices::EphemerisSource;
 use super::variables::commands::AimpointVariables;
-use crate::common::choices::EphemerisSource;
+use crate::common::ephemeris;
 use crate::common::variables::followed;
 
 /// What parameters fix for a whole flight.
 #[derive(Clone, Debug)]
 pub struct Fixed {
     planet: TargetPlanet,
-    /// Absent where Sun and Earth are inputs.
-    computed: bool,
+    source: EphemerisSource,
     bodies: BodiesFromCenter,
     /// The burn of the scenario burn.
     pub burn: BurnSettings,
@@ -77,23 +79,21 @@ impl Fixed {
             gm_m3_s2: follow(v.planet.gravitational_parameter, default.gm_m3_s2, own.gm_m3_s2),
         };
         let epoch_s = values.real(v.start.epoch);
-        let source = values.choice(v.ephemeris.source);
-        let computed = source != Some(EphemerisSource::Inputs);
-        if computed && epoch_s.abs() > VALID_EPOCH_S {
-            return Err(Failure::new(format!(
-                "start.epoch: found {epoch_s:?} s, allowed: within {VALID_EPOCH_S:e} s (4000 years) of J2000, for which \
-                 VSOP87 is made"
-            )));
+        let source = values.choice(v.ephemeris.source).unwrap_or(EphemerisSource::Vsop87);
+        if source != EphemerisSource::Inputs {
+            ephemeris::check_start(epoch_s)?;
         }
-        let ellipse = if source == Some(EphemerisSource::Kepler) {
-            let planet = KeplerPlanet::new(v.ephemeris.ellipse(values, body), epoch_s)
-                .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))?;
-            Some(planet)
+        let precise = ephemeris::precise(context.setup.ephemeris.as_ref());
+        if let Some(carried) = precise.filter(|_| source == EphemerisSource::Chebyshev) {
+            ephemeris::check_flown(carried, body, "start.epoch", epoch_s)?;
+        }
+        let ellipse = if source == EphemerisSource::Kepler {
+            Some(ephemeris::kepler(&v.ephemeris.ellipse, values, body, epoch_s)?)
         } else {
             None
         };
         let bodies = BodiesFromCenter { center: body, ellipse };
-        Ok(Self { planet, computed, bodies, burn: burn(context, values)? })
+        Ok(Self { planet, source, bodies, burn: burn(context, values)? })
     }
 }
 
@@ -179,6 +179,10 @@ pub fn settings<'a>(
             monitor: values.boolean(v.monitor.enabled).then(|| Monitor {
                 margin_rad: real(v.monitor.margin),
                 persistence_s: real(v.monitor.persistence),
+            }),
+            ephemeris_check: Some(Monitor {
+                margin_rad: real(v.ephemeris.tolerance),
+                persistence_s: real(v.ephemeris.persistence),
             }),
             boresight_body: axis_body,
             earth_acquisition_rate_rad_s: real(v.earth_acquisition.rate),
@@ -298,32 +302,59 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Where everything is at `epoch_s`; `None` while position, Sun or Earth is not connected.
-    pub fn surroundings(
+    /// Where everything is at `epoch_s`, by every model that a mode may go by.
+    pub fn places(
         &self,
         fixed: &Fixed,
         command: &PointingCommand,
-        ephemeris: &mut Ephemeris,
+        (ephemeris, coarse): (&mut Ephemeris, &mut CoarseEphemeris),
         epoch_s: f64,
-    ) -> Option<Surroundings> {
-        let v = self.context.variables;
-        let state = |position, velocity| CartesianState {
-            position_m: self.vector(position),
-            velocity_m_s: self.vector(velocity),
-        };
-        let (sun, earth) = if fixed.computed {
-            fixed.bodies.sun_and_earth(ephemeris, epoch_s)
+    ) -> Places {
+        let (v, bodies, center) = (self.context.variables, &fixed.bodies, fixed.bodies.center);
+        let carried = self.context.setup.ephemeris.as_deref();
+        let precise = ephemeris::precise(self.context.setup.ephemeris.as_ref());
+        let given = self.state(v.position, v.velocity);
+        let is_flown = fixed.source == EphemerisSource::Chebyshev;
+        let coarse = if is_flown || fixed.source == EphemerisSource::Coarse {
+            let mut body = |body| coarse.from_center(carried, body, center, epoch_s);
+            let sun_and_earth = (body(Body::Sun), body(Body::Earth));
+            let spacecraft = carried.and_then(|it| it.coarse_spacecraft(center, epoch_s)).unwrap_or(given);
+            let surroundings =
+                Surroundings::new(epoch_s, fixed.planet, &spacecraft, &sun_and_earth.0, &sun_and_earth.1);
+            connected(surroundings, command, center, body)
         } else {
-            (state(v.sun.position, v.sun.velocity), state(v.earth.position, v.earth.velocity))
+            None
         };
-        let spacecraft = state(v.position, v.velocity);
-        let mut surroundings = Surroundings::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
-        let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
-        let bodies = aimpoints.filter(|it| it.option == Some(AimpointOption::Body)).filter_map(|it| it.body);
-        for body in bodies {
-            surroundings.place_body(body, &fixed.bodies.body(body, ephemeris, epoch_s));
+        if fixed.source == EphemerisSource::Coarse {
+            return Places::in_every_mode(coarse);
         }
-        surroundings.is_connected(fixed.bodies.center).then_some(surroundings)
+        let flown = |target: FlownTarget| precise.and_then(|it| it.state(target, center, epoch_s));
+        let (sun_and_earth, spacecraft) = match precise.filter(|_| is_flown) {
+            Some(carried) => (
+                flown(FlownTarget::Sun).zip(flown(FlownTarget::Earth)),
+                match carried.span_s(FlownTarget::Spacecraft, center) {
+                    Some(_) => flown(FlownTarget::Spacecraft),
+                    None => Some(given),
+                },
+            ),
+            None if fixed.source == EphemerisSource::Inputs => {
+                let sun = self.state(v.sun.position, v.sun.velocity);
+                (Some((sun, self.state(v.earth.position, v.earth.velocity))), Some(given))
+            }
+            None => (Some(bodies.sun_and_earth(ephemeris, epoch_s)), Some(given)),
+        };
+        let precise = sun_and_earth.zip(spacecraft).and_then(|((sun, earth), spacecraft)| {
+            let surroundings = Surroundings::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
+            let own = |body: Body| flown(body.into()).filter(|_| is_flown);
+            connected(surroundings, command, center, |body| {
+                own(body).unwrap_or_else(|| bodies.body(body, ephemeris, epoch_s))
+            })
+        });
+        Places { precise, coarse, by_mode: is_flown }
+    }
+
+    fn state(&self, position: RealVector<3>, velocity: RealVector<3>) -> CartesianState {
+        CartesianState { position_m: self.vector(position), velocity_m_s: self.vector(velocity) }
     }
 
     /// Sum of the accelerometers' increments.
@@ -376,4 +407,19 @@ impl<'a> Reader<'a> {
             body: self.item(aimpoint.body, |it| it.0),
         }
     }
+}
+
+/// The surroundings with the bodies that a command aims at; `None` while position, Sun or Earth is not connected.
+fn connected(
+    mut surroundings: Surroundings,
+    command: &PointingCommand,
+    center: Body,
+    mut place: impl FnMut(Body) -> CartesianState,
+) -> Option<Surroundings> {
+    let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
+    let bodies = aimpoints.filter(|it| it.option == Some(AimpointOption::Body)).filter_map(|it| it.body);
+    for body in bodies {
+        surroundings.place_body(body, &place(body));
+    }
+    surroundings.is_connected(center).then_some(surroundings)
 }

@@ -10,11 +10,13 @@ use fmi_export::{
     About, Dependencies, Extensions, Failure, InputsOverTime, Model, OutputRates, Real, SetupError, Source,
     StartValue, Step, StepEnd, Values,
 };
+use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::system::{self, GuidanceSettings, GuidanceState, SampleInputs, TimedEntries};
 use serde::{Deserialize, Serialize};
 
+use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use inputs::{Fixed, Reader};
 pub use setup::Guidance;
 use setup::{GuidanceSetup, Plan};
@@ -33,6 +35,9 @@ pub struct State {
     /// Cache, not state: the same epoch gives the same bits.
     #[serde(skip)]
     ephemeris: Ephemeris,
+    /// Cache likewise.
+    #[serde(skip)]
+    coarse: CoarseEphemeris,
     /// Cache of what parameters fix.
     #[serde(skip)]
     fixed: Option<Fixed>,
@@ -42,7 +47,7 @@ impl Model for Guidance {
     const NAME: &'static str = "Guidance";
     const STATE_VERSION: u32 = 2;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
-    const SCHEDULE_FILE: Option<&'static str> = Some("timeline.toml");
+    const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::GUIDANCE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
@@ -55,7 +60,16 @@ impl Model for Guidance {
         GuidanceSetup::from_toml(file, text)
     }
 
-    fn parse_schedule(setup: &mut GuidanceSetup, file: &str, text: &str) -> Result<(), SetupError> {
+    fn parse_schedule(
+        setup: &mut GuidanceSetup,
+        schedule: &str,
+        file: &str,
+        text: &str,
+    ) -> Result<(), SetupError> {
+        if schedule == EPHEMERIS_FILE {
+            setup.ephemeris = Some(ephemeris::read(file, text)?);
+            return Ok(());
+        }
         setup.take_timeline(file, text)
     }
 
@@ -91,6 +105,7 @@ impl Model for Guidance {
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
             said_unconnected: false,
             ephemeris: Ephemeris::default(),
+            coarse: CoarseEphemeris::default(),
             fixed: None,
         };
         let mut shown = state.clone();
@@ -99,6 +114,7 @@ impl Model for Guidance {
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.said_unconnected = shown.said_unconnected;
         state.ephemeris = shown.ephemeris.clone();
+        state.coarse = shown.coarse.clone();
         outputs::write(context, values, &shown.system, &fixed.burn, start_s, epoch_s);
         state.fixed = Some(fixed);
         Ok(state)
@@ -186,8 +202,8 @@ impl State {
             mode: line.filter(|_| !reader.asks_for_a_mode()),
         };
         let command = self.system.continued(&command);
-        let surroundings = reader.surroundings(fixed, &command, &mut self.ephemeris, epoch_s);
-        if surroundings.is_none() && !self.said_unconnected {
+        let places = reader.places(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);
+        if !places.are_known() && !self.said_unconnected {
             self.said_unconnected = true;
             context.log.warning(
                 "position, or with ephemeris.source inputs sun.position or earth.position, is all zero and counts as not \
@@ -195,13 +211,14 @@ impl State {
             );
         }
         let commanded = self.system.command().attitude_at(time_s);
-        let (mut sensed, is_estimated) = reader.sensed(commanded, surroundings.is_some())?;
+        let (mut sensed, is_estimated) = reader.sensed(commanded, places.are_known())?;
         if !is_estimated {
             settings.modes.monitor = None;
+            settings.modes.ephemeris_check = None;
         }
         sensed.request = sensed.request.or(entry.and_then(|entry| entry.mode));
         let delta_v_body_m_s = reader.delta_v_body_m_s();
-        let inputs = SampleInputs { command, entries, surroundings, sensed, delta_v_body_m_s };
+        let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
         self.system.sample(&settings, &inputs);
         Ok(())
     }

@@ -6,7 +6,7 @@ use physics::guidance::delta_v::{BurnPhase, BurnSettings, BurnState};
 use physics::guidance::system::GuidanceState;
 
 use super::setup::Plan;
-use super::variables::choices::{ActiveMode, AntennaSelect};
+use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
 use crate::common::choices::{CommandKind, ThrustRequest};
 
 /// What `thrust.stop` says without thrust, in s.
@@ -30,6 +30,14 @@ pub fn write(
     values.set_vector(v.command.error, command.error);
     values.set_choice(v.mode.active, ActiveMode(state.mode()));
     values.set_real(v.epoch, epoch_s);
+    values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());
+    let is_coarse = match values.choice(v.ephemeris.source) {
+        Some(EphemerisSource::Chebyshev) => state.uses_coarse_ephemeris(),
+        Some(EphemerisSource::Coarse) => true,
+        _ => false,
+    };
+    let active = if is_coarse { EphemerisModel::Coarse } else { EphemerisModel::Precise };
+    values.set_choice(v.ephemeris.active, active);
 
     let sun = state.sun_angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);

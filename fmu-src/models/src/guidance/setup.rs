@@ -1,7 +1,10 @@
 //! The model and its immutable setup: the spacecraft that is pointed.
 
+use std::sync::Arc;
+
 use fmi_export::{Context, SetupError};
 use nalgebra::Vector3;
+use physics::environment::flown::FlownEphemeris;
 use physics::guidance::nominal_thrust::NominalThrust;
 use physics::guidance::timeline::Timeline;
 use physics::spacecraft::{Spacecraft, SunKeepIn, ThrusterSet};
@@ -18,6 +21,9 @@ pub type Plan<'a> = Context<'a, Guidance>;
 pub struct GuidanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
+    /// Positions over time, if there is a file of them; they do not enter the GUID.
+    #[serde(skip)]
+    pub ephemeris: Option<Arc<FlownEphemeris>>,
     /// Commands over time, if there is a file of them; it does not enter the GUID.
     #[serde(skip)]
     pub timeline: Option<Timeline>,
@@ -27,7 +33,7 @@ impl GuidanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
-        Ok(Self { spacecraft, timeline: None })
+        Ok(Self { spacecraft, ephemeris: None, timeline: None })
     }
 
     /// Takes the commands of a timeline.

@@ -17,6 +17,7 @@ use physics::plant::{
     Configuration, Evaluation, ExternalLoad, Flight, IdealFlight, PropagatorState, ReactionControlSettings,
 };
 
+use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use inputs::dynamics;
 use inputs::state::{Changes, PlantState, unset_places};
 use outputs::{dynamic, flyable, log_dump};
@@ -29,6 +30,7 @@ impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
     const STATE_VERSION: u32 = 6;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
+    const SCHEDULE_FILES: &'static [&'static str] = &[EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
@@ -39,6 +41,16 @@ impl Model for MomentumPlant {
 
     fn parse_setup(file: &str, text: &str) -> Result<PlantSetup, SetupError> {
         PlantSetup::from_toml(file, text)
+    }
+
+    fn parse_schedule(
+        setup: &mut PlantSetup,
+        _schedule: &str,
+        file: &str,
+        text: &str,
+    ) -> Result<(), SetupError> {
+        setup.ephemeris = Some(ephemeris::read(file, text)?);
+        Ok(())
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {
@@ -81,6 +93,7 @@ impl Model for MomentumPlant {
         state: &mut PlantState,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
+        inputs::check_span(context, values, state, step.end_s)?;
         let mut changed = step.changed;
         let changes =
             if changed { state.inputs_changed(context, values, step.start_s)? } else { Changes::default() };

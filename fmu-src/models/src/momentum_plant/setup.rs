@@ -1,7 +1,10 @@
 //! The model and its immutable setup: the spacecraft and what is computed from it once.
 
+use std::sync::Arc;
+
 use fmi_export::{Context, Failure, SetupError};
 use nalgebra::Vector3;
+use physics::environment::flown::FlownEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PreparedSpacecraft};
@@ -35,6 +38,9 @@ pub struct PlantSetup {
     /// Limits of turns and dumps that the wheels allow.
     #[serde(skip)]
     pub control: ControlDefaults,
+    /// Positions of Sun and planets over time, if there is a file of them; they do not enter the GUID.
+    #[serde(skip)]
+    pub ephemeris: Option<Arc<FlownEphemeris>>,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -53,6 +59,7 @@ impl PlantSetup {
             plates: prepared(SunshadeModel::Plates),
             cylinder: prepared(SunshadeModel::Cylinder),
             wheel_array,
+            ephemeris: None,
             orbit_method: OrbitMethod::default(),
             spacecraft,
         })

@@ -104,6 +104,12 @@ impl<M: Model> NamedModel<M> {
         Self { names, setup, handles, start: interface.start, warnings: Warnings::default() }
     }
 
+    /// The same with a file beside the setup.
+    pub fn with_schedule(mut self, schedule: &str, text: &str) -> Self {
+        M::parse_schedule(&mut self.setup, schedule, schedule, text).unwrap();
+        self
+    }
+
     /// What a master may set, with its limits and whether it is a whole number.
     pub fn given(&self) -> Vec<(&str, (f64, f64), bool)> {
         let given = |it: &Named| it.given.is_some();

@@ -1,19 +1,36 @@
-//! Gyrostat: a rigid body with reaction wheels, and what follows from its momentum.
+//! Gyrostat: a body with reaction wheels and what swings on it, and what follows from its momentum.
 //!
 //! Equations: H = J w + sum of h a, in body components, J with the rotors in it; with p = h + I a.w for every rotor that
-//! turns, H - sum of p a - sum of held h a = (J - sum of I a a^T) w.
+//! turns, H - sum of p a - sum of held h a = (J - sum of I a a^T) w. Modal coordinates enter alike ([`super::oscillator`]).
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
+use super::imbalance::RotorImbalance;
+use super::oscillator::{FlexibleMode, Oscillator};
+use super::slosh::SloshPendulum;
 use super::wheel::{ReactionWheel, Rotor};
 
-/// A rigid body with reaction wheels.
+/// What moves besides the body and its wheels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Appendages {
+    /// Flexible modes.
+    pub modes: Vec<FlexibleMode>,
+    /// Propellant.
+    pub sloshes: Vec<SloshPendulum>,
+    /// Rotors out of balance.
+    pub imbalances: Vec<RotorImbalance>,
+}
+
+/// A body with reaction wheels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gyrostat {
     inertia_body_kg_m2: Matrix3<f64>,
     /// Without the rotors about their axes that can turn.
     carrier_body_kg_m2: Matrix3<f64>,
     wheels: Vec<ReactionWheel>,
+    appendages: Appendages,
+    /// Where what swings and what is out of balance is counted from.
+    center_of_mass_body_m: Vector3<f64>,
 }
 
 /// Why there is no such body.
@@ -44,6 +61,25 @@ pub enum GyrostatError {
         /// The smallest, in kg m2.
         found: f64,
     },
+    /// The body less what swings on it.
+    #[error(
+        "the inertia less that of the rotors and of what swings has the principal moment {found} kg m2, allowed: above 0; \
+         spacecraft.inertia includes all of it: see flexibleMode[k].coupling, slosh[k].mass and slosh[k].pivot"
+    )]
+    Swinging {
+        /// The smallest, in kg m2.
+        found: f64,
+    },
+    /// More propellant than body.
+    #[error(
+        "slosh[k].mass is {found} kg together, allowed: less than spacecraft.mass = {whole_kg} kg, of which it is a part"
+    )]
+    Propellant {
+        /// All of it, in kg.
+        found: f64,
+        /// The whole, in kg.
+        whole_kg: f64,
+    },
 }
 
 impl Gyrostat {
@@ -64,10 +100,68 @@ impl Gyrostat {
             let axis = wheel.axis_body.try_normalize(0.0).filter(|axis| axis.iter().all(|x| x.is_finite()));
             wheel.axis_body = axis.ok_or(GyrostatError::Axis { wheel: number, found })?;
         }
-        let mut body = Self { inertia_body_kg_m2, carrier_body_kg_m2: inertia_body_kg_m2, wheels };
+        let mut body = Self {
+            inertia_body_kg_m2,
+            carrier_body_kg_m2: inertia_body_kg_m2,
+            wheels,
+            appendages: Appendages::default(),
+            center_of_mass_body_m: Vector3::zeros(),
+        };
         body.carrier_body_kg_m2 = body.without(body.wheels.iter().filter(|wheel| !wheel.locked));
         let found = SymmetricEigen::new(body.carrier_body_kg_m2).eigenvalues.min();
         if found > 0.0 { Ok(body) } else { Err(GyrostatError::Body { found }) }
+    }
+
+    /// With what swings on it and rotors out of balance, in a body of this mass about this centre.
+    ///
+    /// # Errors
+    /// More propellant than mass, or so much that swings that no inertia is left.
+    pub fn with_appendages(
+        mut self,
+        appendages: Appendages,
+        mass_kg: f64,
+        center_of_mass_body_m: Vector3<f64>,
+    ) -> Result<Self, GyrostatError> {
+        let found = appendages.sloshes.iter().map(|slosh| slosh.mass_kg).sum();
+        if found >= mass_kg {
+            return Err(GyrostatError::Propellant { found, whole_kg: mass_kg });
+        }
+        self.appendages = appendages;
+        self.center_of_mass_body_m = center_of_mass_body_m;
+        let still = [Vector3::zeros(); 2];
+        let rest = self
+            .oscillators(mass_kg, &still)
+            .fold(self.carrier_body_kg_m2, |rest, it| rest - it.inertia_body_kg_m2());
+        let found = SymmetricEigen::new(rest).eigenvalues.min();
+        if found > 0.0 { Ok(self) } else { Err(GyrostatError::Swinging { found }) }
+    }
+
+    /// What moves besides the body and its wheels.
+    pub fn appendages(&self) -> &Appendages {
+        &self.appendages
+    }
+
+    /// Centre of mass, body frame, in m.
+    pub fn center_of_mass_body_m(&self) -> &Vector3<f64> {
+        &self.center_of_mass_body_m
+    }
+
+    /// How many modal coordinates there are: one of each flexible mode, then two of each pendulum.
+    pub fn oscillator_count(&self) -> usize {
+        self.appendages.modes.len() + 2 * self.appendages.sloshes.len()
+    }
+
+    /// Modal coordinates in a body of this mass under this acceleration and its slope, in m/s2 and m/s3.
+    pub(super) fn oscillators(
+        &self,
+        mass_kg: f64,
+        acceleration_body_m_s2: &[Vector3<f64>; 2],
+    ) -> impl Iterator<Item = Oscillator> {
+        let Appendages { modes, sloshes, .. } = &self.appendages;
+        let sloshes = sloshes.iter().flat_map(move |slosh| {
+            slosh.oscillators(mass_kg, &self.center_of_mass_body_m, acceleration_body_m_s2)
+        });
+        modes.iter().map(FlexibleMode::oscillator).chain(sloshes)
     }
 
     /// Inertia about the centre of mass with the rotors in it, body frame, in kg m2.
@@ -75,8 +169,13 @@ impl Gyrostat {
         &self.inertia_body_kg_m2
     }
 
-    /// Takes another inertia, the rotors in it as before.
-    pub fn set_inertia(&mut self, inertia_body_kg_m2: Matrix3<f64>) {
+    /// Takes another inertia, the rotors in it as before, and another centre of mass.
+    pub fn set_mass_properties(
+        &mut self,
+        inertia_body_kg_m2: Matrix3<f64>,
+        center_of_mass_body_m: Vector3<f64>,
+    ) {
+        self.center_of_mass_body_m = center_of_mass_body_m;
         self.inertia_body_kg_m2 = inertia_body_kg_m2;
         self.carrier_body_kg_m2 = self.without(self.wheels.iter().filter(|wheel| !wheel.locked));
     }
@@ -106,11 +205,16 @@ impl Gyrostat {
         self.inertia_body_kg_m2 * rate_body_rad_s + self.along_axes(rotors_n_m_s)
     }
 
-    /// Inverse of the inertia that body and held rotors have alone, in 1/(kg m2).
-    pub(super) fn inverse_inertia<'a>(&self, rotors: impl Iterator<Item = &'a Rotor>) -> Matrix3<f64> {
+    /// Inverse of the inertia that body and held rotors have alone, without what swings, in 1/(kg m2).
+    pub(super) fn inverse_inertia<'a>(
+        &self,
+        rotors: impl Iterator<Item = &'a Rotor>,
+        swinging: impl Iterator<Item = Matrix3<f64>>,
+    ) -> Matrix3<f64> {
         let turning =
             self.wheels.iter().zip(rotors).filter(|(_, rotor)| matches!(rotor, Rotor::Turning { .. }));
-        self.without(turning.map(|(wheel, _)| wheel)).try_inverse().unwrap_or_else(Matrix3::zeros)
+        let rest = self.without(turning.map(|(wheel, _)| wheel));
+        swinging.fold(rest, |rest, it| rest - it).try_inverse().unwrap_or_else(Matrix3::zeros)
     }
 
     fn without<'a>(&self, wheels: impl Iterator<Item = &'a ReactionWheel>) -> Matrix3<f64> {

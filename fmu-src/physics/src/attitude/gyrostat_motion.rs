@@ -1,13 +1,15 @@
-//! Motion of a rigid body with reaction wheels, as a Taylor series in time that is exact to rounding within a segment.
+//! Motion of a body with reaction wheels and modal coordinates, as a Taylor series in time that is exact to rounding within a segment.
 //!
 //! Equations: dH/dt = T in inertial components; in the body dm/dt = T - w x m, m = A(q) H; dq/dt = q w / 2; for every rotor
-//! that turns dp/dt = u - f ([`super::wheel`]); w from m and p ([`super::gyrostat`]).
+//! that turns dp/dt = u - f ([`super::wheel`]); flexible modes and propellant ([`super::oscillator`]); w from m and all p
+//! ([`super::gyrostat`]). Rotors out of balance add force and torque ([`super::imbalance`]).
 //! Method: all of it is quadratic, so the coefficients follow from one another by Cauchy products. The total momentum is a
 //! state of its own, which torque alone changes (Gauss-Legendre quadrature over the segment), and the body's momentum is
 //! taken from it at the start of every segment: without torque it stays the same number. A segment ends where the series
 //! would no longer be exact to rounding, where a rotor comes to rest, to its capacity or breaks away, or at the given limit.
 //! Order: up to 10 in time, as many as rounding asks for.
-//! Error measure: the last two terms of attitude, momentum and rotors relative to their size, 1e-17.
+//! Error measure: the last two terms of attitude, momentum, rotors and modal coordinates relative to their size, 1e-17; of
+//! the phases of rotors out of balance 1e-14.
 //! Reference: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, I.8; Hughes, Spacecraft Attitude
 //! Dynamics, ch. 6 (gyrostat).
 
@@ -15,16 +17,17 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::gyrostat::Gyrostat;
+use super::imbalance::ImbalanceMotion;
+use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
+use super::series::{ORDER, TERMS, polynomial};
 use super::wheel::{Motor, ReactionWheel, Rotor};
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 
-/// Highest order of the series.
-const ORDER: usize = 10;
-/// Coefficients.
-const TERMS: usize = ORDER + 1;
 /// Terms below this share of the whole are rounding.
 const ROUNDING: f64 = 1e-17;
+/// The same of cosine and sine of a rotor's phase, which act on the body through a small imbalance alone.
+const PHASE_ROUNDING: f64 = 1e-14;
 /// How often each rotor may be set free or held at one time until all agree.
 const ROUNDS_A_ROTOR: usize = 3;
 /// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
@@ -63,9 +66,18 @@ impl BodyLoad {
     fn after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
         let [torque, force] =
             [self.torque_body_n_m, self.force_body_n].map(|[start, slope]| start + slope * elapsed_s);
+        [torque, force / self.mass_after_kg(elapsed_s)]
+    }
+
+    fn mass_after_kg(&self, elapsed_s: f64) -> f64 {
         let [flow_kg_s, slope_kg_s2] = self.flow_kg_s;
-        let left_kg = self.mass_kg - (flow_kg_s + 0.5 * slope_kg_s2 * elapsed_s) * elapsed_s;
-        [torque, force / left_kg]
+        self.mass_kg - (flow_kg_s + 0.5 * slope_kg_s2 * elapsed_s) * elapsed_s
+    }
+
+    /// Acceleration at the start and its slope there, in m/s2 and m/s3.
+    fn acceleration_body_m_s2(&self) -> [Vector3<f64>; 2] {
+        let start = self.force_body_n[0] / self.mass_kg;
+        [start, (self.force_body_n[1] + start * self.flow_kg_s[0]) / self.mass_kg]
     }
 
     fn is_sound(&self) -> bool {
@@ -120,6 +132,8 @@ pub struct GyrostatMotion {
     rate: [Vector3<f64>; TERMS],
     momentum_body: [Vector3<f64>; TERMS],
     rotors: Vec<RotorMotion>,
+    oscillators: Vec<OscillatorMotion>,
+    imbalances: Vec<ImbalanceMotion>,
     inverse_inertia: Matrix3<f64>,
     load: BodyLoad,
     momentum_inertial_n_m_s: Vector3<f64>,
@@ -144,6 +158,8 @@ impl GyrostatMotion {
             rate: [Vector3::zeros(); TERMS],
             momentum_body: [Vector3::zeros(); TERMS],
             rotors: Vec::with_capacity(gyrostat.wheels().len()),
+            oscillators: vec![OscillatorMotion::at_rest(); gyrostat.oscillator_count()],
+            imbalances: Vec::with_capacity(gyrostat.appendages().imbalances.len()),
             inverse_inertia: Matrix3::zeros(),
             load: BodyLoad::none(1.0),
             momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
@@ -157,17 +173,26 @@ impl GyrostatMotion {
             axial[0] = held_n_m_s + wheel.carried_n_m_s(rate_body_rad_s);
             RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial }
         }));
-        motion.inverse_inertia = gyrostat.inverse_inertia(motion.rotors.iter().map(|it| &it.rotor));
+        let unbalanced = gyrostat.appendages().imbalances.iter();
+        motion.imbalances.extend(unbalanced.filter_map(|imbalance| {
+            let wheel = gyrostat.wheels().get(imbalance.wheel)?;
+            Some(ImbalanceMotion::new(imbalance, &wheel.axis_body, gyrostat.center_of_mass_body_m()))
+        }));
+        motion.set_inverse_inertia(gyrostat);
         motion
     }
 
-    /// Whether its numbers can come from a flight of a body with so many wheels; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, wheels: usize) -> bool {
+    /// Whether its numbers can come from a flight of a body with so many wheels and modal coordinates; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, wheels: usize, oscillators: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let vectors = self.rate.iter().chain(&self.momentum_body);
         let totals = [&self.momentum_inertial_n_m_s, &self.delta_v_inertial_m_s];
         let norm: f64 = self.attitude[0].iter().map(|x| x * x).sum();
         self.rotors.len() == wheels
+            && self.oscillators.len() == oscillators
+            && self.imbalances.len() <= wheels
+            && self.oscillators.iter().all(OscillatorMotion::is_sound)
+            && self.imbalances.iter().all(ImbalanceMotion::is_sound)
             && self.order < TERMS
             && [self.start_s, self.end_s].iter().all(sound)
             && self.start_s <= self.end_s
@@ -212,6 +237,8 @@ impl GyrostatMotion {
                 Rotor::Turning { .. } => polynomial(&self.rotors[k].axial[..=self.order], elapsed_s),
                 Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             });
+        let swinging = self.oscillators.iter().map(|it| it.carried_after(self.order, elapsed_s));
+        let rest = swinging.fold(rest, |rest, carried| rest - carried);
         BodyMotion {
             attitude,
             rate_body_rad_s: self.inverse_inertia * rest,
@@ -232,6 +259,29 @@ impl GyrostatMotion {
         }
     }
 
+    /// Displacement in sqrt(kg) m and speed in sqrt(kg) m/s of modal coordinate `k` (0-based) at `time_s`, where the body moves
+    /// like this.
+    pub fn oscillator(&self, k: usize, time_s: f64, motion: &BodyMotion) -> [f64; 2] {
+        self.oscillators[k].after(self.order, time_s - self.start_s, &motion.rate_body_rad_s)
+    }
+
+    /// Torque about the centre of mass in N m and force in N by rotors out of balance and by what swings under the load, body
+    /// frame, where the body moves like this.
+    pub fn swinging_load(&self, gyrostat: &Gyrostat, time_s: f64, motion: &BodyMotion) -> [Vector3<f64>; 2] {
+        let elapsed_s = time_s - self.start_s;
+        let unbalanced = self.imbalances.iter().zip(&gyrostat.appendages().imbalances);
+        let mut sum = [Vector3::zeros(); 2];
+        for (it, imbalance) in unbalanced {
+            let held_n_m_s = self.rotor_n_m_s(gyrostat, imbalance.wheel, time_s, motion);
+            let speed_rad_s = gyrostat.wheels()[imbalance.wheel].speed_rad_s(held_n_m_s);
+            let load = it.at_speed(self.order, elapsed_s, speed_rad_s);
+            sum.iter_mut().zip(load).for_each(|(sum, it)| *sum += it);
+        }
+        sum[0] +=
+            self.oscillators.iter().map(|it| it.torque_after(self.order, elapsed_s)).sum::<Vector3<f64>>();
+        sum
+    }
+
     /// Goes on from the end: the next segment, at most to `limit_s`, under these motor torques and loads (linear in time from
     /// the present end on).
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
@@ -249,6 +299,20 @@ impl GyrostatMotion {
             it.rotor = rotor;
             it.axial[0] = relative_n_m_s + carried;
         }
+        let elapsed_s = start_s - self.start_s;
+        for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
+            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.order, elapsed_s);
+        }
+        if !self.oscillators.is_empty() {
+            let acceleration = load.acceleration_body_m_s2();
+            let order = self.order;
+            for (it, oscillator) in
+                self.oscillators.iter_mut().zip(gyrostat.oscillators(load.mass_kg, &acceleration))
+            {
+                let state = it.after(order, elapsed_s, &motion.rate_body_rad_s);
+                it.begin(oscillator, state, &motion.rate_body_rad_s);
+            }
+        }
         (self.start_s, self.load) = (start_s, *load);
         self.momentum_inertial_n_m_s = motion.momentum_inertial_n_m_s;
         self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
@@ -263,15 +327,15 @@ impl GyrostatMotion {
             }
             self.build(gyrostat, motors, longest_s);
         }
-        let converged_s = self.converged_s(longest_s);
+        let converged_s = self.converged_s(gyrostat, longest_s);
         let event_s = self.first_event_s(gyrostat, motors, converged_s);
         self.end_s = if event_s < longest_s { start_s + event_s } else { limit_s };
     }
 
     /// Computes the coefficients, as many as count within `longest_s`.
     fn build(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) {
-        self.inverse_inertia = gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor));
-        let scale = self.momentum_scale_n_m_s();
+        self.set_inverse_inertia(gyrostat);
+        let scale = self.momentum_scale_n_m_s(gyrostat);
         let (mut power, mut small) = (1.0, 0);
         self.order = 0;
         loop {
@@ -283,6 +347,19 @@ impl GyrostatMotion {
             power *= longest_s;
             let divisor = (j + 1) as f64;
             let mut momentum_rate = self.load.torque_body_n_m.get(j).copied().unwrap_or_default();
+            for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
+                let wheel = &gyrostat.wheels()[imbalance.wheel];
+                let relative = match &self.rotors[imbalance.wheel] {
+                    RotorMotion { rotor: Rotor::Held { momentum_n_m_s }, .. } if j == 0 => *momentum_n_m_s,
+                    RotorMotion { rotor: Rotor::Held { .. }, .. } => 0.0,
+                    RotorMotion { axial, .. } => axial[j] - wheel.carried_n_m_s(&self.rate[j]),
+                };
+                momentum_rate += it.extend(j, wheel.speed_rad_s(relative));
+            }
+            for it in &mut self.oscillators {
+                momentum_rate += it.torque_term(j);
+                it.extend(j, &self.rate[j]);
+            }
             let mut attitude_rate = [0.0; 4];
             for i in 0..=j {
                 let rate = &self.rate[j - i];
@@ -306,8 +383,11 @@ impl GyrostatMotion {
                 axial_largest = axial_largest.max(it.axial[j + 1].abs());
             }
             let attitude_largest = self.attitude[j + 1].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let momentum_largest = self.momentum_body[j + 1].amax().max(axial_largest);
-            let is_small = attitude_largest * power < ROUNDING && momentum_largest * power < ROUNDING * scale;
+            let momentum_largest =
+                self.momentum_body[j + 1].amax().max(axial_largest).max(self.swing_n_m_s(gyrostat, j + 1));
+            let is_small = attitude_largest * power < ROUNDING
+                && momentum_largest * power < ROUNDING * scale
+                && self.phase(j + 1) * power < PHASE_ROUNDING;
             small = if is_small { small + 1 } else { 0 };
             self.order += 1;
         }
@@ -321,27 +401,49 @@ impl GyrostatMotion {
             Rotor::Held { momentum_n_m_s } if j == 0 => rest - wheel.axis_body * momentum_n_m_s,
             Rotor::Held { .. } => rest,
         });
+        let rest = self.oscillators.iter().fold(rest, |rest, it| rest - it.carried_term(j));
         self.inverse_inertia * rest
     }
 
+    fn set_inverse_inertia(&mut self, gyrostat: &Gyrostat) {
+        let swinging = self.oscillators.iter().map(OscillatorMotion::inertia_body_kg_m2);
+        self.inverse_inertia = gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor), swinging);
+    }
+
+    /// Greatest coefficient `j` of what swings, as a momentum: no coupling exceeds the root of the inertia.
+    fn swing_n_m_s(&self, gyrostat: &Gyrostat, j: usize) -> f64 {
+        if self.oscillators.is_empty() {
+            return 0.0;
+        }
+        let most = self.oscillators.iter().map(|it| it.size(j)).fold(0.0, f64::max);
+        most * gyrostat.inertia_body_kg_m2().trace().sqrt()
+    }
+
+    /// Greatest coefficient `j` of the phases of rotors out of balance.
+    fn phase(&self, j: usize) -> f64 {
+        self.imbalances.iter().map(|it| it.size(j)).fold(0.0, f64::max)
+    }
+
     /// What momenta are compared with, in N m s.
-    fn momentum_scale_n_m_s(&self) -> f64 {
+    fn momentum_scale_n_m_s(&self, gyrostat: &Gyrostat) -> f64 {
         let rotors = self.rotors.iter().map(|it| it.axial[0].abs()).fold(0.0, f64::max);
         // Of a body at rest every change counts.
-        self.momentum_body[0].amax().max(rotors).max(1e-6)
+        self.momentum_body[0].amax().max(rotors).max(self.swing_n_m_s(gyrostat, 0)).max(1e-6)
     }
 
     /// How long the series is exact to rounding, at most `longest_s`, in s.
-    fn converged_s(&self, longest_s: f64) -> f64 {
+    fn converged_s(&self, gyrostat: &Gyrostat, longest_s: f64) -> f64 {
         if self.order < ORDER {
             return longest_s;
         }
-        let scale = self.momentum_scale_n_m_s();
+        let scale = self.momentum_scale_n_m_s(gyrostat);
         let mut shortest_s = longest_s;
         for j in [ORDER - 1, ORDER] {
             let attitude = self.attitude[j].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             let axial = self.rotors.iter().map(|it| it.axial[j].abs()).fold(0.0, f64::max);
-            let share = attitude.max(self.momentum_body[j].amax().max(axial) / scale);
+            let momentum = self.momentum_body[j].amax().max(axial).max(self.swing_n_m_s(gyrostat, j));
+            let phase = self.phase(j) * (ROUNDING / PHASE_ROUNDING);
+            let share = attitude.max(momentum / scale).max(phase);
             if share * shortest_s.powi(j as i32) > ROUNDING {
                 shortest_s = (ROUNDING / share).powf(1.0 / j as f64);
             }
@@ -479,14 +581,29 @@ impl GyrostatMotion {
         Quaternion(sum).normalized()
     }
 
+    /// Torque and acceleration by the load, rotors out of balance and what swings under the acceleration, body frame.
+    fn loads_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
+        let [mut torque, mut acceleration] = self.load.after(elapsed_s);
+        for it in &self.imbalances {
+            let [imbalance, force] = it.after(self.order, elapsed_s);
+            torque += imbalance;
+            acceleration += force / self.load.mass_after_kg(elapsed_s);
+        }
+        for it in &self.oscillators {
+            torque += it.torque_after(self.order, elapsed_s);
+        }
+        [torque, acceleration]
+    }
+
     /// Total momentum and velocity change, inertial.
     fn totals_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
         let mut totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
-        if !self.load.is_zero() {
+        let is_free = self.load.is_zero() && self.imbalances.is_empty();
+        if !is_free {
             for (node, weight) in GAUSS {
                 let at_s = node * elapsed_s;
                 let attitude = self.attitude_after(at_s);
-                for (total, load) in totals.iter_mut().zip(self.load.after(at_s)) {
+                for (total, load) in totals.iter_mut().zip(self.loads_after(at_s)) {
                     *total += attitude.inertial_from_body(&load) * (weight * elapsed_s);
                 }
             }
@@ -531,10 +648,6 @@ fn held_back(
     None
 }
 
-fn polynomial(terms: &[f64], at: f64) -> f64 {
-    terms.iter().rev().fold(0.0, |sum, term| sum * at + term)
-}
-
 fn slope(terms: &[f64], at: f64) -> f64 {
     let terms = terms.iter().enumerate().skip(1).rev();
     terms.fold(0.0, |sum, (j, term)| sum * at + term * j as f64)
@@ -547,5 +660,11 @@ fn plus(terms: &[f64; TERMS], constant: f64, sign: f64) -> [f64; TERMS] {
     result
 }
 
+#[cfg(test)]
+mod imbalance_tests;
+#[cfg(test)]
+mod slosh_tests;
+#[cfg(test)]
+mod swing_tests;
 #[cfg(test)]
 mod tests;

@@ -41,6 +41,37 @@ pub const VALID_EPOCH_S: f64 = 4000.0 * 365.25 * DAY_S;
 /// The earliest of those epochs, in s.
 pub const EARLIEST_EPOCH_S: f64 = -VALID_EPOCH_S;
 
+/// A planet's osculating elements by VSOP87, and its mean motion there, in rad per 1000 Julian years.
+pub(super) struct Theory {
+    pub elements: fn(f64) -> vsop87::VSOP87Elements,
+    pub mean_motion: f64,
+}
+
+const MERCURY: Theory = Theory { elements: vsop87::mercury, mean_motion: 26_087.903_141_574_2 };
+const VENUS: Theory = Theory { elements: vsop87::venus, mean_motion: 10_213.285_546_211 };
+const EARTH_MOON: Theory = Theory { elements: vsop87::earth_moon, mean_motion: 6_283.075_849_991_4 };
+const MARS: Theory = Theory { elements: vsop87::mars, mean_motion: 3_340.612_434_14 };
+const JUPITER: Theory = Theory { elements: vsop87::jupiter, mean_motion: 529.690_965_09 };
+
+/// The theory of a planet's orbit, the Earth's being that of its barycentre with the Moon; `None` for the Sun.
+pub(super) fn theory(body: Body) -> Option<&'static Theory> {
+    Some(match body {
+        Body::Sun => return None,
+        Body::Mercury => &MERCURY,
+        Body::Venus => &VENUS,
+        Body::Earth => &EARTH_MOON,
+        Body::Mars => &MARS,
+        Body::Jupiter => &JUPITER,
+    })
+}
+
+impl Theory {
+    /// In rad/s.
+    pub fn mean_motion_rad_s(&self) -> f64 {
+        self.mean_motion / (365_250.0 * DAY_S)
+    }
+}
+
 /// Planet positions, a cache over VSOP87 of fixed size: looking up never allocates, and the same epoch always gives
 /// the same bits. It is no state: skip it when serialising and start from the default.
 #[derive(Clone, Debug, Default)]
@@ -60,10 +91,10 @@ impl Ephemeris {
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
         let (position_m, velocity_m_s) = match body {
             Body::Sun => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
-            Body::Mercury => self.mercury.state(epoch_s, vsop87::mercury, 26_087.903_141_574_2),
-            Body::Venus => self.venus.state(epoch_s, vsop87::venus, 10_213.285_546_211),
-            Body::Mars => self.mars.state(epoch_s, vsop87::mars, 3_340.612_434_14),
-            Body::Jupiter => self.jupiter.state(epoch_s, vsop87::jupiter, 529.690_965_09),
+            Body::Mercury => self.mercury.state(epoch_s, &MERCURY),
+            Body::Venus => self.venus.state(epoch_s, &VENUS),
+            Body::Mars => self.mars.state(epoch_s, &MARS),
+            Body::Jupiter => self.jupiter.state(epoch_s, &JUPITER),
             Body::Earth => {
                 let position = |epoch_s| from_rectangular(vsop87::vsop87a::earth(julian_date(epoch_s)));
                 self.earth.segment(epoch_s, LONG_S, position).value_and_derivative(epoch_s)
@@ -122,15 +153,10 @@ struct TwoLayers {
 }
 
 impl TwoLayers {
-    /// Position and velocity at `epoch_s`; `mean_motion` is VSOP87's, in rad per 1000 Julian years. Only the slow
-    /// remainder of the longitude is fitted: any value near gives the same positions.
-    fn state(
-        &mut self,
-        epoch_s: f64,
-        vsop87_elements: fn(f64) -> vsop87::VSOP87Elements,
-        mean_motion: f64,
-    ) -> (Vector3<f64>, Vector3<f64>) {
-        let mean_motion_rad_s = mean_motion / (365_250.0 * DAY_S);
+    /// Position and velocity at `epoch_s`. Only the slow remainder of the longitude is fitted: any value near gives the
+    /// same positions.
+    fn state(&mut self, epoch_s: f64, theory: &Theory) -> (Vector3<f64>, Vector3<f64>) {
+        let mean_motion_rad_s = theory.mean_motion_rad_s();
         let elements = &mut self.elements;
         let segment = self.position.segment(epoch_s, SHORT_S, |node_s| {
             // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
@@ -138,7 +164,7 @@ impl TwoLayers {
             let middle_s = (number + 0.5) * LONG_S;
             let mut first_rad = None;
             let slow = elements.segment(epoch_s, LONG_S, |at_s| {
-                let e = vsop87_elements(julian_date(at_s));
+                let e = (theory.elements)(julian_date(at_s));
                 let mut longitude_rad = e.l - mean_motion_rad_s * (at_s - middle_s);
                 // The crate cuts longitudes at a full turn, which may fall inside the segment.
                 let near_rad = *first_rad.get_or_insert(longitude_rad);
@@ -178,7 +204,7 @@ fn from_elements([a, mean_longitude_rad, k, h, q, p]: [f64; 6]) -> Vector3<f64> 
 
 /// From VSOP87's ecliptic and dynamical equinox of J2000 to the FK5 equator and equinox: Rz(-0.0990") Rx(23 deg 26'
 /// 21.4091"), the matrix of the authors' `vsop87.doc` with its last digits made orthonormal.
-fn eme2000_from_vsop87() -> Matrix3<f64> {
+pub(super) fn eme2000_from_vsop87() -> Matrix3<f64> {
     const EQUINOX: f64 = 4.799_66e-7;
     const COS: f64 = 0.917_482_137_086_841;
     const SIN: f64 = 0.397_776_982_901_931;

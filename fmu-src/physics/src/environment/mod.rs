@@ -1,9 +1,11 @@
 //! Where everything is and what light falls there: time, ephemerides, orbits, eclipse.
 
 pub mod bodies_from_center;
+pub mod coarse_ephemeris;
 pub mod dates;
 pub mod eclipse;
 pub mod ephemeris;
+pub mod flown;
 pub mod frames;
 pub mod orbit;
 pub mod paper004;

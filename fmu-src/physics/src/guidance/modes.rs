@@ -2,7 +2,8 @@
 //!
 //! Demotion is autonomous: lost attitude leads to Earth Acquisition, the constraint monitor one mode down. Promotion comes
 //! by request alone. A request acts at the sample where it changes, so that one that is held does not undo a demotion; a
-//! reason to demote at the same sample outweighs it. Losing the Sun sensors alone demotes nothing.
+//! reason to demote at the same sample outweighs it. Losing the Sun sensors alone demotes nothing. Losing the precise
+//! ephemerides, where a spacecraft carries its own ([`super::places`]), ends Operational.
 //!
 //! In Earth Acquisition the Sun is sensed, or computed from the ephemeris with the estimated attitude once that is back.
 //! The error quaternion (eqs 25 and 26) is the rotation from the commanded to the actual frame: A(q) takes the components
@@ -12,51 +13,17 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::command::{PointingCommand, Scenario};
 use super::constraints::Constraints;
-use super::monitor::{Monitor, MonitorState, excess_rad};
+use super::mode::Mode;
+use super::monitor::{Monitor, MonitorState, Violation, excess_rad};
 use super::moving::value;
+use super::places::{EphemerisTrust, Places};
 use super::surroundings::Surroundings;
 use crate::attitude::{Attitude, Quaternion};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// Two unit vectors whose cross product is as small as this are opposite within rounding.
 const OPPOSITE: f64 = 1e-15;
-
-/// How much the guidance is trusted with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum Mode {
-    /// Every command.
-    #[default]
-    Operational,
-    /// Downlink only, within its own keep-in zone.
-    SafeHold,
-    /// Rotation about the Sun line, without inertial reference.
-    EarthAcquisition,
-}
-
-impl Mode {
-    /// The next lower mode; the lowest is its own.
-    pub fn demoted(self) -> Self {
-        match self {
-            Self::Operational => Self::SafeHold,
-            Self::SafeHold | Self::EarthAcquisition => Self::EarthAcquisition,
-        }
-    }
-
-    /// The command as this mode takes it: Safe Hold replaces all but downlink by the default downlink, and scans never.
-    pub fn admitted(self, command: &PointingCommand) -> PointingCommand {
-        match self {
-            Self::Operational => *command,
-            Self::SafeHold | Self::EarthAcquisition if command.scenario == Some(Scenario::Downlink) => {
-                PointingCommand { scan: Default::default(), ..*command }
-            }
-            _ => PointingCommand { scenario: Some(Scenario::Downlink), ..PointingCommand::default() },
-        }
-    }
-}
 
 /// Rate of Earth Acquisition, assumed: a turn in three hours. Paper 001 says slow.
 pub const EARTH_ACQUISITION_RATE_RAD_S: f64 = core::f64::consts::TAU / 10_800.0;
@@ -76,6 +43,8 @@ pub struct ModeSettings {
     pub safe_hold: Constraints,
     /// `None` is off.
     pub monitor: Option<Monitor>,
+    /// How far from the sensed Sun that of the precise ephemerides may be, and for how long; `None`: nobody looks.
+    pub ephemeris_check: Option<Monitor>,
     /// Whether it watches the hot pole; not while no turn about the Sun line reaches the cone's boundary.
     pub watches_hot_pole: bool,
     /// Boresight of Earth Acquisition, body frame, of any length.
@@ -128,6 +97,8 @@ pub struct ModeState {
     pub search_since_s: Option<f64>,
     /// Constraint monitor.
     pub monitor: MonitorState,
+    /// Of the precise ephemerides.
+    pub ephemeris: EphemerisTrust,
 }
 
 impl ModeState {
@@ -140,22 +111,18 @@ impl ModeState {
     pub fn is_sound(&self) -> bool {
         self.search_since_s.is_none_or(|since_s| since_s.abs() <= GREATEST_IN_STATE)
             && self.monitor.is_sound()
+            && self.ephemeris.is_sound()
     }
 
     /// Takes a sample: changes the mode, and says how to steer in it. `None` where no boresight has a direction.
-    /// `surroundings`: `None` while there is no ephemeris; nothing is judged then.
-    pub fn sample(
-        &mut self,
-        settings: &ModeSettings,
-        sensed: &Sensed,
-        surroundings: Option<&Surroundings>,
-    ) -> Option<Steering> {
-        self.change_mode(settings, sensed, surroundings);
+    /// While no place is known nothing is judged.
+    pub fn sample(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &Places) -> Option<Steering> {
+        self.change_mode(settings, sensed, places);
         if self.mode != Mode::EarthAcquisition {
             self.search_since_s = None;
             return Some(Steering::Pointing(*settings.constraints(self.mode)));
         }
-        let Some(sun_body) = sun_body(sensed, surroundings) else {
+        let Some(sun_body) = sun_body(sensed, self.surroundings(places)) else {
             let since_s = *self.search_since_s.get_or_insert(sensed.time_s);
             return Some(Steering::RateOnly(settings.search_rate_body_rad_s(sensed.time_s - since_s)));
         };
@@ -167,13 +134,30 @@ impl ModeState {
         })
     }
 
-    fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, surroundings: Option<&Surroundings>) {
+    /// Where everything is by the ephemerides that the mode goes by.
+    pub fn surroundings<'p>(&self, places: &'p Places) -> Option<&'p Surroundings> {
+        places.in_mode(self.mode, &self.ephemeris)
+    }
+
+    fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &Places) {
         let requested = sensed.request.filter(|_| sensed.request != self.last_request);
         self.last_request = sensed.request;
         if let Some(mode) = requested {
             self.mode = mode;
             // A violation is judged anew, without the lenience toward a safing turn.
             self.monitor = MonitorState::default();
+            if mode == Mode::Operational {
+                self.ephemeris.renew();
+            }
+        }
+        let sun_in_estimate = sensed.estimate.zip(sensed.sun_body.and_then(direction));
+        self.ephemeris.judge(settings.ephemeris_check.as_ref(), sensed.time_s, places, sun_in_estimate);
+        if self.mode == Mode::Operational && !self.ephemeris.is_valid() {
+            // Coarse models do not point as Operational demands.
+            self.mode = self.mode.demoted();
+            // The turn to where the coarse Sun stands is a safing turn.
+            let violation = Violation { since_s: sensed.time_s, least_excess_rad: Some(GREATEST_IN_STATE) };
+            self.monitor.violation = Some(violation);
         }
         let Some(estimate) = &sensed.estimate else {
             self.mode = Mode::EarthAcquisition;
@@ -185,7 +169,7 @@ impl ModeState {
             self.monitor = MonitorState::default();
             return;
         };
-        let excess_rad = surroundings.map_or(f64::NEG_INFINITY, |surroundings| {
+        let excess_rad = self.surroundings(places).map_or(f64::NEG_INFINITY, |surroundings| {
             let constraints = settings.constraints(self.mode);
             let hot_pole = constraints.hot_pole.filter(|_| settings.watches_hot_pole);
             excess_rad(&Constraints { hot_pole, ..*constraints }, estimate, surroundings)
@@ -223,11 +207,13 @@ pub fn sun_body(sensed: &Sensed, surroundings: Option<&Surroundings>) -> Option<
         let to_sun = value(&surroundings?.to_sun());
         Some(sensed.estimate?.inertial_from_body().inverse() * to_sun)
     };
-    let direction = |vector: Vector3<f64>| {
-        let largest = vector.amax();
-        (largest.is_finite() && largest > 0.0).then(|| (vector / largest).normalize())
-    };
     sensed.sun_body.and_then(direction).or_else(|| computed().and_then(direction))
+}
+
+/// Its unit vector; `None` where it has none.
+fn direction(vector: Vector3<f64>) -> Option<Vector3<f64>> {
+    let largest = vector.amax();
+    (largest.is_finite() && largest > 0.0).then(|| (vector / largest).normalize())
 }
 
 /// Eqs 25 and 26 for the unit vectors `boresight_body` and `sun_body`; `None` where one is none.

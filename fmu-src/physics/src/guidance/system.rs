@@ -18,9 +18,11 @@ use super::downlink::{LinkLimits, link};
 use super::guided::Guided;
 use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
-use super::modes::{Mode, ModeSettings, ModeState, Sensed, Steering};
+use super::mode::Mode;
+use super::modes::{ModeSettings, ModeState, Sensed, Steering};
 use super::moving::{MovingVector, rate, value};
 use super::orbit_phase::PeriapsisCount;
+use super::places::Places;
 use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
 use super::schedule::Activity;
 use super::surroundings::Surroundings;
@@ -66,8 +68,8 @@ pub struct SampleInputs {
     pub command: PointingCommand,
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
-    /// Where everything is; `None` while it is not known.
-    pub surroundings: Option<Surroundings>,
+    /// Where everything is.
+    pub places: Places,
     /// Mode request, estimate and Sun sensors at the sample's time.
     pub sensed: Sensed,
     /// Sum of the accelerometers' increments along the body axes, in m/s.
@@ -220,6 +222,16 @@ impl GuidanceState {
         &self.burn
     }
 
+    /// Whether the precise ephemerides are trusted.
+    pub fn ephemeris_is_valid(&self) -> bool {
+        self.modes.ephemeris.is_valid()
+    }
+
+    /// Whether the mode goes by the coarse ephemerides, where modes choose.
+    pub fn uses_coarse_ephemeris(&self) -> bool {
+        self.modes.ephemeris.uses_coarse(self.modes.mode)
+    }
+
     /// When the next sample is due, in s.
     pub fn next_sample_s(&self) -> f64 {
         self.next_sample_s
@@ -236,13 +248,9 @@ impl GuidanceState {
         let time_s = self.next_sample_s;
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
-        let surroundings = inputs.surroundings.as_ref();
-        let to_sun = surroundings.map(Surroundings::to_sun);
-        if let Some(to_sun) = to_sun {
-            (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
-        }
         let mut modes = settings.modes;
-        if to_sun.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
+        let before = self.modes.surroundings(&inputs.places).map(Surroundings::to_sun);
+        if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
             modes.operational.keep_in = None;
         }
         modes.watches_hot_pole &= self.judgement.hot_pole_reached;
@@ -255,7 +263,12 @@ impl GuidanceState {
                 delta_v_body_m_s: inputs.delta_v_body_m_s,
             }),
         );
-        match self.modes.sample(&modes, &sensed, surroundings) {
+        let steering = self.modes.sample(&modes, &sensed, &inputs.places);
+        let surroundings = self.modes.surroundings(&inputs.places);
+        if let Some(to_sun) = surroundings.map(Surroundings::to_sun) {
+            (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
+        }
+        match steering {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {

@@ -117,18 +117,8 @@ impl<const D: usize, const N: usize> Segment<D, N> {
     pub fn value_and_derivative(&self, at: f64) -> (SVector<f64, D>, SVector<f64, D>) {
         let per_half_length = 1.0 / self.half_length;
         let x = (at - self.center) * per_half_length;
-        let columns = &self.coefficients.data.0;
-        let (mut b1, mut b2, mut d1, mut d2) = ([0.0; D], [0.0; D], [0.0; D], [0.0; D]);
-        for column in columns.iter().skip(1).rev() {
-            for i in 0..D {
-                (d1[i], d2[i]) = (2.0 * x * d1[i] + (2.0 * b1[i] - d2[i]), d1[i]);
-                (b1[i], b2[i]) = (2.0 * x * b1[i] + (column[i] - b2[i]), b1[i]);
-            }
-        }
-        let first = columns.first().copied().unwrap_or([0.0; D]);
-        let value = SVector::from_fn(|i, _| x * b1[i] + (first[i] - b2[i]));
-        let derivative = SVector::from_fn(|i, _| (x * d1[i] + (b1[i] - d2[i])) * per_half_length);
-        (value, derivative)
+        let (value, derivative) = series_at(&self.coefficients.data.0, x);
+        (SVector::from(value), SVector::from_fn(|i, _| derivative[i] * per_half_length))
     }
 
     /// The exact antiderivative that equals `value_at_start` at the segment's start; `M` must be `N + 1`.
@@ -188,6 +178,22 @@ impl<const N: usize> Segment<1, N> {
         found.map(|u| self.start() + u * 2.0 * self.half_length);
         found
     }
+}
+
+/// The series with these coefficients, item k for `T_k`, and its derivative, at `x` in -1 to 1 (Clenshaw's recurrence).
+#[inline]
+pub fn series_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> ([f64; D], [f64; D]) {
+    let (mut b1, mut b2, mut d1, mut d2) = ([0.0; D], [0.0; D], [0.0; D], [0.0; D]);
+    for column in coefficients.iter().skip(1).rev() {
+        for i in 0..D {
+            (d1[i], d2[i]) = (2.0 * x * d1[i] + (2.0 * b1[i] - d2[i]), d1[i]);
+            (b1[i], b2[i]) = (2.0 * x * b1[i] + (column[i] - b2[i]), b1[i]);
+        }
+    }
+    let first = coefficients.first().copied().unwrap_or([0.0; D]);
+    let value = core::array::from_fn(|i| x * b1[i] + (first[i] - b2[i]));
+    let derivative = core::array::from_fn(|i| x * d1[i] + (b1[i] - d2[i]));
+    (value, derivative)
 }
 
 /// The Bernstein coefficients on `[0, 1]` of a Chebyshev series on `[-1, 1]`, both of degree `N - 1`.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::control::{
     AccelerometerState, ControlTarget, ControllerState, Estimate, EstimatorState, sensed_sun,
 };
-use crate::attitude::{Attitude, BodyLoad, BodyMotion, GyrostatMotion, Quaternion};
+use crate::attitude::{Appendages, Attitude, BodyLoad, BodyMotion, GyrostatMotion, Quaternion};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
@@ -113,9 +113,9 @@ impl AttitudeDynamics {
         }
     }
 
-    /// Whether its numbers can come from a flight of a body with so many wheels and thrusters; bytes from elsewhere may hold
-    /// anything.
-    pub fn is_sound(&self, wheels: usize, thrusters: usize) -> bool {
+    /// Whether its numbers can come from a flight of a body with so many wheels, thrusters and modal coordinates; bytes from
+    /// elsewhere may hold anything.
+    pub fn is_sound(&self, wheels: usize, thrusters: usize, oscillators: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let vector = |vector: &Vector3<f64>| vector.iter().all(sound);
         let mass = |mass: &MassProperties| {
@@ -126,7 +126,7 @@ impl AttitudeDynamics {
         };
         let Estimate { attitude, rate_body_rad_s, .. } = &self.estimate;
         let norm: f64 = self.sampled.0.0.iter().map(|x| x * x).sum();
-        self.motion.is_sound(wheels)
+        self.motion.is_sound(wheels, oscillators)
             && mass(&self.mass)
             && self.left.as_ref().is_none_or(mass)
             && self.disturbance.is_sound()
@@ -214,7 +214,7 @@ impl AttitudeDynamics {
 
     /// The body and what flies have the mass properties of the last edge of the grid.
     fn go_on(&self, settings: &mut DynamicsSettings, flight: &mut Flight<'_>) {
-        settings.gyrostat.set_inertia(self.mass.inertia_body_kg_m2);
+        settings.gyrostat.set_mass_properties(self.mass.inertia_body_kg_m2, self.mass.center_of_mass_body_m);
         flight.configuration.left = self.left;
     }
 
@@ -279,7 +279,9 @@ impl AttitudeDynamics {
         if settings.panels_have_mass || self.left.is_some() || !settings.thrusters.thrusters.is_empty() {
             let instant = plant.instant(time_s);
             self.mass = plant.mass_properties(&instant);
-            settings.gyrostat.set_inertia(self.mass.inertia_body_kg_m2);
+            settings
+                .gyrostat
+                .set_mass_properties(self.mass.inertia_body_kg_m2, self.mass.center_of_mass_body_m);
         }
         Ok(())
     }
@@ -520,6 +522,7 @@ impl AttitudeDynamics {
     /// Where everything is and what acts at `time_s`, as the motion takes it.
     pub fn evaluation(
         &self,
+        settings: &DynamicsSettings,
         flight: &mut Flight<'_>,
         body: &BodyMotion,
         external: ExternalLoad,
@@ -531,8 +534,11 @@ impl AttitudeDynamics {
         let instant = plant.instant(time_s);
         let mass = MassProperties { mass_kg: left_kg, ..plant.mass_properties(&instant) };
         let mut loads = self.disturbance.loads_at(time_s);
-        loads[Effect::Applied] =
-            ForceTorque { force_body_n: external.force_body_n, torque_body_n_m: external.torque_body_n_m };
+        let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
+        loads[Effect::Applied] = ForceTorque {
+            force_body_n: external.force_body_n + force_body_n,
+            torque_body_n_m: external.torque_body_n_m + torque_body_n_m,
+        };
         let [force_body_n, torque_body_n_m] = self.thrusters.load().at(time_s);
         let constant_body_n_m = self.dump.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m);
         loads[Effect::Thrusters] =
@@ -543,6 +549,26 @@ impl AttitudeDynamics {
     /// Momentum of wheel `k` (0-based) relative to the body, in N m s.
     pub fn wheel_n_m_s(&self, settings: &DynamicsSettings, k: usize, time_s: f64, body: &BodyMotion) -> f64 {
         self.motion.rotor_n_m_s(&settings.gyrostat, k, time_s, body)
+    }
+
+    /// Displacement of flexible mode `k` (0-based), in sqrt(kg) m.
+    pub fn mode_sqrt_kg_m(&self, k: usize, time_s: f64, body: &BodyMotion) -> f64 {
+        self.motion.oscillator(k, time_s, body)[0]
+    }
+
+    /// Angles of slosh pendulum `k` (0-based), in rad.
+    pub fn slosh_rad(
+        &self,
+        settings: &DynamicsSettings,
+        k: usize,
+        time_s: f64,
+        body: &BodyMotion,
+    ) -> [f64; 2] {
+        let Appendages { modes, sloshes, .. } = settings.gyrostat.appendages();
+        [0, 1].map(|axis| {
+            let [displacement, _] = self.motion.oscillator(modes.len() + 2 * k + axis, time_s, body);
+            sloshes[k].angle_rad(displacement)
+        })
     }
 
     /// Torque of the motor of wheel `k` (0-based), in N m.

@@ -1,5 +1,7 @@
 //! What flies, where, and under which light: constant between two changes of a parameter or input.
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -7,6 +9,7 @@ use crate::attitude::{Attitude, MovingFrame};
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
+use crate::environment::flown::FlownEphemeris;
 use crate::environment::frames::Frame;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
 use crate::environment::paper004::KeplerPlanet;
@@ -82,12 +85,14 @@ impl Command {
 }
 
 /// Where Sun and Earth stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum EphemerisSource {
     /// VSOP87.
     Vsop87,
     /// The planet on an ellipse about the Sun; the Earth by VSOP87.
     Kepler(KeplerPlanet),
+    /// As the spacecraft carries them; beyond their span they move on evenly.
+    Flown(Arc<FlownEphemeris>),
     /// Fixed until they are given anew, from the orbit's centre, in m.
     Given {
         /// Sun, EME2000.

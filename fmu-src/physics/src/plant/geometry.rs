@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::MovingUnit;
+use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
@@ -78,10 +79,17 @@ pub(super) fn sun_and_earth(
     ephemeris: &mut Ephemeris,
     epoch_s: f64,
 ) -> (CartesianState, CartesianState) {
-    let ellipse = match configuration.ephemeris {
-        EphemerisSource::Given { sun_m, earth_m } => return (fixed(sun_m), fixed(earth_m)),
+    let ellipse = match &configuration.ephemeris {
+        EphemerisSource::Given { sun_m, earth_m } => return (fixed(*sun_m), fixed(*earth_m)),
+        EphemerisSource::Flown(carried) => {
+            let state = |body: Body| {
+                let found = carried.state_carried_on(body.into(), configuration.center, epoch_s);
+                found.unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN)))
+            };
+            return (state(Body::Sun), state(Body::Earth));
+        }
         EphemerisSource::Vsop87 => None,
-        EphemerisSource::Kepler(planet) => Some(planet),
+        EphemerisSource::Kepler(planet) => Some(*planet),
     };
     BodiesFromCenter { center: configuration.center, ellipse }.sun_and_earth(ephemeris, epoch_s)
 }

@@ -76,10 +76,10 @@ mod tests {
         let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
         let hits = |thruster: &Thruster| hits_a_surface(&craft, thruster, |_| Some(0.0));
         // The panel's centre is at (2.28, 0, 0): 45 deg off the exhaust.
-        let aside = |half_deg: f64| nozzle([1.28, 0.0, 1.0], [0.0, 0.0, -1.0], half_deg);
+        let aside = |half_deg: f64| nozzle([3.28, 0.0, 1.0], [0.0, 0.0, -1.0], half_deg);
         assert!(!hits(&aside(44.9)) && hits(&aside(45.1)));
         assert!(!hits(&aside(0.0)), "no plume is given");
-        assert!(!hits(&nozzle([1.28, 0.0, 1.0], [0.0, 0.0, 1.0], 80.0)));
+        assert!(!hits(&nozzle([3.28, 0.0, 1.0], [0.0, 0.0, 1.0], 80.0)));
         let left_out = hits_a_surface(&craft, &aside(50.0), |_| None);
         assert!(!left_out, "panels that are left out are not there");
     }

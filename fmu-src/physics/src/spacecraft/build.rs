@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use super::build_propulsion::{tank, tanks_fit, thruster};
+use super::build_swinging::{mode, slosh, swinging_fits};
 use super::build_thermal::{
     Material, checked_area, checked_center, checked_normal, checked_outline, face_thermal, thermal,
 };
@@ -27,6 +28,7 @@ use super::spelling::nearest;
 use super::start::{StartEntry, start_entries};
 use super::sun_sensors::{HALF_FIELD_OF_VIEW_DEG, MountedSunSensor};
 use super::surface::{Cylinder, Plate, Sunshade, SunshadeModel};
+use super::swinging::{NamedMode, NamedSlosh};
 use super::tank::Tank;
 use super::thruster::Thruster;
 use super::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
@@ -49,6 +51,10 @@ pub struct Spacecraft {
     pub panels: Vec<Panel>,
     /// Reaction wheels.
     pub wheels: Vec<Wheel>,
+    /// Flexible modes.
+    pub flexible_modes: Vec<NamedMode>,
+    /// Propellant that swings.
+    pub sloshes: Vec<NamedSlosh>,
     /// Propellant tanks.
     pub tanks: Vec<Tank>,
     /// Thrusters.
@@ -105,6 +111,11 @@ impl Spacecraft {
         builder.check.finish(spacecraft)
     }
 
+    /// How many modal coordinates swing on it: one of each flexible mode, two of each pendulum.
+    pub fn oscillator_count(&self) -> usize {
+        self.flexible_modes.len() + 2 * self.sloshes.len()
+    }
+
     /// The plates of body and sunshade in the body frame, the body's first; a cylindrical shade adds none.
     pub fn plates_body(&self, sunshade_model: SunshadeModel) -> Vec<Plate> {
         let shade = self.sunshade.iter().filter(|_| sunshade_model == SunshadeModel::Plates);
@@ -150,15 +161,28 @@ impl Builder<'_> {
             self.list(&root.key("thrusters"), description.thrusters.as_deref(), |builder, at, index, it| {
                 thruster(&mut builder.check, &tanks, at, index, it)
             });
+        let mass_properties = self.mass(&root.key("mass_properties"), &description.mass_properties);
+        let flexible_modes = self.list(
+            &root.key("flexible_modes"),
+            description.flexible_modes.as_deref(),
+            |builder, at, index, it| mode(&mut builder.check, at, index, it),
+        );
+        let sloshes =
+            self.list(&root.key("slosh"), description.slosh.as_deref(), |builder, at, index, it| {
+                slosh(&mut builder.check, at, index, it)
+            });
+        swinging_fits(&mut self.check, &flexible_modes, &sloshes, &mass_properties);
         let keep_in = root.key("sun_keep_in");
         let threshold = root.key("momentum").key("dump_threshold_n_m_s");
         Spacecraft {
             name: description.name.clone(),
-            mass_properties: self.mass(&root.key("mass_properties"), &description.mass_properties),
+            mass_properties,
             plates: self.list(&root.key("plates"), description.plates.as_deref(), Self::plate),
             sunshade: description.sunshade.as_ref().map(|s| self.sunshade(&root.key("sunshade"), s)),
             panels: self.list(&root.key("panels"), description.panels.as_deref(), Self::panel),
             wheels: self.list(&root.key("wheels"), description.wheels.as_deref(), Self::wheel),
+            flexible_modes,
+            sloshes,
             tanks,
             thrusters,
             sun_sensors: match description.sun_sensors.as_deref() {
@@ -195,7 +219,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Two plates, the shade's among them, two panels, wheels, Sun sensors, instruments, tanks or thrusters with one name could not be told apart.
+    /// Two plates, the shade's among them, two panels, wheels, Sun sensors, instruments, tanks, thrusters, modes or sloshes with one name could not be told apart.
     fn distinct_names(&mut self, description: &Description) {
         let root = Place::root();
         let plate = |plate: &PlateDescription| plate.name.clone();
@@ -225,7 +249,15 @@ impl Builder<'_> {
             named(&root.key("thrusters"), description.thrusters.as_deref(), "thruster", |thruster| {
                 thruster.name.clone()
             });
-        for list in [plates, panels, wheels, sensors, instruments, tanks, thrusters] {
+        let modes = named(
+            &root.key("flexible_modes"),
+            description.flexible_modes.as_deref(),
+            "flexible mode",
+            |mode| mode.name.clone(),
+        );
+        let sloshes =
+            named(&root.key("slosh"), description.slosh.as_deref(), "slosh", |slosh| slosh.name.clone());
+        for list in [plates, panels, wheels, sensors, instruments, tanks, thrusters, modes, sloshes] {
             let mut known: BTreeMap<String, (Place, bool)> = BTreeMap::new();
             for (at, name, is_given) in list {
                 match known.get(&name) {
@@ -505,13 +537,23 @@ impl Builder<'_> {
             positive("inertia_kg_m2", description.inertia_kg_m2, capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S);
         let max_torque_n_m =
             positive("max_torque_n_m", description.max_torque_n_m, capacity_n_m_s / TIME_TO_CAPACITY_S);
-        let mut friction = |key: &str, value: Option<f64>| {
+        let mut or_zero = |key: &str, value: Option<f64>| {
             value.map_or(0.0, |value| self.check.not_negative(&at.key(key), value))
         };
+        let coulomb_friction_n_m = or_zero("coulomb_friction_n_m", description.coulomb_friction_n_m);
+        let viscous_friction_n_m_s = or_zero("viscous_friction_n_m_s", description.viscous_friction_n_m_s);
+        let static_imbalance_kg_m = or_zero("static_imbalance_kg_m", description.static_imbalance_kg_m);
+        if static_imbalance_kg_m > 0.0 && description.position_m.is_none() {
+            self.check.report_lack(at, "position_m", "the rotor's place, beside static_imbalance_kg_m");
+        }
         Wheel {
+            static_imbalance_kg_m,
+            position_body_m: description
+                .position_m
+                .map_or(Vector3::zeros(), |place| self.check.vector(&at.key("position_m"), place)),
             name: name_or_number(description.name.as_deref(), "wheel", index),
-            coulomb_friction_n_m: friction("coulomb_friction_n_m", description.coulomb_friction_n_m),
-            viscous_friction_n_m_s: friction("viscous_friction_n_m_s", description.viscous_friction_n_m_s),
+            coulomb_friction_n_m,
+            viscous_friction_n_m_s,
             axis_body: self.check.unit_vector(&at.key("axis"), description.axis),
             capacity_n_m_s,
             inertia_kg_m2,

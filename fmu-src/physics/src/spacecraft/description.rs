@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::panel::PanelControl;
 use super::start::StartTable;
 use super::surface::SunshadeModel;
@@ -38,6 +39,12 @@ pub(crate) struct Description {
     /// Thrusters; they need a tank.
     #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 24)))]
     pub thrusters: Option<Vec<ThrusterDescription>>,
+    /// Flexible modes.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub flexible_modes: Option<Vec<FlexibleModeDescription>>,
+    /// Propellant that swings.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub slosh: Option<Vec<SloshDescription>>,
     /// Sun sensors; left out, six along the body axes.
     pub sun_sensors: Option<Vec<SunSensorDescription>>,
     /// Instruments fixed in the body frame, which Guidance points by their number from 1.
@@ -295,6 +302,11 @@ pub(crate) struct WheelDescription {
     /// Viscous friction, in N m per rad/s; 0 unless given.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub viscous_friction_n_m_s: Option<f64>,
+    /// Static imbalance of the rotor, in kg m; 0 unless given, and needs position_m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub static_imbalance_kg_m: Option<f64>,
+    /// Place of the rotor, body frame, in m.
+    pub position_m: Option<[f64; 3]>,
 }
 
 /// A propellant tank.

@@ -9,8 +9,10 @@
 
 mod build;
 mod build_propulsion;
+mod build_swinging;
 mod build_thermal;
 mod checker;
+mod describe_swinging;
 mod description;
 mod document;
 mod error;
@@ -29,6 +31,7 @@ mod spelling;
 mod start;
 mod sun_sensors;
 mod surface;
+mod swinging;
 mod tank;
 mod thermal;
 mod thruster;
@@ -57,6 +60,7 @@ pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;
 pub use surface::{Cylinder, Plate, Sunshade, SunshadeModel};
+pub use swinging::{NamedMode, NamedSlosh};
 pub use tank::{Blowdown, Tank};
 pub use thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,

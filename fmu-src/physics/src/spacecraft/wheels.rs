@@ -20,6 +20,10 @@ pub struct Wheel {
     pub coulomb_friction_n_m: f64,
     /// Viscous friction, in N m per rad/s.
     pub viscous_friction_n_m_s: f64,
+    /// Static imbalance of the rotor, in kg m.
+    pub static_imbalance_kg_m: f64,
+    /// Place of the rotor, body frame, in m; the origin unless given.
+    pub position_body_m: Vector3<f64>,
 }
 
 /// Speed at the capacity, from which a rotor's inertia follows where the file gives none: 6000 rpm, assumed.

@@ -15,6 +15,7 @@ use loader::Fmu;
 use crate::{
     args::{self, Check},
     child::Link,
+    ephemeris,
     outcome::Outcome,
     timeline,
 };
@@ -38,7 +39,10 @@ impl Section {
 pub fn run(arguments: &Check) -> Outcome {
     if arguments.subject.extension().is_some_and(|extension| extension == "toml") {
         return match (arguments.is_static, &arguments.only) {
-            (false, None) => spacecraft::run(arguments),
+            (false, None) => match ephemeris::read(&arguments.subject)? {
+                Some(read) => ephemeris::run_check(&arguments.subject, read),
+                None => spacecraft::run(arguments),
+            },
             (true, _) => Err("--static is for an FMU: a spacecraft is only read".into()),
             (false, Some(_)) => Err("--only is for an FMU: a spacecraft has no probes".into()),
         };
@@ -81,6 +85,13 @@ pub fn run(arguments: &Check) -> Outcome {
             Err(problems) => problems.lines().map(Finding::bad).collect(),
         };
         sections.push(Section { title: timeline::FILE.to_owned(), findings });
+    }
+    if let Some(read) = ephemeris::of(&fmu) {
+        let findings = match read {
+            Ok(carried) => vec![Finding::good(ephemeris::summary(&carried))],
+            Err(problems) => problems.lines().map(Finding::bad).collect(),
+        };
+        sections.push(Section { title: ephemeris::FILE.to_owned(), findings });
     }
     let runnable = !arguments.is_static && fmu.co_simulation().is_ok();
     if runnable {

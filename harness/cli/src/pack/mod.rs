@@ -66,15 +66,16 @@ pub fn run(arguments: &Pack) -> Outcome {
         setup = per_plate::asking(&setup)?;
         description = per_plate::describe(source.binary(), &model, file.as_deref(), &setup)?;
     }
-    let timeline = match &arguments.timeline {
-        Some(path) => {
-            let (shown, text) = (path.display().to_string(), files::read_text(path)?);
-            let given = (shown.as_str(), text.as_str());
-            let name = schedule::checked(source.binary(), &described, file.as_deref(), &setup, given)?;
-            Some((name, text))
-        }
-        None => None,
-    };
+    let mut schedules = Vec::new();
+    for (kind, path) in
+        [(schedule::TIMELINE, &arguments.timeline), (schedule::EPHEMERIS, &arguments.ephemeris)]
+    {
+        let Some(path) = path else { continue };
+        let (shown, text) = (path.display().to_string(), files::read_text(path)?);
+        let given = (shown.as_str(), text.as_str());
+        let name = kind.checked(source.binary(), &described, file.as_deref(), &setup, given)?;
+        schedules.push((name, text));
+    }
     let identifier = arguments.name.as_deref().unwrap_or(&model);
     rename(&mut description, identifier)?;
 
@@ -85,7 +86,7 @@ pub fn run(arguments: &Pack) -> Outcome {
     if let Some(name) = &described.setup_file {
         entries.add(&format!("resources/{name}"), setup.clone().into_bytes())?;
     }
-    if let Some((name, text)) = timeline {
+    for (name, text) in schedules {
         entries.add(&format!("resources/{name}"), text.into_bytes())?;
     }
     let drawing = draw::svg(&setup);
@@ -100,7 +101,7 @@ pub fn run(arguments: &Pack) -> Outcome {
     if source.is_at(&path) {
         return Err(format!("{} is the template itself: see --name and --output", path.display()).into());
     }
-    let files = [&arguments.spacecraft, &arguments.timeline].into_iter().flatten();
+    let files = [&arguments.spacecraft, &arguments.timeline, &arguments.ephemeris].into_iter().flatten();
     let inputs: Vec<&Path> = [source.path()].into_iter().chain(files.map(PathBuf::as_path)).collect();
     let destination = Destination::open(&path, "--output", &inputs)?;
     let is_stdout = destination.is_stdout();

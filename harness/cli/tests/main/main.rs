@@ -3,6 +3,7 @@
 
 mod checks;
 mod drawings;
+mod ephemerides;
 mod files;
 mod hostile;
 mod packs;

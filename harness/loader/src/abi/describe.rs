@@ -16,8 +16,8 @@ pub struct Described {
     pub model: String,
     /// Name of its setup file under `resources/`, if it has one.
     pub setup_file: Option<String>,
-    /// Name of its schedule file under `resources/`, if it takes one.
-    pub schedule_file: Option<String>,
+    /// Names of the schedule files under `resources/` that it takes.
+    pub schedule_files: Vec<String>,
     /// The compiled-in setup text.
     pub default_setup: String,
     /// Quantities and by what they are computed; names of papers and what they stand for.
@@ -71,19 +71,23 @@ impl Binary {
             .ok_or_else(|| format!("{model}: the library gave no XML"))
     }
 
-    /// Whether a model takes a schedule, given by its name for errors and its text, with this setup.
+    /// Whether a model takes a text, given with its name for errors, as one of its schedules, with this setup.
     pub fn check_schedule(
         &self,
         model: &str,
         file: Option<&str>,
         setup: Option<&str>,
-        (schedule_file, schedule): (&str, &str),
+        schedule: &str,
+        (schedule_file, text): (&str, &str),
     ) -> Result<(), String> {
         // SAFETY: the symbol of this name has this type.
         let function = unsafe { self.library.get::<CheckSchedule>(CHECK_SCHEDULE_SYMBOL.as_bytes()) }
-            .map_err(|_| format!("{schedule_file}: the library of the template is older than schedules"))?;
+            .map_err(|_| {
+                format!("{schedule_file}: the library of the template is older than this program")
+            })?;
         let (model, file, setup) = (c_text(Some(model))?, c_text(file)?, c_text(setup)?);
-        let (schedule_file, schedule) = (c_text(Some(schedule_file))?, c_text(Some(schedule))?);
+        let schedule = c_text(Some(schedule))?;
+        let (schedule_file, text) = (c_text(Some(schedule_file))?, c_text(Some(text))?);
         let (code, received) = collected(|context| {
             // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
             unsafe {
@@ -91,8 +95,9 @@ impl Binary {
                     pointer(&model),
                     pointer(&file),
                     pointer(&setup),
-                    pointer(&schedule_file),
                     pointer(&schedule),
+                    pointer(&schedule_file),
+                    pointer(&text),
                     context,
                     Some(receive),
                 )
@@ -100,7 +105,7 @@ impl Binary {
         });
         match received.into_iter().find(|(what, _)| *what == kind::ERROR) {
             None if code == 0 => Ok(()),
-            None => Err(format!("fmi_export_check_schedule answered {code} without a reason")),
+            None => Err(format!("fmi_export_check_schedule_file answered {code} without a reason")),
             Some((_, problem)) => Err(problem),
         }
     }
@@ -129,7 +134,7 @@ impl Binary {
                 (kind::SETUP_TEXT, Some(model)) => model.default_setup = text,
                 (kind::MODEL, _) => models.push(Described { model: text, ..Described::default() }),
                 (kind::SETUP_FILE, Some(model)) => model.setup_file = Some(text),
-                (kind::SCHEDULE_FILE, Some(model)) => model.schedule_file = Some(text),
+                (kind::SCHEDULE_FILE, Some(model)) => model.schedule_files.push(text),
                 (kind::SOURCE, Some(model)) => {
                     let pair = text.split_once('\t').map(|(what, by)| (what.to_owned(), by.to_owned()));
                     model.sources.extend(pair);

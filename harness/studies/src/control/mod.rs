@@ -1,12 +1,15 @@
 //! Control: `MomentumPlant` with its own controller, alone and in a loop with `Guidance`.
 //!
-//! Burns with delta-V steering, large slews, saturation and a failed wheel; the safe modes of paper 001; the estimated curves
-//! of its Figures 7 and 8.
+//! Burns with delta-V steering, large slews, saturation and a failed wheel; jitter of a flexible structure; the safe modes of
+//! paper 001; the estimated curves of its Figures 7 and 8.
 
 mod burn;
 mod burn_flight;
 mod cosimulation;
 mod guided_loop;
+mod jitter;
+mod jitter_flight;
+mod jitter_theory;
 mod safe_mode;
 mod safe_mode_checks;
 mod safe_mode_flight;
@@ -14,9 +17,11 @@ mod slew;
 mod slew_figures;
 mod slew_flight;
 mod slew_limits;
+mod spectrum;
 mod transition;
 
 pub use burn::burn;
+pub use jitter::jitter;
 pub use safe_mode::safe_mode;
 pub use slew::slew;
 pub use transition::transition;

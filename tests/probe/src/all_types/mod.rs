@@ -61,7 +61,7 @@ impl Model for AllTypes {
     const NAME: &'static str = "AllTypes";
     const STATE_VERSION: u32 = 1;
     const SETUP_FILE: Option<&'static str> = Some("all-types.toml");
-    const SCHEDULE_FILE: Option<&'static str> = Some("all-types-schedule.toml");
+    const SCHEDULE_FILES: &'static [&'static str] = &["all-types-schedule.toml"];
     const DEFAULT_SETUP: &'static str = include_str!("../../resources/all-types.toml");
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates().differentiable();
 
@@ -73,7 +73,12 @@ impl Model for AllTypes {
         Setup::parse(file, text)
     }
 
-    fn parse_schedule(setup: &mut Setup, file: &str, text: &str) -> Result<(), fmi_export::SetupError> {
+    fn parse_schedule(
+        setup: &mut Setup,
+        _schedule: &str,
+        file: &str,
+        text: &str,
+    ) -> Result<(), fmi_export::SetupError> {
         setup.take_schedule(file, text)
     }
 

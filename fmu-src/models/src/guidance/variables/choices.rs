@@ -1,11 +1,12 @@
 //! Guidance's choices.
 
+use fmi_export::Enumeration;
 use physics::bodies::Body;
 use physics::guidance::antenna::Antenna;
 use physics::guidance::command;
 use physics::guidance::keep_in;
 use physics::guidance::lighting;
-use physics::guidance::modes;
+use physics::guidance::mode;
 
 use crate::common::choices::{enumeration_of, optional_enumeration_of};
 
@@ -173,7 +174,7 @@ optional_enumeration_of! {
 
 optional_enumeration_of! {
     /// A mode asked for.
-    ModeRequest(modes::Mode) {
+    ModeRequest(mode::Mode) {
         /// None: the mode stays.
         none = 0,
         /// Operational.
@@ -187,7 +188,7 @@ optional_enumeration_of! {
 
 enumeration_of! {
     /// The mode in force.
-    ActiveMode(modes::Mode) {
+    ActiveMode(mode::Mode) {
         /// Every command is followed.
         operational = 1 => Operational,
         /// Downlink only, within its own keep-in zone.
@@ -227,4 +228,30 @@ enumeration_of! {
         /// At the back, azimuth 90 to 180 deg.
         back = 2 => Back,
     }
+}
+
+/// Origin of the Sun's and the planets' positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum EphemerisSource {
+    /// The analytic theory VSOP87.
+    Vsop87 = 1,
+    /// The planet on an ellipse about the Sun by ephemeris.semiMajorAxis and so on, as paper 004 prints it; the Earth by
+    /// VSOP87.
+    Kepler = 2,
+    /// The inputs sun.position and earth.position.
+    Inputs = 3,
+    /// As flown (paper 001): precise Chebyshev models, by the FMU's ephemeris.toml or else by VSOP87, checked against the
+    /// Sun sensors, and coarse ones as the modes allow.
+    Chebyshev = 4,
+    /// Coarse models alone: polynomials of Keplerian elements by ephemeris.toml, or else by VSOP87 averaged over ten years.
+    Coarse = 5,
+}
+
+/// Ephemerides by how good they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum EphemerisModel {
+    /// Those of ephemeris.source.
+    Precise = 1,
+    /// Polynomials of Keplerian elements.
+    Coarse = 2,
 }

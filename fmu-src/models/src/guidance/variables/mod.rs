@@ -3,6 +3,7 @@
 pub mod burn;
 pub mod choices;
 pub mod commands;
+pub mod ephemeris;
 pub mod limits;
 pub mod outputs;
 pub mod surroundings;
@@ -11,12 +12,13 @@ use fmi_export::{Real, RealVector, Variables};
 use physics::guidance::scan::SCANS;
 
 use super::setup::GuidanceSetup;
-use crate::common::variables::{EphemerisVariables, GuidedVariables, WorkLimit};
+use crate::common::variables::{GuidedVariables, WorkLimit};
 use burn::{AccelerometerVariables, BurnVariables, ThrustVariables};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
     ModeVariables, PointingVariables, ScanCompatibilityVariables, ScanVariables,
 };
+use ephemeris::EphemerisVariables;
 use limits::{
     AntennaVariables, EarthAcquisitionVariables, HotPoleVariables, KeepInVariables, LinkVariables,
     MdisVariables, MonitorVariables, SafeHoldVariables, SunSearchVariables,

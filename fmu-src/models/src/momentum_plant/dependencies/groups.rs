@@ -100,12 +100,12 @@ impl Start {
         let turned_about_z = knowns![v.planet.pole_right_ascension];
         let ephemeris = knowns![
             v.start.epoch,
-            ephemeris.semi_major_axis,
-            ephemeris.eccentricity,
-            ephemeris.inclination,
-            ephemeris.ascending_node,
-            ephemeris.periapsis_argument,
-            ephemeris.true_anomaly,
+            ephemeris.ellipse.semi_major_axis,
+            ephemeris.ellipse.eccentricity,
+            ephemeris.ellipse.inclination,
+            ephemeris.ellipse.ascending_node,
+            ephemeris.ellipse.periapsis_argument,
+            ephemeris.ellipse.true_anomaly,
         ];
         let sun_z = knowns![&begun, &elements, &ephemeris];
         let sun = knowns![&sun_z, &turned_about_z];

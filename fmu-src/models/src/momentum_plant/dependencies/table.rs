@@ -5,6 +5,7 @@ use fmi_export::{Dependencies, Knowns, knowns};
 use super::super::setup::PlantSetup;
 use super::super::variables::PlantVariables;
 use super::dynamics::{momentum, sensors, wheels_and_control};
+use super::flexibility::swinging;
 use super::groups::{Inputs, Start, panels_weigh};
 use super::propulsion::thrusters;
 use crate::common::spacecraft::{
@@ -21,6 +22,7 @@ pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
     sensors(&mut table, v, inputs, start);
     momentum(&mut table, v, inputs, start);
     wheels_and_control(&mut table, setup, v, inputs, start);
+    swinging(&mut table, v, start);
     craft(&mut table, setup, v, inputs, start);
     thrusters(&mut table, setup, v, inputs, start);
     table

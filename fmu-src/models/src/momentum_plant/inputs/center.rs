@@ -113,9 +113,4 @@ impl<'a> Center<'a> {
             frame => frame,
         }
     }
-
-    /// Elements of the centre's own ellipse about the Sun, in the ecliptic of J2000.
-    pub fn ellipse(&self) -> Elements {
-        self.variables.ephemeris.ellipse(self.values, self.body)
-    }
 }

@@ -14,6 +14,7 @@ use physics::plant::{
 
 use super::propulsion::reaction_control;
 
+use super::flexibility;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::choices::{AttitudeSource, CommandSource};
 
@@ -84,7 +85,11 @@ pub fn settings(
         }
     }
     let axes: Vec<_> = wheels.iter().map(|wheel| wheel.axis_body).collect();
+    let appendages = flexibility::appendages(context, values)?;
     let gyrostat = Gyrostat::new(configuration.inertia_body_kg_m2, wheels)
+        .and_then(|rigid| {
+            rigid.with_appendages(appendages, configuration.mass_kg, configuration.center_of_mass_body_m)
+        })
         .map_err(|error| Failure::new(format!("spacecraft.inertia, wheel[k].*: {error}")))?;
     let controlled = matches!(values.choice(v.attitude.source), Some(AttitudeSource::Controlled));
     let control = if controlled {

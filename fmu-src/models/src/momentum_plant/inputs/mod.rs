@@ -2,6 +2,7 @@
 
 pub mod center;
 pub mod dynamics;
+mod flexibility;
 pub mod propulsion;
 pub mod state;
 
@@ -11,9 +12,7 @@ use physics::bodies::surface::MERCURY;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
 use physics::environment::CartesianState;
-use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
-use physics::environment::paper004::KeplerPlanet;
 use physics::environment::time;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
@@ -25,8 +24,8 @@ use self::center::Center;
 use self::state::PlantState;
 use super::setup::Plan;
 use super::variables::PlantVariables;
-use super::variables::choices::{DumpReinitTo, OrbitDynamics, OrbitSource, PanelTilt};
-use crate::common::choices::EphemerisSource;
+use super::variables::choices::{DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource, PanelTilt};
+use crate::common::ephemeris;
 use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
@@ -61,12 +60,8 @@ pub fn refreshed(
         )));
     }
     let epoch_s = values.real(variables.start.epoch);
-    let computed = !matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs));
-    if computed && epoch_s.abs() > VALID_EPOCH_S {
-        return Err(Failure::new(format!(
-            "start.epoch: found {epoch_s:?} s, allowed: within {VALID_EPOCH_S:e} s (4000 years) of J2000, for which \
-             VSOP87 is made"
-        )));
+    if !matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs)) {
+        ephemeris::check_start(epoch_s)?;
     }
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
     let mut panels = previous.map_or_else(|| Vec::with_capacity(variables.panel.len()), |old| old.panels);
@@ -92,7 +87,7 @@ pub fn refreshed(
         attitude: attitude(context, values, state, body, &orbit)?,
         orbit,
         motion: motion(variables, values, &data),
-        ephemeris: ephemeris(&center, variables, values, state)?,
+        ephemeris: ephemeris_source(&center, context, values, state)?,
         light: if values.boolean(variables.solar.fixed_pressure) {
             SunLight::Fixed { pressure_pa: values.real(variables.solar.pressure) }
         } else {
@@ -126,6 +121,24 @@ pub fn refreshed(
         configuration.left = Some(left);
     }
     Ok(configuration)
+}
+
+/// Refuses a step that leaves the span of the flown ephemerides it goes by.
+pub fn check_span(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+    end_s: f64,
+) -> Result<(), Failure> {
+    let variables = context.variables;
+    let is_flown = matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Chebyshev));
+    let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_flown) else {
+        return Ok(());
+    };
+    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
+    let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
+    let center = Center::of(variables, values).body;
+    ephemeris::check_flown(carried, center, "the epoch at the end of the step", end_epoch_s)
 }
 
 /// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.
@@ -205,14 +218,15 @@ fn motion(variables: &PlantVariables, values: &Values, center: &BodyData) -> Mot
     }
 }
 
-fn ephemeris(
+fn ephemeris_source(
     center: &Center<'_>,
-    variables: &PlantVariables,
+    context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
 ) -> Result<plant::EphemerisSource, Failure> {
-    let ephemeris = &variables.ephemeris;
-    Ok(match values.choice(ephemeris.source) {
+    let variables = context.variables;
+    let epoch_s = values.real(variables.start.epoch);
+    Ok(match values.choice(variables.ephemeris.source) {
         Some(EphemerisSource::Inputs) => {
             let sun_m = Vector3::from(values.vector(variables.sun.position));
             let at_the_planet = center.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
@@ -226,10 +240,16 @@ fn ephemeris(
             plant::EphemerisSource::Given { sun_m, earth_m }
         }
         Some(EphemerisSource::Kepler) => {
-            let planet = KeplerPlanet::new(center.ellipse(), values.real(variables.start.epoch))
-                .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))?;
-            plant::EphemerisSource::Kepler(planet)
+            let ellipse = &variables.ephemeris.ellipse;
+            plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, values, center.body, epoch_s)?)
         }
+        Some(EphemerisSource::Chebyshev) => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
+            Some(carried) => {
+                ephemeris::check_flown(carried, center.body, "start.epoch", epoch_s)?;
+                plant::EphemerisSource::Flown(carried.clone())
+            }
+            None => plant::EphemerisSource::Vsop87,
+        },
         Some(EphemerisSource::Vsop87) | None => plant::EphemerisSource::Vsop87,
     })
 }

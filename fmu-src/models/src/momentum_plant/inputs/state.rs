@@ -18,9 +18,9 @@ use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
 use super::propulsion::{SaidOfThrusters, reaction_control};
-use crate::common::choices::{CommandKind, EphemerisSource, OrbitCenter};
+use crate::common::choices::{CommandKind, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
-use crate::momentum_plant::variables::choices::{AttitudeSource, OrbitSource};
+use crate::momentum_plant::variables::choices::{AttitudeSource, EphemerisSource, OrbitSource};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -130,6 +130,7 @@ impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
         let (wheels, thrusters) = (spacecraft.wheels.len(), spacecraft.thrusters.len());
+        let oscillators = spacecraft.oscillator_count();
         let finite = |x: &f64| x.is_finite();
         let CommandInputs { q, rate, error, .. } = &self.command_inputs;
         let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
@@ -148,7 +149,9 @@ impl PlantState {
             ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
             (
                 "body, wheels, thrusters, sensors and control",
-                self.dynamics.as_ref().is_none_or(|dynamics| dynamics.is_sound(wheels, thrusters)),
+                self.dynamics
+                    .as_ref()
+                    .is_none_or(|dynamics| dynamics.is_sound(wheels, thrusters, oscillators)),
             ),
             (
                 "propellant and dumps",

@@ -83,7 +83,7 @@ pub fn begin(
     let mut mass = configuration.loaded();
     if settings.panels_have_mass {
         mass = flight(context, state, &mut configuration, &acting)?.mass_at_start(time_s, attitude);
-        settings.gyrostat.set_inertia(mass.inertia_body_kg_m2);
+        settings.gyrostat.set_mass_properties(mass.inertia_body_kg_m2, mass.center_of_mass_body_m);
     }
     let wheels = &context.variables.wheel;
     let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
@@ -209,8 +209,13 @@ fn show(
     let Some(flown) = state.dynamics.take() else { return Ok(()) };
     let body = flown.body(settings, time_s);
     let [external, _] = dynamics::external(context, values, over_time, time_s);
-    let evaluation =
-        flown.evaluation(&mut flight(context, state, configuration, &|_| external)?, &body, external, time_s);
+    let evaluation = flown.evaluation(
+        settings,
+        &mut flight(context, state, configuration, &|_| external)?,
+        &body,
+        external,
+        time_s,
+    );
     let totals = Totals {
         momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
         delta_v_inertial_m_s: body.delta_v_inertial_m_s,

@@ -158,6 +158,12 @@ pub fn write_dynamics(
         values.set_real(wheel.torque, flown.motor_n_m(k));
         values.set_boolean(wheel.saturated, flown_wheel.is_saturated(momentum_n_m_s));
     }
+    for (k, mode) in v.flexible_mode.iter().enumerate() {
+        values.set_real(mode.displacement, flown.mode_sqrt_kg_m(k, time_s, body));
+    }
+    for (k, slosh) in v.slosh.iter().enumerate() {
+        values.set_vector(slosh.angle, flown.slosh_rad(settings, k, time_s, body));
+    }
     let estimate = flown.estimate_at(time_s);
     values.set_vector(v.estimate.q, estimate.attitude.quaternion(None));
     values.set_vector(v.estimate.rate, estimate.rate_body_rad_s.unwrap_or_default().into());

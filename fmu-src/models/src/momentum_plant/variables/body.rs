@@ -86,6 +86,12 @@ pub struct WheelVariables {
     /// Viscous friction, in N m per rad/s.
     #[parameter(unit = "N.m.s", min = 0.0, max = 1e12, start = setup.spacecraft.wheels[index].viscous_friction_n_m_s)]
     pub viscous_friction: Real,
+    /// Static imbalance of the rotor: the force U W^2 turns with it, in controlled and free flight.
+    #[parameter(unit = "kg.m", display = "g.cm", min = 0.0, max = 1e6, start = setup.spacecraft.wheels[index].static_imbalance_kg_m)]
+    pub static_imbalance: Real,
+    /// Place of the rotor in the body frame, on which the torque by its imbalance depends.
+    #[parameter(unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.wheels[index].position_body_m.into())]
+    pub position: RealVector<3>,
     /// Whether the rotor is fixed to the body.
     #[parameter(start = false)]
     pub locked: Boolean,

@@ -109,3 +109,17 @@ pub enum DumpReinitTo {
     /// The component of dump.target.
     Target = 2,
 }
+
+/// Origin of the Sun's and the planets' positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum EphemerisSource {
+    /// The analytic theory VSOP87.
+    Vsop87 = 1,
+    /// The planet on an ellipse about the Sun by ephemeris.semiMajorAxis and so on, as paper 004 prints it; the Earth by
+    /// VSOP87.
+    Kepler = 2,
+    /// The inputs sun.position and earth.position.
+    Inputs = 3,
+    /// The Chebyshev segments of the FMU's ephemeris.toml, within their span; in an FMU without that file as vsop87.
+    Chebyshev = 4,
+}

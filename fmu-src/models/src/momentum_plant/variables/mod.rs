@@ -5,6 +5,7 @@ pub mod choices;
 mod control;
 pub mod defaults;
 mod effects;
+mod flexibility;
 mod motion;
 mod propulsion;
 mod surroundings;
@@ -20,15 +21,18 @@ use effects::{
     DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
     ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
+use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
 use propulsion::{
     AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
-use surroundings::{EarthVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables};
+use surroundings::{
+    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables,
+};
 
 use super::setup::PlantSetup;
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, EphemerisVariables, GuidedVariables};
+use crate::common::variables::{EclipseVariables, GuidedVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]
@@ -68,6 +72,10 @@ pub struct PlantVariables {
     pub panel: Vec<PanelVariables>,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
+    #[group(count = setup.spacecraft.flexible_modes.len())]
+    pub flexible_mode: Vec<FlexibleModeVariables>,
+    #[group(count = setup.spacecraft.sloshes.len())]
+    pub slosh: Vec<SloshVariables>,
     #[group]
     pub control: ControlVariables,
     #[group]

@@ -1,10 +1,21 @@
 //! Planet, Sun and Earth.
 
-use fmi_export::{Boolean, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
+use super::choices::EphemerisSource;
 use super::defaults;
-use crate::common::variables::SurfaceVariables;
+use crate::common::variables::{EllipseVariables, SurfaceVariables};
+
+/// Positions of the Sun, the orbit's centre and the Earth.
+#[derive(Variables)]
+pub struct EphemerisVariables {
+    /// Where the positions of Sun and Earth come from.
+    #[parameter(start = EphemerisSource::Vsop87)]
+    pub source: Choice<EphemerisSource>,
+    #[group(name = "")]
+    pub ellipse: EllipseVariables,
+}
 
 /// The planet the spacecraft orbits.
 #[derive(Variables)]

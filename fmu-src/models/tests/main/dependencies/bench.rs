@@ -152,6 +152,12 @@ impl<M: Model> Bench<M> {
         self
     }
 
+    /// A file beside the setup.
+    pub fn with_schedule(mut self, schedule: &str, text: &str) -> Self {
+        M::parse_schedule(&mut self.setup, schedule, schedule, text).unwrap();
+        self
+    }
+
     /// What String parameters are set to.
     pub fn with_texts(mut self, texts: &[&'static str]) -> Self {
         self.texts = texts.to_vec();

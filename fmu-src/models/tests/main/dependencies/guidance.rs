@@ -57,6 +57,9 @@ const CARRIERS: &[(&str, &str)] = &[
     ("", "constraint.hotPole"),
 ];
 
+/// Ephemerides of a Sun and an Earth that stand still.
+const FLOWN: &str = include_str!("still_ephemeris.toml");
+
 /// More than is needed until everything was seen.
 const ROUNDS: usize = 1_500;
 
@@ -75,6 +78,8 @@ enum Subject {
     Modes,
     /// The monitor, which trips at once.
     Monitor,
+    /// Flown ephemerides, judged by the Sun sensors at once.
+    Ephemeris,
     /// The four vectors by their options, without constraints.
     Generic,
     /// A direction that is missing, by what it is.
@@ -95,6 +100,7 @@ fn subjects() -> Vec<Subject> {
     let scans = (1..=5).map(Subject::Scan);
     let others = [
         Subject::Modes,
+        Subject::Ephemeris,
         Subject::OrbitPhase,
         Subject::HotPole,
         Subject::Monitor,
@@ -170,6 +176,15 @@ fn draw(bench: &Guide, random: &mut RandomNumbers, subject: Subject) -> Tables {
             bench.put(&mut values, "mode.request", random.whole(0, 2));
             bench.put(&mut values, "keepIn.enabled", chance(random, 0.8));
             bench.put(&mut values, "ephemeris.source", if random.next() < 0.8 { 3.0 } else { 2.0 });
+        }
+        Subject::Ephemeris => {
+            bench.put(&mut values, "pointing.scenario", random.whole(2, 3));
+            bench.put(&mut values, "ephemeris.source", 4.0);
+            bench.put(&mut values, "target.planet", 1.0);
+            bench.put(&mut values, "mode.request", random.whole(0, 1));
+            bench.put(&mut values, "sun.sensedValid", 1.0);
+            bench.put(&mut values, "monitor.enabled", 0.0);
+            bench.put(&mut values, "aimpoint.option", random.whole(1, 3));
         }
         Subject::Generic => {
             bench.put(&mut values, "pointing.scenario", 1.0);
@@ -307,6 +322,12 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         if random.next() < 0.5 { 0.0 } else { random.between(0.0, 6.0) },
     );
     bench.put(values, "monitor.margin", random.between(0.0, 1.5));
+    bench.put(
+        values,
+        "ephemeris.persistence",
+        if random.next() < 0.8 { 0.0 } else { random.between(0.0, 6.0) },
+    );
+    bench.put(values, "ephemeris.tolerance", random.between(0.0, 3.0));
     bench.put(values, "mdis.minimum", random.between(-1.5, -0.2));
     bench.put(values, "mdis.maximum", random.between(0.2, 1.5));
     bench.put(values, "sunSearch.duration", random.between(1.0, 4.0));
@@ -542,7 +563,7 @@ fn disturb(bench: &Guide, random: &mut RandomNumbers, flight: &mut Simulation<Gu
 }
 
 fn measure(text: &str, rounds: usize) {
-    let mut bench = Guide::new(text).with_carriers(CARRIERS);
+    let mut bench = Guide::new(text).with_carriers(CARRIERS).with_schedule("ephemeris.toml", FLOWN);
     let mut random = RandomNumbers(17);
     let subjects = subjects();
     let mut flown = 0;
@@ -568,6 +589,15 @@ fn measure(text: &str, rounds: usize) {
             for margin_rad in [0.0, 3.1] {
                 let mut other = values.clone();
                 bench.put(&mut other, "monitor.margin", margin_rad);
+                others.push(other);
+            }
+        } else if subject == Subject::Ephemeris {
+            // From where the Sun sensors contradict to where they do not.
+            for (name, value) in
+                [("ephemeris.tolerance", 0.0), ("ephemeris.tolerance", 3.1), ("ephemeris.persistence", 9.0)]
+            {
+                let mut other = values.clone();
+                bench.put(&mut other, name, value);
                 others.push(other);
             }
         } else {

@@ -115,4 +115,12 @@ capacity_n_m_s = 4.0
 [[wheels]]
 axis = [-0.6, 0.0, 0.8]
 capacity_n_m_s = 12.0
+[[flexible_modes]]
+frequency_hz = 0.8
+coupling_sqrt_kg_m = [3.0, -2.0, 4.0]
+[[slosh]]
+mass_kg = 20.0
+length_m = 0.3
+pivot_m = [0.3, 0.1, 0.2]
+axis = [0.6, 0.0, 0.8]
 "#;

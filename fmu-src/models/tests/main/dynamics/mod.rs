@@ -1,10 +1,12 @@
 //! Controlled and free flight: rigid body, wheels, controller, sensors.
 
 mod control;
+mod flexibility;
 mod momentum;
 mod panels;
 mod refusals;
 mod sensors;
+mod thrusters;
 
 use models::MomentumPlant;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};

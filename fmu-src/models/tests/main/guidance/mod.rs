@@ -1,6 +1,7 @@
 //! Guidance through the functions a master calls.
 
 mod cuts;
+mod ephemeris;
 mod modes;
 mod pointing;
 mod same_law;

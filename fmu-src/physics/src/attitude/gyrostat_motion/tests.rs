@@ -21,7 +21,7 @@ fn wheel(axis_body: Vector3<f64>) -> ReactionWheel {
     }
 }
 
-fn pyramid() -> Vec<ReactionWheel> {
+pub(super) fn pyramid() -> Vec<ReactionWheel> {
     let c = (1.0f64 / 3.0).sqrt();
     [(c, c), (c, -c), (-c, -c), (-c, c)].iter().map(|&(x, z)| wheel(Vector3::new(x, c, z))).collect()
 }
@@ -31,7 +31,7 @@ fn craft(wheels: Vec<ReactionWheel>) -> Gyrostat {
 }
 
 /// Flies on to `end_s` in pieces of at most `piece_s`.
-fn fly(
+pub(super) fn fly(
     motion: &mut GyrostatMotion,
     craft: &Gyrostat,
     motors: &[Motor],

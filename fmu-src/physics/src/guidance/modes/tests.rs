@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Rotation3;
 
+use super::super::command::{PointingCommand, Scenario};
 use super::super::downlink::{DownlinkRequest, downlink};
 use super::super::hot_pole::HotPole;
 use super::super::keep_in::{KeepIn, KeepInMethod};
@@ -29,6 +30,7 @@ fn settings() -> ModeSettings {
         operational: Constraints { keep_in: Some(zone(0.3)), hot_pole: None },
         safe_hold: Constraints { keep_in: Some(zone(0.2)), hot_pole: None },
         monitor: Some(Monitor { margin_rad: 0.01, persistence_s: 0.0 }),
+        ephemeris_check: None,
         watches_hot_pole: true,
         boresight_body: -Vector3::y() * 2.0,
         earth_acquisition_rate_rad_s: 1e-3,
@@ -93,7 +95,8 @@ fn the_modes_change_by_the_table() {
         for sun_body in [None, Some(Vector3::x())] {
             let mut state = ModeState { mode, last_request, ..ModeState::default() };
             let sensed = Sensed { sun_body, ..sensed(request, estimate) };
-            let steering = state.sample(&settings(), &sensed, Some(&surroundings())).unwrap();
+            let steering =
+                state.sample(&settings(), &sensed, &Places::in_every_mode(Some(surroundings()))).unwrap();
             assert_eq!(state.mode, expected, "row {row}");
             assert!(state.is_sound());
             let lost = estimate.is_none() && sun_body.is_none();
@@ -115,10 +118,10 @@ fn the_modes_change_by_the_table() {
 fn without_ephemeris_or_monitor_nothing_is_judged() {
     let far_off = sensed(None, Some(estimate(2.0)));
     let mut state = ModeState::default();
-    state.sample(&settings(), &far_off, None).unwrap();
+    state.sample(&settings(), &far_off, &Places::in_every_mode(None)).unwrap();
     assert_eq!(state.mode, Operational);
     let unwatched = ModeSettings { monitor: None, ..settings() };
-    state.sample(&unwatched, &far_off, Some(&surroundings())).unwrap();
+    state.sample(&unwatched, &far_off, &Places::in_every_mode(Some(surroundings()))).unwrap();
     assert_eq!(state.mode, Operational);
 }
 
@@ -139,7 +142,7 @@ fn after_a_promotion_a_violation_counts_in_full() {
         (8.0, 1.3, Some(Operational), SafeHold),
     ] {
         let sensed = Sensed { time_s, ..sensed(request, Some(estimate(angle_rad))) };
-        state.sample(&settings, &sensed, Some(&surroundings())).unwrap();
+        state.sample(&settings, &sensed, &Places::in_every_mode(Some(surroundings()))).unwrap();
         assert_eq!(state.mode, expected, "{time_s}");
     }
 }
@@ -151,7 +154,9 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
     let cone = HotPole { altitude_m: 1e8, angle_rad: 0.5, cone_rad: 1.7 };
     settings.safe_hold.hot_pole = Some(cone);
     let mut state = ModeState::default();
-    let sample = state.sample(&settings, &sensed(None, Some(estimate(2.0))), Some(&surroundings)).unwrap();
+    let sample = state
+        .sample(&settings, &sensed(None, Some(estimate(2.0))), &Places::in_every_mode(Some(surroundings)))
+        .unwrap();
     let Steering::Pointing(constraints) = sample else { panic!("{sample:?}") };
     assert_eq!(state.mode, SafeHold);
     for azimuth_rad in [None, Some(-1.5), Some(2.0)] {
@@ -183,7 +188,13 @@ fn safe_hold_takes_downlink_without_scan_and_nothing_else() {
 fn losing_the_sun_sensors_alone_demotes_nothing() {
     let mut state = ModeState::default();
     for request in [None, Some(SafeHold)] {
-        state.sample(&settings(), &sensed(request, Some(estimate(0.0))), Some(&surroundings())).unwrap();
+        state
+            .sample(
+                &settings(),
+                &sensed(request, Some(estimate(0.0))),
+                &Places::in_every_mode(Some(surroundings())),
+            )
+            .unwrap();
         assert_eq!(state.mode, request.unwrap_or(Operational));
     }
 }
@@ -193,7 +204,8 @@ fn the_search_turns_about_x_y_and_z_until_the_sun_is_back() {
     let mut state = ModeState::default();
     let mut at = |time_s: f64, estimate, sun_body| {
         let sensed = Sensed { time_s, request: None, estimate, sun_body };
-        let steering = state.sample(&settings(), &sensed, Some(&surroundings())).unwrap();
+        let steering =
+            state.sample(&settings(), &sensed, &Places::in_every_mode(Some(surroundings()))).unwrap();
         assert_eq!(state.mode, EarthAcquisition);
         (steering, state.search_since_s)
     };

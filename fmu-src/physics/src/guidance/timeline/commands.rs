@@ -17,7 +17,7 @@ use crate::guidance::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, FULL_TURN_RAD,
     LimbCommand, PointingCommand, RIGHT_ANGLE_RAD, Scenario,
 };
-use crate::guidance::modes::Mode;
+use crate::guidance::mode::Mode;
 use crate::spacecraft::{Checker, Instrument, Place, nearest};
 
 /// Whether each key of a table is given.

@@ -8,7 +8,7 @@ use crate::guidance::command::{
     AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
     Scenario,
 };
-use crate::guidance::modes::Mode;
+use crate::guidance::mode::Mode;
 
 /// Commands of Guidance over time.
 #[derive(Debug, Deserialize)]

@@ -2,7 +2,7 @@
 
 use crate::guidance::command::PointingCommand;
 use crate::guidance::keep_in::KeepIn;
-use crate::guidance::modes::Mode;
+use crate::guidance::mode::Mode;
 
 /// By which clock a timeline counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

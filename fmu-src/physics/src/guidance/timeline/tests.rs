@@ -9,7 +9,7 @@ use super::*;
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::guidance::command::*;
-use crate::guidance::modes::Mode;
+use crate::guidance::mode::Mode;
 use crate::spacecraft::{Instrument, MESSENGER_TOML, Spacecraft};
 
 const EXAMPLE: &str = include_str!("../../../../resources/examples/timeline.toml");

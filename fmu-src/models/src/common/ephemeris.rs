@@ -1,0 +1,66 @@
+//! Where Sun and planets stand: what parameters and the file of flown ephemerides say, checked by name.
+
+use std::sync::Arc;
+
+use fmi_export::{Failure, SetupError, Values};
+use physics::bodies::Body;
+use physics::environment::ephemeris::VALID_EPOCH_S;
+use physics::environment::flown::{FlownEphemeris, FlownTarget};
+use physics::environment::paper004::KeplerPlanet;
+
+use super::variables::EllipseVariables;
+
+/// The file of flown ephemerides in the resources.
+pub const EPHEMERIS_FILE: &str = "ephemeris.toml";
+
+/// Reads flown ephemerides; `file` names the text in errors.
+pub fn read(file: &str, text: &str) -> Result<Arc<FlownEphemeris>, SetupError> {
+    FlownEphemeris::from_toml(file, text).map(Arc::new).map_err(|error| SetupError(error.to_string()))
+}
+
+/// The file's ephemerides if it has precise models.
+pub fn precise(carried: Option<&Arc<FlownEphemeris>>) -> Option<&Arc<FlownEphemeris>> {
+    carried.filter(|carried| !carried.precise.is_empty())
+}
+
+/// Refuses a start that VSOP87 is not made for.
+pub fn check_start(epoch_s: f64) -> Result<(), Failure> {
+    if epoch_s.abs() <= VALID_EPOCH_S {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "start.epoch: found {epoch_s:?} s, allowed: within {VALID_EPOCH_S:e} s (4000 years) of J2000, for which VSOP87 \
+         is made"
+    )))
+}
+
+/// The planet on the ellipse of `ephemeris.source` kepler.
+pub fn kepler(
+    ellipse: &EllipseVariables,
+    values: &Values,
+    body: Body,
+    epoch_s: f64,
+) -> Result<KeplerPlanet, Failure> {
+    KeplerPlanet::new(ellipse.read(values, body), epoch_s)
+        .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
+}
+
+/// Refuses flown ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.
+pub fn check_flown(carried: &FlownEphemeris, center: Body, what: &str, epoch_s: f64) -> Result<(), Failure> {
+    let from = FlownTarget::from(center);
+    for target in [FlownTarget::Sun, FlownTarget::Earth].into_iter().filter(|target| *target != from) {
+        let [start_s, end_s] = carried.span_s(target, center).ok_or_else(|| {
+            Failure::new(format!(
+                "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {from}, allowed: positions of sun and earth \
+                 that lead to {from}, from whose centre this model counts"
+            ))
+        })?;
+        if !(start_s..=end_s).contains(&epoch_s) {
+            return Err(Failure::new(format!(
+                "{what}: found {epoch_s:?} s, allowed: from {start_s:?} to {end_s:?} s past J2000, where {EPHEMERIS_FILE} \
+                 places {target}"
+            )));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,33 @@
+//! What flexible modes, propellant and rotors out of balance depend on, and what depends on them.
+
+use fmi_export::{Dependencies, Knowns, knowns};
+
+use super::super::variables::PlantVariables;
+use super::groups::Start;
+
+/// Modes and propellant are at rest where the flight begins; rotors out of balance push and turn the body from there on, and
+/// propellant does where a force moves it.
+pub fn swinging(table: &mut Dependencies, v: &PlantVariables, start: &Start) {
+    for mode in &v.flexible_mode {
+        table.output(mode.displacement, knowns![], knowns![]);
+    }
+    for slosh in &v.slosh {
+        table.output(slosh.angle, knowns![], knowns![]);
+    }
+    let wheels = v
+        .wheel
+        .iter()
+        .map(|wheel| knowns![wheel.axis, wheel.start_momentum, wheel.inertia, wheel.static_imbalance]);
+    let turning = knowns![&start.begun, v.attitude.source, wheels.collect::<Knowns>()];
+    let force = &turning.only_if(!v.wheel.is_empty());
+    let places = v.wheel.iter().map(|wheel| wheel.position).collect::<Knowns>();
+    let levers = knowns![places, v.spacecraft.center_of_mass].only_if(!v.wheel.is_empty());
+    table.output(
+        v.torque.total,
+        knowns![v.force.applied].only_if(!v.slosh.is_empty()),
+        knowns![force, levers],
+    );
+    table.output(v.force.total, knowns![], force);
+    table.output(v.force.inertial, knowns![], force);
+    table.output(v.acceleration, knowns![], knowns![force]);
+}

@@ -1,0 +1,360 @@
+//! Thrusters of the controlled and free plant: pulses, dumps, delta-v, attitude control, tanks.
+
+use models::MomentumPlant;
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::super::named_model::NamedModel;
+use super::{CONTROLLED, DARK, FREE, Flight, Start, fly, set_quaternion, to_inertial};
+
+const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
+
+/// Two couples about X and one thruster that pushes along +Z off the axis, on a body of simple numbers.
+const SIMPLE: &str = r#"
+name = "simple"
+[mass_properties]
+mass_kg = 500.0
+center_of_mass_m = [0.0, 0.0, 0.0]
+inertia_kg_m2 = [[200.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 400.0]]
+[optics.black]
+specular = 0.0
+diffuse = 0.0
+[[plates]]
+area_m2 = 1.0
+center_m = [0.0, 0.0, 0.0]
+normal = [0.0, -1.0, 0.0]
+optics = "black"
+[[tanks]]
+position_m = [0.0, 0.0, 0.0]
+propellant_kg = 50.0
+"#;
+
+/// One thruster of `SIMPLE`.
+fn thruster(position: [f64; 3], direction: [f64; 3], force_n: f64, more: &str) -> String {
+    format!(
+        "[[thrusters]]\nposition_m = {position:?}\ndirection = {direction:?}\nforce_n = {force_n:?}\n\
+         specific_impulse_s = 220.0\n{more}\n"
+    )
+}
+
+/// Couples each way about all axes: thrusters 1 to 12 of 5 N, arms of 1 m.
+fn couples(more: &str) -> String {
+    let mut text = String::new();
+    for axis in 0..3 {
+        for sense in [1.0, -1.0] {
+            for side in [1.0, -1.0] {
+                let (mut at, mut force) = ([0.0; 3], [0.0; 3]);
+                at[(axis + 1) % 3] = side;
+                force[(axis + 2) % 3] = side * sense;
+                text += &thruster(at, force, 5.0, more);
+            }
+        }
+    }
+    text
+}
+
+fn craft(thrusters: &str) -> NamedModel<MomentumPlant> {
+    NamedModel::<MomentumPlant>::with("simple.toml", &format!("{SIMPLE}{thrusters}"))
+}
+
+fn momentum(flight: &Flight<'_>) -> Vector3<f64> {
+    flight.vector("momentum.inertial")
+}
+
+const EXHAUST_M_S: f64 = 220.0 * 9.80665;
+
+#[test]
+fn a_pulse_train_gives_force_times_lever_times_time() {
+    for (ramps, lost_s) in [("", 0.0), ("rise_time_s = 0.004\ntail_off_time_s = 0.01", 0.003)] {
+        // Along +Z, 0.8 m off the axis along +Y: a torque about +X.
+        let named = craft(&(couples("") + &thruster([0.0, 0.8, -1.0], [0.0, 0.0, 1.0], 22.0, ramps)));
+        let mut flight = fly(&named, &[FREE, DARK]);
+        let (mut on_s, mut attitude_s) = (0.0, Vec::new());
+        for step in 0..40 {
+            let width_s = 0.002 * f64::from(step % 7) + 0.005;
+            flight.set("thruster[13].onDelay", 0.013);
+            flight.set("thruster[13].onTime", width_s);
+            on_s += width_s + lost_s;
+            attitude_s.push(to_inertial(&flight));
+            flight.step_to(0.1 * f64::from(step + 1)).unwrap();
+            assert_eq!(flight.real("thruster[13].thrust"), 0.0);
+        }
+        flight.set("thruster[13].onTime", 0.0);
+        // About an axis of inertia from rest: the momentum keeps its direction.
+        let expected = Vector3::x() * (22.0 * 0.8 * on_s);
+        assert!(
+            (momentum(&flight) - expected).norm() < 1e-13 * expected.norm(),
+            "{}",
+            momentum(&flight) - expected
+        );
+        assert!((flight.vector("attitude.rate").x - expected.x / 200.0).abs() < 1e-15);
+        let used_kg = 22.0 * on_s / EXHAUST_M_S;
+        assert!((flight.real("propellant.used") / used_kg - 1.0).abs() < 1e-12);
+        assert!((flight.real("mass") + used_kg - 500.0).abs() < 1e-12);
+        assert_eq!(flight.integer("thruster[13].pulses"), 40);
+    }
+}
+
+#[test]
+fn a_long_thrust_follows_the_rocket_equation() {
+    // Four through the centre of mass: no torque.
+    let main: String = [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]
+        .iter()
+        .map(|&(x, y)| thruster([x, y, -1.0], [0.0, 0.0, 1.0], 22.0, "set = \"c22\""))
+        .collect();
+    let named = craft(&(couples("") + &main));
+    let mut flight = fly(&named, &[FREE, DARK]);
+    flight.set("thrust.request", 2.0);
+    flight.set("thrust.command", 1.0);
+    flight.set("thrust.stop", 600.123_456);
+    for second in 1..=700 {
+        flight.step_to(f64::from(second)).unwrap();
+        assert_eq!(flight.boolean("thrust.active"), second <= 600);
+    }
+    let used_kg = 88.0 * 600.123_456 / EXHAUST_M_S;
+    assert!((flight.real("propellant.used") / used_kg - 1.0).abs() < 1e-12);
+    let delta_v = EXHAUST_M_S * (500.0 / (500.0 - used_kg)).ln();
+    assert!((flight.vector("deltaV").z / delta_v - 1.0).abs() < 1e-12, "{}", flight.vector("deltaV"));
+    assert!((flight.vector("accelerometer.deltaV").z / delta_v - 1.0).abs() < 1e-12);
+    assert!(momentum(&flight).norm() < 1e-9);
+}
+
+#[test]
+fn a_tank_runs_dry_and_blowdown_weakens() {
+    let file =
+        format!("{SIMPLE}ullage_m3 = 0.02\ndensity_kg_m3 = 1000.0\nallowed_pressure_pa = [6e5, 3e6]\n");
+    let main: String = (0..2)
+        .map(|k| {
+            thruster([0.0, if k == 0 { 0.5 } else { -0.5 }, -1.0], [0.0, 0.0, 1.0], 100.0, "set = \"lva\"")
+        })
+        .collect();
+    let named = NamedModel::<MomentumPlant>::with("blowdown.toml", &format!("{file}{}{main}", couples("")));
+    let mut flight = fly(&named, &[FREE, DARK]);
+    flight.set("thrust.request", 1.0);
+    flight.set("thrust.command", 1.0);
+    let time_s: f64 = 60.0;
+    flight.fly_to(time_s, 1.0).unwrap();
+    // rho (sqrt(V^2 + 2 c V t / rho) - V) with the flow c at the start.
+    let flow = 200.0 / EXHAUST_M_S;
+    let used = 1000.0 * ((0.02_f64.powi(2) + 2.0 * flow * 0.02 * time_s / 1000.0).sqrt() - 0.02);
+    assert!(
+        (flight.real("propellant.used") / used - 1.0).abs() < 1e-9,
+        "{}",
+        flight.real("propellant.used") / used - 1.0
+    );
+    let pressure = 2e6 * 0.02 / (0.02 + used / 1000.0);
+    assert!((flight.real("tank[1].pressureActual") / pressure - 1.0).abs() < 1e-9);
+    assert!((flight.vector("force.thruster").z / (200.0 * pressure / 2e6) - 1.0).abs() < 1e-9);
+    // 6e5 Pa are left at 46.7 kg, before it is empty: then nothing fires.
+    flight.fly_to(3_000.0, 5.0).unwrap();
+    assert!(!flight.boolean("tank[1].feeds"));
+    assert_eq!(flight.vector("force.thruster"), Vector3::zeros());
+    let left = flight.real("tank[1].propellantLeft");
+    assert!((50.0 - 0.02 * (2e6 / 6e5 - 1.0) * 1000.0 - left).abs() < 0.01, "{left}");
+
+    let named = craft(&(couples("") + &main));
+    let mut flight = fly(&named, &[FREE, DARK, &[("tank[1].propellant", 3.0)]]);
+    flight.set("thrust.request", 1.0);
+    flight.set("thrust.command", 1.0);
+    flight.fly_to(100.0, 7.0).unwrap();
+    assert_eq!(flight.real("tank[1].propellantLeft"), 0.0);
+    assert!((flight.real("propellant.used") - 3.0).abs() < 1e-12 && !flight.boolean("tank[1].feeds"));
+    assert!((flight.vector("deltaV").z - EXHAUST_M_S * (500.0_f64 / 497.0).ln()).abs() < 1e-9);
+}
+
+#[test]
+fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
+    let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
+    let target = Vector3::new(0.4, -0.3, 0.2);
+    let quiet: Start<'_> = &[("solar.flux", 0.0), ("gravityGradient.enabled", 0.0)];
+    let exact: Vec<(String, f64)> = (1..=17).map(|k| (format!("thruster[{k}].scatter"), 0.0)).collect();
+    let exact: Vec<(&str, f64)> = exact.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    let held: Start<'_> = &[("wheel[1].startMomentum", 3.0), ("wheel[2].startMomentum", -1.5)];
+    let mut flown = fly(&named, &[CONTROLLED, quiet, held, &exact]);
+    flown.step_to(10.0).unwrap();
+    let before = momentum(&flown);
+    let ask = |flight: &mut Flight<'_>| {
+        for (i, value) in target.iter().enumerate() {
+            flight.set(&format!("dump.target[{}]", i + 1), *value);
+        }
+        flight.set("dump.request", 1.0);
+    };
+    ask(&mut flown);
+    let mut greatest_rad = 0.0_f64;
+    for second in 11..=400 {
+        flown.step_to(f64::from(second)).unwrap();
+        greatest_rad = greatest_rad.max(to_inertial(&flown).angle_to(&UnitQuaternion::identity()));
+    }
+    assert!(!flown.boolean("dump.active") && flown.integer("dump.count") == 1);
+    // The smallest pulse: 4.4 N for 20 ms at 0.9 m or so, as a vector.
+    let smallest = 4.4 * 0.021 * 1.0;
+    assert!((momentum(&flown) - target).norm() < smallest, "{}", momentum(&flown) - target);
+    assert!((momentum(&flown) - before - flown.vector("dump.impulse")).norm() < 1e-6);
+    assert!(greatest_rad < 0.5_f64.to_radians(), "{}", greatest_rad.to_degrees());
+
+    let at: Vec<(String, f64)> = (0..3).map(|i| (format!("start.momentum[{}]", i + 1), before[i])).collect();
+    let at: Vec<(&str, f64)> = at.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    let commanded: Start<'_> = &[("attitude.source", 2.0)];
+    let mut ideal = fly(&named, &[commanded, quiet, &at]);
+    ask(&mut ideal);
+    ideal.step_to(10.0).unwrap();
+    let (impulse, ideal_impulse) = (flown.vector("dump.impulse"), ideal.vector("dump.impulse"));
+    assert!((impulse - ideal_impulse).norm() < smallest, "{impulse} {ideal_impulse}");
+    let (used, ideal_used) = (flown.real("propellant.used"), ideal.real("propellant.used"));
+    assert!((used / ideal_used - 1.0).abs() < 0.1, "{used} {ideal_used}");
+    assert!((ideal.real("mass") + ideal_used - 700.0).abs() < 1e-9);
+    let pushed = ideal.vector("dump.deltaV");
+    assert!((ideal.vector("deltaV") - pushed).norm() < 1e-12 && pushed.norm() < 0.05);
+}
+
+#[test]
+fn the_momentum_is_the_integral_of_all_torques() {
+    let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
+    let held: Start<'_> = &[("wheel[1].startMomentum", 4.0), ("wheel[3].startMomentum", 2.0)];
+    let mut flight = fly(&named, &[CONTROLLED, held]);
+    flight.step_to(1.0).unwrap();
+    flight.set("dump.request", 1.0);
+    let begin = momentum(&flight);
+    let (mut sum, mut most) = (Vector3::zeros(), 0.0_f64);
+    // Steps far shorter than the valves' ramps, the torque taken as linear over each.
+    let step_s = 2e-4;
+    let inertial = |flight: &Flight<'_>| to_inertial(flight) * flight.vector("torque.total");
+    let mut before = inertial(&flight);
+    for k in 1..=30_000 {
+        flight.step_to(1.0 + f64::from(k) * step_s).unwrap();
+        let now = inertial(&flight);
+        sum += (before + now) * (0.5 * step_s);
+        before = now;
+        most = most.max(flight.vector("torque.thruster").norm());
+    }
+    assert!(most > 1.0 && flight.boolean("dump.active"));
+    let change = momentum(&flight) - begin;
+    // The valves' corners within a step are all that the rule misses.
+    assert!((change - sum).norm() < 1e-3 * change.norm(), "{} of {}", (change - sum).norm(), change.norm());
+}
+
+#[test]
+fn thrusters_hold_the_attitude_of_a_large_burn() {
+    let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
+    let offset: Start<'_> = &[("spacecraft.centerOfMass[1]", 0.02)];
+    let mut flight = fly(&named, &[CONTROLLED, DARK, offset]);
+    set_quaternion(&mut flight, "command.q", &UnitQuaternion::identity());
+    flight.step_to(5.0).unwrap();
+    flight.set("thrust.request", 1.0);
+    flight.set("thrust.command", 1.0);
+    let angle = |flight: &Flight<'_>| to_inertial(flight).angle_to(&UnitQuaternion::identity()).to_degrees();
+    let (mut greatest, mut late) = (0.0_f64, 0.0_f64);
+    for k in 1..=600 {
+        flight.step_to(5.0 + 0.1 * f64::from(k)).unwrap();
+        greatest = greatest.max(angle(&flight));
+        if k > 300 {
+            late = late.max(angle(&flight));
+        }
+    }
+    let torque = flight.vector("force.thruster").z * 0.02;
+    assert!(torque > 13.0, "{torque}");
+    println!("660 N, 2 cm off: at most {greatest:.3} deg, after 30 s {late:.4} deg");
+    assert!(greatest < 2.0 && late < 0.1, "{greatest} {late}");
+    assert!(flight.integer("thruster[2].pulses") > 100, "those of 22 N hold it");
+    // The torque that 13 N m for a minute would have left.
+    assert!(momentum(&flight).norm() < 5.0, "{}", momentum(&flight));
+}
+
+#[test]
+fn thrusters_stand_in_for_failed_wheels() {
+    let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
+    let mut flight = fly(&named, &[CONTROLLED, DARK]);
+    for k in [1, 2] {
+        flight.set(&format!("wheel[{k}].failed"), 1.0);
+    }
+    let target = UnitQuaternion::new(Vector3::new(0.2, -0.1, 0.3));
+    set_quaternion(&mut flight, "command.q", &target);
+    flight.fly_to(600.0, 1.0).unwrap();
+    let off = to_inertial(&flight).angle_to(&target).to_degrees();
+    println!("two wheels failed: {off:.4} deg off after a turn of 21 deg");
+    assert!(off < 0.2, "{off}");
+    assert!(flight.real("propellant.used") > 0.0);
+}
+
+#[test]
+fn cutting_and_saving_change_no_bit() {
+    let named = NamedModel::<MomentumPlant>::with("messenger-full.toml", FULL);
+    let held: Start<'_> = &[
+        ("wheel[1].startMomentum", 3.0),
+        ("thrust.misalignment", 0.01),
+        ("thrust.drift", 1e-5),
+        ("thrust.jitter", 1e-3),
+        ("accelerometer.noise", 1e-4),
+    ];
+    let fly_in = |step_s: f64| {
+        let mut flight = fly(&named, &[CONTROLLED, held]);
+        flight.set("dump.request", 1.0);
+        flight.fly_to(60.0, step_s).unwrap();
+        flight.set("thrust.request", 2.0);
+        flight.set("thrust.command", 1.0);
+        flight.set("thrust.stop", 75.321);
+        flight.fly_to(90.0, step_s).unwrap();
+        let names = [
+            "attitude.q[1]",
+            "attitude.rate[2]",
+            "momentum.inertial[3]",
+            "deltaV[3]",
+            "propellant.used",
+            "mass",
+            "accelerometer.deltaV[3]",
+            "wheel[3].momentum",
+            "thruster[6].pulses",
+        ];
+        names.map(|name| {
+            if name.ends_with("pulses") { f64::from(flight.integer(name)) } else { flight.real(name) }
+                .to_bits()
+        })
+    };
+    let whole = fly_in(30.0);
+    for step_s in [0.013, 0.25, 7.0] {
+        assert_eq!(fly_in(step_s), whole, "{step_s}");
+    }
+}
+
+#[test]
+fn what_cannot_fire_is_refused_or_flagged() {
+    let refused = |file: &str, start: Start<'_>| named_error(file, start);
+    let one = format!("{SIMPLE}{}", thruster([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 22.0, ""));
+    let message = refused(&one, FREE);
+    assert!(message.contains("no torque about +X") && message.contains("[[thrusters]]"), "{message}");
+    let full = format!("{SIMPLE}{}", couples(""));
+    let message = refused(&full, &[("tank[1].propellant", 600.0)]);
+    assert!(message.contains("tank[k].propellant") && message.contains("500"), "{message}");
+    let bounded = format!("{SIMPLE}allowed_pressure_pa = [1e6, 3e6]\n{}", couples(""));
+    let message = refused(&bounded, &[("tank[1].pressure", 5e5)]);
+    assert!(message.contains("tank[1].pressure") && message.contains("1000000"), "{message}");
+
+    let named = craft(&(couples("min_on_time_s = 0.02")));
+    let mut flight = fly(&named, &[FREE, DARK]);
+    flight.set("thruster[1].onTime", 0.019);
+    flight.step_to(1.0).unwrap();
+    assert!(flight.boolean("thruster[1].tooShort") && flight.integer("thruster[1].pulses") == 0);
+    flight.set("thruster[1].onTime", 3.0);
+    flight.set("thrust.request", 1.0);
+    flight.set("thrust.command", 1.0);
+    flight.step_to(2.0).unwrap();
+    flight.step_to(3.0).unwrap();
+    let warnings = named.warnings();
+    assert_eq!(
+        warnings.iter().filter(|it| it.contains("thruster[1].onDelay and onTime reach beyond")).count(),
+        1,
+        "{warnings:?}"
+    );
+    assert_eq!(
+        warnings.iter().filter(|it| it.contains("thrust.request asks for")).count(),
+        1,
+        "{warnings:?}"
+    );
+    // Cut at each step and commanded anew there, it fires through.
+    assert_eq!(flight.integer("thruster[1].pulses"), 1);
+    assert!((momentum(&flight).norm() - 5.0 * 2.0).abs() < 1e-9, "{}", momentum(&flight).norm());
+}
+
+fn named_error(file: &str, start: Start<'_>) -> String {
+    let named = NamedModel::<MomentumPlant>::with("simple.toml", file);
+    named.fly(0.0, start).err().expect("refused").to_string()
+}

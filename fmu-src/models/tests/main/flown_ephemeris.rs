@@ -1,0 +1,47 @@
+//! Ephemeris files for tests: Sun and Earth from Mercury by VSOP87, the Sun turned aside where a test wants it wrong.
+
+use nalgebra::{Rotation3, Vector3};
+use physics::bodies::Body;
+use physics::environment::CartesianState;
+use physics::environment::ephemeris::Ephemeris;
+use physics::environment::flown::{FitPlan, FittedBody, FlownEphemeris, FlownTarget, to_toml};
+use physics::environment::time::MOMENTUM_STUDY_START_S;
+
+/// The file's name in the resources.
+pub const FILE: &str = "ephemeris.toml";
+
+/// Epoch at which flights start.
+pub const START_S: f64 = MOMENTUM_STUDY_START_S;
+
+/// A body from Mercury by VSOP87.
+pub fn from_mercury(body: Body, epoch_s: f64) -> CartesianState {
+    let mut ephemeris = Ephemeris::default();
+    let [body, mercury] = [body, Body::Mercury].map(|body| ephemeris.state(body, epoch_s));
+    CartesianState {
+        position_m: body.position_m - mercury.position_m,
+        velocity_m_s: body.velocity_m_s - mercury.velocity_m_s,
+    }
+}
+
+/// A file over a span after [`START_S`], with the Sun turned about the north of EME2000, and its stated error in m.
+pub fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
+    let plan = FitPlan::new([START_S, START_S + span_s], 2.0 * 86_400.0);
+    let mut ephemeris = Ephemeris::default();
+    let mut precise = Vec::new();
+    for (target, body) in [(FlownTarget::Sun, Body::Sun), (FlownTarget::Earth, Body::Earth)] {
+        let angle_rad = if body == Body::Sun { turned_rad } else { 0.0 };
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle_rad);
+        let state = |epoch_s: f64| {
+            let [body, mercury] = [body, Body::Mercury].map(|body| ephemeris.state(body, epoch_s));
+            CartesianState {
+                position_m: turn * (body.position_m - mercury.position_m),
+                velocity_m_s: turn * (body.velocity_m_s - mercury.velocity_m_s),
+            }
+        };
+        let states: Vec<_> = plan.epochs_s().into_iter().map(state).collect();
+        let (motion, error) = plan.fit(&states, 6);
+        precise.push(FittedBody { target, center: Body::Mercury, motion, error });
+    }
+    let worst_m = precise.iter().map(|body| body.error.position_m).fold(0.0, f64::max);
+    (to_toml(&FlownEphemeris { source: None, precise, coarse: Vec::new() }), worst_m)
+}

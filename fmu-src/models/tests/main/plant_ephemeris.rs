@@ -1,0 +1,84 @@
+//! The plant by an ephemeris file: within its stated error of the theory, refused outside its span, exact under cuts.
+
+use models::MomentumPlant;
+
+use super::flown_ephemeris::{FILE, START_S, file};
+use super::named_model::{NamedInstance, NamedModel, assert_same};
+
+const CHEBYSHEV: &[(&str, f64)] = &[("ephemeris.source", 4.0)];
+
+fn refusal<T>(flown: Result<T, fmi_export::Failure>) -> String {
+    flown.err().expect("it was flown").to_string()
+}
+
+fn sun_m(flight: &NamedInstance<'_, MomentumPlant>) -> nalgebra::Vector3<f64> {
+    flight.vector("sun.positionInertial")
+}
+
+#[test]
+fn sun_and_earth_are_where_the_file_has_them() {
+    let (text, error_m) = file(10.0 * 86_400.0, 0.0);
+    let named = NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, &text);
+    let mut flown = named.fly(0.0, CHEBYSHEV).unwrap();
+    let mut theory = named.fly(0.0, &[]).unwrap();
+    let mut greatest_m = 0.0_f64;
+    for step in 1..=60 {
+        let end_s = f64::from(step) * 13_000.0;
+        for flight in [&mut flown, &mut theory] {
+            flight.step_to(end_s).unwrap();
+        }
+        for name in ["sun.positionInertial", "earth.positionInertial"] {
+            let off_m = (flown.vector(name) - theory.vector(name)).norm();
+            // Positions of 1e11 m are rounded to 2e-5 m, epochs of 3e8 s to 6e-8 s at 50 km/s.
+            assert!(off_m < 1.05 * error_m + 0.01, "{name} at {end_s}: {off_m} m of {error_m}");
+            greatest_m = greatest_m.max(off_m);
+        }
+    }
+    assert!(greatest_m > 0.3 * error_m, "{greatest_m} of {error_m} m");
+    assert_ne!(sun_m(&flown), sun_m(&theory));
+}
+
+#[test]
+fn outside_the_span_it_is_refused_by_name() {
+    let named = NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, &file(86_400.0, 0.0).0);
+    for epoch_s in [START_S - 1.0, START_S + 86_401.0] {
+        let text = refusal(named.fly(0.0, &[CHEBYSHEV, &[("start.epoch", epoch_s)]].concat()));
+        assert!(text.contains("start.epoch: found") && text.contains(FILE) && text.contains("sun"), "{text}");
+    }
+    let mut flight = named.fly(0.0, CHEBYSHEV).unwrap();
+    flight.step_to(86_400.0).unwrap();
+    let text = refusal(flight.step_to(86_401.0));
+    assert!(text.contains("the epoch at the end of the step: found") && text.contains(FILE), "{text}");
+    let text = refusal(named.fly(0.0, &[CHEBYSHEV, &[("orbit.center", 3.0)]].concat()));
+    assert!(text.contains("ephemeris.toml: found no [[body]] that joins sun with venus"), "{text}");
+}
+
+#[test]
+fn without_a_file_it_is_vsop87_to_the_bit() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let (mut flown, mut theory) = (named.fly(0.0, CHEBYSHEV).unwrap(), named.fly(0.0, &[]).unwrap());
+    for end_s in [600.0, 50_000.0] {
+        for flight in [&mut flown, &mut theory] {
+            flight.step_to(end_s).unwrap();
+        }
+        assert_same(&flown, &theory);
+    }
+}
+
+#[test]
+fn neither_cuts_nor_saving_change_a_bit() {
+    let named = NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, &file(5.0 * 86_400.0, 0.0).0);
+    for disturbed in [0.0, 1.0] {
+        let sets = [CHEBYSHEV, &[("orbit.dynamics", 1.0 + disturbed)]].concat();
+        let fly = || named.fly(0.0, &sets).unwrap();
+        let (mut whole, mut cut, mut saved) = (fly(), fly(), fly());
+        for end_s in [86_400.0, 200_000.0, 5.0 * 86_400.0] {
+            whole.step_to(end_s).unwrap();
+            cut.fly_to(end_s, 700.0).unwrap();
+            saved = saved.restored();
+            saved.step_to(end_s).unwrap();
+            assert_same(&whole, &cut);
+            assert_same(&whole, &saved);
+        }
+    }
+}

@@ -1,0 +1,323 @@
+//! The flown ephemeris, from its file; every problem is told by file, line, key, what was found and what is allowed.
+
+use nalgebra::SMatrix;
+
+use super::coarse::{COARSE_TERMS, CoarseElements};
+use super::description::{BodyDescription, CoarseDescription, Description, Frame, SegmentDescription};
+use super::fit::{FitError, GREATEST_DEGREE};
+use super::table::{EphemerisSegment, SegmentTable};
+use super::target::FlownTarget;
+use crate::bodies::Body;
+use crate::environment::CartesianState;
+use crate::environment::ephemeris::VALID_EPOCH_S;
+use crate::numerics::chebyshev::Segment;
+use crate::spacecraft::{Checker, Document, Place, SpacecraftError};
+
+/// A model of a body's motion with the error it was made with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FittedBody<M> {
+    /// What moves.
+    pub target: FlownTarget,
+    /// About what.
+    pub center: Body,
+    /// Its motion.
+    pub motion: M,
+    /// Greatest error against the source of the fit.
+    pub error: FitError,
+}
+
+/// What a spacecraft carries. No body stands in it twice, and no body is, by way of others, its own centre.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlownEphemeris {
+    /// Where the positions come from, for people.
+    pub source: Option<String>,
+    /// The precise models.
+    pub precise: Vec<FittedBody<SegmentTable>>,
+    /// The coarse models.
+    pub coarse: Vec<FittedBody<CoarseElements>>,
+}
+
+impl FlownEphemeris {
+    /// Reads an ephemeris from TOML text; `file` only names it in errors.
+    ///
+    /// # Errors
+    ///
+    /// Text that is not TOML, or all unknown, missing and ill-typed keys, numbers out of range, gaps and overlaps, and
+    /// bodies that have no place, each with line, key, what was found and what is allowed.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, SpacecraftError> {
+        let document = Document::parse(file, text)?;
+        let (description, findings) = document.read::<Description>()?;
+        let Frame::Eme2000 = description.frame;
+        let mut check = Checker::new(&document, findings);
+        let root = Place::root();
+        let bodies = description.body.as_deref().unwrap_or_default();
+        let coarse_bodies = description.coarse.as_deref().unwrap_or_default();
+        if bodies.is_empty() && coarse_bodies.is_empty() {
+            check.report(&root, "no body", "at least one [[body]] or [[coarse]]");
+        }
+        let mut found = Self { source: description.source.clone(), ..Self::default() };
+        for (index, body) in bodies.iter().enumerate() {
+            let at = root.key("body").item(index);
+            let is_new = found.precise.iter().all(|other| other.target != body.body);
+            check_target(&mut check, &at, body.body, body.center, is_new);
+            if is_new && body.body != FlownTarget::from(body.center) && found.leads_to(body.center, body.body)
+            {
+                let center = FlownTarget::from(body.center);
+                let text = format!("{center}, whose own position counts from {}", body.body);
+                check.report(&at.key("center"), text, "a body that does not count from this one");
+            }
+            let error = error(&mut check, &at, body.error_m, body.error_m_s);
+            if let Some(motion) = table(&mut check, &at, body) {
+                found.precise.push(FittedBody { target: body.body, center: body.center, motion, error });
+            }
+        }
+        for (index, body) in coarse_bodies.iter().enumerate() {
+            let at = root.key("coarse").item(index);
+            let is_new = found.coarse.iter().all(|other| other.target != body.body);
+            check_target(&mut check, &at, body.body, body.center, is_new);
+            let is_planet = body.body != FlownTarget::Spacecraft;
+            if is_planet && body.center != Body::Sun && body.body != FlownTarget::from(body.center) {
+                let center = FlownTarget::from(body.center);
+                check.report(&at.key("center"), center, "sun, which planets move about");
+            }
+            let error = error(&mut check, &at, body.error_m, body.error_m_s);
+            let motion = coarse(&mut check, &at, body);
+            found.coarse.push(FittedBody { target: body.body, center: body.center, motion, error });
+        }
+        check.finish(found)
+    }
+
+    /// Whether a chain of centres leads from a body to a target.
+    fn leads_to(&self, from: Body, target: FlownTarget) -> bool {
+        let mut at = FlownTarget::from(from);
+        for _ in 0..=self.precise.len() {
+            if at == target {
+                return true;
+            }
+            let Some(body) = self.entry(at) else { return false };
+            at = body.center.into();
+        }
+        false
+    }
+
+    fn entry(&self, target: FlownTarget) -> Option<&FittedBody<SegmentTable>> {
+        self.precise.iter().find(|body| body.target == target)
+    }
+
+    /// Epochs at which the precise models place `target` from `center`; `None` where nothing joins them.
+    pub fn span_s(&self, target: FlownTarget, center: Body) -> Option<[f64; 2]> {
+        let mut span_s = [f64::NEG_INFINITY, f64::INFINITY];
+        let center = center.into();
+        for (from, other) in [(target, center), (center, target)] {
+            self.climb(from, other, |body| {
+                let [start_s, end_s] = body.motion.span_s();
+                span_s = [span_s[0].max(start_s), span_s[1].min(end_s)];
+                Some(())
+            })?;
+        }
+        Some(span_s)
+    }
+
+    /// Position and velocity of `target` from `center` by the precise models, in EME2000; `None` outside their span and
+    /// where nothing joins them.
+    pub fn state(&self, target: FlownTarget, center: Body, epoch_s: f64) -> Option<CartesianState> {
+        let [mut up, mut down] = [CartesianState::default(); 2];
+        let center = center.into();
+        for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
+            self.climb(from, other, |body| {
+                let state = body.motion.state(epoch_s)?;
+                sum.position_m += state.position_m;
+                sum.velocity_m_s += state.velocity_m_s;
+                Some(())
+            })?;
+        }
+        Some(CartesianState {
+            position_m: up.position_m - down.position_m,
+            velocity_m_s: up.velocity_m_s - down.velocity_m_s,
+        })
+    }
+
+    /// The same, beyond the span of the models as their last state would move on evenly: for integrators, which look
+    /// ahead of the time they are asked for. `None` where nothing joins both.
+    pub fn state_carried_on(
+        &self,
+        target: FlownTarget,
+        center: Body,
+        epoch_s: f64,
+    ) -> Option<CartesianState> {
+        let [start_s, end_s] = self.span_s(target, center)?;
+        let inside_s = epoch_s.clamp(start_s, end_s);
+        let state = self.state(target, center, inside_s)?;
+        let position_m = state.position_m + state.velocity_m_s * (epoch_s - inside_s);
+        Some(CartesianState { position_m, ..state })
+    }
+
+    /// Position and velocity by the coarse model of a target about its own centre; `None` without one or outside its span.
+    pub fn coarse_state(&self, target: FlownTarget, epoch_s: f64) -> Option<CartesianState> {
+        self.coarse.iter().find(|body| body.target == target)?.motion.state(epoch_s)
+    }
+
+    /// The same of the spacecraft, if its model is about `center`.
+    pub fn coarse_spacecraft(&self, center: Body, epoch_s: f64) -> Option<CartesianState> {
+        let spacecraft = self.coarse.iter().find(|body| body.target == FlownTarget::Spacecraft)?;
+        if spacecraft.center == center { spacecraft.motion.state(epoch_s) } else { None }
+    }
+
+    /// Visits the models from `from` up to the first centre that `other` counts from as well, or is; `None` where the chain
+    /// ends before, or the visit does.
+    fn climb<'a>(
+        &'a self,
+        from: FlownTarget,
+        other: FlownTarget,
+        mut visit: impl FnMut(&'a FittedBody<SegmentTable>) -> Option<()>,
+    ) -> Option<()> {
+        let mut at = from;
+        while !self.is_above(at, other) {
+            let body = self.entry(at)?;
+            visit(body)?;
+            at = body.center.into();
+        }
+        Some(())
+    }
+
+    /// Whether `other` is `at` or counts from it, by way of others or not.
+    fn is_above(&self, at: FlownTarget, other: FlownTarget) -> bool {
+        let mut below = other;
+        while below != at {
+            let Some(body) = self.entry(below) else { return false };
+            below = body.center.into();
+        }
+        true
+    }
+}
+
+/// A target that is not its own centre and stands here for the first time.
+fn check_target(check: &mut Checker<'_>, at: &Place, target: FlownTarget, center: Body, is_new: bool) {
+    if target == FlownTarget::from(center) {
+        check.report_across(at, &at.key("center"), target, "another body than the one that is placed");
+    }
+    if !is_new {
+        check.report(&at.key("body"), format_args!("{target} for the second time"), "each body once");
+    }
+}
+
+fn error(check: &mut Checker<'_>, at: &Place, position_m: f64, velocity_m_s: f64) -> FitError {
+    FitError {
+        position_m: check.not_negative(&at.key("error_m"), position_m),
+        velocity_m_s: check.not_negative(&at.key("error_m_s"), velocity_m_s),
+    }
+}
+
+/// An epoch within the years that a body can be placed in.
+fn epoch(check: &mut Checker<'_>, at: &Place, epoch_s: f64) -> f64 {
+    check.within(at, epoch_s, -VALID_EPOCH_S, VALID_EPOCH_S, "s past J2000 TDB, within 4000 years of it")
+}
+
+/// The polynomials of a body; `None` where they leave a gap or something was reported.
+fn table(check: &mut Checker<'_>, at: &Place, body: &BodyDescription) -> Option<SegmentTable> {
+    let place = at.key("segment");
+    if body.segment.is_empty() {
+        check.report(&place, "an empty list", "at least one segment");
+    }
+    let degree = body.degree as usize;
+    if degree > GREATEST_DEGREE {
+        let allowed = format!("a degree from 0 to {GREATEST_DEGREE}");
+        check.report(&at.key("degree"), body.degree, allowed);
+    }
+    let segments: Vec<EphemerisSegment> = body
+        .segment
+        .iter()
+        .enumerate()
+        .map(|(index, described)| segment(check, &place.item(index), described, degree))
+        .collect();
+    for (index, pair) in segments.windows(2).enumerate() {
+        let (end_s, start_s) = (pair[0].end_s, pair[1].start_s);
+        if end_s != start_s {
+            let (word, by_s) =
+                if start_s > end_s { ("a gap", start_s - end_s) } else { ("an overlap", end_s - start_s) };
+            let here = place.item(index + 1).key("start_s");
+            let found = format!("{start_s:e}, {word} of {by_s:e} s");
+            check.report(&here, found, format!("{end_s:e}, where {} ends", place.item(index)));
+        }
+    }
+    SegmentTable::new(segments)
+}
+
+fn segment(
+    check: &mut Checker<'_>,
+    at: &Place,
+    described: &SegmentDescription,
+    degree: usize,
+) -> EphemerisSegment {
+    let start_s = epoch(check, &at.key("start_s"), described.start_s);
+    let end_s = epoch(check, &at.key("end_s"), described.end_s);
+    if end_s <= start_s {
+        check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
+    }
+    let lists = [("x_m", &described.x_m), ("y_m", &described.y_m), ("z_m", &described.z_m)];
+    for (key, list) in lists {
+        let place = at.key(key);
+        if list.len() != degree + 1 {
+            let found = format!("{} coefficients", list.len());
+            check.report(&place, found, format!("{}, one more than the degree", degree + 1));
+        }
+        for (index, coefficient) in list.iter().enumerate() {
+            check.finite(&place.item(index), *coefficient);
+        }
+    }
+    let coefficient = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(0.0);
+    let terms = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
+    let coefficients_m = (0..terms).map(|k| lists.map(|(_, list)| coefficient(list, k))).collect();
+    EphemerisSegment { start_s, end_s, coefficients_m }
+}
+
+/// Epochs at which elements are looked at.
+const LOOKS: u32 = 400;
+
+fn coarse(check: &mut Checker<'_>, at: &Place, body: &CoarseDescription) -> CoarseElements {
+    let start_s = epoch(check, &at.key("start_s"), body.start_s);
+    let end_s = epoch(check, &at.key("end_s"), body.end_s);
+    if end_s <= start_s {
+        check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
+    }
+    let rows = [
+        ("semi_major_axis_m", &body.semi_major_axis_m),
+        ("eccentricity", &body.eccentricity),
+        ("inclination_rad", &body.inclination_rad),
+        ("ascending_node_rad", &body.ascending_node_rad),
+        ("periapsis_argument_rad", &body.periapsis_argument_rad),
+        ("mean_anomaly_rad", &body.mean_anomaly_rad),
+    ];
+    for (key, row) in rows {
+        for (index, coefficient) in row.iter().enumerate() {
+            check.finite(&at.key(key).item(index), *coefficient);
+        }
+    }
+    let coefficients = SMatrix::<f64, 6, COARSE_TERMS>::from_fn(|row, k| rows[row].1[k]);
+    let motion = CoarseElements {
+        center: body.center,
+        span_s: [start_s, end_s],
+        elements: Segment::from_coefficients(start_s, end_s, coefficients),
+    };
+    if !check.has_reported(at) {
+        let epochs = (0..=LOOKS).map(|k| start_s + (end_s - start_s) * (f64::from(k) / f64::from(LOOKS)));
+        let bad = |row: usize, is_good: fn(f64) -> bool| {
+            epochs.clone().map(|at_s| motion.elements.value(at_s)[row]).find(|value| !is_good(*value))
+        };
+        if let Some(a_m) = bad(0, |a_m| a_m > 0.0) {
+            check.report(
+                &at.key("semi_major_axis_m"),
+                format_args!("{a_m:e} m"),
+                "above 0 all over the span",
+            );
+        }
+        if let Some(e) = bad(1, |e| (0.0..1.0).contains(&e)) {
+            check.report(
+                &at.key("eccentricity"),
+                format_args!("{e}"),
+                "from 0 to less than 1 all over the span",
+            );
+        }
+    }
+    motion
+}

@@ -1,0 +1,95 @@
+//! Flexible modes and propellant, from their descriptions: checks every value, and that the body has an inertia without them.
+
+use super::checker::Checker;
+use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
+use super::mass::MassProperties;
+use super::place::Place;
+use super::swinging::{COAST_FREQUENCY_HZ, NamedMode, NamedSlosh};
+use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
+
+/// Damping ratio where the file gives none. Assumed.
+const DAMPING: f64 = 0.005;
+/// Greatest frequency, in Hz.
+const FASTEST_HZ: f64 = 1e3;
+
+fn name_or_number(name: Option<&str>, kind: &str, index: usize) -> String {
+    name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
+}
+
+fn frequency(check: &mut Checker<'_>, at: &Place, frequency_hz: f64) -> f64 {
+    let allowed = "a number above 0 and at most 1000 Hz";
+    check.within(at, frequency_hz, f64::MIN_POSITIVE, FASTEST_HZ, allowed)
+}
+
+/// A flexible mode.
+pub(super) fn mode(
+    check: &mut Checker<'_>,
+    at: &Place,
+    index: usize,
+    description: &FlexibleModeDescription,
+) -> NamedMode {
+    NamedMode {
+        name: name_or_number(description.name.as_deref(), "flexible mode", index),
+        mode: FlexibleMode {
+            frequency_hz: frequency(check, &at.key("frequency_hz"), description.frequency_hz),
+            damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
+            coupling_body_sqrt_kg_m: check
+                .vector(&at.key("coupling_sqrt_kg_m"), description.coupling_sqrt_kg_m),
+        },
+    }
+}
+
+/// Propellant that swings.
+pub(super) fn slosh(
+    check: &mut Checker<'_>,
+    at: &Place,
+    index: usize,
+    description: &SloshDescription,
+) -> NamedSlosh {
+    let coast_hz = description.coast_frequency_hz.unwrap_or(COAST_FREQUENCY_HZ);
+    NamedSlosh {
+        name: name_or_number(description.name.as_deref(), "slosh", index),
+        pendulum: SloshPendulum {
+            mass_kg: check.positive(&at.key("mass_kg"), description.mass_kg),
+            length_m: check.positive(&at.key("length_m"), description.length_m),
+            pivot_body_m: check.vector(&at.key("pivot_m"), description.pivot_m),
+            axis_body: check.unit_vector(&at.key("axis"), description.axis),
+            damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
+            coast_frequency_hz: frequency(check, &at.key("coast_frequency_hz"), coast_hz),
+        },
+    }
+}
+
+/// The body has mass and inertia without what swings.
+pub(super) fn swinging_fits(
+    check: &mut Checker<'_>,
+    modes: &[NamedMode],
+    sloshes: &[NamedSlosh],
+    mass: &MassProperties,
+) {
+    let root = Place::root();
+    let appendages = Appendages {
+        modes: modes.iter().map(|it| it.mode).collect(),
+        sloshes: sloshes.iter().map(|it| it.pendulum).collect(),
+        ..Appendages::default()
+    };
+    if (modes.is_empty() && sloshes.is_empty()) || mass.mass_kg <= 0.0 {
+        return;
+    }
+    // What is wrong with the body itself is reported with it.
+    let Ok(rigid) = Gyrostat::new(mass.inertia_body_kg_m2, Vec::new()) else { return };
+    let (key, found, allowed) =
+        match rigid.with_appendages(appendages, mass.mass_kg, mass.center_of_mass_body_m) {
+            Ok(_) => return,
+            Err(GyrostatError::Propellant { found, whole_kg }) => (
+                "slosh",
+                format!("mass_kg of {found} together"),
+                format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part"),
+            ),
+            Err(error) => {
+                let key = if modes.is_empty() { "slosh" } else { "flexible_modes" };
+                (key, error.to_string(), "modes and propellant that leave an inertia".to_owned())
+            }
+        };
+    check.report(&root.key(key), found, allowed);
+}

@@ -1,0 +1,167 @@
+//! Fits of a flight: segments as short and polynomials as high as a tolerance asks, and coarse elements.
+
+use physics::{
+    bodies::Body,
+    constants::DAY_S,
+    environment::{
+        CartesianState,
+        flown::{
+            COARSE_SAMPLES, CoarseElements, FitError, FitPlan, FittedBody, FlownTarget, GREATEST_DEGREE,
+            SegmentTable,
+        },
+    },
+    numerics::chebyshev::Segment,
+};
+
+use super::source::Source;
+
+/// Length of the segments to begin with: of planets, and of the spacecraft.
+const LONGEST_S: [f64; 2] = [16.0 * DAY_S, 0.25 * DAY_S];
+
+/// Length of the segments of a given degree.
+const SEGMENT_S: f64 = 8.0 * DAY_S;
+
+/// Degrees that a tolerance may lead to; beyond them shorter segments take fewer coefficients.
+const DEGREES: core::ops::RangeInclusive<usize> = 4..=16;
+
+/// How often the segments are halved.
+const HALVINGS: u32 = 12;
+
+/// Epochs, evenly spaced, at which coarse elements are checked.
+const COARSE_CHECKS: u32 = 2_000;
+
+/// What is asked of a fit.
+pub struct Asked {
+    /// What moves.
+    pub target: FlownTarget,
+    /// First and last epoch.
+    pub span_s: [f64; 2],
+    /// Length of the segments, if given.
+    pub segment_s: Option<f64>,
+    /// Degree, if given.
+    pub degree: Option<usize>,
+    /// Otherwise the greatest error of position.
+    pub tolerance_m: f64,
+    /// Whether to show no progress.
+    pub is_quiet: bool,
+}
+
+type Failure = Box<dyn std::error::Error>;
+
+/// The precise model of a target.
+pub fn precise(source: &mut Source, asked: &Asked) -> Result<FittedBody<SegmentTable>, Failure> {
+    let &Asked { target, span_s, .. } = asked;
+    if target == FlownTarget::from(source.center) {
+        return Err(format!("--bodies: {target} is orbit.center, from where positions count").into());
+    }
+    if let Some(degree) = asked.degree {
+        let plan = FitPlan::new(span_s, asked.segment_s.unwrap_or(SEGMENT_S));
+        let [states] = flown(source, [target], &plan.epochs_s(), asked.is_quiet)?;
+        let (motion, error) = plan.fit(&states, degree.min(GREATEST_DEGREE));
+        return Ok(FittedBody { target, center: source.center, motion, error });
+    }
+    let is_spacecraft = usize::from(target == FlownTarget::Spacecraft);
+    let mut segment_s = asked.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
+    let halvings = if asked.segment_s.is_some() { 0 } else { HALVINGS };
+    let mut best: Option<(FitError, f64)> = None;
+    for _ in 0..=halvings {
+        let plan = FitPlan::new(span_s, segment_s);
+        let [states] = flown(source, [target], &plan.epochs_s(), asked.is_quiet)?;
+        for degree in DEGREES {
+            let (motion, error) = plan.fit(&states, degree);
+            if error.position_m <= asked.tolerance_m {
+                return Ok(FittedBody { target, center: source.center, motion, error });
+            }
+            if best.is_none_or(|(best, _)| error.position_m < best.position_m) {
+                best = Some((error, segment_s));
+            }
+        }
+        // Where shorter segments bring nothing, the source itself is no smoother.
+        if best.is_some_and(|(_, best_s)| segment_s < 0.1 * best_s) {
+            break;
+        }
+        segment_s *= 0.5;
+    }
+    let (error, best_s) = best.unwrap_or_default();
+    Err(format!(
+        "--tolerance: no fit of {target} up to degree {} keeps {} m; the best found errs by {} m, with segments of {} d",
+        DEGREES.end(),
+        terminal::short(asked.tolerance_m),
+        terminal::short(error.position_m),
+        terminal::short(best_s / DAY_S)
+    )
+    .into())
+}
+
+fn flown<const N: usize>(
+    source: &Source,
+    targets: [FlownTarget; N],
+    epochs_s: &[f64],
+    is_quiet: bool,
+) -> Result<[Vec<CartesianState>; N], Failure> {
+    let named = targets.map(|target| target.to_string()).join(", ");
+    let bar = terminal::progress(epochs_s.len() as u64, &format!("epochs of {named}"), is_quiet);
+    let states = source.states(targets, epochs_s, || bar.inc(1));
+    bar.finish_and_clear();
+    states
+}
+
+/// The coarse models: of the planet in the centre, of the Earth, and of the spacecraft if it is among the targets.
+pub fn coarse(
+    source: &mut Source,
+    targets: &[FlownTarget],
+    span_s: [f64; 2],
+    is_quiet: bool,
+) -> Result<Vec<FittedBody<CoarseElements>>, Failure> {
+    let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
+    let length_s = span_s[1] - span_s[0];
+    let checks =
+        (0..=COARSE_CHECKS).map(|k| span_s[0] + length_s * (f64::from(k) / f64::from(COARSE_CHECKS)));
+    let mut epochs: Vec<(f64, Option<usize>)> = checks.map(|at_s| (at_s.min(span_s[1]), None)).collect();
+    epochs.extend(nodes_s.into_iter().enumerate().map(|(node, at_s)| (at_s, Some(node))));
+    epochs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let epochs_s: Vec<f64> = epochs.iter().map(|(at_s, _)| *at_s).collect();
+    let center = source.center;
+    let mut models = Vec::new();
+    let mut add = |target: FlownTarget, about: Body, states: &[CartesianState]| -> Result<(), Failure> {
+        let mut samples = [CartesianState::default(); COARSE_SAMPLES];
+        for ((_, node), state) in epochs.iter().zip(states) {
+            if let Some(node) = node {
+                samples[*node] = *state;
+            }
+        }
+        let motion = CoarseElements::of_states(about, span_s, &samples).ok_or_else(|| {
+            format!("--coarse: {target} is on no ellipse about {}", FlownTarget::from(about))
+        })?;
+        let mut error = FitError::default();
+        for ((at_s, node), state) in epochs.iter().zip(states) {
+            if node.is_none()
+                && let Some(found) = motion.state(*at_s)
+            {
+                error = error.worst(FitError::of(&found, state));
+            }
+        }
+        models.push(FittedBody { target, center: about, motion, error });
+        Ok(())
+    };
+    let from_sun = |states: &[CartesianState], sun: &[CartesianState]| -> Vec<CartesianState> {
+        let difference = |(a, b): (&CartesianState, &CartesianState)| CartesianState {
+            position_m: a.position_m - b.position_m,
+            velocity_m_s: a.velocity_m_s - b.velocity_m_s,
+        };
+        states.iter().zip(sun).map(difference).collect()
+    };
+    let [sun, earth, spacecraft] =
+        flown(source, [FlownTarget::Sun, FlownTarget::Earth, FlownTarget::Spacecraft], &epochs_s, is_quiet)?;
+    let origin = vec![CartesianState::default(); epochs_s.len()];
+    if center != Body::Sun {
+        add(center.into(), Body::Sun, &from_sun(&origin, &sun))?;
+    }
+    if center != Body::Earth {
+        add(FlownTarget::Earth, Body::Sun, &from_sun(&earth, &sun))?;
+    }
+    if targets.contains(&FlownTarget::Spacecraft) {
+        add(FlownTarget::Spacecraft, center, &spacecraft)?;
+    }
+    Ok(models)
+}

@@ -1,0 +1,134 @@
+//! Options of `heliotorque ephemeris`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use physics::environment::{dates, flown::FlownTarget};
+
+use crate::args::{DEFAULT_TEMPLATE, span};
+
+/// Shown with the help.
+const EXAMPLE: &str = "\
+Example:
+  heliotorque ephemeris --start '2011-04-06 UTC' --stop '2011-07-06 UTC'       Sun and Earth from Mercury, to 100 m
+  heliotorque ephemeris --start '2011-04-06 UTC' --stop '2011-07-06 UTC' --bodies sun,earth,spacecraft \\
+      --tolerance 10 --coarse --coarse-until '2015-04-30 UTC' --output messenger-ephemeris.toml
+  heliotorque check messenger-ephemeris.toml                                   bodies, spans and errors
+  heliotorque pack --template dist/Guidance.fmu --ephemeris messenger-ephemeris.toml --set ephemeris.source=chebyshev";
+
+/// `heliotorque ephemeris`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Ephemeris {
+    /// The FMU whose flight is fitted: a MomentumPlant, whose outputs place Sun, Earth and spacecraft about orbit.center
+    #[arg(value_name = "FMU", default_value = DEFAULT_TEMPLATE)]
+    pub source: PathBuf,
+    /// First epoch, a date in UTC or TDB: '2011-04-06T00:00:00 UTC'
+    #[arg(long, value_name = "DATE")]
+    pub start: String,
+    /// Last epoch, likewise
+    #[arg(long, value_name = "DATE")]
+    pub stop: String,
+    /// What is fitted: sun, earth, spacecraft
+    #[arg(
+        long,
+        value_enum,
+        value_name = "BODIES",
+        value_delimiter = ',',
+        default_values_t = [BodyKind::Sun, BodyKind::Earth],
+        hide_possible_values = true
+    )]
+    pub bodies: Vec<BodyKind>,
+    /// Greatest error of position, in m: the degree, and without --segment the length of the segments, follow from it
+    #[arg(long, value_name = "M", value_parser = tolerance, default_value = "100", conflicts_with = "degree")]
+    pub tolerance: f64,
+    /// Length of the segments, in s or with a unit: 4d; otherwise as --tolerance asks, 8d with --degree
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
+    pub segment: Option<f64>,
+    /// Degree of the polynomials, 1 to 24; the error is told, and may be any
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=24))]
+    pub degree: Option<u8>,
+    /// Add the coarse models: polynomials of fourth degree of Keplerian elements, of the planet, the Earth, and of the
+    /// spacecraft if it is among the bodies
+    #[arg(long)]
+    pub coarse: bool,
+    /// Last epoch of the coarse models, a date; otherwise --stop
+    #[arg(long, value_name = "DATE", requires = "coarse")]
+    pub coarse_until: Option<String>,
+    /// Set a parameter of the FMU before it flies; repeatable, written as for `run`: orbit.center=venus
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// The file to write; otherwise ephemeris.toml, in this folder; - is the standard output
+    #[arg(long, short, value_name = "TOML")]
+    pub output: Option<PathBuf>,
+    /// Show no progress and no report
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `--bodies`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BodyKind {
+    /// The Sun
+    Sun,
+    /// The Earth
+    Earth,
+    /// The spacecraft
+    Spacecraft,
+}
+
+impl Ephemeris {
+    /// First and last epoch, in s past J2000 TDB.
+    pub fn span_s(&self) -> Result<[f64; 2], String> {
+        let start_s = epoch_s("--start", &self.start)?;
+        let stop_s = epoch_s("--stop", &self.stop)?;
+        if stop_s <= start_s {
+            return Err(format!(
+                "--stop: found {:?}, allowed: a date after --start, {:?}",
+                self.stop, self.start
+            ));
+        }
+        Ok([start_s, stop_s])
+    }
+
+    /// Last epoch of the coarse models.
+    pub fn coarse_until_s(&self, stop_s: f64) -> Result<f64, String> {
+        let Some(written) = &self.coarse_until else { return Ok(stop_s) };
+        let until_s = epoch_s("--coarse-until", written)?;
+        if until_s < stop_s {
+            return Err(format!(
+                "--coarse-until: found {written:?}, allowed: a date not before --stop, {:?}",
+                self.stop
+            ));
+        }
+        Ok(until_s)
+    }
+
+    /// What is fitted, each once.
+    pub fn targets(&self) -> Vec<FlownTarget> {
+        let mut targets = Vec::new();
+        for kind in &self.bodies {
+            let target = match kind {
+                BodyKind::Sun => FlownTarget::Sun,
+                BodyKind::Earth => FlownTarget::Earth,
+                BodyKind::Spacecraft => FlownTarget::Spacecraft,
+            };
+            if !targets.contains(&target) {
+                targets.push(target);
+            }
+        }
+        targets
+    }
+}
+
+fn epoch_s(option: &str, written: &str) -> Result<f64, String> {
+    dates::epoch_s(written)
+        .map_err(|error| format!("{option}: found {written:?}, {error}, allowed: {}", dates::ALLOWED_DATE))
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(tolerance_m) if tolerance_m > 0.0 && tolerance_m.is_finite() => Ok(tolerance_m),
+        _ => Err("allowed is a number of metres above 0".to_owned()),
+    }
+}

@@ -1,0 +1,103 @@
+//! An ephemeris is fitted from an FMU's flight, told, packed and flown; what is wrong is told by name.
+
+use std::fs;
+
+use crate::{library, packed, run, shown};
+
+const START: &str = "2011-04-06 UTC";
+const STOP: &str = "2011-04-16 UTC";
+
+/// Ten days from Mercury, right as it stands.
+const SMALL: &str = "frame = \"EME2000\"\n[[body]]\nbody = \"sun\"\ncenter = \"mercury\"\ndegree = 0\nerror_m = 1.0\n\
+                     error_m_s = 0.1\nsegment = [{ start_s = 0.0, end_s = 864000.0, x_m = [5e10], y_m = [0], z_m = [0] }]\n";
+
+#[test]
+fn a_file_is_told_and_a_torn_one_refused_by_line() {
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("mine.toml");
+    fs::write(&path, SMALL).unwrap();
+    let text = run(&["check", shown(&path)], 0);
+    let told = ["ok", "sun", "mercury", "2000-01-01T11:58:55", "2000-01-11T11:58:55", "1 m", "0.1 m/s"];
+    assert!(told.iter().all(|word| text.contains(word)), "{text}");
+    for (old, new, said) in [
+        ("error_m = 1.0", "error_m = nan", "mine.toml:6: body[1].error_m: found NaN"),
+        ("[[body]]", "[[bodies]]", "did you mean `body`?"),
+        ("x_m = [5e10]", "x_m = [5e10, 1]", "mine.toml:8: body[1].segment[1].x_m: found 2 coefficients"),
+        ("z_m = [0] }]", "z_m = [0", "not TOML"),
+    ] {
+        fs::write(&path, SMALL.replace(old, new)).unwrap();
+        let text = run(&["check", shown(&path)], 1);
+        assert!(text.contains(said), "{new}: {text}");
+    }
+    assert!(run(&["schema", "ephemeris"], 0).contains("heliotorque ephemeris"));
+}
+
+#[test]
+fn dates_and_sources_that_cannot_be_are_refused_by_name() {
+    let Some((_scratch, fmu)) = packed("Empty") else { return };
+    let ask = |start: &str, stop: &str| run(&["ephemeris", shown(&fmu), "--start", start, "--stop", stop], 1);
+    assert!(
+        ask("2011-04-06", STOP).contains("--start: found \"2011-04-06\", which does not end in UTC or TDB")
+    );
+    assert!(ask(STOP, START).contains("--stop: found \"2011-04-06 UTC\", allowed: a date after --start"));
+    assert!(ask(START, STOP).contains("Empty has no variable start.epoch, allowed: a MomentumPlant"));
+    let library = crate::probe_library().unwrap();
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("mine.toml");
+    fs::write(&file, SMALL).unwrap();
+    let pack = ["pack", "--library", shown(&library), "--model", "Empty", "--ephemeris", shown(&file)];
+    assert!(run(&pack, 1).contains("--ephemeris: Empty takes none, allowed for: no model of this library"));
+}
+
+/// Greatest error that a table tells in its row of a body, in m.
+fn told_m(text: &str, body: &str) -> f64 {
+    let row = text.lines().find(|line| line.contains(body) && line.contains(" m/s")).unwrap();
+    let words: Vec<&str> = row.split_whitespace().collect();
+    let unit = words.iter().position(|word| *word == "m").unwrap();
+    words[unit - 1].parse().unwrap()
+}
+
+#[test]
+fn a_flight_is_fitted_to_the_tolerance_and_flown_by_another_fmu() {
+    let Some(library) = library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let path = |name: &str| scratch.path().join(name);
+    let (plant, fitted, file) = (path("Plant.fmu"), path("Fitted.fmu"), path("flown.toml"));
+    let pack = ["pack", "--library", shown(&library), "--model", "MomentumPlant", "--output"];
+    run(&[&pack[..], &[shown(&plant)]].concat(), 0);
+    let make = ["ephemeris", shown(&plant), "--start", START, "--stop", STOP, "--output", shown(&file)];
+    let text = run(
+        &[&make[..], &["--tolerance", "500", "--coarse", "--bodies", "sun,earth,spacecraft"]].concat(),
+        0,
+    );
+    for body in ["sun", "earth", "spacecraft"] {
+        let error_m = told_m(&text, &format!(" {body} "));
+        assert!(error_m <= 500.0, "{body}: {text}");
+    }
+    // The file says the same.
+    let again = run(&["check", shown(&file)], 0);
+    assert_eq!(text.lines().skip(1).collect::<Vec<_>>(), again.lines().skip(1).collect::<Vec<_>>());
+    let impossible = run(&[&make[..], &["--tolerance", "1e-9", "--segment", "5d"]].concat(), 1);
+    assert!(impossible.contains("--tolerance: no fit of sun up to degree 16 keeps"), "{impossible}");
+    // Another FMU flies by it within its span and nowhere else.
+    let set = ["--set", "ephemeris.source=chebyshev", "--ephemeris", shown(&file)];
+    run(&[&pack[..], &[shown(&fitted)], &set].concat(), 0);
+    assert!(run(&["info", shown(&fitted)], 0).contains("sun from mercury"));
+    let record = path("record.csv");
+    let fly = |epoch: &str, status: i32| {
+        let epoch = format!("start.epoch={epoch}");
+        let output = ["--record", "sun.positionInertial", "--output", shown(&record)];
+        let run_it = ["run", shown(&fitted), "--stop", "1d", "--quiet", "--set", &epoch];
+        run(&[&run_it[..], &output].concat(), status)
+    };
+    fly("2011-04-07 UTC", 0);
+    let text = fly("2011-05-07 UTC", 1);
+    assert!(text.contains("start.epoch: found") && text.contains("ephemeris.toml places sun"), "{text}");
+    // It is no source for a span it does not cover, either.
+    let beyond = ["--start", "2011-05-06 UTC", "--stop", "2011-05-07 UTC", "--output", "-"];
+    let text = run(&[&["ephemeris", shown(&fitted)], &beyond[..]].concat(), 1);
+    assert!(text.contains("Fitted.fmu") && text.contains("ephemeris.toml places sun"), "{text}");
+    let text =
+        run(&["ephemeris", shown(&fitted), "--start", START, "--stop", "2011-05-07 UTC", "--output", "-"], 1);
+    assert!(text.contains("Fitted.fmu") && text.contains("the epoch at the end of the step"), "{text}");
+}

@@ -1,0 +1,157 @@
+//! Attitude jitter of a flexible spacecraft by a wheel out of balance: lines at the wheel's speed and at the modes.
+
+use super::jitter_flight::{COUNT, FASTEST_HZ, Flight, LOWEST_HZ, RATE_HZ, Shaken, open, run_up};
+use super::jitter_theory::Structure;
+use super::spectrum::Spectrum;
+use crate::case::{chosen, run_all};
+use crate::chart::{Chart, Panel, Series};
+use crate::settings::digits;
+use crate::{Options, Report, StudyError};
+
+/// Speeds of the wheel beside those of the modes, in Hz.
+const SPEEDS_HZ: [f64; 4] = [0.7, 2.0, 4.5, 8.5];
+/// Speed under control, in Hz.
+const CONTROLLED_HZ: f64 = 4.5;
+const HEADER: [&str; 8] = [
+    "case",
+    "wheel [Hz]",
+    "line at [Hz]",
+    "amplitude [urad]",
+    "in closed form [urad]",
+    "ratio",
+    "greatest at a mode [urad]",
+    "rms [urad]",
+];
+
+fn flights(structure: &Structure) -> Vec<Flight> {
+    let flight = |wheel_hz: f64, controlled: bool, at: String| {
+        let how = if controlled { "controlled" } else { "free" };
+        Flight {
+            label: format!("{how}, {at}"),
+            wheel_hz: Spectrum::nearest_hz(COUNT, RATE_HZ, wheel_hz),
+            controlled,
+        }
+    };
+    let beside = SPEEDS_HZ.map(|hz| flight(hz, false, format!("wheel at {hz} Hz")));
+    let at_modes = structure
+        .modes
+        .iter()
+        .enumerate()
+        .map(|(k, mode)| flight(structure.resonance_hz(mode), false, format!("wheel at mode {}", k + 1)));
+    let mut all: Vec<Flight> = beside.into_iter().chain(at_modes).collect();
+    all.sort_by(|a, b| a.wheel_hz.total_cmp(&b.wheel_hz));
+    all.push(flight(CONTROLLED_HZ, true, format!("wheel at {CONTROLLED_HZ} Hz")));
+    all.push(flight(0.0, true, "wheel stands".to_owned()));
+    all
+}
+
+const URAD: f64 = 1e6;
+
+fn row(shaken: &Shaken, structure: &Structure) -> Vec<String> {
+    let Shaken { flight, spectrum } = shaken;
+    let turns = flight.wheel_hz > 0.0;
+    let (line_hz, line) = spectrum.greatest(flight.wheel_hz - 0.02, flight.wheel_hz + 0.02);
+    let theory = structure.jitter_rad(flight.wheel_hz);
+    let at_modes = structure.modes.iter().map(|mode| {
+        let hz = structure.resonance_hz(mode);
+        spectrum.greatest(0.97 * hz, 1.03 * hz).1
+    });
+    let or_none = |value: String| if turns { value } else { "-".to_owned() };
+    vec![
+        flight.label.clone(),
+        format!("{:.3}", flight.wheel_hz),
+        or_none(format!("{line_hz:.3}")),
+        or_none(format!("{:.5}", URAD * line)),
+        or_none(format!("{:.5}", URAD * theory)),
+        or_none(format!("{:.4}", line / theory)),
+        format!("{:.5}", URAD * at_modes.fold(0.0, f64::max)),
+        format!("{:.5}", URAD * spectrum.rms(LOWEST_HZ, 0.5 * RATE_HZ)),
+    ]
+}
+
+/// Spectra at constant speeds, and a run-up through the modes.
+pub fn jitter(options: &Options) -> Result<Report, StudyError> {
+    let (fmu, structure) = open(options)?;
+    let cases = chosen("control/jitter", options, flights(&structure), |flight| flight.label.clone())?;
+    let shaken = run_all(options, &cases, |flight| flight.fly(&fmu, &structure))?;
+    let mut report = Report::default();
+    report.line("Attitude jitter by the static imbalance of one wheel of FlexibleCraft\n");
+    let rows: Vec<_> = shaken.iter().map(|shaken| row(shaken, &structure)).collect();
+    report.table(&HEADER, &rows);
+    for (k, mode) in structure.modes.iter().enumerate() {
+        report.line(&format!(
+            "Mode {}: {:.3} Hz with the body held, {:.3} Hz with the body free.",
+            k + 1,
+            mode.frequency_hz,
+            structure.resonance_hz(mode)
+        ));
+    }
+    report.line(REMARK);
+    report.csv(options, "jitter.csv", &HEADER, rows)?;
+    let lines = shaken.iter().flat_map(|Shaken { flight, spectrum }| {
+        let points = spectrum.between(LOWEST_HZ, FASTEST_HZ + 1.0);
+        points.map(|(hz, amplitude)| vec![flight.label.clone(), digits(hz), digits(amplitude)])
+    });
+    report.csv(
+        options,
+        "jitter-spectra.csv",
+        &["case", "frequency_hz", "amplitude_rad"],
+        lines.collect::<Vec<_>>(),
+    )?;
+    report.picture(options, "jitter-spectra.svg", &spectra(&shaken))?;
+    if options.only.is_none() {
+        let points = run_up(&fmu, &structure)?;
+        let header = ["wheel_hz", "amplitude_rad", "in_closed_form_rad"];
+        let row = |(hz, rad): &(f64, f64)| [*hz, *rad, structure.jitter_rad(*hz)].map(digits).to_vec();
+        report.csv(options, "jitter-run-up.csv", &header, points.iter().map(row).collect::<Vec<_>>())?;
+        report.picture(options, "jitter-run-up.svg", &run_up_figure(&points, &structure))?;
+    }
+    Ok(report)
+}
+
+const REMARK: &str = "\
+Amplitude: that of the body's angle, the three axes together, from the rate under Hann's window over 164 s, after 240 s.
+Closed form: force U W^2 at the wheel's place on a body with its modes, all of them linear. At a mode: within 3 % of its
+frequency with the body free. Rms from 0.2 to 50 Hz. Free: nothing acts but the wheel. Controlled: the controller at 50 Hz,
+with noise of 20 urad of the star tracker and 1 urad after a second of the gyros, assumed; its torque rings the modes.";
+
+/// Amplitudes in dB relative to 1 urad.
+fn decibels(amplitude_rad: f64) -> f64 {
+    20.0 * (URAD * amplitude_rad).log10()
+}
+
+fn spectra(shaken: &[Shaken]) -> Chart {
+    let panel = |controlled: bool, y_label: &str| {
+        let chosen = shaken.iter().filter(move |it| it.flight.controlled == controlled);
+        let series = chosen.map(|Shaken { flight, spectrum }| {
+            let points = spectrum.between(LOWEST_HZ, FASTEST_HZ + 1.0);
+            let points = points.map(|(hz, amplitude)| (hz, decibels(amplitude).max(-140.0)));
+            Series::line(flight.label.clone(), points.collect())
+        });
+        Panel { y_label: y_label.to_owned(), series: series.collect(), ..Panel::default() }
+    };
+    let panels = [panel(false, "free [dB re 1 urad]"), panel(true, "controlled [dB re 1 urad]")];
+    Chart {
+        title: "Attitude jitter by a wheel out of balance".to_owned(),
+        x_label: "frequency [Hz]".to_owned(),
+        panels: panels.into_iter().filter(|panel| !panel.series.is_empty()).collect(),
+    }
+}
+
+fn run_up_figure(points: &[(f64, f64)], structure: &Structure) -> Chart {
+    let flown = points.iter().map(|(hz, rad)| (*hz, decibels(*rad))).collect();
+    let steady = (60..=1000).map(|k| f64::from(k) * 0.01).filter(|hz| *hz <= FASTEST_HZ);
+    let steady = steady.map(|hz| (hz, decibels(structure.jitter_rad(hz)))).collect();
+    Chart {
+        title: "A wheel run up through the modes".to_owned(),
+        x_label: "speed of the wheel [Hz]".to_owned(),
+        panels: vec![Panel {
+            y_label: "jitter [dB re 1 urad]".to_owned(),
+            series: vec![
+                Series::line("run up to 9 Hz in 600 s", flown),
+                Series::dashed("at constant speed, in closed form", steady),
+            ],
+            ..Panel::default()
+        }],
+    }
+}

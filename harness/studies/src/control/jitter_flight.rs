@@ -1,0 +1,120 @@
+//! Flights of a flexible spacecraft with a wheel out of balance: at constant speed, free and under control, and run up.
+
+use loader::Fmu;
+
+use super::jitter_theory::Structure;
+use super::spectrum::Spectrum;
+use crate::case::Case;
+use crate::{Options, StudyError};
+
+/// Samples a second.
+pub const RATE_HZ: f64 = 100.0;
+/// Samples of a spectrum.
+pub const COUNT: usize = 1 << 14;
+/// What rings at first has died away then, in s.
+const SETTLED_S: f64 = 240.0;
+/// Below it the attitude moves as a whole, in Hz.
+pub const LOWEST_HZ: f64 = 0.2;
+/// The wheel is run up to this, in Hz.
+pub const FASTEST_HZ: f64 = 9.0;
+/// Duration of the run-up, in s.
+const RUN_UP_S: f64 = 600.0;
+/// Noise of star tracker (rad) and gyros (rad after a second) under control, assumed.
+const NOISE: [f64; 2] = [2e-5, 1e-6];
+const RATES: [&str; 3] = ["attitude.rate[1]", "attitude.rate[2]", "attitude.rate[3]"];
+
+/// What is flown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flight {
+    /// For tables and pictures.
+    pub label: String,
+    /// Speed of the first wheel, in Hz; the others stand.
+    pub wheel_hz: f64,
+    /// Under the controller with noisy sensors, or free.
+    pub controlled: bool,
+}
+
+/// The attitude's spectrum, in rad.
+pub struct Shaken {
+    /// What was flown.
+    pub flight: Flight,
+    /// All axes together.
+    pub spectrum: Spectrum,
+}
+
+/// Nothing acts but wheels; they start at these momenta, in N m s.
+fn dark(label: &str, stop_s: f64) -> Case {
+    Case::new(label, stop_s, 1.0 / RATE_HZ).real("solar.flux", 0.0).boolean("gravityGradient.enabled", false)
+}
+
+impl Flight {
+    /// Flies it.
+    pub fn fly(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
+        let stop_s = SETTLED_S + COUNT as f64 / RATE_HZ;
+        let held_n_m_s = structure.rotor_kg_m2 * std::f64::consts::TAU * self.wheel_hz;
+        let mut case = dark(&self.label, stop_s).real("wheel[1].startMomentum", held_n_m_s);
+        if self.controlled {
+            let [tracker, gyro] = NOISE;
+            case =
+                case.integer("attitude.source", 3).real("control.balanceTime", 0.0).real("gyro.noise", gyro);
+            for (i, q) in [0.1, 0.2, -0.3, 0.927_361_849_549_570_4].into_iter().enumerate() {
+                let element = i + 1;
+                case = case.real(&format!("start.q[{element}]"), q).real(&format!("command.q[{element}]"), q);
+            }
+            for axis in 1..=3 {
+                case = case.real(&format!("starTracker.noise[{axis}]"), tracker);
+            }
+        } else {
+            case = case.integer("attitude.source", 4);
+        }
+        let recorded = case.simulate(fmu, &RATES)?;
+        let axes: Vec<Spectrum> =
+            recorded.columns.iter().map(|rate| Spectrum::of(&rate[rate.len() - COUNT..], RATE_HZ)).collect();
+        let angle = |frequency_hz: f64, rate_rad_s: f64| {
+            if frequency_hz > 0.0 { rate_rad_s / (std::f64::consts::TAU * frequency_hz) } else { 0.0 }
+        };
+        Ok(Shaken { flight: self.clone(), spectrum: Spectrum::combined(&axes, angle) })
+    }
+}
+
+/// Jitter while the wheel is run up: its speed in Hz, and the amplitude over windows of some seconds in rad.
+pub fn run_up(fmu: &Fmu, structure: &Structure) -> Result<Vec<(f64, f64)>, StudyError> {
+    const WINDOW: usize = 400;
+    let torque_n_m = structure.rotor_kg_m2 * std::f64::consts::TAU * FASTEST_HZ / RUN_UP_S;
+    let case =
+        dark("run-up", RUN_UP_S).integer("attitude.source", 4).real("wheel[1].torqueCommand", torque_n_m);
+    let names: Vec<&str> = RATES.into_iter().chain(["wheel[1].speed"]).collect();
+    let recorded = case.simulate(fmu, &names)?;
+    let windows = recorded.times_s.len() / (WINDOW / 4);
+    let points = (0..windows.saturating_sub(4)).map(|window| {
+        let span = window * WINDOW / 4..window * WINDOW / 4 + WINDOW;
+        let middle = span.start + WINDOW / 2;
+        let wheel_hz = recorded.columns[3][middle] / std::f64::consts::TAU;
+        let square: f64 = recorded.columns[..3].iter().map(|rate| mean_square(&rate[span.clone()])).sum();
+        (wheel_hz, (2.0 * square).sqrt() / (std::f64::consts::TAU * wheel_hz))
+    });
+    Ok(points.filter(|(wheel_hz, _)| *wheel_hz > 0.5).collect())
+}
+
+/// Of samples about their straight line.
+fn mean_square(samples: &[f64]) -> f64 {
+    let count = samples.len() as f64;
+    let mean = samples.iter().sum::<f64>() / count;
+    let middle = 0.5 * (count - 1.0);
+    let (along, spread) = samples.iter().enumerate().fold((0.0, 0.0), |(along, spread), (k, x)| {
+        let off = k as f64 - middle;
+        (along + off * (x - mean), spread + off * off)
+    });
+    let off_line = |(k, x): (usize, &f64)| (x - mean - along / spread * (k as f64 - middle)).powi(2);
+    samples.iter().enumerate().map(off_line).sum::<f64>() / count
+}
+
+/// The plant with flexible modes.
+pub fn open(options: &Options) -> Result<(Fmu, Structure), StudyError> {
+    let fmu = options.fmu("FlexibleCraft.fmu")?;
+    let structure = Structure::read(&fmu).map_err(|error| StudyError::Simulation {
+        case: "parameters of FlexibleCraft".to_owned(),
+        source: error.into(),
+    })?;
+    Ok((fmu, structure))
+}

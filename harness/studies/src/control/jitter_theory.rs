@@ -1,0 +1,99 @@
+//! Jitter of a flexible body by a rotor out of balance, in closed form.
+//!
+//! Equations: at the angular frequency W of the rotor, T = r x F, F = U W^2 (e1 - i e2), and the body's angle follows from
+//! -W^2 (J + sum of d d^T W^2 / (w^2 - W^2 + 2 i z w W)) a = T, with J less the rotors about their axes and without the
+//! stored momentum's gyroscopic torque.
+
+use loader::{Error, Fmu};
+use nalgebra::{Complex, Matrix3, Vector3};
+
+use super::cosimulation::{Row, Unit};
+
+/// One flexible mode.
+#[derive(Clone, Copy, Debug)]
+pub struct Mode {
+    /// With the body held, in Hz.
+    pub frequency_hz: f64,
+    damping: f64,
+    coupling: Vector3<f64>,
+}
+
+/// Body, modes and wheels, from the parameters of an FMU.
+#[derive(Clone, Debug)]
+pub struct Structure {
+    carrier: Matrix3<f64>,
+    /// In the order of the FMU.
+    pub modes: Vec<Mode>,
+    axis: Vector3<f64>,
+    lever_m: Vector3<f64>,
+    imbalance_kg_m: f64,
+    /// Of the first wheel, in kg m2.
+    pub rotor_kg_m2: f64,
+}
+
+impl Structure {
+    /// Reads it; the first wheel is the one that shakes.
+    pub fn read(fmu: &Fmu) -> Result<Self, Error> {
+        let count =
+            |what: &dyn Fn(usize) -> String| (1..).take_while(|k| fmu.position(&what(*k)).is_some()).count();
+        let modes = count(&|k| format!("flexibleMode[{k}].frequency"));
+        let wheels = count(&|k| format!("wheel[{k}].inertia"));
+        let mut names: Vec<String> =
+            ["spacecraft.inertia", "spacecraft.centerOfMass"].map(str::to_owned).to_vec();
+        for k in 1..=modes {
+            names
+                .extend(["frequency", "damping", "coupling"].map(|name| format!("flexibleMode[{k}].{name}")));
+        }
+        for k in 1..=wheels {
+            names.extend(["inertia", "axis"].map(|name| format!("wheel[{k}].{name}")));
+        }
+        names.extend(["staticImbalance", "position"].map(|name| format!("wheel[1].{name}")));
+        let values = Unit::start(fmu, &Vec::new(), &Vec::new(), &names)?.read()?;
+        let mut row = Row::of(&values);
+        let mut carrier = Matrix3::from_row_slice(&row.vector::<9>());
+        let center_m = Vector3::from(row.vector::<3>());
+        let modes = (0..modes)
+            .map(|_| Mode {
+                frequency_hz: row.real(),
+                damping: row.real(),
+                coupling: Vector3::from(row.vector::<3>()),
+            })
+            .collect();
+        let rotors: Vec<(f64, Vector3<f64>)> =
+            (0..wheels).map(|_| (row.real(), Vector3::from(row.vector::<3>()).normalize())).collect();
+        for (inertia, axis) in &rotors {
+            carrier -= axis * axis.transpose() * *inertia;
+        }
+        let (rotor_kg_m2, axis) = rotors.first().copied().unwrap_or((f64::NAN, Vector3::z()));
+        let imbalance_kg_m = row.real();
+        let lever_m = Vector3::from(row.vector::<3>()) - center_m;
+        Ok(Self { carrier, modes, axis, lever_m, imbalance_kg_m, rotor_kg_m2 })
+    }
+
+    /// Amplitude of the body's angle, all axes together, where the rotor turns so often a second, in rad.
+    pub fn jitter_rad(&self, frequency_hz: f64) -> f64 {
+        let turning = std::f64::consts::TAU * frequency_hz;
+        let complex = |v: &Vector3<f64>| v.map(Complex::from);
+        let mut inertia = self.carrier.map(Complex::from);
+        for mode in &self.modes {
+            let (own, coupling) = (std::f64::consts::TAU * mode.frequency_hz, complex(&mode.coupling));
+            let stiffness = Complex::new(own * own - turning * turning, 2.0 * mode.damping * own * turning);
+            inertia += coupling * coupling.transpose() * (Complex::from(turning * turning) / stiffness);
+        }
+        let first = self.axis.cross(&Vector3::new(0.267_3, 0.534_5, 0.801_8)).normalize();
+        let second = self.axis.cross(&first);
+        let torque =
+            complex(&self.lever_m.cross(&first)) - complex(&self.lever_m.cross(&second)) * Complex::i();
+        // The square of the speed is in force and acceleration alike.
+        let angle =
+            inertia.try_inverse().map(|inverse| inverse * torque * Complex::from(self.imbalance_kg_m));
+        angle.map_or(f64::NAN, |angle| angle.norm())
+    }
+
+    /// The frequency near that of a mode at which the body shakes most, in Hz: the mode's with the body free.
+    pub fn resonance_hz(&self, mode: &Mode) -> f64 {
+        let free =
+            self.carrier.try_inverse().map_or(0.0, |inverse| mode.coupling.dot(&(inverse * mode.coupling)));
+        mode.frequency_hz / (1.0 - free).sqrt()
+    }
+}
