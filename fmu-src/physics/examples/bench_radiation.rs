@@ -213,6 +213,7 @@ fn evaluations(
         let sun = constant_vector::<T>(&-Vector3::y());
         let geometry = Geometry {
             sun_direction_body: sun,
+            sun_sine: T::constant(0.0),
             sun_flux_w_m2: T::constant(flux_w_m2),
             lit_fraction: T::constant(1.0),
             planet: position_m.map(|position_m| PlanetGeometry {
@@ -317,6 +318,7 @@ fn shadows(hull: usize, shaded: usize) -> Result<(), Failure> {
     let all_s = report(&format!("shadow_drum_{count}_force_torque_recoil"), |i| {
         let geometry = Geometry {
             sun_direction_body: sun(i),
+            sun_sine: 0.0,
             sun_flux_w_m2: 9000.0,
             lit_fraction: 1.0,
             planet: None,

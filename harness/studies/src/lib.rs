@@ -56,6 +56,13 @@ pub const STUDIES: &[Study] = &[
         run: control::transition,
     },
     Study {
+        name: "control/dump",
+        paper: "000",
+        title: "momentum dumps by pulses of thrusters beside the same dumps at once",
+        takes: &[],
+        run: control::dump,
+    },
+    Study {
         name: "control/jitter",
         paper: "000",
         title: "attitude jitter of a flexible structure by a wheel out of balance, with its spectrum",

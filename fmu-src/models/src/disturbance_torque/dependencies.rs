@@ -22,7 +22,7 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
 
     // Parameters.
     let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(spacecraft));
-    let shadows = &knowns![v.shadowing.enabled].only_if(can_shadow(spacecraft));
+    let shadows = &knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(can_shadow(spacecraft));
     let eclipse = &knowns![planet.present, planet.radius, v.eclipse.method];
     let by_sun = &knowns![v.solar.flux, eclipse, shadows];
     let over_planet =
@@ -79,7 +79,7 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
     for (plate, face) in v.plate.iter().zip(&setup.reported_faces) {
         let panels = face.lit_past.iter().filter_map(|&k| v.panel.get(k)).map(|panel| panel.angle);
         let inputs = &knowns![places, planet.pole, panels.collect::<Knowns>()];
-        let shadows = knowns![v.shadowing.enabled].only_if(face.shadowed);
+        let shadows = knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(face.shadowed);
         let parameters = &knowns![v.solar.flux, eclipse, reflecting, radiating, shadows, shade];
         for output in [knowns![plate.temperature], knowns![plate.force]] {
             table.output(output, inputs, knowns![inputs, parameters]);

@@ -150,6 +150,7 @@ impl Prepared {
             planet: present.then_some(surface),
             planet_light: method(values, &variables.planet_light, spacecraft)?,
             self_shadowing: values.boolean(variables.shadowing.enabled),
+            sun_disc: values.boolean(variables.shadowing.sun_disc),
             sunshade_model: sunshade_model.filter(|_| spacecraft.sunshade.is_some()),
         };
         let shadow = variables.eclipse.read(values, surface.radius_m)?;

@@ -127,6 +127,10 @@ pub struct ShadowingVariables {
     /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.
     #[parameter(start = true)]
     pub enabled: Boolean,
+    /// Whether the Sun's disc softens those shadows: lit areas are means over seven directions to it, which takes as much
+    /// longer. Otherwise the Sun is a point.
+    #[parameter(start = false)]
+    pub sun_disc: Boolean,
 }
 
 /// Mass properties.

@@ -217,11 +217,6 @@ impl GuidanceState {
         self.modes.mode
     }
 
-    /// How far a burn is.
-    pub fn burn(&self) -> &BurnState {
-        &self.burn
-    }
-
     /// Whether the precise ephemerides are trusted.
     pub fn ephemeris_is_valid(&self) -> bool {
         self.modes.ephemeris.is_valid()
@@ -230,6 +225,11 @@ impl GuidanceState {
     /// Whether the mode goes by the coarse ephemerides, where modes choose.
     pub fn uses_coarse_ephemeris(&self) -> bool {
         self.modes.ephemeris.uses_coarse(self.modes.mode)
+    }
+
+    /// How far a burn is.
+    pub fn burn(&self) -> &BurnState {
+        &self.burn
     }
 
     /// When the next sample is due, in s.

@@ -20,6 +20,7 @@ pub(super) struct RadiationNode {
 #[derive(Clone, Debug)]
 pub(super) struct ViewingGeometry {
     pub sun_direction_body: Vector3<f64>,
+    pub sun_sine: f64,
     pub sun_flux_w_m2: f64,
     pub lit_fraction: f64,
     pub planet: Option<PlanetGeometry<f64>>,
@@ -32,6 +33,7 @@ impl RadiationNode {
         Self {
             viewing: ViewingGeometry {
                 sun_direction_body: Vector3::zeros(),
+                sun_sine: 0.0,
                 sun_flux_w_m2: 0.0,
                 lit_fraction: 1.0,
                 planet: None,
@@ -64,6 +66,7 @@ impl ViewingGeometry {
     fn geometry(&self) -> disturbance::Geometry<'_, f64> {
         disturbance::Geometry {
             sun_direction_body: self.sun_direction_body,
+            sun_sine: self.sun_sine,
             sun_flux_w_m2: self.sun_flux_w_m2,
             lit_fraction: self.lit_fraction,
             planet: self.planet,

@@ -41,6 +41,7 @@ impl RadiationSolver {
             planet: over_planet.then_some(*planet),
             planet_light: PlanetLightMethod::Rings(quadrature_nodes),
             self_shadowing: effects.shadowing,
+            sun_disc: effects.sun_disc,
             sunshade_model: spacecraft.sunshade.as_ref().map(|_| configuration.sunshade),
         };
         let model = DisturbanceModel::new(&flown, &options)?;

@@ -11,6 +11,8 @@ pub struct RadiationSettings {
     pub storage: bool,
     /// Whether surfaces given as polygons shadow one another from the Sun.
     pub shadowing: bool,
+    /// Whether the Sun's disc softens those shadows.
+    pub sun_disc: bool,
     /// Segments of light and heat end at multiples of this, in s.
     pub grid_s: f64,
     /// Largest last Chebyshev term of a segment relative to the largest force and torque in it.
@@ -24,6 +26,7 @@ impl RadiationSettings {
         recoil: false,
         storage: false,
         shadowing: false,
+        sun_disc: false,
         grid_s: 600.0,
         tolerance: 1e-5,
     };

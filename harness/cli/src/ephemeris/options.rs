@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use physics::environment::{dates, flown::FlownTarget};
 
-use crate::args::{DEFAULT_TEMPLATE, span};
+use crate::values::{DEFAULT_TEMPLATE, span};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -97,7 +97,7 @@ fn light_and_loads(
     let eclipse = &knowns![planet.radius, v.eclipse.method];
     let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(spacecraft));
     let is_shadowed = can_shadow(spacecraft);
-    let shadows = &knowns![v.shadowing.enabled].only_if(is_shadowed);
+    let shadows = &knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(is_shadowed);
     let panels = &start.panels.iter().collect::<Knowns>();
     // Light and heat beyond plain sunlight are read from a polynomial over a stretch of flight; what else lies within its
     // tolerance is no dependence.
@@ -179,7 +179,7 @@ fn light_and_loads(
         let angles = face.lit_past.iter().filter_map(|&k| v.panel.get(k)).map(|panel| panel.angle);
         let lit = &knowns![&inputs.attitude, angles.collect::<Knowns>()];
         let panels = face.lit_past.iter().filter_map(|&k| start.panels.get(k)).collect::<Knowns>();
-        let shadows = knowns![v.shadowing.enabled].only_if(face.shadowed);
+        let shadows = knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(face.shadowed);
         let stored = knowns![fitted].only_if(face.stores_heat);
         let at_start = &knowns![&start.attitude, sunlight, eclipse, shadows, reflected, radiated, panels];
         table.output(plate.temperature, lit, knowns![at_start, &stored]);

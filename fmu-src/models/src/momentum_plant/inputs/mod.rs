@@ -99,6 +99,7 @@ pub fn refreshed(
             recoil: values.boolean(variables.thermal.enabled),
             storage: values.boolean(variables.thermal.storage),
             shadowing: values.boolean(variables.shadowing.enabled),
+            sun_disc: values.boolean(variables.shadowing.sun_disc),
             grid_s: values.real(variables.solver.disturbance_step),
             tolerance: values.real(variables.solver.disturbance_tolerance),
         },

@@ -38,6 +38,7 @@ fn measure(text: &str, map: bool, shapes: bool) {
         bench.put(&mut values, KINDS[1], random.whole(1, 4));
         bench.put(&mut values, "planet.dayTemperature", random.whole(1, 2));
         bench.put(&mut values, "shadowing.enabled", random.whole(0, 1));
+        bench.put(&mut values, "shadowing.sunDisc", random.whole(0, 1));
         bench.put(&mut values, "planet.present", if round == 5 { 0.0 } else { 1.0 });
         if shapes {
             bench.put(&mut values, "sunshade.shape", random.whole(1, 2));

@@ -32,6 +32,7 @@ const OPTIONS: &[(&str, i32, i32)] = &[
     ("thermal.enabled", 0, 1),
     ("thermal.storage", 0, 1),
     ("shadowing.enabled", 0, 1),
+    ("shadowing.sunDisc", 0, 1),
     ("gravityGradient.enabled", 0, 1),
     ("momentum.convention", 1, 2),
     ("dump.reinitTo", 1, 2),

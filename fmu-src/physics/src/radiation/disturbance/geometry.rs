@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::constants::{RADIUS_SUN_M, SPEED_OF_LIGHT_M_S};
 use crate::environment::sun::{SunError, flux_w_m2};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::flat_plate::Beam;
@@ -14,6 +14,8 @@ use crate::radiation::ring::ViewError;
 pub struct Geometry<'a, T: Scalar> {
     /// Unit vector toward the Sun.
     pub sun_direction_body: Vector3<T>,
+    /// Sine of the Sun's angular radius, its radius over its distance; counts where shadows are softened.
+    pub sun_sine: T,
     /// The Sun's flux at the spacecraft were nothing in between, in W/m2.
     pub sun_flux_w_m2: T,
     /// Visible fraction of the Sun's disc (of its light), 1 outside eclipses.
@@ -125,6 +127,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         };
         Ok(Self {
             sun_direction_body: sun_position_body_m / distance_m,
+            sun_sine: distance_m.recip() * RADIUS_SUN_M,
             sun_flux_w_m2,
             lit_fraction,
             planet,
@@ -148,6 +151,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         let finite = |what, good: bool| if good { Ok(()) } else { Err(GeometryError::NotFinite { what }) };
         let vector = |v: &Vector3<T>| v.iter().all(|x| x.value().is_finite());
         finite("the Sun's direction", vector(&self.sun_direction_body))?;
+        finite("the Sun's angular radius", self.sun_sine.value().is_finite())?;
         finite("the Sun's flux", self.sun_flux_w_m2.value().is_finite())?;
         finite("the lit fraction", self.lit_fraction.value().is_finite())?;
         finite("the centre of mass", vector(&self.center_of_mass_body_m))?;

@@ -37,6 +37,7 @@ fn square(normal: Vector3<f64>, center_m: Vector3<f64>, half_m: f64, optics: Opt
 fn sunlit(sun_direction_body: Vector3<f64>) -> Geometry<'static, f64> {
     Geometry {
         sun_direction_body,
+        sun_sine: 0.0,
         sun_flux_w_m2: 9000.0,
         lit_fraction: 1.0,
         planet: None,

@@ -18,6 +18,8 @@ mod heat_tests;
 mod paper_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod whole_tests;
 
 pub use by_source::{BySource, Parameters, PositionError, Positions};
 pub use error::ModelError;

@@ -12,7 +12,7 @@ use crate::bodies::surface::PlanetSurface;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::planet_light::PlanetLight;
-use crate::radiation::shadow::ShadowScene;
+use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
 use crate::radiation::solar::SolarModel;
 use crate::spacecraft::{Panel, Spacecraft, SunshadeModel};
 
@@ -25,6 +25,8 @@ pub struct Options {
     pub planet_light: PlanetLightMethod,
     /// Whether surfaces with an outline shadow one another from the Sun.
     pub self_shadowing: bool,
+    /// Whether those shadows are softened by the Sun's disc; otherwise the Sun is a point.
+    pub sun_disc: bool,
     /// The sunshade's form, if not the one its file chooses.
     pub sunshade_model: Option<SunshadeModel>,
 }
@@ -35,6 +37,7 @@ impl Default for Options {
             planet: None,
             planet_light: PlanetLightMethod::default(),
             self_shadowing: true,
+            sun_disc: false,
             sunshade_model: None,
         }
     }
@@ -51,6 +54,7 @@ pub struct DisturbanceModel {
     planet: Option<PlanetSurface>,
     /// Present only where some surface can shadow another.
     scene: Option<ShadowScene>,
+    sun_disc: bool,
 }
 
 impl DisturbanceModel {
@@ -85,6 +89,7 @@ impl DisturbanceModel {
             planet_light: PlanetRule::new(&options.planet_light)?,
             planet: options.planet,
             scene,
+            sun_disc: options.sun_disc,
         })
     }
 
@@ -119,7 +124,9 @@ impl DisturbanceModel {
     pub fn evaluation_units(&self) -> u32 {
         let faces = self.face_count() as u32;
         let planet = if self.planet.is_some() { self.planet_light.evaluation_units(faces) } else { 0 };
-        let shadows = self.scene.as_ref().map_or(0, |scene| scene.candidate_pairs() as u32 / 200);
+        let directions = if self.sun_disc { DIRECTIONS } else { 1 };
+        let shadows =
+            self.scene.as_ref().map_or(0, |scene| (directions * scene.candidate_pairs()) as u32 / 200);
         1 + faces / 8 + planet + shadows
     }
 
@@ -201,8 +208,13 @@ impl DisturbanceModel {
         self.turn_normals(geometry, workspace);
         self.light_planet(surface, geometry, workspace)?;
         if let Some(scene) = &self.scene {
-            let sun = &geometry.sun_direction_body;
-            scene.evaluate(sun, geometry.panel_angles_rad, &mut workspace.shadow);
+            let (sun, angles_rad) = (&geometry.sun_direction_body, geometry.panel_angles_rad);
+            if self.sun_disc {
+                let disc = SunDisc::new(sun, geometry.sun_sine);
+                scene.evaluate_disc(&disc, angles_rad, &mut workspace.shadow);
+            } else {
+                scene.evaluate(sun, angles_rad, &mut workspace.shadow);
+            }
         }
         let loads = self.loads(geometry);
         let mut sum = loads.receive(workspace);

@@ -43,6 +43,7 @@ fn around_orbit_by(
         let lit_fraction = shadow.lit_fraction(&position_body_m, &(sun_body * sun_distance_m)).unwrap();
         let geometry = Geometry {
             sun_direction_body: sun_body,
+            sun_sine: 0.0,
             sun_flux_w_m2,
             lit_fraction,
             planet: Some(PlanetGeometry {

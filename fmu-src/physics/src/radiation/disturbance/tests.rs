@@ -77,6 +77,7 @@ fn in_isotropic_light(spacecraft: &Spacecraft) -> [ForceTorque<f64>; 2] {
         let nadir = direction(0.7, 0.3) * side;
         let geometry = Geometry {
             sun_direction_body: nadir,
+            sun_sine: 0.0,
             sun_flux_w_m2: 0.0,
             lit_fraction: 1.0,
             planet: Some(PlanetGeometry {
@@ -122,6 +123,7 @@ fn an_insulated_black_plate_recoils_by_two_thirds_of_the_light() {
     let model = DisturbanceModel::new(&spacecraft, &Options::default()).unwrap();
     let geometry = Geometry {
         sun_direction_body: -Vector3::y(),
+        sun_sine: 0.0,
         sun_flux_w_m2: 9000.0,
         lit_fraction: 0.5,
         planet: None,
@@ -146,6 +148,7 @@ fn heat_from_inside_pushes_where_it_leaves() {
     let model = DisturbanceModel::new(&bare(vec![body]), &Options::default()).unwrap();
     let dark = Geometry {
         sun_direction_body: -Vector3::z(),
+        sun_sine: 0.0,
         sun_flux_w_m2: 1361.0,
         lit_fraction: 1.0,
         planet: None,

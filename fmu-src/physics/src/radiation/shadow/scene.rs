@@ -4,6 +4,7 @@ use nalgebra::{Unit, Vector2, Vector3};
 
 use super::clip::{Pieces, cross, drop_flat_corners, flat_m2};
 use super::convex::FlatParts;
+use super::disc::{DIRECTIONS, LitMean, SunDisc};
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::spacecraft::Polygon;
 
@@ -70,6 +71,7 @@ pub struct ShadowWorkspace<T: Scalar> {
     scratch: [Vec<Vector2<T>>; 2],
     space: [Vec<(Vector3<T>, T)>; 2],
     hole: Vec<Vector2<T>>,
+    means: Vec<LitMean<T>>,
     pairs: usize,
 }
 
@@ -82,6 +84,7 @@ impl<T: Scalar> Default for ShadowWorkspace<T> {
             scratch: Default::default(),
             space: Default::default(),
             hole: Vec::new(),
+            means: Vec::new(),
             pairs: 0,
         }
     }
@@ -163,9 +166,47 @@ impl ShadowScene {
         panel_angles_rad: &[T],
         workspace: &mut ShadowWorkspace<T>,
     ) {
+        self.pose(panel_angles_rad, workspace);
+        self.light(sun_body, workspace);
+    }
+
+    /// As [`ShadowScene::evaluate`], the Sun a disc: means over it, of the side that looks at its centre.
+    pub fn evaluate_disc<T: Scalar>(
+        &self,
+        disc: &SunDisc<T>,
+        panel_angles_rad: &[T],
+        workspace: &mut ShadowWorkspace<T>,
+    ) {
+        self.pose(panel_angles_rad, workspace);
+        workspace.means.clear();
+        workspace.means.resize(self.surfaces.len(), LitMean::new());
+        let (center, _) = disc.direction(0);
+        for (sun_body, weight) in (0..DIRECTIONS).map(|number| disc.direction(number)) {
+            self.light(&sun_body, workspace);
+            let ShadowWorkspace { poses, lit, means, .. } = workspace;
+            for (index, (mean, lit)) in means.iter_mut().zip(lit).enumerate() {
+                let pose = &poses[index];
+                let side = pose.normal.dot(&center).value().signum();
+                let cos = pose.normal.dot(&sun_body) * side;
+                if cos.value() > 0.0 {
+                    let whole = (T::constant(self.surfaces[index].area_m2), pose.origin);
+                    mean.add(cos * weight, lit.unwrap_or(whole), lit.is_some());
+                }
+            }
+        }
+        let ShadowWorkspace { poses, lit, means, .. } = workspace;
+        lit.clear();
+        lit.extend(means.iter().zip(poses).map(|(mean, pose)| mean.found(&pose.origin)));
+    }
+
+    fn pose<T: Scalar>(&self, panel_angles_rad: &[T], workspace: &mut ShadowWorkspace<T>) {
         workspace.pairs = 0;
         workspace.poses.clear();
         workspace.poses.extend(self.surfaces.iter().map(|surface| surface.pose(panel_angles_rad)));
+    }
+
+    /// What one direction lights, the surfaces posed.
+    fn light<T: Scalar>(&self, sun_body: &Vector3<T>, workspace: &mut ShadowWorkspace<T>) {
         workspace.lit.clear();
         workspace.lit.resize(self.surfaces.len(), None);
         let sun = sun_body.map(T::value);
