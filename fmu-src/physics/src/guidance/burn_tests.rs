@@ -192,7 +192,7 @@ fn a_burn_interrupted_does_not_go_on_by_itself() {
     guidance.sample(&all, &lost);
     assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: false });
     let mut promoted = inputs;
-    promoted.sensed.request = Some(super::modes::Mode::Operational);
+    promoted.sensed.request = Some(super::mode::Mode::Operational);
     for _ in 0..10 {
         guidance.sample(&all, &promoted);
         assert_eq!(guidance.burn().stop_s(), None);

@@ -13,6 +13,7 @@ use super::guided::Guided;
 use super::keep_in::{KeepIn, KeepInMethod};
 use super::modes::{ModeSettings, Sensed};
 use super::moving::fixed;
+use super::places::Places;
 use super::scenario::GuidanceHardware;
 use super::schedule::Schedule;
 use super::surroundings::{Surroundings, TargetPlanet};
@@ -117,6 +118,7 @@ pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
             operational: Constraints::default(),
             safe_hold: Constraints::default(),
             monitor: None,
+            ephemeris_check: None,
             watches_hot_pole: true,
             boresight_body: -Vector3::y(),
             earth_acquisition_rate_rad_s: 1e-3,
@@ -147,7 +149,7 @@ pub fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> Samp
     SampleInputs {
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
         entries: TimedEntries::default(),
-        surroundings: Some(surroundings()),
+        places: Places::in_every_mode(Some(surroundings())),
         sensed: Sensed { time_s: 0.0, request: None, estimate: Some(attitude), sun_body: None },
         delta_v_body_m_s,
     }
