@@ -91,6 +91,13 @@ pub const STUDIES: &[Study] = &[
         run: momentum::assumptions,
     },
     Study {
+        name: "momentum/off-sun",
+        paper: "000, 003",
+        title: "sunlight on the whole MESSENGER over the sphere, and its momentum against shade and panels alone",
+        takes: &[],
+        run: momentum::off_sun,
+    },
+    Study {
         name: "pointing/limb",
         paper: "001",
         title: "limb points at azimuths and on the terminator, and a scan of the limb's height",

@@ -125,7 +125,8 @@ impl DisturbanceModel {
         let faces = self.face_count() as u32;
         let planet = if self.planet.is_some() { self.planet_light.evaluation_units(faces) } else { 0 };
         let directions = if self.sun_disc { DIRECTIONS } else { 1 };
-        let shadows = self.scene.as_ref().map_or(0, |scene| (directions * scene.candidate_pairs()) as u32 / 200);
+        let shadows =
+            self.scene.as_ref().map_or(0, |scene| (directions * scene.candidate_pairs()) as u32 / 200);
         1 + faces / 8 + planet + shadows
     }
 

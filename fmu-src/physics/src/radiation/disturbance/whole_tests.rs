@@ -58,7 +58,10 @@ fn within_the_zone_the_whole_differs_from_shade_and_panels_by_what_single_surfac
                 match on_few.iter().find(|(known, _)| known == name) {
                     Some((_, known)) => {
                         sum += *load;
-                        sum += ForceTorque { force_body_n: -known.force_body_n, torque_body_n_m: -known.torque_body_n_m };
+                        sum += ForceTorque {
+                            force_body_n: -known.force_body_n,
+                            torque_body_n_m: -known.torque_body_n_m,
+                        };
                         // Mirrors of one plate: seams overlap by millimetres.
                         let seam = (load.force_body_n - known.force_body_n).norm();
                         assert!(seam <= 0.02 * known.force_body_n.norm(), "{name}: {seam}");
@@ -68,7 +71,10 @@ fn within_the_zone_the_whole_differs_from_shade_and_panels_by_what_single_surfac
                         lit_beyond.insert(name.clone());
                         let is_slim = name.starts_with("boom");
                         // The shade keeps the bus dark up to 10.5 deg of azimuth.
-                        assert!(is_slim || azimuth_deg.abs() >= 11, "{name} at {azimuth_deg} {elevation_deg}");
+                        assert!(
+                            is_slim || azimuth_deg.abs() >= 11,
+                            "{name} at {azimuth_deg} {elevation_deg}"
+                        );
                     }
                 }
             }

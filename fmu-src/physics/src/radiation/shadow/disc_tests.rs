@@ -49,7 +49,9 @@ fn strip(x_m: [f64; 2], height_m: f64, sine: f64) -> f64 {
 #[test]
 fn an_edge_across_a_wide_surface_leaves_the_suns_segments() {
     let (sine, height_m) = (0.012, 2.0);
-    let [(area_m2, center_m), _] = mean(&edge([-0.5, 1.5], height_m), &Vector3::z(), sine)[..] else { panic!() };
+    let [(area_m2, center_m), _] = mean(&edge([-0.5, 1.5], height_m), &Vector3::z(), sine)[..] else {
+        panic!()
+    };
     assert_relative_eq!(area_m2, 1.5, epsilon = 1e-12);
     assert_relative_eq!(area_m2, strip([-0.5, 1.5], height_m, sine), epsilon = 1e-9);
     let half_width_m = height_m * sine;
@@ -66,7 +68,9 @@ fn an_edge_across_a_wide_surface_leaves_the_suns_segments() {
 fn a_strip_in_the_penumbra_is_partly_lit() {
     let (sine, height_m) = (0.012, 2.0);
     let half_width_m = height_m * sine;
-    for (from, width) in [(-1.2, 0.2), (-0.9, 0.4), (-0.3, 0.2), (-0.2, 0.8), (0.1, 0.5), (0.6, 0.3), (-1.0, 2.0)] {
+    for (from, width) in
+        [(-1.2, 0.2), (-0.9, 0.4), (-0.3, 0.2), (-0.2, 0.8), (0.1, 0.5), (0.6, 0.3), (-1.0, 2.0)]
+    {
         let x_m = [from * half_width_m, (from + width) * half_width_m];
         let whole = x_m[1] - x_m[0];
         let found = mean(&edge(x_m, height_m), &Vector3::z(), sine)[0].0 / whole;
@@ -94,7 +98,8 @@ fn a_shade_before_a_panel_leaves_what_rays_find() {
     let (mut light, mut lit, mut moment) = (0.0, 0.0, Vector3::zeros());
     let (rays, cells) = (400, 120);
     for ray in 0..rays {
-        let (radius, angle) = (((f64::from(ray) + 0.5) / f64::from(rays)).sqrt(), 2.399_963_229_728_653 * f64::from(ray));
+        let (radius, angle) =
+            (((f64::from(ray) + 0.5) / f64::from(rays)).sqrt(), 2.399_963_229_728_653 * f64::from(ray));
         let off = (across * angle.cos() + other * angle.sin()) * (radius * sine);
         let toward = sun * (1.0 - off.norm_squared()).sqrt() + off;
         let cos = toward.dot(&normal);
@@ -102,7 +107,8 @@ fn a_shade_before_a_panel_leaves_what_rays_find() {
         for cell in 0..cells * cells {
             let place = |k: i32| (f64::from(k) + 0.5) / f64::from(cells) * 2.0 - 1.0;
             let from = center + u * place(cell % cells) + v * place(cell / cells);
-            let hit = from + toward * ((shade[0] - from).dot(&shade_normal) / toward.dot(&shade_normal)) - shade[0];
+            let hit =
+                from + toward * ((shade[0] - from).dot(&shade_normal) / toward.dot(&shade_normal)) - shade[0];
             // Components along the shade's half edges, which are not at right angles.
             let (a, b) = (hit.cross(&shade[2]).dot(&shade_normal), shade[1].cross(&hit).dot(&shade_normal));
             let size = shade_normal.norm_squared();
@@ -142,7 +148,9 @@ fn a_disc_is_the_point_where_it_has_no_width_and_its_slopes_are_exact() {
     let slope = dual.lit(0).unwrap().0.eps;
     assert_relative_eq!(slope, (at(1e-6) - at(-1e-6)) / 2e-6, max_relative = 1e-6);
 
-    for center in [Vector3::new(-0.48, 0.64, -0.6), Vector3::y(), -Vector3::y(), Vector3::new(0.48, -0.64, 0.6)] {
+    for center in
+        [Vector3::new(-0.48, 0.64, -0.6), Vector3::y(), -Vector3::y(), Vector3::new(0.48, -0.64, 0.6)]
+    {
         let disc = SunDisc::new(&center, 0.02);
         let (mut sum, mut weights) = (Vector3::zeros(), 0.0);
         for number in 0..7 {
