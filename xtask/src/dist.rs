@@ -34,6 +34,8 @@ const SHIPPED: &[Shipped] = &[
             "command.source=guidance",
             "--set",
             "shadowing.enabled=true",
+            "--set",
+            "solver.dynamicsStep=10",
             "--per-plate",
             "--set",
             GUIDED_AT_START[0],

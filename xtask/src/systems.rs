@@ -56,7 +56,8 @@ const SYSTEMS: &[System] = &[
                 model: "MomentumPlant",
                 is_probe: false,
                 spacecraft: Some("messenger-full.toml"),
-                start: &["attitude.source=controlled", "shadowing.enabled=true"],
+                // Forces and torques every 10 s: shadows then cost what a second without them does.
+                start: &["attitude.source=controlled", "shadowing.enabled=true", "solver.dynamicsStep=10"],
                 starts_guided: true,
             },
         ],

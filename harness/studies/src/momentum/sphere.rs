@@ -40,11 +40,11 @@ fn direction([azimuth_deg, elevation_deg]: [f64; 2]) -> Vector {
 pub fn map(fmu: &Fmu) -> Result<Vec<Lit>, Error> {
     let mut instance = Instance::new(fmu, fmu.name(), &InstanceOptions::default())?;
     instance.set("planet.present", &Value::Boolean(false))?;
+    instance.setup_experiment(None, 0.0, None)?;
+    instance.enter_initialization_mode()?;
     for panel in 1..=2 {
         instance.set(&format!("panel[{panel}].angle"), &Value::Real(PANEL_RAD))?;
     }
-    instance.setup_experiment(None, 0.0, None)?;
-    instance.enter_initialization_mode()?;
     instance.exit_initialization_mode()?;
     let read: Vec<usize> = [fmu.select("force.solar")?, fmu.select("torque.solar")?].concat();
     let mut found = Vec::new();
