@@ -183,3 +183,68 @@ def test_sunlight_is_basilisks(heliotorque, dist, tmp_path):
             spacecraft.step(1.0)
             assert np.abs(spacecraft.get(*names) - wanted).max() < 1e-14 * np.abs(expected).max()
     spacecraft.close()
+
+
+def faces_of(text, angles):
+    """Area, centre, outward normal, specular and diffuse share of every face of a file of flat surfaces, fronts and backs."""
+    spacecraft = tomllib.loads(text)
+    optics = spacecraft["optics"]
+    faces = []
+
+    def add(area, center, normal, surface):
+        for side, key in ((1.0, "optics"), (-1.0, "rear_optics")):
+            if key in surface:
+                material = optics[surface[key]]
+                faces.append((area, center, side * normal, material["specular"], material["diffuse"]))
+
+    def outlined(surface):
+        corners = np.array(surface["polygon_m"])
+        parts = [(corners[0], a, b) for a, b in zip(corners[1:], corners[2:])]
+        vectors = [np.cross(a - o, b - o) / 2.0 for o, a, b in parts]
+        whole = sum(vectors)
+        area = np.linalg.norm(whole)
+        weights = [vector @ whole / area for vector in vectors]
+        return area, sum(w * (o + a + b) / 3.0 for w, (o, a, b) in zip(weights, parts)) / area
+
+    for surface in [*spacecraft["plates"], *spacecraft["sunshade"]["plates"]]:
+        area, center = outlined(surface)
+        area, center = surface.get("area_m2", area), np.array(surface.get("center_m", center))
+        normal = np.array(surface["normal"])
+        add(area, center, normal / np.linalg.norm(normal), surface)
+    for surface, angle in zip(spacecraft["panels"], angles):
+        area, center = outlined(surface)
+        axis, zero = np.array(surface["axis"]), np.array(surface["zero_normal"])
+        add(area, center, np.cos(angle) * zero + np.sin(angle) * np.cross(axis, zero), surface)
+    return faces
+
+
+def test_the_whole_messenger_is_pushed_as_its_faces_are(heliotorque, dist, tmp_path):
+    """Two hundred directions all over the sphere, without shadows, against a sum written out face by face."""
+    text = (RESOURCES / "messenger-full.toml").read_text(encoding="utf-8")
+    fmu = pack(heliotorque, dist, tmp_path, text, "Whole", "DisturbanceTorque.fmu")
+    angles = [0.4, -1.1]
+    light = Stepped(
+        extract(fmu, unzipdir=str(tmp_path / "unpacked")),
+        {"solar.flux": 1365.0, "planet.present": False, "shadowing.enabled": False},
+    )
+    center_of_mass = np.array([0.01, -0.02, 0.03])
+    light.set(**{f"spacecraft.centerOfMass[{i + 1}]": value for i, value in enumerate(center_of_mass)})
+    light.set(**{f"panel[{i + 1}].angle": angle for i, angle in enumerate(angles)})
+    faces, distance = faces_of(text, angles), 6.0e10
+    pressure = 1365.0 * (1.495978707e11 / distance) ** 2 / 299792458.0
+    random = np.random.default_rng(3)
+    for sun in random.normal(size=(200, 3)):
+        sun /= np.linalg.norm(sun)
+        light.set(**{f"sun.positionBody[{i + 1}]": distance * value for i, value in enumerate(sun)})
+        light.step(1.0)
+        force, torque, size = np.zeros(3), np.zeros(3), 0.0
+        for area, center, normal, specular, diffuse in faces:
+            cosine = normal @ sun
+            if cosine > 0.0:
+                push = (1.0 - specular) * sun + 2.0 * (specular * cosine + diffuse / 3.0) * normal
+                push *= -pressure * area * cosine
+                force, torque = force + push, torque + np.cross(center - center_of_mass, push)
+                size += np.linalg.norm(push)
+        assert np.abs(light.get(*vector("force.solar")) - force).max() < 1e-13 * size
+        assert np.abs(light.get(*vector("torque.solar")) - torque).max() < 1e-13 * size * 4.0
+    light.close()

@@ -2,16 +2,52 @@
 
 use crate::build::{Built, build, scratch};
 use crate::shell::{Outcome, command, root, run};
-use crate::systems;
+use crate::systems::{self, GUIDED_AT_START};
 
-/// File without its ending, model name and the shipped spacecraft it is packed with.
-const SHIPPED: &[(&str, &str, &str)] = &[
-    ("MomentumPlant", "MomentumPlant", "messenger.toml"),
-    ("MessengerFull", "MomentumPlant", "messenger-full.toml"),
-    ("SpinPlant", "SpinPlant", "ace.toml"),
-    ("DisturbanceTorque", "DisturbanceTorque", "messenger-thermal.toml"),
-    ("FlexibleCraft", "MomentumPlant", "examples/flexible-craft.toml"),
-    ("Guidance", "Guidance", "messenger.toml"),
+/// An FMU: file name, model, spacecraft, further options of `pack`.
+struct Shipped {
+    name: &'static str,
+    model: &'static str,
+    spacecraft: &'static str,
+    options: &'static [&'static str],
+}
+
+const fn plain(name: &'static str, model: &'static str, spacecraft: &'static str) -> Shipped {
+    Shipped { name, model, spacecraft, options: &[] }
+}
+
+const SHIPPED: &[Shipped] = &[
+    plain("MomentumPlant", "MomentumPlant", "messenger.toml"),
+    plain("SpinPlant", "SpinPlant", "ace.toml"),
+    plain("DisturbanceTorque", "DisturbanceTorque", "messenger-thermal.toml"),
+    plain("Guidance", "Guidance", "messenger.toml"),
+    plain("FlexibleCraft", "MomentumPlant", "examples/flexible-craft.toml"),
+    // Controlled by its own guidance, from the attitude that it commands first.
+    Shipped {
+        name: "MessengerFull",
+        model: "MomentumPlant",
+        spacecraft: "messenger-full.toml",
+        options: &[
+            "--set",
+            "attitude.source=controlled",
+            "--set",
+            "command.source=guidance",
+            "--set",
+            "shadowing.enabled=true",
+            "--set",
+            "solver.dynamicsStep=10",
+            "--per-plate",
+            "--set",
+            GUIDED_AT_START[0],
+            "--set",
+            GUIDED_AT_START[1],
+            "--set",
+            GUIDED_AT_START[2],
+            "--set",
+            GUIDED_AT_START[3],
+        ],
+    },
+    plain("MessengerLight", "DisturbanceTorque", "messenger-full.toml"),
 ];
 
 /// Builds, then packs everything that is shipped.
@@ -23,14 +59,15 @@ pub fn dist() -> Result<Built, String> {
 }
 
 fn pack(built: &Built) -> Outcome {
-    for (file, model, spacecraft) in SHIPPED {
+    for Shipped { name, model, spacecraft, options } in SHIPPED {
         run(command(&built.heliotorque)
             .args(["pack", "--model", model, "--library"])
             .arg(&built.library)
             .arg("--spacecraft")
             .arg(root().join("fmu-src").join("resources").join(spacecraft))
+            .args(*options)
             .arg("--output")
-            .arg(root().join("dist").join(format!("{file}.fmu"))))?;
+            .arg(root().join("dist").join(format!("{name}.fmu"))))?;
     }
     Ok(())
 }

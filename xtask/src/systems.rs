@@ -9,7 +9,7 @@ use crate::shell::{Outcome, command, root, run};
 
 /// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
 /// lead the Sun out of its zone.
-const GUIDED_AT_START: [&str; 4] = [
+pub const GUIDED_AT_START: [&str; 4] = [
     "start.q[1]=0.4133464981480585",
     "start.q[2]=0.895282817659325",
     "start.q[3]=0.1473540549832279",
@@ -55,8 +55,9 @@ const SYSTEMS: &[System] = &[
                 name: "plant",
                 model: "MomentumPlant",
                 is_probe: false,
-                spacecraft: Some("messenger.toml"),
-                start: &["attitude.source=controlled"],
+                spacecraft: Some("messenger-full.toml"),
+                // Forces and torques every 10 s: shadows then cost what a second without them does.
+                start: &["attitude.source=controlled", "shadowing.enabled=true", "solver.dynamicsStep=10"],
                 starts_guided: true,
             },
         ],

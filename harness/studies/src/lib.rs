@@ -98,6 +98,13 @@ pub const STUDIES: &[Study] = &[
         run: momentum::assumptions,
     },
     Study {
+        name: "momentum/off-sun",
+        paper: "000, 003",
+        title: "sunlight on the whole MESSENGER over the sphere, and its momentum against shade and panels alone",
+        takes: &[],
+        run: momentum::off_sun,
+    },
+    Study {
         name: "pointing/burn",
         paper: "001",
         title: "a burn with each correction of its direction over seeds: Figures 10 and 11",

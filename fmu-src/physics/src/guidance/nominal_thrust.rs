@@ -39,24 +39,30 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::spacecraft::{MESSENGER_TOML, Thruster, ValveTiming};
 
     fn spacecraft() -> Spacecraft {
-        let thruster = |name: &str, force_n: f64, direction: [f64; 3], set: &str| {
-            format!(
-                "[[thrusters]]\nname = \"{name}\"\nforce_n = {force_n}\nposition_m = [0.0, 0.0, -1.0]\n\
-                 direction = {direction:?}\nspecific_impulse_s = 230.0\nset = \"{set}\"\n"
-            )
+        let mut spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+        let thruster = |force_body_n: [f64; 3], set| Thruster {
+            name: String::new(),
+            position_body_m: Vector3::zeros(),
+            force_body_n: Vector3::from(force_body_n),
+            torque_body_n_m: Vector3::zeros(),
+            flow_kg_s: 0.01,
+            valve: ValveTiming::default(),
+            scatter: 0.0,
+            set: Some(set),
+            tank: 0,
+            at_pressure_pa: None,
+            plume_half_angle_rad: 0.0,
         };
-        let shipped = include_str!("../../../resources/messenger.toml");
-        let head = shipped.split("[[thrusters]]").next().unwrap();
-        let text = [
-            thruster("a", 22.0, [0.6, 0.0, 0.8], "c22"),
-            thruster("b", 22.0, [-0.6, 0.0, 0.8], "c22"),
-            thruster("c", 4.4, [0.0, 1.0, 0.0], "mono4"),
-            thruster("d", 4.4, [0.0, -1.0, 0.0], "mono4"),
-        ]
-        .concat();
-        Spacecraft::from_toml("test", &format!("{head}\n{text}")).unwrap()
+        spacecraft.thrusters = vec![
+            thruster([13.2, 0.0, 17.6], ThrusterSet::C22),
+            thruster([-13.2, 0.0, 17.6], ThrusterSet::C22),
+            thruster([0.0, 4.4, 0.0], ThrusterSet::Mono4),
+            thruster([0.0, -4.4, 0.0], ThrusterSet::Mono4),
+        ];
+        spacecraft
     }
 
     #[test]

@@ -123,9 +123,9 @@ impl ThrusterLoad {
         }
     }
 
-    /// Whether nothing fires.
+    /// Whether nothing fires; couples exert no force, but propellant flows.
     pub fn is_none(&self) -> bool {
-        self.force_body_n == [Vector3::zeros(); 2]
+        self.flow_kg_s == [0.0; 2]
     }
 
     /// Force in N and torque in N m at `time_s`, body frame.

@@ -30,7 +30,7 @@ use sheet::View;
 /// Where the shipped spacecraft is drawn.
 const DEFAULT_NAME: &str = "messenger";
 /// Keys that only a spinner's file has.
-const SPINNER_KEYS: [&str; 4] = ["thruster", "thrusters", "damper", "star_tracker"];
+const SPINNER_KEYS: [&str; 3] = ["thruster", "damper", "star_tracker"];
 
 /// Draws the file, or the shipped spacecraft.
 pub fn run(arguments: &Draw) -> Outcome {

@@ -66,6 +66,7 @@ fn extents_of_file_m(path: &str) -> [f64; 3] {
 fn every_shipped_spacecraft_is_drawn_with_its_names() {
     for (file, lists) in [
         ("messenger.toml", &["sunshade.plates", "panels"][..]),
+        ("messenger-full.toml", &["plates", "sunshade.plates", "panels"]),
         ("messenger-thermal.toml", &["plates", "panels"]),
         ("examples/mercury-orbiter.toml", &["plates", "panels"]),
         ("examples/solar-sailer.toml", &["plates", "panels"]),

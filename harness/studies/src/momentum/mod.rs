@@ -1,13 +1,16 @@
 //! Paper 000, Tables 2 and 3 and Figure 4: 90 days of momentum with thruster dumps only.
 
 mod cases;
+mod off_sun;
 mod paper;
 mod spacing;
+mod sphere;
 
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
 
 use cases::{Case, Convention, Shade, Simulated, simulate_all};
+pub use off_sun::off_sun;
 use paper::Published;
 use spacing::Spacing;
 

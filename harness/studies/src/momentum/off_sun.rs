@@ -1,0 +1,246 @@
+//! The whole spacecraft in sunlight: force and torque over the sphere of Sun directions, and its momentum within the keep-in zone
+//! against that of shade and panels alone, surface by surface.
+
+use loader::{Fmu, Value};
+
+use super::sphere::{self, Lit};
+use crate::case::Case;
+use crate::chart::{Chart, Panel, Series};
+use crate::settings::digits;
+use crate::vector::{Vector, difference, norm, scaled, sum};
+use crate::{Options, Report, StudyError};
+
+const DAY_S: f64 = 86_400.0;
+const STOP_S: f64 = 10.0 * DAY_S;
+const STEP_S: f64 = 600.0;
+/// No dump: above all that gathers.
+const THRESHOLD_N_M_S: f64 = 1000.0;
+/// Surfaces that messenger.toml has as well; their backs it has not.
+const KNOWN: [&str; 10] = [
+    "side +X",
+    "side -X",
+    "slant +X",
+    "slant -X",
+    "front",
+    "top slant -X",
+    "top slant +X",
+    "top front",
+    "+X",
+    "-X",
+];
+
+/// Ten days of guided flight.
+struct Flown {
+    times_d: Vec<f64>,
+    momentum_n_m_s: Vec<Vector>,
+    force_n: Vec<Vector>,
+    angles_deg: Vec<[f64; 2]>,
+    /// Of every surface reported, its name and its force.
+    surfaces: Vec<(String, Vec<Vector>)>,
+}
+
+/// Study `momentum/off-sun`.
+pub fn off_sun(options: &Options) -> Result<Report, StudyError> {
+    let failed =
+        |error: loader::Error| StudyError::Simulation { case: "the sphere".to_owned(), source: error.into() };
+    let sphere = sphere::map(&options.fmu("MessengerLight.fmu")?).map_err(failed)?;
+    let few = fly(&options.fmu("MomentumPlant.fmu")?, "shade and panels")?;
+    let whole = fly(&options.fmu("MessengerFull.fmu")?, "whole")?;
+    let mut report = Report::default();
+    report
+        .line("Sunlight on the whole MESSENGER (messenger-full.toml), its surfaces shadowing one another\n");
+    over_the_sphere(&mut report, options, &sphere)?;
+    within_the_zone(&mut report, options, &few, &whole)?;
+    Ok(report)
+}
+
+fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Result<(), StudyError> {
+    let micro = |v: &Vector| scaled(v, 1e6);
+    let force = sphere::picture("Force of sunlight at 0.387 AU", "uN", sphere, |lit| micro(&lit.force_n));
+    report.plane(options, "off-sun-force.svg", &force)?;
+    let torque =
+        sphere::picture("Torque of sunlight at 0.387 AU", "uN.m", sphere, |lit| micro(&lit.torque_n_m));
+    report.plane(options, "off-sun-torque.svg", &torque)?;
+    let rows = sphere.iter().map(|lit| {
+        let at = [lit.azimuth_deg, lit.elevation_deg];
+        [&at[..], &lit.force_n, &lit.torque_n_m].concat().into_iter().map(digits).collect()
+    });
+    let header = [
+        "sun_azimuth_deg",
+        "sun_elevation_deg",
+        "force_x_n",
+        "force_y_n",
+        "force_z_n",
+        "torque_x_n_m",
+        "torque_y_n_m",
+        "torque_z_n_m",
+    ];
+    report.csv(options, "off-sun.csv", &header, rows)?;
+    let most = |what: &str, unit: &str, size: fn(&Lit) -> f64| {
+        let at = sphere.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
+        at.map_or(Vec::new(), |lit| {
+            let ahead = sphere
+                .iter()
+                .find(|lit| lit.azimuth_deg == 0.0 && lit.elevation_deg == 0.0)
+                .map_or(0.0, size);
+            vec![
+                what.to_owned(),
+                format!("{:.1} {unit}", ahead * 1e6),
+                format!("{:.1} {unit}", size(lit) * 1e6),
+                format!("{:.0} / {:.0}", lit.azimuth_deg, lit.elevation_deg),
+            ]
+        })
+    };
+    let rows =
+        [most("force", "uN", |lit| norm(&lit.force_n)), most("torque", "uN.m", |lit| norm(&lit.torque_n_m))];
+    report.table(&["at 0.387 AU", "Sun on -Y", "greatest", "there azimuth / elevation [deg]"], &rows);
+    report.line("The panels stand where cells are 65 deg off a Sun on -Y.\n");
+    Ok(())
+}
+
+fn within_the_zone(
+    report: &mut Report,
+    options: &Options,
+    few: &Flown,
+    whole: &Flown,
+) -> Result<(), StudyError> {
+    let last = |flown: &Flown| flown.momentum_n_m_s.last().copied().unwrap_or([f64::NAN; 3]);
+    let row = |what: &str, v: &Vector| {
+        let mut cells = vec![what.to_owned()];
+        cells.extend(v.iter().map(|x| format!("{x:.6}")));
+        cells
+    };
+    let gap = difference(&last(whole), &last(few));
+    let rows = [row("shade and panels", &last(few)), row("whole", &last(whole)), row("difference", &gap)];
+    report.line("Inertial momentum after 10 days in the keep-in zone, guided, without dumps [N.m.s]\n");
+    report.table(&["spacecraft", "X", "Y", "Z"], &rows);
+    let widest = |axis: usize| whole.angles_deg.iter().map(|at| at[axis].abs()).fold(0.0, f64::max);
+    report.line(&format!(
+        "The Sun was up to {:.1} deg in azimuth and {:.1} deg in elevation off -Y.\n",
+        widest(0),
+        widest(1)
+    ));
+
+    let difference_n_s = difference(&impulse(&whole.force_n), &impulse(&few.force_n));
+    let (mut rows, mut explained) = (Vec::new(), scaled(&impulse(&few.force_n), -1.0));
+    let mut seen: Vec<&str> = Vec::new();
+    for (name, force_n) in &whole.surfaces {
+        let total = impulse(force_n);
+        explained = sum(&explained, &total);
+        let is_known = KNOWN.contains(&name.as_str()) && !seen.contains(&name.as_str());
+        seen.push(name);
+        let lit = force_n.iter().filter(|force| norm(force) > 0.0).count();
+        if lit > 0 && !is_known {
+            let mut cells = row(name, &total);
+            cells.push(format!("{:.1} %", 100.0 * lit as f64 / force_n.len().max(1) as f64));
+            rows.push(cells);
+        }
+    }
+    report
+        .line("Sunlight's impulse, body frame, on surfaces that shade and panels alone do not have [N.s]\n");
+    if rows.is_empty() {
+        report.line("none of them is lit");
+    } else {
+        report.table(&["surface", "X", "Y", "Z", "of the time lit"], &rows);
+    }
+    let left = norm(&difference(&explained, &difference_n_s));
+    report.line(&format!(
+        "All surfaces of the whole less shade and panels: {:.6} N.s; what both flights differ by: {:.6} N.s; apart {:.1e} of it.",
+        norm(&explained),
+        norm(&difference_n_s),
+        left / norm(&difference_n_s).max(f64::MIN_POSITIVE)
+    ));
+    report.line(REMARK);
+    let header = [
+        "time_d",
+        "few_x_n_m_s",
+        "few_y_n_m_s",
+        "few_z_n_m_s",
+        "whole_x_n_m_s",
+        "whole_y_n_m_s",
+        "whole_z_n_m_s",
+    ];
+    let rows = few.times_d.iter().zip(few.momentum_n_m_s.iter().zip(&whole.momentum_n_m_s)).map(
+        |(time_d, (few, whole))| {
+            let at = [*time_d];
+            [&at[..], few, whole].concat().into_iter().map(digits).collect()
+        },
+    );
+    report.csv(options, "off-sun-momentum.csv", &header, rows)?;
+    let points = |flown: &Flown, axis: usize| -> Vec<(f64, f64)> {
+        flown.times_d.iter().zip(&flown.momentum_n_m_s).map(|(t, h)| (*t, h[axis])).collect()
+    };
+    let chart = Chart {
+        title: "Inertial momentum within the keep-in zone".to_owned(),
+        x_label: "time [d]".to_owned(),
+        panels: (0..3)
+            .map(|axis| Panel {
+                y_label: format!("H_{} [N.m.s]", ["x", "y", "z"][axis]),
+                series: vec![
+                    Series::line("shade and panels", points(few, axis)),
+                    Series::line("whole", points(whole, axis)),
+                ],
+                ..Panel::default()
+            })
+            .collect(),
+    };
+    report.picture(options, "off-sun-momentum.svg", &chart)
+}
+
+const REMARK: &str = "\
+In the zone the shade keeps the bus dark up to 10.5 deg of azimuth; what is lit beyond shade and cells is the outer end of the
+boom, and from there on a strip of the bus' sides. Where shade plates meet, their outlines overlap by millimetres.";
+
+fn fly(fmu: &Fmu, label: &str) -> Result<Flown, StudyError> {
+    let mut names = three("momentum.inertial");
+    names.extend(three("force.solar"));
+    names.extend(["sun.azimuth".to_owned(), "sun.elevation".to_owned()]);
+    let surfaces = surfaces(fmu)
+        .map_err(|error| StudyError::Simulation { case: label.to_owned(), source: error.into() })?;
+    for number in 1..=surfaces.len() {
+        names.extend(three(&format!("plate[{number}].force")));
+    }
+    let mut case = Case::new(label, STOP_S, STEP_S)
+        .integer("attitude.source", 1)
+        .boolean("shadowing.enabled", true)
+        .boolean("gravityGradient.enabled", false)
+        .integer("momentum.convention", 1);
+    for axis in 1..=3 {
+        case = case.real(&format!("dump.threshold[{axis}]"), THRESHOLD_N_M_S);
+    }
+    let recorded = case.simulate(fmu, &names)?;
+    let vectors = |first: usize| -> Vec<Vector> {
+        let column = |axis: usize| &recorded.columns[first + axis];
+        (0..recorded.times_s.len()).map(|k| [column(0)[k], column(1)[k], column(2)[k]]).collect()
+    };
+    let angles = recorded.columns[6].iter().zip(&recorded.columns[7]);
+    Ok(Flown {
+        times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
+        momentum_n_m_s: vectors(0),
+        force_n: vectors(3),
+        angles_deg: angles.map(|(a, e)| [a.to_degrees(), e.to_degrees()]).collect(),
+        surfaces: surfaces.into_iter().enumerate().map(|(k, name)| (name, vectors(8 + 3 * k))).collect(),
+    })
+}
+
+fn three(name: &str) -> Vec<String> {
+    (1..=3).map(|axis| format!("{name}[{axis}]")).collect()
+}
+
+/// Names of the surfaces that are reported one by one.
+fn surfaces(fmu: &Fmu) -> Result<Vec<String>, loader::Error> {
+    let mut instance = loader::Instance::new(fmu, fmu.name(), &loader::InstanceOptions::default())?;
+    let mut names = Vec::new();
+    while let Some(position) = fmu.position(&format!("plate[{}].name", names.len() + 1)) {
+        let value = instance.get_variable(&fmu.description().variables[position])?;
+        names.push(if let Value::Text(name) = value { name } else { String::new() });
+    }
+    Ok(names)
+}
+
+/// Sum of forces at equal steps, by the trapezoid rule, in N s.
+fn impulse(force_n: &[Vector]) -> Vector {
+    let ends = force_n.first().zip(force_n.last()).map_or([0.0; 3], |(first, last)| sum(first, last));
+    let all = force_n.iter().fold([0.0; 3], |all, force| sum(&all, force));
+    scaled(&difference(&all, &scaled(&ends, 0.5)), STEP_S)
+}
