@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-/// The FMU whose library reads and runs new spacecraft unless another is named.
-pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
+use crate::values::{DEFAULT_TEMPLATE, duration, span};
 
 const PACK_EXAMPLE: &str = "\
 Example:
@@ -57,7 +56,7 @@ pub enum Command {
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),
     /// Fit the positions of an FMU's flight: an ephemeris that spacecraft carry, with its error
-    Ephemeris(crate::ephemeris::Ephemeris),
+    Ephemeris(crate::ephemeris::options::Ephemeris),
     /// Print the JSON Schema of a file, for editors that complete and check TOML
     Schema(Schema),
     /// Run a study of the papers, or list them
@@ -349,28 +348,6 @@ pub struct Study {
     pub quiet: bool,
 }
 
-/// Seconds, or a number with a unit of time.
-fn duration(text: &str) -> Result<f64, String> {
-    const UNITS: [(&str, f64); 6] =
-        [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0), ("d", 86_400.0), ("", 1.0)];
-    let text = text.trim();
-    let unit = UNITS.iter().find(|(unit, _)| text.ends_with(unit));
-    let (number, factor) =
-        unit.map_or((text, 1.0), |(unit, factor)| (&text[..text.len() - unit.len()], *factor));
-    match number.trim_end().parse::<f64>() {
-        Ok(number) if (number * factor).is_finite() => Ok(number * factor),
-        _ => Err("a time is a number of seconds or carries a unit: 600, 10min, 0.5h, 90d".to_owned()),
-    }
-}
-
-/// A time that passes, so more than 0 s.
-pub fn span(text: &str) -> Result<f64, String> {
-    match duration(text)? {
-        span_s if span_s > 0.0 => Ok(span_s),
-        _ => Err("allowed is more than 0 s".to_owned()),
-    }
-}
-
 /// A turn with its unit, in rad; none and more than half a turn are refused.
 fn angle(text: &str) -> Result<f64, String> {
     match crate::draw::options::angle(text)? {
@@ -387,20 +364,5 @@ mod tests {
     fn the_arguments_are_well_formed() {
         use clap::CommandFactory;
         Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn times_take_units() {
-        assert_eq!(duration("90d"), Ok(7_776_000.0));
-        assert_eq!(duration("10 min"), Ok(600.0));
-        assert_eq!(duration("-1.5e3"), Ok(-1500.0));
-        assert_eq!(duration("250ms"), Ok(0.25));
-        for bad in ["", "d", "ten", "1e999", "nan", "3w"] {
-            assert!(duration(bad).is_err(), "{bad}");
-        }
-        assert_eq!(span("1 h"), Ok(3600.0));
-        for bad in ["0", "-5", "-1d", "soon"] {
-            assert!(span(bad).is_err(), "{bad}");
-        }
     }
 }

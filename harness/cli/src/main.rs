@@ -21,6 +21,7 @@ mod plan;
 mod run;
 mod study;
 mod timeline;
+mod values;
 mod wire;
 
 use std::process::ExitCode;

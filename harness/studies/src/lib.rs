@@ -56,6 +56,13 @@ pub const STUDIES: &[Study] = &[
         run: control::transition,
     },
     Study {
+        name: "control/dump",
+        paper: "000",
+        title: "momentum dumps by pulses of thrusters beside the same dumps at once",
+        takes: &[],
+        run: control::dump,
+    },
+    Study {
         name: "control/jitter",
         paper: "000",
         title: "attitude jitter of a flexible structure by a wheel out of balance, with its spectrum",
@@ -96,6 +103,13 @@ pub const STUDIES: &[Study] = &[
         title: "sunlight on the whole MESSENGER over the sphere, and its momentum against shade and panels alone",
         takes: &[],
         run: momentum::off_sun,
+    },
+    Study {
+        name: "pointing/burn",
+        paper: "001",
+        title: "a burn with each correction of its direction over seeds: Figures 10 and 11",
+        takes: &[Extra::Step],
+        run: control::burn,
     },
     Study {
         name: "pointing/limb",

@@ -1,7 +1,8 @@
 //! What each output depends on.
 //!
 //! A sample decides the mode, then whether there is an attitude at all, then which: every output that is judged with an
-//! attitude depends on the first two. At the start no scan and no limb has moved yet; their rates move the command's.
+//! attitude depends on the first two. At the start no scan and no limb has moved yet; their rates move the command's. Nor has a
+//! burn been measured; a sample of one reads accelerometers and estimate before it decides the mode.
 
 use fmi_export::{Dependencies, Knowns, knowns};
 use nalgebra::Vector3;
@@ -32,6 +33,8 @@ struct Inputs {
     second_aimpoint: Knowns,
     /// Body and external roll vectors.
     rolls: Knowns,
+    /// The velocity that a burn added since the last sample, along the body axes.
+    increment: Knowns,
 }
 
 impl Inputs {
@@ -93,6 +96,7 @@ impl Inputs {
             aimpoint,
             second_aimpoint: self::aimpoint(&v.second_aimpoint),
             rolls,
+            increment: knowns![v.accelerometer.delta_v],
         }
     }
 }
@@ -105,10 +109,18 @@ struct Parameters {
     device: Knowns,
     /// The law of the orbit phase, and the orbit.
     guided: Knowns,
+    /// Whether a burn has a path, and which.
+    path: Knowns,
+    /// Nominal direction of a burn's thrust.
+    thrust_direction: Knowns,
+    /// Its nominal acceleration.
+    acceleration: Knowns,
 }
 
 impl Parameters {
-    fn of(v: &GuidanceVariables) -> Self {
+    fn of(setup: &GuidanceSetup, v: &GuidanceVariables) -> Self {
+        let [direction_differs, acceleration_differs] = setup.thrust_differs();
+        let thrusters = |counts: bool| knowns![v.burn.thrusters].only_if(counts);
         let (planet, ephemeris, guided, monitor) = (&v.planet, &v.ephemeris, &v.guided, &v.monitor);
         let (keep_in, safe_hold, hot_pole) = (&v.keep_in, &v.safe_hold.keep_in, &v.hot_pole);
         let body = knowns![
@@ -160,6 +172,9 @@ impl Parameters {
                 guided.slew_rate,
                 planet.gravitational_parameter,
             ],
+            path: knowns![v.burn.delta_v, v.burn.profile],
+            thrust_direction: knowns![v.burn.thrust_direction, thrusters(direction_differs)],
+            acceleration: knowns![v.burn.acceleration, thrusters(acceleration_differs)],
         }
     }
 }
@@ -168,10 +183,11 @@ impl Parameters {
 pub fn table(setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
     let mut table = Dependencies::new();
     table.output(v.epoch, knowns![], v.start.epoch);
-    let (i, p) = (&Inputs::of(setup, v), &Parameters::of(v));
+    let (i, p) = (&Inputs::of(setup, v), &Parameters::of(setup, v));
     command(&mut table, v, i, p);
     judgement(&mut table, v, i, p);
     devices(&mut table, v, i, p);
+    burn(&mut table, v, i, p);
     table
 }
 
@@ -183,11 +199,12 @@ fn command(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
     }
     let kind = &knowns![&i.existence, &i.sensed];
     for output in [knowns![v.command.kind], knowns![v.command.error]] {
-        table.output(output, kind, knowns![kind, &p.mode]);
+        table.output(output, kind, knowns![kind, &p.mode, &p.path]);
     }
     let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
-    let later = &knowns![attitude, &i.scanned, v.limb.height_rate];
-    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, method];
+    let later = &knowns![attitude, &i.scanned, v.limb.height_rate, &i.increment];
+    let aimed = &knowns![&p.path, &p.thrust_direction];
+    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, method, aimed];
     for output in [knowns![v.command.q], knowns![v.sun.azimuth, v.sun.elevation]] {
         table.output(output, later, knowns![start, v.start.q]);
     }
@@ -208,12 +225,13 @@ fn judgement(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Pa
         knowns![&i.existence, scan_frame],
         knowns![&i.existence, scan_frame, &p.mode, compatibility(v)],
     );
-    table.output(v.earth.sun_separation, &i.existence, knowns![&i.existence, &p.mode]);
-    let moved = &knowns![&i.scanned, v.limb.height_rate];
+    table.output(v.earth.sun_separation, &i.existence, knowns![&i.existence, &p.mode, &p.path]);
+    let moved = &knowns![&i.scanned, v.limb.height_rate, &i.increment];
+    let aimed = &knowns![&p.path, &p.thrust_direction];
     let in_line = &knowns![&i.attitude, &i.instrument_along_roll];
-    table.output(v.geometry.degenerate, knowns![in_line, moved], knowns![in_line, &p.mode, &p.device]);
+    table.output(v.geometry.degenerate, knowns![in_line, moved], knowns![in_line, &p.mode, &p.device, aimed]);
     let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
-    let start = &knowns![attitude, &p.mode, &p.device, &p.guided];
+    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, aimed];
     for output in [knowns![v.target.reachable], knowns![v.constraint.sun_keep_in]] {
         table.output(output, knowns![attitude, moved], start);
     }
@@ -244,6 +262,24 @@ fn devices(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
     let link = &knowns![antenna, &i.aimpoint, &i.rolls];
     let limits = knowns![v.link.sun_exclusion, v.link.beam, v.keep_in.method, v.subsolar.method];
     table.output(v.link.available, knowns![link, &i.scanned], knowns![link, &p.mode, &p.guided, limits]);
+}
+
+/// What a burn tells the thrusters and what it finds.
+fn burn(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Parameters) {
+    let (burn, thrust) = (&v.burn, &v.thrust);
+    let commanded = &knowns![&i.mode, v.pointing.scenario];
+    let under_way = &knowns![commanded, &i.increment];
+    table.output(thrust.request, under_way, knowns![commanded, &p.mode, burn.thrusters]);
+    let begun = &knowns![commanded, &p.mode, &p.path, &p.thrust_direction, burn.start];
+    table.output(thrust.command, under_way, begun);
+    table.output(thrust.stop, under_way, knowns![begun, &p.acceleration, burn.timeout]);
+    let measured = &knowns![v.pointing.scenario, v.estimate.valid, &i.increment];
+    table.output(burn.thrust_estimate, measured, &p.thrust_direction);
+    table.output(burn.timed_out, measured, knowns![]);
+    let turned = knowns![measured, v.estimate.q, v.position, v.sun.position, v.earth.position];
+    for output in [knowns![burn.velocity], knowns![burn.velocity_error]] {
+        table.output(output, &turned, knowns![]);
+    }
 }
 
 /// Which scans go with which aimpoints.

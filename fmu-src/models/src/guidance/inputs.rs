@@ -15,16 +15,19 @@ use physics::guidance::command::{
     PointingCommand, ScanCommand,
 };
 use physics::guidance::constraints::Constraints;
+use physics::guidance::delta_v::BurnSettings;
 use physics::guidance::downlink::LinkLimits;
 use physics::guidance::hot_pole::HotPole;
 use physics::guidance::keep_in::{KeepIn, KeepInMethod};
 use physics::guidance::lighting::SubsolarMethod;
 use physics::guidance::modes::{ModeSettings, Sensed};
 use physics::guidance::monitor::Monitor;
+use physics::guidance::nominal_thrust::NominalThrust;
 use physics::guidance::places::Places;
 use physics::guidance::scan::ScanCompatibility;
 use physics::guidance::scenario::GuidanceHardware;
 use physics::guidance::system::GuidanceSettings;
+use physics::guidance::velocity_path::VelocityPath;
 use physics::guidance::{Surroundings, TargetPlanet};
 
 use super::setup::Plan;
@@ -39,6 +42,8 @@ pub struct Fixed {
     planet: TargetPlanet,
     source: EphemerisSource,
     bodies: BodiesFromCenter,
+    /// The burn of the scenario burn.
+    pub burn: BurnSettings,
 }
 
 impl Fixed {
@@ -87,15 +92,47 @@ impl Fixed {
         } else {
             None
         };
-        Ok(Self { planet, source, bodies: BodiesFromCenter { center: body, ellipse } })
+        let bodies = BodiesFromCenter { center: body, ellipse };
+        Ok(Self { planet, source, bodies, burn: burn(context, values)? })
     }
+}
+
+/// The burn by its parameters and the spacecraft's thrusters.
+fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
+    let v = &context.variables.burn;
+    let real = |handle| values.real(handle);
+    let delta_v_m_s = Vector3::from(values.vector(v.delta_v));
+    let rows = values.matrix(v.profile);
+    let path = VelocityPath::of_burn(
+        delta_v_m_s,
+        [0, 1, 2].map(|power| Vector3::from(rows.map(|component| component[power]))),
+    );
+    let thrusters = values.choice(v.thrusters).and_then(|it| it.0);
+    let direction_body = Vector3::from(values.vector(v.thrust_direction));
+    let nominal = NominalThrust::new(&context.setup.spacecraft, thrusters, direction_body);
+    let given_m_s2 = Some(real(v.acceleration)).filter(|it| *it > 0.0);
+    Ok(BurnSettings {
+        path: path.map_err(|error| Failure::new(format!("burn.profile: {error} of burn.deltaV")))?,
+        start_s: real(v.start),
+        look_ahead_s: real(v.look_ahead),
+        gain: real(v.gain),
+        predictive: values.boolean(v.predictive),
+        reactive: values.boolean(v.reactive),
+        thrust_body: nominal.direction_body,
+        acceleration_m_s2: given_m_s2.unwrap_or(nominal.acceleration_m_s2),
+        timeout_s: real(v.timeout),
+    })
 }
 
 /// The start value of `estimate.q`.
 const NOT_CONNECTED: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// Parameters, as a sample uses them. The timeline may override the keep-in zone.
-pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSettings<'a>, Failure> {
+pub fn settings<'a>(
+    context: &'a Plan<'_>,
+    values: &Values,
+    fixed: &Fixed,
+) -> Result<GuidanceSettings<'a>, Failure> {
     let v = context.variables;
     let real = |handle| values.real(handle);
     let method = values.choice(v.keep_in.method).map_or(KeepInMethod::Nearest, |it| it.0);
@@ -156,6 +193,7 @@ pub fn settings<'a>(context: &'a Plan<'_>, values: &Values) -> Result<GuidanceSe
         keep_in_distance_m: real(v.keep_in.distance),
         link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
         orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, keep_in.elevation_rad)?,
+        burn: fixed.burn,
     })
 }
 
@@ -317,6 +355,11 @@ impl<'a> Reader<'a> {
 
     fn state(&self, position: RealVector<3>, velocity: RealVector<3>) -> CartesianState {
         CartesianState { position_m: self.vector(position), velocity_m_s: self.vector(velocity) }
+    }
+
+    /// Sum of the accelerometers' increments.
+    pub fn delta_v_body_m_s(&self) -> Vector3<f64> {
+        self.vector(self.context.variables.accelerometer.delta_v)
     }
 
     /// Whether an input asks for a mode.

@@ -106,15 +106,17 @@ impl Model for Guidance {
             said_unconnected: false,
             ephemeris: Ephemeris::default(),
             coarse: CoarseEphemeris::default(),
-            fixed: Some(Fixed::read(context, values)?),
+            fixed: None,
         };
         let mut shown = state.clone();
-        let settings = inputs::settings(context, values)?;
-        shown.sample(context, values, &settings, InputsOverTime::held())?;
+        let fixed = Fixed::read(context, values)?;
+        let settings = inputs::settings(context, values, &fixed)?;
+        shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.said_unconnected = shown.said_unconnected;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
-        outputs::write(context, values, &shown.system, start_s, epoch_s);
+        outputs::write(context, values, &shown.system, &fixed.burn, start_s, epoch_s);
+        state.fixed = Some(fixed);
         Ok(state)
     }
 
@@ -124,7 +126,8 @@ impl Model for Guidance {
         state: &mut State,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
-        let settings = inputs::settings(context, values)?;
+        let fixed = state.fixed.take().map_or_else(|| Fixed::read(context, values), Ok)?;
+        let settings = inputs::settings(context, values, &fixed)?;
         let limit = context.variables.solver.units(values);
         let mut samples = 0;
         while state.system.due_before(step.end_s).is_some() {
@@ -136,12 +139,13 @@ impl Model for Guidance {
                     step.start_s, step.end_s
                 )));
             }
-            state.sample(context, values, &settings, step.inputs)?;
+            state.sample(context, values, &fixed, &settings, step.inputs)?;
             samples += 1;
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
-        outputs::write(context, values, &state.system, step.end_s, epoch_s);
+        outputs::write(context, values, &state.system, &fixed.burn, step.end_s, epoch_s);
+        state.fixed = Some(fixed);
         Ok(StepEnd::at(step.end_s))
     }
 
@@ -174,15 +178,12 @@ impl State {
         &mut self,
         context: &Plan<'_>,
         values: &Values,
+        fixed: &Fixed,
         settings: &GuidanceSettings<'_>,
         inputs: InputsOverTime<'_>,
     ) -> Result<(), Failure> {
         let time_s = self.system.next_sample_s();
         let epoch_s = time::epoch_at_s(time_s, self.epoch_minus_time_s);
-        let fixed = match &self.fixed {
-            Some(fixed) => fixed,
-            None => self.fixed.insert(Fixed::read(context, values)?),
-        };
         let reader = Reader::new(context, values, inputs, time_s);
         let entry = context.setup.timeline.as_ref().and_then(|timeline| timeline.entry_at(time_s, epoch_s));
         let mut settings = *settings;
@@ -194,9 +195,10 @@ impl State {
             operational.keep_in = entry.keep_in.applied(&settings.keep_in, operational.keep_in.is_some());
         }
         let line = entry.map(|entry| entry.line);
+        let names_a_scenario = entry.is_some_and(|entry| entry.command.scenario.is_some());
         let entries = TimedEntries {
             scan: line.filter(|_| given.scan.frame.is_none()),
-            scenario: line.filter(|_| given.scenario.is_none()),
+            scenario: line.filter(|_| given.scenario.is_none() && names_a_scenario),
             mode: line.filter(|_| !reader.asks_for_a_mode()),
         };
         let command = self.system.continued(&command);
@@ -215,7 +217,8 @@ impl State {
             settings.modes.ephemeris_check = None;
         }
         sensed.request = sensed.request.or(entry.and_then(|entry| entry.mode));
-        let inputs = SampleInputs { command, entries, places, sensed };
+        let delta_v_body_m_s = reader.delta_v_body_m_s();
+        let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
         self.system.sample(&settings, &inputs);
         Ok(())
     }

@@ -2,14 +2,25 @@
 
 use fmi_export::{Real, Values};
 
+use physics::guidance::delta_v::{BurnPhase, BurnSettings, BurnState};
 use physics::guidance::system::GuidanceState;
 
 use super::setup::Plan;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
-use crate::common::choices::CommandKind;
+use crate::common::choices::{CommandKind, ThrustRequest};
+
+/// What `thrust.stop` says without thrust, in s.
+const NO_STOP_S: f64 = -1.0;
 
 /// Writes every output at `time_s`, the epoch there being `epoch_s`.
-pub fn write(context: &Plan<'_>, values: &mut Values, state: &GuidanceState, time_s: f64, epoch_s: f64) {
+pub fn write(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &GuidanceState,
+    burn: &BurnSettings,
+    time_s: f64,
+    epoch_s: f64,
+) {
     let v = context.variables;
     let command = state.command();
     let attitude = command.attitude_at(time_s);
@@ -44,6 +55,21 @@ pub fn write(context: &Plan<'_>, values: &mut Values, state: &GuidanceState, tim
     values.set_boolean(v.constraint.sun_keep_in, judged.sun_keep_in);
     values.set_boolean(v.constraint.hot_pole, judged.hot_pole);
     values.set_boolean(v.constraint.clamped, judged.clamped);
+    self::burn(context, values, state.burn(), burn);
+}
+
+/// Writes what a burn tells the thrusters and what it found.
+fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &BurnSettings) {
+    let (burn, thrust) = (&context.variables.burn, &context.variables.thrust);
+    let thrusters = values.choice(burn.thrusters).filter(|_| state.is_requested());
+    values.set_choice(thrust.request, thrusters.unwrap_or(ThrustRequest(None)));
+    let stop_s = state.stop_s();
+    values.set_boolean(thrust.command, stop_s.is_some());
+    values.set_real(thrust.stop, stop_s.unwrap_or(NO_STOP_S));
+    values.set_vector(burn.thrust_estimate, state.thrust_body(settings).into());
+    values.set_vector(burn.velocity, (*state.velocity_m_s()).into());
+    values.set_vector(burn.velocity_error, state.velocity_error_m_s(settings).into());
+    values.set_boolean(burn.timed_out, state.phase() == BurnPhase::Ended { timed_out: true });
 }
 
 /// Time derivative of an output at the last communication point.

@@ -41,6 +41,8 @@ pub enum Scenario {
     LimbTerminator,
     /// An instrument at the limb, at an azimuth about the nadir.
     LimbGeneric,
+    /// The thrust along the path of a burn.
+    Burn,
     /// Science and downlink in turn, by the windows of the orbit.
     OrbitPhase,
 }

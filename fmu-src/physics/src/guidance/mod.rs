@@ -5,10 +5,13 @@ pub mod aimpoint;
 pub mod antenna;
 mod attitudes;
 pub mod boresight;
+#[cfg(test)]
+mod burn_tests;
 pub mod command;
 #[cfg(test)]
 mod constraint_tests;
 pub mod constraints;
+pub mod delta_v;
 pub mod downlink;
 mod guided;
 pub mod hot_pole;
@@ -21,6 +24,7 @@ pub mod mode;
 pub mod modes;
 pub mod monitor;
 pub mod moving;
+pub mod nominal_thrust;
 pub mod orbit_phase;
 pub mod places;
 pub mod planet_point;
@@ -33,10 +37,13 @@ mod schedule;
 pub mod surroundings;
 pub mod system;
 #[cfg(test)]
+mod test_burn;
+#[cfg(test)]
 mod test_geometry;
 #[cfg(test)]
 mod test_orbit;
 pub mod timeline;
+pub mod velocity_path;
 
 pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, science, sun_pointing};
 pub use guided::{Guided, GuidedAttitude};

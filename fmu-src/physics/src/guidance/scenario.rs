@@ -1,6 +1,6 @@
 //! The scenarios of paper 001's Table 5 as one table: which vectors each sets, with limb and scan.
 //!
-//! All but the generic one roll -Y toward the Sun. A scan goes on top of any but downlink.
+//! All but the generic one roll -Y toward the Sun. A scan goes on top of any but downlink and burn.
 
 use nalgebra::Vector3;
 
@@ -8,6 +8,7 @@ use super::aimpoint::{Aim, AimKind, aimpoint};
 use super::antenna::{AntennaAzimuth, Beam};
 use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
 use super::command::{BoresightOption, PointingCommand, Scenario};
+use super::delta_v::BurnAim;
 use super::downlink::{Downlink, DownlinkRequest, downlink};
 use super::law::{Pointing, PointingVectors};
 use super::lighting::SubsolarMethod;
@@ -41,6 +42,8 @@ pub struct PointingProgress {
     pub limb_elapsed_s: f64,
     /// Where the Sun stands in the body frame in downlink.
     pub downlink_sun_body: SunAngles,
+    /// Where a burn wants its thrust.
+    pub burn: Option<BurnAim>,
 }
 
 /// The vectors of a command, and what is said about them.
@@ -74,7 +77,7 @@ struct Reading<'a> {
 type ScenarioLaw = fn(&Reading<'_>) -> Option<Aimed>;
 
 /// Every scenario and its law, in the order of [`Scenario`].
-const SCENARIOS: [(Scenario, ScenarioLaw); 8] = [
+const SCENARIOS: [(Scenario, ScenarioLaw); 9] = [
     (Scenario::Generic, |r| {
         let boresight = boresight(&r.command.boresight, &r.hardware.mdis)?;
         let mut aimed = r.sunward(boresight, r.aimpoint()?);
@@ -104,6 +107,18 @@ const SCENARIOS: [(Scenario, ScenarioLaw); 8] = [
     (Scenario::LimbGeneric, |r| {
         let limb = generic_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
         Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
+    }),
+    (Scenario::Burn, |r| {
+        let burn = r.progress.burn.as_ref()?;
+        Some(Aimed {
+            vectors: r.rolled_sunward(fixed(burn.boresight_body), burn.direction),
+            mdis: None,
+            second: None,
+            antenna: None,
+            reachable: true,
+            clamped: false,
+            scan_active: false,
+        })
     }),
 ];
 
@@ -144,6 +159,16 @@ impl Reading<'_> {
         Some(Aim { reachable: limb.exists, ..aim })
     }
 
+    /// -Y rolled toward the Sun.
+    fn rolled_sunward(&self, boresight_body: MovingVector, aimpoint: MovingVector) -> PointingVectors {
+        PointingVectors {
+            boresight_body,
+            aimpoint,
+            body_roll: fixed(-Vector3::y()),
+            external_roll: self.surroundings.to_sun(),
+        }
+    }
+
     /// The boresight at the aim with -Y rolled toward the Sun, and the scan on top.
     fn sunward(&self, boresight: Boresight, aim: Aim) -> Aimed {
         let scan = self.progress.scan_elapsed_s.and_then(|elapsed_s| {
@@ -151,12 +176,10 @@ impl Reading<'_> {
             scanned(&boresight.body, &aim, scan, self.surroundings, scans, elapsed_s)
         });
         Aimed {
-            vectors: PointingVectors {
-                boresight_body: scan.map_or(boresight.body, |scan| scan.boresight_body),
-                aimpoint: scan.map_or(aim.toward, |scan| scan.toward),
-                body_roll: fixed(-Vector3::y()),
-                external_roll: self.surroundings.to_sun(),
-            },
+            vectors: self.rolled_sunward(
+                scan.map_or(boresight.body, |scan| scan.boresight_body),
+                scan.map_or(aim.toward, |scan| scan.toward),
+            ),
             mdis: boresight.mdis,
             second: None,
             antenna: boresight.antenna.map(Beam::Commanded),

@@ -13,6 +13,7 @@ use super::antenna::{Antenna, AntennaAzimuth, Beam};
 use super::boresight::DeviceAngle;
 use super::command::{LimbCommand, PointingCommand, ScanCommand, Scenario};
 use super::constraints::{ConstrainedPointing, Constraints};
+use super::delta_v::{BurnSettings, BurnState, MeasuredMotion};
 use super::downlink::{LinkLimits, link};
 use super::guided::Guided;
 use super::keep_in::KeepIn;
@@ -56,6 +57,8 @@ pub struct GuidanceSettings<'a> {
     pub link: LinkLimits,
     /// The law of [`Scenario::OrbitPhase`]; its periapsis and period are computed.
     pub orbit_phase: Guided,
+    /// The burn of [`Scenario::Burn`].
+    pub burn: BurnSettings,
 }
 
 /// Everything that a sample reads.
@@ -69,6 +72,8 @@ pub struct SampleInputs {
     pub places: Places,
     /// Mode request, estimate and Sun sensors at the sample's time.
     pub sensed: Sensed,
+    /// Sum of the accelerometers' increments along the body axes, in m/s.
+    pub delta_v_body_m_s: Vector3<f64>,
 }
 
 /// Which entry of a timeline something comes from; `None` where it comes from no timeline.
@@ -76,7 +81,7 @@ pub struct SampleInputs {
 pub struct TimedEntries {
     /// The scan.
     pub scan: Option<usize>,
-    /// The scenario.
+    /// The scenario: the entry that names one.
     pub scenario: Option<usize>,
     /// The mode that is asked for.
     pub mode: Option<usize>,
@@ -159,6 +164,7 @@ pub struct GuidanceState {
     law: Option<PointingCommand>,
     /// The limb scenario and since when it is commanded, in s.
     limb: Option<(Scenario, f64)>,
+    burn: BurnState,
     next_sample_s: f64,
 }
 
@@ -191,6 +197,7 @@ impl GuidanceState {
             entries: TimedEntries::default(),
             law: None,
             limb: None,
+            burn: BurnState::default(),
             next_sample_s: start_s,
         }
     }
@@ -220,6 +227,11 @@ impl GuidanceState {
         self.modes.ephemeris.uses_coarse(self.modes.mode)
     }
 
+    /// How far a burn is.
+    pub fn burn(&self) -> &BurnState {
+        &self.burn
+    }
+
     /// When the next sample is due, in s.
     pub fn next_sample_s(&self) -> f64 {
         self.next_sample_s
@@ -243,6 +255,14 @@ impl GuidanceState {
         }
         modes.watches_hot_pole &= self.judgement.hot_pole_reached;
         self.keep_clocks(&inputs.command, inputs.entries, time_s);
+        self.burn.measure(
+            &settings.burn,
+            sensed.estimate.map(|attitude| MeasuredMotion {
+                time_s,
+                attitude,
+                delta_v_body_m_s: inputs.delta_v_body_m_s,
+            }),
+        );
         let steering = self.modes.sample(&modes, &sensed, &inputs.places);
         let surroundings = self.modes.surroundings(&inputs.places);
         if let Some(to_sun) = surroundings.map(Surroundings::to_sun) {
@@ -253,6 +273,10 @@ impl GuidanceState {
                 let command = self.modes.mode.admitted(&inputs.command);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     self.point(&Now { settings, constraints, surroundings, time_s }, &command);
+                    let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
+                    if is_law && self.judgement.reachable {
+                        self.burn.begin(&settings.burn, time_s);
+                    }
                 }
             }
             Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
@@ -262,6 +286,9 @@ impl GuidanceState {
                 self.steer(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
             }
             None => self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING },
+        }
+        if self.modes.mode != Mode::Operational {
+            self.burn.end();
         }
     }
 
@@ -309,6 +336,7 @@ impl GuidanceState {
             && self.to_sun.iter().flatten().all(sound)
             && self.modes.is_sound()
             && self.periapses.is_sound()
+            && self.burn.is_sound()
     }
 
     /// Whether a step could begin at `time_s`.
@@ -330,8 +358,8 @@ impl GuidanceState {
         }
     }
 
-    /// A scan begins where its frame is first commanded, a limb scenario where it is, in whatever mode; one of a timeline with
-    /// its entry.
+    /// A scan begins where its frame is first commanded, a limb scenario and a burn where they are, in whatever mode; one of a
+    /// timeline with its entry.
     fn keep_clocks(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
         if entries.scan != self.entries.scan {
             self.scan_since_s = None;
@@ -339,6 +367,8 @@ impl GuidanceState {
         if entries.scenario != self.entries.scenario {
             self.limb = None;
         }
+        let is_new = entries.scenario.is_some() && entries.scenario != self.entries.scenario;
+        self.burn.command(command.scenario == Some(Scenario::Burn), is_new);
         if entries.mode != self.entries.mode {
             self.modes.renew_request();
         }
@@ -422,6 +452,7 @@ impl GuidanceState {
             scan_elapsed_s: self.scan_since_s.map(|since_s| now.time_s - since_s),
             limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
             downlink_sun_body: SunAngles::default(),
+            burn: self.burn.aim(&now.settings.burn),
         };
         aim(command, &now.settings.hardware, now.surroundings, &progress)
     }

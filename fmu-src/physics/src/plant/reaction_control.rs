@@ -14,7 +14,7 @@ use crate::numerics::spacing::spacing;
 use crate::propulsion::{
     Preference, PropellantState, PulseCommand, SelectionError, ThrustErrors, ThrusterSelection, Valve,
 };
-use crate::spacecraft::{MassProperties, Tank, Thruster, ThrusterSet};
+use crate::spacecraft::{MOST_THRUSTERS, MassProperties, Tank, Thruster, ThrusterSet};
 
 /// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
 const GAUSS: [(f64, f64); 3] = [
@@ -22,6 +22,9 @@ const GAUSS: [(f64, f64); 3] = [
     (0.5, 0.444_444_444_444_444_4),
     (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
 ];
+
+/// A pulse at the end of a dump leaves less than this share of what was left.
+const NEARER: f64 = 0.999;
 
 /// What parameters say about thrusters and tanks.
 #[derive(Clone, Debug, Default)]
@@ -120,9 +123,9 @@ impl ThrusterLoad {
         }
     }
 
-    /// Whether nothing fires.
+    /// Whether nothing fires; couples exert no force, but propellant flows.
     pub fn is_none(&self) -> bool {
-        self.force_body_n == [Vector3::zeros(); 2]
+        self.flow_kg_s == [0.0; 2]
     }
 
     /// Force in N and torque in N m at `time_s`, body frame.
@@ -552,34 +555,53 @@ impl ReactionControl {
             attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
         let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
         let part = (most_n_m_s / left_body_n_m_s.amax()).min(1.0);
-        dump.is_last = part == 1.0;
+        let mut opened_s = [0.0; MOST_THRUSTERS];
         let mut given_body_n_m_s = Vector3::zeros();
-        for (k, full_s) in selection.on_times_s(&left_body_n_m_s).enumerate() {
+        let impulse = |k: usize, on_s: f64| {
             let thruster = &settings.thrusters[k];
-            let shortest_s = thruster.valve.min_on_s;
+            let full_s = thruster.valve.full_thrust_s(on_s);
+            thruster.torque_about_n_m(&mass.center_of_mass_body_m)
+                * (full_s * pressure_ratio(settings, propellant, thruster, time_s))
+        };
+        let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
+        for (k, full_s) in selection.on_times_s(&left_body_n_m_s).enumerate() {
             let [whole_s, part_s] =
                 [full_s, full_s * part].map(|it| opens_for_s(settings, propellant, k, it, time_s));
-            // Smaller pulses than the valve's shortest are rounded to it or to none.
-            let on_s = if part_s >= shortest_s {
+            let on_s = if part_s >= shortest_s(k) {
                 part_s
-            } else if whole_s >= shortest_s || (dump.is_last && whole_s >= 0.5 * shortest_s) {
-                shortest_s
+            } else if whole_s >= shortest_s(k) {
+                shortest_s(k)
             } else {
                 0.0
             };
             if on_s > 0.0 {
-                self.plan(k, time_s, time_s + on_s);
-                let full_s = thruster.valve.full_thrust_s(on_s)
-                    * pressure_ratio(settings, propellant, thruster, time_s);
-                given_body_n_m_s += thruster.torque_about_n_m(&mass.center_of_mass_body_m) * full_s;
+                opened_s[k] = on_s;
+                given_body_n_m_s += impulse(k, on_s);
             }
+        }
+        // What is left is less than the shortest pulses of several thrusters: one after another, each that comes nearer.
+        let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
+        while part == 1.0 {
+            let left = left_body_n_m_s - given_body_n_m_s;
+            let free = pulses.clone().filter(|k| opened_s[*k] == 0.0);
+            let nearest = free
+                .map(|k| (k, (left - impulse(k, shortest_s(k))).norm()))
+                .min_by(|(_, one), (_, other)| one.total_cmp(other));
+            let Some((k, _)) = nearest.filter(|(_, distance)| *distance < NEARER * left.norm()) else {
+                break;
+            };
+            opened_s[k] = shortest_s(k);
+            given_body_n_m_s += impulse(k, shortest_s(k));
+        }
+        // Valves without a shortest pulse leave nothing over, others what no pulse brings nearer.
+        dump.is_last = part == 1.0 && (pulses.count() == 0 || given_body_n_m_s == Vector3::zeros());
+        for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
+            self.plan(k, time_s, time_s + on_s);
         }
         // A pulse that gives more than the mean torque allows is followed by a longer pause.
         let pause_s = settings.dump_period_s.max(given_body_n_m_s.amax() / settings.dump_torque_n_m);
         dump.mean_torque_body_n_m = given_body_n_m_s / pause_s;
         dump.next_s = time_s + pause_s;
-        // All that is left may be too small for any valve.
-        dump.is_last |= given_body_n_m_s == Vector3::zeros();
         self.dump = Some(dump);
     }
 

@@ -116,6 +116,11 @@ impl ThrusterSelection {
         sum.into_iter().take(self.count)
     }
 
+    /// Whether it has a part for thruster `k`.
+    pub fn uses(&self, k: usize) -> bool {
+        self.per_impulse_s.iter().any(|on_times| on_times[k] > 0.0)
+    }
+
     /// The least of the torques about the body axes that full thrust gives, in N m.
     pub fn least_torque_n_m(&self) -> f64 {
         let longest = |on_times: &OnTimes| on_times.iter().fold(0.0_f64, |most, it| most.max(*it));

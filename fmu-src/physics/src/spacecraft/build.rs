@@ -544,7 +544,11 @@ impl Builder<'_> {
         let viscous_friction_n_m_s = or_zero("viscous_friction_n_m_s", description.viscous_friction_n_m_s);
         let static_imbalance_kg_m = or_zero("static_imbalance_kg_m", description.static_imbalance_kg_m);
         if static_imbalance_kg_m > 0.0 && description.position_m.is_none() {
-            self.check.report_lack(at, "position_m", "the rotor's place, beside static_imbalance_kg_m");
+            self.check.report(
+                &at.key("static_imbalance_kg_m"),
+                "no position_m beside it",
+                "with the rotor's place, position_m",
+            );
         }
         Wheel {
             static_imbalance_kg_m,

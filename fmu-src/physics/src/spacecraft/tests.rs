@@ -145,7 +145,7 @@ fn every_rule_has_its_message() {
         ("= 4.0", "= 4.0\ncoulomb_friction_n_m = -1", "wheels[1].coulomb_friction_n_m", "from 0"),
         ("= 4.0", "= 4.0\nviscous_friction_n_m_s = nan", "wheels[1].viscous_friction_n_m_s", "from 0"),
         ("= 4.0", "= 4.0\nstatic_imbalance_kg_m = -1", "wheels[1].static_imbalance_kg_m", "from 0"),
-        ("= 4.0", "= 4.0\nstatic_imbalance_kg_m = 1e-5", "wheels[1].position_m", "place"),
+        ("= 4.0", "= 4.0\nstatic_imbalance_kg_m = 1e-5", "wheels[1].static_imbalance_kg_m", "position_m"),
         (
             "[[wheels]]",
             "[[flexible_modes]]\nfrequency_hz = 0\ncoupling_sqrt_kg_m = [1, 0, 0]\n[[wheels]]",

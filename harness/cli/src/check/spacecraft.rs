@@ -8,11 +8,7 @@ use loader::Described;
 use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
 use toml::{Table, de::DeTable};
 
-use crate::{
-    args::{Check, DEFAULT_TEMPLATE},
-    outcome::Outcome,
-    pack::source,
-};
+use crate::{args::Check, outcome::Outcome, pack::source, values::DEFAULT_TEMPLATE};
 
 /// Has the models of the template's library read the file, the template's own first.
 pub fn run(arguments: &Check) -> Outcome {

@@ -1,7 +1,7 @@
 //! `heliotorque ephemeris`: Chebyshev fits and coarse elements of what an FMU flies, as an ephemeris file that others carry.
 
 mod fit;
-mod options;
+pub mod options;
 mod report;
 mod source;
 
@@ -15,7 +15,7 @@ use physics::environment::flown::{FlownEphemeris, to_toml};
 
 use crate::{interrupt, outcome::Outcome};
 use fit::Asked;
-pub use options::Ephemeris;
+use options::Ephemeris;
 pub use report::{FILE, of, read, summary};
 use source::Source;
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use physics::environment::{dates, flown::FlownTarget};
 
-use crate::args::{DEFAULT_TEMPLATE, span};
+use crate::values::{DEFAULT_TEMPLATE, span};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -14,7 +14,8 @@ Example:
   heliotorque ephemeris --start '2011-04-06 UTC' --stop '2011-07-06 UTC' --bodies sun,earth,spacecraft \\
       --tolerance 10 --coarse --coarse-until '2015-04-30 UTC' --output messenger-ephemeris.toml
   heliotorque check messenger-ephemeris.toml                                   bodies, spans and errors
-  heliotorque pack --template dist/Guidance.fmu --ephemeris messenger-ephemeris.toml --set ephemeris.source=chebyshev";
+  heliotorque pack --template dist/Guidance.fmu --ephemeris messenger-ephemeris.toml \\
+      --set ephemeris.source=chebyshev --set 'start.epoch=2011-04-06 UTC'      flies by it, from within its span";
 
 /// `heliotorque ephemeris`.
 #[derive(Debug, Args)]

@@ -40,12 +40,14 @@ fn flights(structure: &Structure) -> Vec<Flight> {
         .map(|(k, mode)| flight(structure.resonance_hz(mode), false, format!("wheel at mode {}", k + 1)));
     let mut all: Vec<Flight> = beside.into_iter().chain(at_modes).collect();
     all.sort_by(|a, b| a.wheel_hz.total_cmp(&b.wheel_hz));
-    all.push(flight(CONTROLLED_HZ, true, format!("wheel at {CONTROLLED_HZ} Hz")));
     all.push(flight(0.0, true, "wheel stands".to_owned()));
+    all.push(flight(CONTROLLED_HZ, true, format!("wheel at {CONTROLLED_HZ} Hz")));
     all
 }
 
 const URAD: f64 = 1e6;
+/// What is less is drawn there.
+const LEAST_DB: f64 = -110.0;
 
 fn row(shaken: &Shaken, structure: &Structure) -> Vec<String> {
     let Shaken { flight, spectrum } = shaken;
@@ -125,7 +127,7 @@ fn spectra(shaken: &[Shaken]) -> Chart {
         let chosen = shaken.iter().filter(move |it| it.flight.controlled == controlled);
         let series = chosen.map(|Shaken { flight, spectrum }| {
             let points = spectrum.between(LOWEST_HZ, FASTEST_HZ + 1.0);
-            let points = points.map(|(hz, amplitude)| (hz, decibels(amplitude).max(-140.0)));
+            let points = points.map(|(hz, amplitude)| (hz, decibels(amplitude).max(LEAST_DB)));
             Series::line(flight.label.clone(), points.collect())
         });
         Panel { y_label: y_label.to_owned(), series: series.collect(), ..Panel::default() }

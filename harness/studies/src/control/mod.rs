@@ -1,8 +1,12 @@
 //! Control: `MomentumPlant` with its own controller, alone and in a loop with `Guidance`.
 //!
-//! Large slews, saturation and a failed wheel; jitter of a flexible structure; the safe modes of paper 001; the estimated curves of its Figures 7 and 8.
+//! Burns with delta-V steering; large slews, saturation and a failed wheel; dumps by pulses; jitter of a flexible structure; the
+//! safe modes of paper 001; the estimated curves of its Figures 7 and 8.
 
+mod burn;
+mod burn_flight;
 mod cosimulation;
+mod dump;
 mod guided_loop;
 mod jitter;
 mod jitter_flight;
@@ -17,6 +21,8 @@ mod slew_limits;
 mod spectrum;
 mod transition;
 
+pub use burn::burn;
+pub use dump::dump;
 pub use jitter::jitter;
 pub use safe_mode::safe_mode;
 pub use slew::slew;

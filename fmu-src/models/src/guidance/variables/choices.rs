@@ -31,6 +31,8 @@ optional_enumeration_of! {
         limbTerminator = 7 => LimbTerminator,
         /// An instrument at the limb at limb.azimuth.
         limbGeneric = 8 => LimbGeneric,
+        /// The thrust along the path of the burn.
+        burn = 9 => Burn,
         /// Science and downlink in turn by guided.*, as MomentumPlant flies by itself.
         orbitPhase = 10 => OrbitPhase,
     }

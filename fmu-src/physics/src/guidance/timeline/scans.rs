@@ -97,7 +97,7 @@ fn judge_motions(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescri
 fn aim_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimKind> {
     match scenario {
         Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimKind::PlanetPoint),
-        Scenario::Downlink | Scenario::OrbitPhase => None,
+        Scenario::Downlink | Scenario::Burn | Scenario::OrbitPhase => None,
         Scenario::Generic | Scenario::PlusZ | Scenario::Mdis | Scenario::DoubleTarget => {
             AIMPOINTS.iter().find(|row| Some(row.option) == aimpoint).map(|row| row.kind)
         }

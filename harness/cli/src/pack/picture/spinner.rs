@@ -209,6 +209,12 @@ mod tests {
             force_body_n: force_n.into(),
             torque_body_n_m: [0.0; 3].into(),
             flow_kg_s: 0.0,
+            valve: Default::default(),
+            scatter: 0.0,
+            set: None,
+            tank: 0,
+            at_pressure_pa: None,
+            plume_half_angle_rad: 0.0,
         }
     }
 

@@ -1,0 +1,142 @@
+//! Burns through the functions a master calls: what the thrusters are told, cuts, saved states, refusals, the timeline.
+
+use models::Guidance;
+use nalgebra::Vector3;
+
+use super::super::named_model::{NamedModel, assert_same};
+use super::{FREE, Flight, PLACED, set_vector, with};
+
+const BURN: &[(&str, f64)] = &[
+    ("pointing.scenario", 9.0),
+    ("burn.deltaV[1]", 3.0),
+    ("burn.deltaV[2]", -1.0),
+    ("burn.deltaV[3]", 2.0),
+    ("burn.start", 4.0),
+    ("burn.acceleration", 0.1),
+];
+
+const ACCELERATION_M_S2: f64 = 0.1234;
+
+/// The thrust's direction as it is.
+fn thrust_body() -> Vector3<f64> {
+    Vector3::new(0.01, -0.02, 1.0).normalize()
+}
+
+/// What a master's exchange leaves at a second: the spacecraft follows the command, thrust has acted for `on_s` so far.
+fn exchange(flight: &mut Flight<'_>, on_s: f64) {
+    let q = super::quaternion(flight, "command.q");
+    for (i, value) in q.into_iter().enumerate() {
+        flight.set(&format!("estimate.q[{}]", i + 1), value);
+    }
+    set_vector(flight, "accelerometer.deltaV", &(thrust_body() * (ACCELERATION_M_S2 * on_s)));
+}
+
+/// For how long of the second that begins at `time_s` thrusters obey what they are told at its beginning.
+fn on_s(flight: &Flight<'_>, time_s: f64) -> f64 {
+    let until_s = if flight.boolean("thrust.command") { flight.real("thrust.stop") } else { time_s };
+    (until_s - time_s).clamp(0.0, 1.0)
+}
+
+/// Flies it second by second, each in `cuts` steps, saved and restored before each second where `saves`; calls `each` with
+/// the flight after each second.
+fn fly<'a>(
+    named: &'a NamedModel<Guidance>,
+    sets: &[(&str, f64)],
+    cuts: u32,
+    saves: bool,
+    mut each: impl FnMut(u32, &Flight<'a>),
+) -> f64 {
+    let mut flight = named.fly(0.0, sets).unwrap();
+    let mut thrust_s = 0.0;
+    for second in 0..80 {
+        let time_s = f64::from(second);
+        if saves {
+            flight = flight.restored();
+        }
+        let on_s = on_s(&flight, time_s);
+        exchange(&mut flight, thrust_s);
+        for cut in 1..=cuts {
+            flight.step_to(time_s + f64::from(cut) / f64::from(cuts)).unwrap();
+        }
+        thrust_s += on_s;
+        each(second, &flight);
+    }
+    thrust_s
+}
+
+#[test]
+fn thrusters_are_told_from_the_scenario_to_the_exact_end() {
+    let named = NamedModel::<Guidance>::shipped();
+    let delta_v = Vector3::new(3.0, -1.0, 2.0);
+    let mut ended_at = None;
+    let thrust_s = fly(&named, &with(&[PLACED, FREE, BURN]), 1, false, |second, flight| {
+        let (request, command) = (flight.integer("thrust.request"), flight.boolean("thrust.command"));
+        let stop_s = flight.real("thrust.stop");
+        if second < 4 {
+            assert_eq!((request, command, stop_s), (2, false, -1.0), "{second}");
+        } else if command {
+            assert!(request == 2 && stop_s > f64::from(second), "{second}: {stop_s}");
+        } else {
+            assert_eq!((request, stop_s), (0, -1.0));
+            ended_at.get_or_insert(second);
+            assert!((flight.vector("burn.velocity") - delta_v).norm() < 0.02);
+            assert!(flight.vector("burn.velocityError").norm() < 0.02);
+            assert!((flight.vector("burn.thrustEstimate") - thrust_body()).norm() < 1e-5);
+        }
+        assert!(!flight.boolean("burn.timedOut"));
+    });
+    // Commanded at 4 s, there at 5 s, and as long as the magnitude takes.
+    let needed_s = delta_v.norm() / ACCELERATION_M_S2;
+    assert!((thrust_s - needed_s).abs() < 1e-9, "{thrust_s} s, needed {needed_s} s");
+    assert_eq!(ended_at, Some((5.0 + needed_s).ceil() as u32));
+}
+
+#[test]
+fn cuts_and_saved_states_change_no_bit_of_a_burn() {
+    let named = NamedModel::<Guidance>::shipped();
+    let sets = with(&[PLACED, FREE, BURN]);
+    let turn = [("burn.profile[1,1]", 3.0), ("burn.profile[2,1]", 1.0), ("burn.profile[2,2]", -2.0)];
+    let rest = [("burn.profile[3,1]", 1.0), ("burn.profile[3,3]", 1.0)];
+    for sets in [sets.clone(), with(&[&sets, &turn, &rest])] {
+        let mut whole = Vec::new();
+        fly(&named, &sets, 1, false, |_, flight| whole.push(flight.restored()));
+        for (cuts, saves) in [(10, false), (3, false), (1, true), (7, true)] {
+            fly(&named, &sets, cuts, saves, |second, flight| {
+                let expected = &whole[second as usize];
+                assert_same(expected, flight);
+                let told = |it: &Flight<'_>| {
+                    let vectors = ["burn.velocity", "burn.velocityError", "burn.thrustEstimate"];
+                    (it.real("thrust.stop").to_bits(), vectors.map(|name| it.vector(name).map(f64::to_bits)))
+                };
+                assert_eq!(told(expected), told(flight), "{second} s in {cuts}");
+            });
+        }
+    }
+}
+
+#[test]
+fn a_profile_that_ends_elsewhere_is_refused_and_no_direction_holds_the_attitude() {
+    let named = NamedModel::<Guidance>::shipped();
+    let sets = with(&[PLACED, BURN, &[("burn.profile[1,1]", 3.0)]]);
+    let refused = named.fly(0.0, &sets).err().unwrap().to_string();
+    assert!(refused.contains("burn.profile") && refused.contains("burn.deltaV"), "{refused}");
+    let none = [("burn.deltaV[1]", 0.0), ("burn.deltaV[2]", 0.0), ("burn.deltaV[3]", 0.0)];
+    let mut flight = named.fly(0.0, &with(&[PLACED, BURN, &none])).unwrap();
+    flight.step_to(10.0).unwrap();
+    assert_eq!(flight.integer("command.kind"), 0);
+    assert!(flight.boolean("geometry.degenerate") && !flight.boolean("thrust.command"));
+}
+
+#[test]
+fn a_timelines_entry_that_names_no_scenario_does_not_burn_again() {
+    let timeline = "[[command]]\nat = 2.0\nscenario = \"burn\"\n[[command]]\nat = 30.0\nkeepIn = { enabled = false }\n\
+                    [[command]]\nat = 70.0\nscenario = \"burn\"\n";
+    let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
+    let burn: Vec<_> = BURN.iter().copied().filter(|(name, _)| *name != "pointing.scenario").collect();
+    let mut told = Vec::new();
+    fly(&named, &with(&[PLACED, FREE, &burn]), 1, false, |_, flight| {
+        told.push(flight.boolean("thrust.command"))
+    });
+    let edges: Vec<_> = (1..told.len()).filter(|at| told[*at] != told[at - 1]).collect();
+    assert_eq!((edges.len(), edges[0], edges[2]), (3, 4, 70), "{edges:?}");
+}

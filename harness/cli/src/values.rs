@@ -1,0 +1,46 @@
+//! What values on the command line mean: times, and the FMU that stands in where none is named.
+
+/// The FMU whose library reads and runs new spacecraft unless another is named.
+pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
+
+/// Seconds, or a number with a unit of time.
+pub fn duration(text: &str) -> Result<f64, String> {
+    const UNITS: [(&str, f64); 6] =
+        [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0), ("d", 86_400.0), ("", 1.0)];
+    let text = text.trim();
+    let unit = UNITS.iter().find(|(unit, _)| text.ends_with(unit));
+    let (number, factor) =
+        unit.map_or((text, 1.0), |(unit, factor)| (&text[..text.len() - unit.len()], *factor));
+    match number.trim_end().parse::<f64>() {
+        Ok(number) if (number * factor).is_finite() => Ok(number * factor),
+        _ => Err("a time is a number of seconds or carries a unit: 600, 10min, 0.5h, 90d".to_owned()),
+    }
+}
+
+/// A time that passes, so more than 0 s.
+pub fn span(text: &str) -> Result<f64, String> {
+    match duration(text)? {
+        span_s if span_s > 0.0 => Ok(span_s),
+        _ => Err("allowed is more than 0 s".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_take_units() {
+        assert_eq!(duration("90d"), Ok(7_776_000.0));
+        assert_eq!(duration("10 min"), Ok(600.0));
+        assert_eq!(duration("-1.5e3"), Ok(-1500.0));
+        assert_eq!(duration("250ms"), Ok(0.25));
+        for bad in ["", "d", "ten", "1e999", "nan", "3w"] {
+            assert!(duration(bad).is_err(), "{bad}");
+        }
+        assert_eq!(span("1 h"), Ok(3600.0));
+        for bad in ["0", "-5", "-1d", "soon"] {
+            assert!(span(bad).is_err(), "{bad}");
+        }
+    }
+}
