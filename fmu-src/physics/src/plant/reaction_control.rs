@@ -541,7 +541,7 @@ impl ReactionControl {
             .iter()
             .zip(&settings.thrusters)
             .any(|(valve, it)| valve.thrust(&it.valve, time_s) != [0.0; 2]);
-        let Some(selection) = selection.filter(|_| !(dump.is_last && !fires)) else {
+        let Some(selection) = selection.filter(|_| !dump.is_last || fires) else {
             dump.after = Some(self.totals_at(motion, time_s));
             self.dump = Some(dump);
             return;
@@ -581,9 +581,9 @@ impl ReactionControl {
         }
         // What is left is less than the shortest pulses of several thrusters: one after another, each that comes nearer.
         let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
-        while part == 1.0 {
+        loop {
             let left = left_body_n_m_s - given_body_n_m_s;
-            let free = pulses.clone().filter(|k| opened_s[*k] == 0.0);
+            let free = pulses.clone().filter(|k| part == 1.0 && opened_s[*k] == 0.0);
             let nearest = free
                 .map(|k| (k, (left - impulse(k, shortest_s(k))).norm()))
                 .min_by(|(_, one), (_, other)| one.total_cmp(other));

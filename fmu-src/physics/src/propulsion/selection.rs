@@ -155,18 +155,18 @@ impl Problem {
         let force = |i: usize| &thrusters[candidates[i].0].force_body_n;
         let mut weight = [[0.0; MOST_THRUSTERS]; MOST_THRUSTERS];
         let mut largest = 0.0_f64;
-        for i in 0..count {
-            for j in 0..count {
-                weight[i][j] = match preference {
+        for (i, row) in weight.iter_mut().enumerate().take(count) {
+            for (j, weight) in row.iter_mut().enumerate().take(count) {
+                *weight = match preference {
                     Preference::LeastForce => force(i).dot(force(j)),
                     Preference::LeastOnTime => 0.0,
                 };
             }
-            weight[i][i] += match preference {
+            row[i] += match preference {
                 Preference::LeastForce => ON_TIME_SHARE * force(i).norm_squared(),
                 Preference::LeastOnTime => 1.0,
             };
-            largest = largest.max(weight[i][i]);
+            largest = largest.max(row[i]);
         }
         let arm_n_m = candidates[..count].iter().map(|(_, torque)| torque.norm()).fold(0.0, f64::max);
         let torque_weight = if arm_n_m > 0.0 { TORQUE_WEIGHT * largest / (arm_n_m * arm_n_m) } else { 0.0 };

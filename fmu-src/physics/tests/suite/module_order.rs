@@ -11,6 +11,7 @@ const ORDER: &[&str] = &[
     "bodies",
     "attitude",
     "spacecraft",
+    "propulsion",
     "environment",
     "radiation",
     "guidance",

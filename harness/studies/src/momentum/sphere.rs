@@ -80,7 +80,7 @@ pub fn picture(title: &str, unit: &str, found: &[Lit], size: impl Fn(&Lit) -> Ve
         let [x, y, z] = direction([lit.azimuth_deg, lit.elevation_deg]);
         let away_rad = (y * side).clamp(-1.0, 1.0).acos();
         let scale = if away_rad > 0.0 { away_rad.to_degrees() / x.hypot(z) } else { 0.0 };
-        (away_rad <= FRAC_PI_2 + 1e-9).then(|| (x * scale, z * scale))
+        (away_rad <= FRAC_PI_2 + 1e-9).then_some((x * scale, z * scale))
     };
     let panel = |title: &str, side: f64| PlanePanel {
         title: title.to_owned(),

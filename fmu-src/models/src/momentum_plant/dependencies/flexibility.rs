@@ -4,6 +4,7 @@ use fmi_export::{Dependencies, Knowns, knowns};
 
 use super::super::variables::PlantVariables;
 use super::groups::Start;
+use crate::common::spacecraft::across;
 
 /// Modes and propellant are at rest where the flight begins; rotors out of balance push and turn the body from there on, and
 /// propellant does where a force moves it.
@@ -22,11 +23,11 @@ pub fn swinging(table: &mut Dependencies, v: &PlantVariables, start: &Start) {
     let force = &turning.only_if(!v.wheel.is_empty());
     let places = v.wheel.iter().map(|wheel| wheel.position).collect::<Knowns>();
     let levers = knowns![places, v.spacecraft.center_of_mass].only_if(!v.wheel.is_empty());
-    table.output(
-        v.torque.total,
-        knowns![v.force.applied].only_if(!v.slosh.is_empty()),
-        knowns![force, levers],
-    );
+    for axis in 0..3 {
+        // Propellant aside of its axis turns the body by the force across.
+        let aside = across(v.force.applied, axis).only_if(!v.slosh.is_empty());
+        table.output(v.torque.total.element(axis), aside, knowns![force, &levers]);
+    }
     table.output(v.force.total, knowns![], force);
     table.output(v.force.inertial, knowns![], force);
     table.output(v.acceleration, knowns![], knowns![force]);

@@ -265,7 +265,9 @@ fn segment(
             check.report(&place, found, format!("{}, one more than the degree", degree + 1));
         }
         // Places are made for what may be wrong alone: a file has thousands of good coefficients.
-        for (index, coefficient) in list.iter().enumerate().filter(|(_, it)| !(it.abs() <= CERTAINLY_GOOD)) {
+        for (index, coefficient) in
+            list.iter().enumerate().filter(|(_, it)| it.is_nan() || it.abs() > CERTAINLY_GOOD)
+        {
             check.finite(&place.item(index), *coefficient);
         }
     }

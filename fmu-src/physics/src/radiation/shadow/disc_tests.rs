@@ -79,7 +79,7 @@ fn a_strip_in_the_penumbra_is_partly_lit() {
         let hard = mean(&edge(x_m, height_m), &Vector3::z(), 0.0)[0].0 / whole;
         assert!((found - expected).abs() <= (hard - expected).abs() + 1e-12, "{x_m:?}: {found} {hard}");
     }
-    let all = mean(&edge([-1.0 * half_width_m, half_width_m], height_m), &Vector3::z(), sine)[0].0;
+    let all = mean(&edge([-half_width_m, half_width_m], height_m), &Vector3::z(), sine)[0].0;
     assert_relative_eq!(all, half_width_m, epsilon = 1e-9);
 }
 
