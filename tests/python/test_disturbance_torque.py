@@ -245,6 +245,7 @@ def test_the_whole_messenger_is_pushed_as_its_faces_are(heliotorque, dist, tmp_p
                 push *= -pressure * area * cosine
                 force, torque = force + push, torque + np.cross(center - center_of_mass, push)
                 size += np.linalg.norm(push)
-        assert np.abs(light.get(*vector("force.solar")) - force).max() < 1e-13 * size
-        assert np.abs(light.get(*vector("torque.solar")) - torque).max() < 1e-13 * size * 4.0
+        # The file's outlines have nine decimals, and their centres lie within a hundredth of a millimetre of those printed.
+        assert np.abs(light.get(*vector("force.solar")) - force).max() < 1e-8 * size
+        assert np.abs(light.get(*vector("torque.solar")) - torque).max() < 1e-5 * size
     light.close()

@@ -180,3 +180,25 @@ def test_choices_are_those_that_fmpy_simulates(momentum_plant, key, offset_cm, s
     start |= {f"dump.threshold[{axis}]": threshold for axis in (1, 2, 3)}
     count = simulate(momentum_plant, start=start)["dump.count"][-1]
     assert count == ASSUMPTIONS[key][[0.0, -2.54, -5.08].index(offset_cm)]
+
+
+def test_the_whole_messenger_off_the_sun(studied):
+    """Its force is greatest off the Sun's place, follows mirror symmetry in X, and its impulses explain what differs."""
+    text, files = studied("momentum/off-sun")
+    rows = table(files, "off-sun.csv")
+    assert len(rows) == 37 * 72
+    at = {
+        (float(row["sun_azimuth_deg"]), float(row["sun_elevation_deg"])): np.array(
+            [float(row[f"{what}_{axis}_{unit}"]) for what, unit in (("force", "n"), ("torque", "n_m")) for axis in "xyz"]
+        )
+        for row in rows
+    }
+    size = max(np.linalg.norm(loads[:3]) for loads in at.values())
+    mirror = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    for (azimuth, elevation), loads in at.items():
+        if azimuth > -180.0:
+            assert np.abs(at[-azimuth, elevation] * mirror - loads).max() < 1e-6 * size, (azimuth, elevation)
+    assert all(np.linalg.norm(loads[:3]) > 0.1 * size for loads in at.values())
+    assert {"off-sun-force.svg", "off-sun-torque.svg", "off-sun-momentum.svg"} < set(files)
+    apart = float(re.search(r"apart (\S+) of it", text)[1])
+    assert apart < 1e-3

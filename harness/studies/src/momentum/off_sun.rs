@@ -15,6 +15,8 @@ const STOP_S: f64 = 10.0 * DAY_S;
 const STEP_S: f64 = 600.0;
 /// No dump: above all that gathers.
 const THRESHOLD_N_M_S: f64 = 1000.0;
+/// What is less than this is light at grazing rounding, in N s.
+const LEAST_N_S: f64 = 1e-6;
 /// Surfaces that messenger.toml has as well; their backs it has not.
 const KNOWN: [&str; 10] = [
     "side +X",
@@ -130,7 +132,7 @@ fn within_the_zone(
         let is_known = KNOWN.contains(&name.as_str()) && !seen.contains(&name.as_str());
         seen.push(name);
         let lit = force_n.iter().filter(|force| norm(force) > 0.0).count();
-        if lit > 0 && !is_known {
+        if norm(&total) > LEAST_N_S && !is_known {
             let mut cells = row(name, &total);
             cells.push(format!("{:.1} %", 100.0 * lit as f64 / force_n.len().max(1) as f64));
             rows.push(cells);
@@ -188,8 +190,9 @@ fn within_the_zone(
 }
 
 const REMARK: &str = "\
-In the zone the shade keeps the bus dark up to 10.5 deg of azimuth; what is lit beyond shade and cells is the outer end of the
-boom, and from there on a strip of the bus' sides. Where shade plates meet, their outlines overlap by millimetres.";
+Guidance keeps the Sun at no azimuth, where the shade keeps bus and boom dark: what is lit beyond shade and cells is the bell,
+through the slit of 6 mm that the printed heights leave between the shade and its top. A strip of the bus' sides would be lit
+from 10.5 deg of azimuth on.";
 
 fn fly(fmu: &Fmu, label: &str) -> Result<Flown, StudyError> {
     let mut names = three("momentum.inertial");
@@ -230,6 +233,8 @@ fn three(name: &str) -> Vec<String> {
 /// Names of the surfaces that are reported one by one.
 fn surfaces(fmu: &Fmu) -> Result<Vec<String>, loader::Error> {
     let mut instance = loader::Instance::new(fmu, fmu.name(), &loader::InstanceOptions::default())?;
+    instance.setup_experiment(None, 0.0, None)?;
+    instance.enter_initialization_mode()?;
     let mut names = Vec::new();
     while let Some(position) = fmu.position(&format!("plate[{}].name", names.len() + 1)) {
         let value = instance.get_variable(&fmu.description().variables[position])?;

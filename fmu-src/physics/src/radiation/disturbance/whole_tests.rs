@@ -49,7 +49,7 @@ fn sunlight(
 fn within_the_zone_the_whole_differs_from_shade_and_panels_by_what_single_surfaces_add() {
     let (whole, few) = (model("messenger-full.toml", WHOLE), model("messenger.toml", MESSENGER_TOML));
     let mut lit_beyond = std::collections::BTreeSet::new();
-    for azimuth_deg in (-15..=15_i32).step_by(3) {
+    for azimuth_deg in (-15_i32..=15).step_by(3) {
         for elevation_deg in [-13, -10, -5, 0, 5, 10, 13] {
             let at = sun(f64::from(azimuth_deg), f64::from(elevation_deg));
             let ((all, on_whole), (some, on_few)) = (sunlight(&whole, at), sunlight(&few, at));
@@ -62,19 +62,20 @@ fn within_the_zone_the_whole_differs_from_shade_and_panels_by_what_single_surfac
                             force_body_n: -known.force_body_n,
                             torque_body_n_m: -known.torque_body_n_m,
                         };
-                        // Mirrors of one plate: seams overlap by millimetres.
+                        // Plates meet at corners printed to a tenth of a millimetre.
                         let seam = (load.force_body_n - known.force_body_n).norm();
-                        assert!(seam <= 0.02 * known.force_body_n.norm(), "{name}: {seam}");
+                        assert!(seam <= 0.01 * known.force_body_n.norm(), "{name}: {seam}");
                     }
                     None => {
                         sum += *load;
-                        lit_beyond.insert(name.clone());
-                        let is_slim = name.starts_with("boom");
-                        // The shade keeps the bus dark up to 10.5 deg of azimuth.
-                        assert!(
-                            is_slim || azimuth_deg.abs() >= 11,
-                            "{name} at {azimuth_deg} {elevation_deg}"
-                        );
+                        if load.force_body_n.norm() > 1e-9 * all.force_body_n.norm() {
+                            lit_beyond.insert(name.clone());
+                            let is_slim = name.starts_with("boom") || name.starts_with("bell");
+                            // The shade keeps the bus dark up to 10.5 deg of azimuth.
+                            let is_aside = ["bus +X", "bus -X", "bus +Z", "bus -Z"].contains(&name.as_str());
+                            let is_allowed = is_slim || is_aside && azimuth_deg.abs() >= 11;
+                            assert!(is_allowed, "{name} at {azimuth_deg} {elevation_deg}");
+                        }
                     }
                 }
             }
@@ -86,8 +87,9 @@ fn within_the_zone_the_whole_differs_from_shade_and_panels_by_what_single_surfac
             assert_relative_eq!(sum.torque_body_n_m, torque, epsilon = 1e-13 * size);
         }
     }
-    let lit_beyond: Vec<&str> = lit_beyond.iter().map(String::as_str).collect();
-    assert_eq!(lit_beyond, ["boom +X", "boom +Z", "boom -X", "bus +X", "bus -X"]);
+    for name in ["bus +X", "bus -X", "boom +X", "boom -X", "bell exit"] {
+        assert!(lit_beyond.contains(name), "{name}: {lit_beyond:?}");
+    }
 }
 
 /// From behind, the bus, the backs of shade and panels, the bell or the boom take the light that shade and cells do not.
