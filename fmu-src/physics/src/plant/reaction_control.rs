@@ -24,7 +24,9 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 /// A pulse at the end of a dump leaves less than this share of what was left.
-const NEARER: f64 = 0.999;
+const NEARER: f64 = 0.7;
+/// How often the end of a dump is corrected: pulses scatter, and the body turns under them.
+const MOST_CORRECTIONS: u8 = 4;
 
 /// What parameters say about thrusters and tanks.
 #[derive(Clone, Debug, Default)]
@@ -189,6 +191,10 @@ struct PulsedDump {
     after: Option<ThrusterTotals>,
     /// When pulses are next decided, in s.
     next_s: f64,
+    /// What each thruster still has to give of what was decided, in s of full thrust: less than its shortest pulse.
+    owed_s: [f64; MOST_THRUSTERS],
+    /// How often the end was corrected.
+    corrections: u8,
     /// Whether the pulses at hand are the last.
     is_last: bool,
     /// Mean torque of the pulses at hand, body frame, in N m.
@@ -255,6 +261,7 @@ impl ReactionControl {
                     && totals(&it.before)
                     && it.after.as_ref().is_none_or(totals)
                     && sound(&it.next_s)
+                    && it.owed_s.iter().all(|owed_s| *owed_s >= 0.0 && sound(owed_s))
             })
             && force_body_n.iter().chain(torque_body_n_m).all(vector)
             && [since_s, mass_kg].into_iter().chain(flow_kg_s).all(sound)
@@ -491,6 +498,8 @@ impl ReactionControl {
             before: self.totals_at(motion, time_s),
             after: None,
             next_s: time_s,
+            owed_s: [0.0; MOST_THRUSTERS],
+            corrections: 0,
             is_last: false,
             mean_torque_body_n_m: Vector3::zeros(),
         });
@@ -553,48 +562,52 @@ impl ReactionControl {
         let attitude = motion.attitude_at(time_s);
         let left_body_n_m_s =
             attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
+        let torque = |k: usize| settings.thrusters[k].torque_about_n_m(&mass.center_of_mass_body_m);
+        let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
         let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
-        let part = (most_n_m_s / left_body_n_m_s.amax()).min(1.0);
+        let owed = |dump: &PulsedDump| -> Vector3<f64> {
+            (0..settings.thrusters.len()).map(|k| torque(k) * dump.owed_s[k]).sum()
+        };
+        let new_body_n_m_s = left_body_n_m_s - owed(&dump);
+        let part = (most_n_m_s / new_body_n_m_s.amax()).min(1.0);
         let mut opened_s = [0.0; MOST_THRUSTERS];
         let mut given_body_n_m_s = Vector3::zeros();
-        let impulse = |k: usize, on_s: f64| {
-            let thruster = &settings.thrusters[k];
-            let full_s = thruster.valve.full_thrust_s(on_s);
-            thruster.torque_about_n_m(&mass.center_of_mass_body_m)
-                * (full_s * pressure_ratio(settings, propellant, thruster, time_s))
-        };
-        let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
-        for (k, full_s) in selection.on_times_s(&left_body_n_m_s).enumerate() {
-            let [whole_s, part_s] =
-                [full_s, full_s * part].map(|it| opens_for_s(settings, propellant, k, it, time_s));
-            let on_s = if part_s >= shortest_s(k) {
-                part_s
-            } else if whole_s >= shortest_s(k) {
-                shortest_s(k)
-            } else {
-                0.0
-            };
-            if on_s > 0.0 {
-                opened_s[k] = on_s;
-                given_body_n_m_s += impulse(k, on_s);
+        for (k, full_s) in selection.on_times_s(&new_body_n_m_s).enumerate() {
+            dump.owed_s[k] += full_s * part;
+            let on_s = opens_for_s(settings, propellant, k, dump.owed_s[k], time_s);
+            if on_s > 0.0 && on_s >= shortest_s(k) {
+                given_body_n_m_s += torque(k) * dump.owed_s[k];
+                (opened_s[k], dump.owed_s[k]) = (on_s, 0.0);
             }
         }
-        // What is left is less than the shortest pulses of several thrusters: one after another, each that comes nearer.
-        let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
-        loop {
-            let left = left_body_n_m_s - given_body_n_m_s;
-            let free = pulses.clone().filter(|k| part == 1.0 && opened_s[*k] == 0.0);
-            let nearest = free
-                .map(|k| (k, (left - impulse(k, shortest_s(k))).norm()))
-                .min_by(|(_, one), (_, other)| one.total_cmp(other));
-            let Some((k, _)) = nearest.filter(|(_, distance)| *distance < NEARER * left.norm()) else {
-                break;
+        if part == 1.0 {
+            // All that is left is owed, each thruster less than its shortest pulse: those that come nearest.
+            let shortest = |k: usize| {
+                let thruster = &settings.thrusters[k];
+                let full_s = thruster.valve.full_thrust_s(shortest_s(k));
+                torque(k) * (full_s * pressure_ratio(settings, propellant, thruster, time_s))
             };
-            opened_s[k] = shortest_s(k);
-            given_body_n_m_s += impulse(k, shortest_s(k));
+            let mut left = owed(&dump);
+            let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
+            loop {
+                let free = pulses.clone().filter(|k| opened_s[*k] == 0.0);
+                let nearest = free
+                    .map(|k| (k, (left - shortest(k)).norm()))
+                    .min_by(|(_, one), (_, other)| one.total_cmp(other));
+                let Some((k, _)) = nearest.filter(|(_, distance)| *distance < NEARER * left.norm()) else {
+                    break;
+                };
+                opened_s[k] = shortest_s(k);
+                left -= shortest(k);
+                given_body_n_m_s += shortest(k);
+            }
+            dump.owed_s = [0.0; MOST_THRUSTERS];
+            dump.corrections += 1;
+            // Valves without a shortest pulse leave nothing over, others what no pulse brings nearer.
+            let is_exact = pulses.count() == 0;
+            let is_done = given_body_n_m_s == Vector3::zeros() || dump.corrections >= MOST_CORRECTIONS;
+            dump.is_last = is_exact || is_done;
         }
-        // Valves without a shortest pulse leave nothing over, others what no pulse brings nearer.
-        dump.is_last = part == 1.0 && (pulses.count() == 0 || given_body_n_m_s == Vector3::zeros());
         for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
             self.plan(k, time_s, time_s + on_s);
         }

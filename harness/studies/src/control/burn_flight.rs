@@ -190,6 +190,7 @@ impl BurnLoop {
             vec![
                 // controlled
                 number("attitude.source", 3),
+                number("command.source", 1),
                 number("noise.seed", burn.seed),
                 real("spacecraft.mass", MASS_KG),
                 real("thrust.misalignment", MISALIGNMENT_DEG.to_radians()),

@@ -43,9 +43,9 @@ struct Flown {
 }
 
 const OUTPUTS: [&str; 16] = [
-    "momentum.inertial[1]",
-    "momentum.inertial[2]",
-    "momentum.inertial[3]",
+    "momentum.body[1]",
+    "momentum.body[2]",
+    "momentum.body[3]",
     "dump.impulse[1]",
     "dump.impulse[2]",
     "dump.impulse[3]",
@@ -82,6 +82,7 @@ impl Dump {
         let case = Case::new(self.label, SPAN_S, STEP_S)
             .integer("attitude.source", source)
             .integer("command.source", 1)
+            .integer("command.kind", 0)
             .real("solar.flux", 0.0)
             .boolean("gravityGradient.enabled", false)
             .boolean("dump.request", true);

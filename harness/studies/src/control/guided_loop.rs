@@ -164,7 +164,7 @@ pub struct Loop {
 impl Loop {
     /// Opens both in the folder `options` names.
     pub fn open(options: &Options) -> Result<Self, StudyError> {
-        Ok(Self { plant: options.fmu("MomentumPlant.fmu")?, guidance: options.fmu("Guidance.fmu")? })
+        Ok(Self { plant: options.fmu("MessengerFull.fmu")?, guidance: options.fmu("Guidance.fmu")? })
     }
 
     /// A parameter of Guidance that nobody sets.
@@ -196,7 +196,7 @@ impl Loop {
         let failed =
             |error: Error| StudyError::Simulation { case: flight.label.to_owned(), source: error.into() };
         let (q, rate_rad_s) = self.first_command(flight).map_err(failed)?;
-        let mut start = vec![number("attitude.source", CONTROLLED)];
+        let mut start = vec![number("attitude.source", CONTROLLED), number("command.source", 1)];
         start.extend(quaternion_setting("start.q", &q));
         start.extend(vector_setting("start.rate", &rate_rad_s));
         let grid = Grid { stop_s: flight.stop_s, step_s, sample_s: SAMPLE_S };

@@ -142,7 +142,7 @@ pub struct Plant {
 impl Plant {
     /// Of the folder that `options` names.
     pub fn open(options: &Options) -> Result<Self, StudyError> {
-        let fmu = options.fmu("MomentumPlant.fmu")?;
+        let fmu = options.fmu("MessengerFull.fmu")?;
         let read = || -> Result<_, Error> {
             let names = ["attitude.q", "dump.threshold"];
             let row = Unit::start(&fmu, &Vec::new(), &Vec::new(), &names)?.read()?;
@@ -150,7 +150,7 @@ impl Plant {
             Ok((Limits::read(&fmu)?, row.vector(), row.vector()))
         };
         let (limits, q, threshold_n_m_s) = read().map_err(|error| StudyError::Simulation {
-            case: "parameters of MomentumPlant".to_owned(),
+            case: "parameters of MessengerFull".to_owned(),
             source: error.into(),
         })?;
         Ok(Self { fmu, limits, q, threshold_n_m_s })
@@ -218,7 +218,7 @@ impl Plant {
 
     /// At rest in the start attitude, which is held until the command jumps.
     fn parameters(&self, slew: &Slew) -> Settings {
-        let mut parameters = vec![number("attitude.source", 3)];
+        let mut parameters = vec![number("attitude.source", 3), number("command.source", 1)];
         parameters.extend(quaternion_setting("start.q", &self.q));
         if let Event::Dumped(share, _) | Event::Threshold(share, _) = slew.event {
             parameters.extend(vector_setting("dump.threshold", &[NEVER_N_M_S; 3]));
