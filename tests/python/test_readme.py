@@ -218,6 +218,41 @@ def test_the_slews_are_those_of_the_study(studied):
     ) in README
 
 
+def test_the_burn_is_that_of_the_study(studied):
+    def rms(case, column):
+        values = [float(row[column]) for row in rows_of(studied, "pointing/burn") if row["case"] == case]
+        return (sum(value**2 for value in values) / len(values))**0.5
+
+    none, theta, beta, both = (rms(case, "direction_deg") for case in ("none", "theta", "beta", "both"))
+    assert none > max(theta, beta) and both < min(theta, beta) and both < 0.03
+    assert line(
+        "001, Figures 10 and 11",
+        "burn of 10 m/s with both corrections, rms over 16 seeds (`pointing/burn`)", "~2 mm/s, ~0.2 deg",
+        f"{rms('both', 'magnitude_mm_s'):.2f} mm/s, {both:.3f} deg",
+        "same size of the magnitude; the paper's accelerometer is not printed. "
+        f"Without correction {none:.3f} deg, with theta {theta:.3f}, with beta {beta:.3f}",
+    ) in README
+
+
+def test_the_dump_and_the_jitter_are_those_of_the_studies(studied):
+    dump = {row["case"]: row for row in rows_of(studied, "control/dump")}["to zero"]
+    assert line(
+        "beyond 000",
+        f"propellant of a dump by pulses and at once, what it leaves of {dump['impulse [N m s]']} N m s (`control/dump`)",
+        "not stated",
+        f"{dump['propellant [g]']} and {dump['impulsive [g]']} g, {dump['left over [mN m s]']} mN m s",
+        "less than the shortest pulse",
+    ) in README
+    # 4.4 N for 21 ms at 0.8 m.
+    assert float(dump["left over [mN m s]"]) < 74
+    jitter = {row["case"]: row for row in rows_of(studied, "control/jitter")}["free, wheel at mode 1"]
+    ours, closed = (float(jitter[name]) for name in ("amplitude [urad]", "in closed form [urad]"))
+    assert line(
+        "beyond 000", "jitter by a wheel out of balance at the first mode of a flexible craft (`control/jitter`)",
+        "not stated", f"{ours:.5f} urad; {closed:.5f} in closed form", f"same to {100 * abs(ours / closed - 1):.2f} %",
+    ) in README
+
+
 def test_a_mercury_year_is_that_of_the_study(studied):
     text = studied("thermal/figure13")[0]
     orbits = found(text, r"orbits in a year +172 +([\d.]+)")

@@ -58,6 +58,9 @@ impl Model for MomentumPlant {
     }
 
     fn about(setup: &PlantSetup) -> About {
+        // 90 days of the momentum; dynamics are computed at 50 Hz.
+        let (stop_time_s, step_size_s) =
+            if setup.starts_with_dynamics() { (86_400.0, 1.0) } else { (7_776_000.0, 600.0) };
         About {
             description: format!(
                 "{}: solar-radiation torque, planet light, thermal recoil, gravity gradient, system momentum and thruster \
@@ -65,9 +68,8 @@ impl Model for MomentumPlant {
                 setup.spacecraft.name
             ),
             start_time_s: 0.0,
-            // 90 days.
-            stop_time_s: 7_776_000.0,
-            step_size_s: 600.0,
+            stop_time_s,
+            step_size_s,
             tolerance: 1e-10,
             ..crate::common::about()
         }

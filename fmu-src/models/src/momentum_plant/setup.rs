@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
-use fmi_export::{Context, Failure, SetupError};
+use fmi_export::{Context, Enumeration, Failure, Model, SetupError};
 use nalgebra::Vector3;
 use physics::environment::flown::FlownEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PreparedSpacecraft};
 use physics::radiation::{SolarModel, TorquePolynomial};
-use physics::spacecraft::{Spacecraft, SunshadeModel};
+use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
 use serde::Serialize;
+
+use super::variables::choices::AttitudeSource;
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -63,6 +65,24 @@ impl PlantSetup {
             orbit_method: OrbitMethod::default(),
             spacecraft,
         })
+    }
+
+    /// Whether the file asks for controlled or free flight.
+    pub fn starts_with_dynamics(&self) -> bool {
+        let dynamic = [AttitudeSource::Controlled, AttitudeSource::Free];
+        let items = AttitudeSource::TYPE.items.iter();
+        let asks = |value: &StartValue| match value {
+            StartValue::Integer(number) => dynamic.iter().any(|it| i64::from(it.value()) == *number),
+            StartValue::Text(name) => {
+                let known = items.clone().find(|item| item.name == name.as_str());
+                known.is_some_and(|item| dynamic.iter().any(|it| it.value() == item.value))
+            }
+            _ => false,
+        };
+        let own = |model: &Option<String>| model.as_deref().is_none_or(|it| it == MomentumPlant::NAME);
+        let mut entries = self.spacecraft.start.iter().filter(|entry| own(&entry.model));
+        let source = entries.rfind(|entry| entry.name == "attitude.source");
+        source.is_some_and(|entry| asks(&entry.value))
     }
 
     /// What flies, with its shade modelled as asked for.

@@ -21,7 +21,7 @@ fn a_file_is_told_and_a_torn_one_refused_by_line() {
     assert!(told.iter().all(|word| text.contains(word)), "{text}");
     for (old, new, said) in [
         ("error_m = 1.0", "error_m = nan", "mine.toml:6: body[1].error_m: found NaN"),
-        ("[[body]]", "[[bodies]]", "did you mean `body`?"),
+        ("[[body]]", "[[bodies]]", "found the unknown key `bodies`, allowed: frame, source, body, coarse"),
         ("x_m = [5e10]", "x_m = [5e10, 1]", "mine.toml:8: body[1].segment[1].x_m: found 2 coefficients"),
         ("z_m = [0] }]", "z_m = [0", "not TOML"),
     ] {

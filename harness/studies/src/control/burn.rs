@@ -181,7 +181,9 @@ fn off_path_m_s(flown: &Flown, sample: &Sample) -> f64 {
 
 fn quaternion_chart(flown: &Flown) -> Chart {
     let points = |of: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
-        flown.samples.iter().map(|sample| (sample.time_s, of(sample))).collect()
+        // Before its first sample Guidance holds what it starts with.
+        let commanded = flown.samples.iter().filter(|sample| sample.time_s >= 0.5 * START_S);
+        commanded.map(|sample| (sample.time_s, of(sample))).collect()
     };
     let panel = |i: usize| {
         let label = |text: &str| if i == 0 { text.to_owned() } else { String::new() };
