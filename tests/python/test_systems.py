@@ -125,8 +125,14 @@ TO_GUIDANCE = {
     "sun.velocityInertial": "sun.velocity",
     "earth.positionInertial": "earth.position",
     "earth.velocityInertial": "earth.velocity",
+    "accelerometer.deltaV": "accelerometer.deltaV",
 }
-TO_PLANT = {name: name for name in ("command.kind", "command.q", "command.rate", "command.error")}
+TO_PLANT = {
+    name: name
+    for name in (
+        "command.kind", "command.q", "command.rate", "command.error", "thrust.request", "thrust.command", "thrust.stop",
+    )
+}
 
 
 def test_wire_connects_what_belongs_together_and_nothing_else(heliotorque, dist, tmp_path):
@@ -140,7 +146,7 @@ def test_wire_connects_what_belongs_together_and_nothing_else(heliotorque, dist,
     expected = {(f"plant.{output}", f"guidance.{to}") for output, to in TO_GUIDANCE.items()}
     expected |= {(f"guidance.{output}", f"plant.{to}") for output, to in TO_PLANT.items()}
     assert bare == expected
-    assert len(joined) == len(inputs) == 6 * 3 + (4 + 3 + 1 + 3 + 1) + (1 + 4 + 3 + 4)
+    assert len(joined) == len(inputs) == 6 * 3 + (4 + 3 + 1 + 3 + 1 + 3) + (1 + 4 + 3 + 4 + 3)
     assert done.stdout == "" and done.stderr.startswith(f"{len(joined)} connections")
     assert "no output of that name" in done.stderr and "scan.frame" in done.stderr
     # To the standard output the same bytes, once it has the same name; never to a terminal.
