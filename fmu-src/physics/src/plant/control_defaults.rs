@@ -4,7 +4,7 @@ use crate::constants::DEG_RAD;
 use crate::momentum::WheelArray;
 use crate::spacecraft::{Spacecraft, Wheel};
 
-use super::reaction_control::ReactionControlSettings;
+use super::reaction_control_settings::ReactionControlSettings;
 
 /// Greatest rate of a turn, assumed.
 const GREATEST_SLEW_RATE_RAD_S: f64 = 0.5 * DEG_RAD;

@@ -11,7 +11,7 @@ use crate::propulsion::PulseCommand;
 
 use super::configuration::Command;
 use super::evaluation::ExternalLoad;
-use super::reaction_control::{ReactionControlSettings, ThrustCommand};
+use super::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 use super::wheel_control::WheelControlSettings;
 
 /// What parameters say about dynamics and control.

@@ -12,7 +12,7 @@ use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use super::error::PlantError;
 use super::evaluation::Evaluation;
 use super::flight::Flight;
-use super::reaction_control::ReactionControlSettings;
+use super::reaction_control_settings::ReactionControlSettings;
 
 /// What the last dump left beside its impulse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -8,13 +8,15 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::{GyrostatMotion, Quaternion};
+use crate::attitude::GyrostatMotion;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::spacing::spacing;
-use crate::propulsion::{
-    Preference, PropellantState, PulseCommand, SelectionError, ThrustErrors, ThrusterSelection, Valve,
-};
-use crate::spacecraft::{MOST_THRUSTERS, MassProperties, Tank, Thruster, ThrusterSet};
+use crate::propulsion::{PropellantState, PulseCommand, ThrusterSelection, Valve};
+use crate::spacecraft::{MassProperties, Thruster, ThrusterSet};
+
+use super::pulsed_dump::PulsedDump;
+use super::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
+use super::thruster_load::{ThrusterLoad, ThrusterTotals};
 
 /// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
 const GAUSS: [(f64, f64); 3] = [
@@ -22,135 +24,6 @@ const GAUSS: [(f64, f64); 3] = [
     (0.5, 0.444_444_444_444_444_4),
     (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
 ];
-
-/// A pulse at the end of a dump leaves less than this share of what was left.
-const NEARER: f64 = 0.7;
-/// How often the end of a dump is corrected: pulses scatter, and the body turns under them.
-const MOST_CORRECTIONS: u8 = 4;
-
-/// What parameters say about thrusters and tanks.
-#[derive(Clone, Debug, Default)]
-pub struct ReactionControlSettings {
-    /// Thrusters.
-    pub thrusters: Vec<Thruster>,
-    /// Tanks.
-    pub tanks: Vec<Tank>,
-    /// How far a delta-v's thrust is off; its seed scatters pulses too.
-    pub errors: ThrustErrors,
-    /// Greatest mean torque of a dump about a body axis, in N m.
-    pub dump_torque_n_m: f64,
-    /// Shortest time between two pulses of a dump, in s.
-    pub dump_period_s: f64,
-}
-
-impl ReactionControlSettings {
-    /// The thrusters that dump: the weakest that give torque all ways.
-    ///
-    /// # Errors
-    /// A way about an axis that no thruster gives.
-    pub fn dump_selection(
-        &self,
-        center_of_mass_body_m: &Vector3<f64>,
-    ) -> Result<ThrusterSelection, SelectionError> {
-        let may_fire = |k: usize| self.thrusters[k].set != Some(ThrusterSet::Lva);
-        ThrusterSelection::of_the_finest(
-            &self.thrusters,
-            may_fire,
-            center_of_mass_body_m,
-            Preference::LeastForce,
-        )
-    }
-
-    /// The thrusters that control the attitude while those of a set give a delta-v.
-    ///
-    /// # Errors
-    /// A way about an axis that no thruster gives.
-    pub fn attitude_selection(
-        &self,
-        burning: Option<ThrusterSet>,
-        center_of_mass_body_m: &Vector3<f64>,
-    ) -> Result<ThrusterSelection, SelectionError> {
-        let may_fire = |k: usize| {
-            let set = self.thrusters[k].set;
-            set != Some(ThrusterSet::Lva) && (burning.is_none() || set != burning)
-        };
-        ThrusterSelection::new(&self.thrusters, may_fire, center_of_mass_body_m, Preference::LeastOnTime)
-    }
-
-    /// Sum of the nominal forces of a set, body frame, in N, and their torque about a centre of mass, in N m.
-    pub fn nominal_thrust(
-        &self,
-        set: ThrusterSet,
-        center_of_mass_body_m: &Vector3<f64>,
-    ) -> [Vector3<f64>; 2] {
-        let members = self.thrusters.iter().filter(|thruster| thruster.set == Some(set));
-        members.fold([Vector3::zeros(); 2], |[force, torque], it| {
-            [force + it.force_body_n, torque + it.torque_about_n_m(center_of_mass_body_m)]
-        })
-    }
-}
-
-/// What is commanded for a delta-v.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ThrustCommand {
-    /// The thrusters that are to fire; none = no thrust.
-    pub set: Option<ThrusterSet>,
-    /// When they stop at the latest, in s; infinite without end.
-    pub stop_s: f64,
-}
-
-/// What thrusters exert from a time on, linear in time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ThrusterLoad {
-    since_s: f64,
-    /// Force in N and its slope in N/s, body frame.
-    pub force_body_n: [Vector3<f64>; 2],
-    /// Torque about the centre of mass in N m and its slope in N m/s, body frame.
-    pub torque_body_n_m: [Vector3<f64>; 2],
-    /// Mass in kg at the start.
-    pub mass_kg: f64,
-    /// Flow out of the tanks in kg/s and its slope in kg/s2.
-    pub flow_kg_s: [f64; 2],
-}
-
-impl ThrusterLoad {
-    fn none(time_s: f64, mass_kg: f64) -> Self {
-        let nothing = [Vector3::zeros(); 2];
-        Self {
-            since_s: time_s,
-            force_body_n: nothing,
-            torque_body_n_m: nothing,
-            mass_kg,
-            flow_kg_s: [0.0; 2],
-        }
-    }
-
-    /// Whether nothing fires; couples exert no force, but propellant flows.
-    pub fn is_none(&self) -> bool {
-        self.flow_kg_s == [0.0; 2]
-    }
-
-    /// Force in N and torque in N m at `time_s`, body frame.
-    pub fn at(&self, time_s: f64) -> [Vector3<f64>; 2] {
-        let elapsed_s = time_s - self.since_s;
-        [self.force_body_n, self.torque_body_n_m].map(|[start, slope]| start + slope * elapsed_s)
-    }
-
-    fn acceleration_body_m_s2(&self, time_s: f64) -> Vector3<f64> {
-        let elapsed_s = time_s - self.since_s;
-        let [flow, slope] = self.flow_kg_s;
-        self.at(time_s)[0] / (self.mass_kg - (flow + 0.5 * slope * elapsed_s) * elapsed_s)
-    }
-}
-
-/// What thrusters did so far, EME2000.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ThrusterTotals {
-    /// Angular impulse about the centre of mass, in N m s.
-    pub impulse_inertial_n_m_s: Vector3<f64>,
-    /// Velocity change, in m/s.
-    pub delta_v_inertial_m_s: Vector3<f64>,
-}
 
 /// The pulses of a valve at hand and ahead, and what became of the last command.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -178,27 +51,6 @@ struct Burn {
     set: ThrusterSet,
     since_s: f64,
     stop_s: f64,
-}
-
-/// A dump by pulses: at hand, or the last one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct PulsedDump {
-    /// Where the momentum is to go, EME2000, in N m s.
-    target_inertial_n_m_s: Vector3<f64>,
-    attitude_at_start: Quaternion,
-    before: ThrusterTotals,
-    /// Totals when it ended; absent while it lasts.
-    after: Option<ThrusterTotals>,
-    /// When pulses are next decided, in s.
-    next_s: f64,
-    /// What each thruster still has to give of what was decided, in s of full thrust: less than its shortest pulse.
-    owed_s: [f64; MOST_THRUSTERS],
-    /// How often the end was corrected.
-    corrections: u8,
-    /// Whether the pulses at hand are the last.
-    is_last: bool,
-    /// Mean torque of the pulses at hand, body frame, in N m.
-    mean_torque_body_n_m: Vector3<f64>,
 }
 
 /// Thrusters of the plant.
@@ -245,28 +97,17 @@ impl ReactionControl {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let later = |x: &f64| sound(x) || *x == f64::INFINITY;
         let vector = |it: &Vector3<f64>| it.iter().all(sound);
-        let totals =
-            |it: &ThrusterTotals| vector(&it.impulse_inertial_n_m_s) && vector(&it.delta_v_inertial_m_s);
         let ThrusterLoad { since_s, force_body_n, torque_body_n_m, mass_kg, flow_kg_s } = &self.load;
         self.valves.len() == thrusters
             && self.schedule.len() == thrusters
             && self.valves.iter().all(Valve::is_sound)
             && self.schedule.iter().all(|it| later(&it.closes_s) && it.next_s.iter().all(later))
             && self.burn.is_none_or(|it| sound(&it.since_s) && later(&it.stop_s))
-            && self.dump.is_none_or(|it| {
-                let norm: f64 = it.attitude_at_start.0.iter().map(|x| x * x).sum();
-                vector(&it.target_inertial_n_m_s)
-                    && vector(&it.mean_torque_body_n_m)
-                    && (norm - 1.0).abs() < 1e-9
-                    && totals(&it.before)
-                    && it.after.as_ref().is_none_or(totals)
-                    && sound(&it.next_s)
-                    && it.owed_s.iter().all(|owed_s| *owed_s >= 0.0 && sound(owed_s))
-            })
+            && self.dump.as_ref().is_none_or(PulsedDump::is_sound)
             && force_body_n.iter().chain(torque_body_n_m).all(vector)
             && [since_s, mass_kg].into_iter().chain(flow_kg_s).all(sound)
             && *mass_kg > 0.0
-            && totals(&self.totals)
+            && self.totals.is_sound()
     }
 
     /// Takes the pulses commanded for the step from `start_s` to `end_s`; they end there at the latest. Whether there are any.
@@ -492,17 +333,8 @@ impl ReactionControl {
 
     /// Begins a dump at `time_s` toward a total momentum, EME2000, in N m s.
     pub fn begin_dump(&mut self, motion: &GyrostatMotion, target_inertial_n_m_s: Vector3<f64>, time_s: f64) {
-        self.dump = Some(PulsedDump {
-            target_inertial_n_m_s,
-            attitude_at_start: motion.attitude_at(time_s),
-            before: self.totals_at(motion, time_s),
-            after: None,
-            next_s: time_s,
-            owed_s: [0.0; MOST_THRUSTERS],
-            corrections: 0,
-            is_last: false,
-            mean_torque_body_n_m: Vector3::zeros(),
-        });
+        let before = self.totals_at(motion, time_s);
+        self.dump = Some(PulsedDump::new(target_inertial_n_m_s, motion.attitude_at(time_s), before, time_s));
     }
 
     /// Whether a dump lasts.
@@ -562,59 +394,10 @@ impl ReactionControl {
         let attitude = motion.attitude_at(time_s);
         let left_body_n_m_s =
             attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
-        let torque = |k: usize| settings.thrusters[k].torque_about_n_m(&mass.center_of_mass_body_m);
-        let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
-        let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
-        let owed = |dump: &PulsedDump| -> Vector3<f64> {
-            (0..settings.thrusters.len()).map(|k| torque(k) * dump.owed_s[k]).sum()
-        };
-        let new_body_n_m_s = left_body_n_m_s - owed(&dump);
-        let part = (most_n_m_s / new_body_n_m_s.amax()).min(1.0);
-        let mut opened_s = [0.0; MOST_THRUSTERS];
-        let mut given_body_n_m_s = Vector3::zeros();
-        for (k, full_s) in selection.on_times_s(&new_body_n_m_s).enumerate() {
-            dump.owed_s[k] += full_s * part;
-            let on_s = opens_for_s(settings, propellant, k, dump.owed_s[k], time_s);
-            if on_s > 0.0 && on_s >= shortest_s(k) {
-                given_body_n_m_s += torque(k) * dump.owed_s[k];
-                (opened_s[k], dump.owed_s[k]) = (on_s, 0.0);
-            }
-        }
-        if part == 1.0 {
-            // All that is left is owed, each thruster less than its shortest pulse: those that come nearest.
-            let shortest = |k: usize| {
-                let thruster = &settings.thrusters[k];
-                let full_s = thruster.valve.full_thrust_s(shortest_s(k));
-                torque(k) * (full_s * pressure_ratio(settings, propellant, thruster, time_s))
-            };
-            let mut left = owed(&dump);
-            let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
-            loop {
-                let free = pulses.clone().filter(|k| opened_s[*k] == 0.0);
-                let nearest = free
-                    .map(|k| (k, (left - shortest(k)).norm()))
-                    .min_by(|(_, one), (_, other)| one.total_cmp(other));
-                let Some((k, _)) = nearest.filter(|(_, distance)| *distance < NEARER * left.norm()) else {
-                    break;
-                };
-                opened_s[k] = shortest_s(k);
-                left -= shortest(k);
-                given_body_n_m_s += shortest(k);
-            }
-            dump.owed_s = [0.0; MOST_THRUSTERS];
-            dump.corrections += 1;
-            // Valves without a shortest pulse leave nothing over, others what no pulse brings nearer.
-            let is_exact = pulses.count() == 0;
-            let is_done = given_body_n_m_s == Vector3::zeros() || dump.corrections >= MOST_CORRECTIONS;
-            dump.is_last = is_exact || is_done;
-        }
+        let opened_s = dump.decide(settings, selection, propellant, &left_body_n_m_s, mass, time_s);
         for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
             self.plan(k, time_s, time_s + on_s);
         }
-        // A pulse that gives more than the mean torque allows is followed by a longer pause.
-        let pause_s = settings.dump_period_s.max(given_body_n_m_s.amax() / settings.dump_torque_n_m);
-        dump.mean_torque_body_n_m = given_body_n_m_s / pause_s;
-        dump.next_s = time_s + pause_s;
         self.dump = Some(dump);
     }
 
@@ -635,7 +418,7 @@ impl ReactionControl {
             settings.attitude_selection(burning, center).ok()
         })?;
         let impulse_body_n_m_s = torque_body_n_m * period_s;
-        let on_s = |k: usize, full_s: f64| opens_for_s(settings, propellant, k, full_s, time_s);
+        let on_s = |k: usize, full_s: f64| settings.opens_for_s(propellant, k, full_s, time_s);
         let times = selection.on_times_s(&impulse_body_n_m_s).enumerate();
         let longest_s = times.clone().map(|(k, full_s)| on_s(k, full_s)).fold(0.0, f64::max);
         let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
@@ -680,7 +463,7 @@ impl ReactionControl {
         if share == 0.0 {
             return 0.0;
         }
-        thruster.force_body_n.norm() * share * pressure_ratio(settings, propellant, thruster, time_s)
+        thruster.force_body_n.norm() * share * settings.pressure_ratio(propellant, k, time_s)
     }
 
     /// Pulses that thruster `k` has begun.
@@ -715,34 +498,6 @@ fn selected<'c>(
         })
         .selection
         .as_ref()
-}
-
-/// Thrust of a thruster over the nominal one by the pressure of its tank.
-fn pressure_ratio(
-    settings: &ReactionControlSettings,
-    propellant: &PropellantState,
-    thruster: &Thruster,
-    time_s: f64,
-) -> f64 {
-    settings.tanks.get(thruster.tank).map_or(0.0, |tank| {
-        let used_kg = propellant.used_kg(thruster.tank, time_s);
-        tank.pressure_pa(used_kg) / thruster.at_pressure_pa.unwrap_or(tank.pressure_pa)
-    })
-}
-
-/// How long the valve of thruster `k` opens for so many seconds of nominal thrust; not below zero.
-fn opens_for_s(
-    settings: &ReactionControlSettings,
-    propellant: &PropellantState,
-    k: usize,
-    full_s: f64,
-    time_s: f64,
-) -> f64 {
-    let thruster = &settings.thrusters[k];
-    if full_s <= 0.0 {
-        return 0.0;
-    }
-    thruster.valve.on_s(full_s / pressure_ratio(settings, propellant, thruster, time_s)).max(0.0)
 }
 
 /// Times up to this one are due at `time_s`.

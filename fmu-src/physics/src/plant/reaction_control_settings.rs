@@ -1,0 +1,94 @@
+//! What parameters and commands say about thrusters and tanks, and which thrusters dump or control the attitude.
+
+use nalgebra::Vector3;
+
+use crate::propulsion::{Preference, PropellantState, SelectionError, ThrustErrors, ThrusterSelection};
+use crate::spacecraft::{Tank, Thruster, ThrusterSet};
+
+/// What parameters say about thrusters and tanks.
+#[derive(Clone, Debug, Default)]
+pub struct ReactionControlSettings {
+    /// Thrusters.
+    pub thrusters: Vec<Thruster>,
+    /// Tanks.
+    pub tanks: Vec<Tank>,
+    /// How far a delta-v's thrust is off; its seed scatters pulses too.
+    pub errors: ThrustErrors,
+    /// Greatest mean torque of a dump about a body axis, in N m.
+    pub dump_torque_n_m: f64,
+    /// Shortest time between two pulses of a dump, in s.
+    pub dump_period_s: f64,
+}
+
+impl ReactionControlSettings {
+    /// The thrusters that dump: the weakest that give torque all ways.
+    ///
+    /// # Errors
+    /// A way about an axis that no thruster gives.
+    pub fn dump_selection(
+        &self,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Result<ThrusterSelection, SelectionError> {
+        let may_fire = |k: usize| self.thrusters[k].set != Some(ThrusterSet::Lva);
+        ThrusterSelection::of_the_finest(
+            &self.thrusters,
+            may_fire,
+            center_of_mass_body_m,
+            Preference::LeastForce,
+        )
+    }
+
+    /// The thrusters that control the attitude while those of a set give a delta-v.
+    ///
+    /// # Errors
+    /// A way about an axis that no thruster gives.
+    pub fn attitude_selection(
+        &self,
+        burning: Option<ThrusterSet>,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Result<ThrusterSelection, SelectionError> {
+        let may_fire = |k: usize| {
+            let set = self.thrusters[k].set;
+            set != Some(ThrusterSet::Lva) && (burning.is_none() || set != burning)
+        };
+        ThrusterSelection::new(&self.thrusters, may_fire, center_of_mass_body_m, Preference::LeastOnTime)
+    }
+
+    /// Sum of the nominal forces of a set, body frame, in N, and their torque about a centre of mass, in N m.
+    pub fn nominal_thrust(
+        &self,
+        set: ThrusterSet,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> [Vector3<f64>; 2] {
+        let members = self.thrusters.iter().filter(|thruster| thruster.set == Some(set));
+        members.fold([Vector3::zeros(); 2], |[force, torque], it| {
+            [force + it.force_body_n, torque + it.torque_about_n_m(center_of_mass_body_m)]
+        })
+    }
+
+    /// Thrust of thruster `k` over its nominal one, by the pressure of its tank.
+    pub fn pressure_ratio(&self, propellant: &PropellantState, k: usize, time_s: f64) -> f64 {
+        let thruster = &self.thrusters[k];
+        self.tanks.get(thruster.tank).map_or(0.0, |tank| {
+            let used_kg = propellant.used_kg(thruster.tank, time_s);
+            tank.pressure_pa(used_kg) / thruster.at_pressure_pa.unwrap_or(tank.pressure_pa)
+        })
+    }
+
+    /// How long the valve of thruster `k` opens for so many seconds of nominal thrust; not below zero.
+    pub fn opens_for_s(&self, propellant: &PropellantState, k: usize, full_s: f64, time_s: f64) -> f64 {
+        if full_s <= 0.0 {
+            return 0.0;
+        }
+        self.thrusters[k].valve.on_s(full_s / self.pressure_ratio(propellant, k, time_s)).max(0.0)
+    }
+}
+
+/// What is commanded for a delta-v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThrustCommand {
+    /// The thrusters that are to fire; none = no thrust.
+    pub set: Option<ThrusterSet>,
+    /// When they stop at the latest, in s; infinite without end.
+    pub stop_s: f64,
+}
