@@ -147,7 +147,7 @@ static void point(const Library *library, const char *xml, int steps) {
         if (round == 0) CHECK(library->SetFMUstate(c, state) == fmi2OK);
     }
     CHECK(library->FreeFMUstate(c, &state) == fmi2OK);
-    fmi2Integer unknown = 9;
+    fmi2Integer unknown = 99;
     CHECK(library->SetInteger(c, &scenario, 1, &unknown) == fmi2Discard);
     CHECK(library->DoStep(c, steps, 1.0, fmi2True) == fmi2OK);
     library->FreeInstance(c);

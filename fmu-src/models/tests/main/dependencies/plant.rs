@@ -77,6 +77,10 @@ const CARRIERS: &[(&str, &str)] = &[
     ("dump.", "momentum.inertial"),
     // What is commanded for good at the start turns the body under all light.
     ("torque.", "attitude.q"),
+    // A dump begins where the momentum exceeds a threshold.
+    ("torque.thruster", "momentum.inertial"),
+    ("torque.thruster", "dump.impulse"),
+    ("torque.total", "torque.thruster"),
     ("force.", "attitude.q"),
     ("panel[", "attitude.q"),
     ("plate[", "attitude.q"),

@@ -116,7 +116,7 @@ fn wheels(bench: &Plant, random: &mut RandomNumbers, is_flown: bool, values: &mu
         };
         bench.put(values, &name("startMomentum"), share * capacity_n_m_s);
         // Light, as a rotor out of balance makes for many short segments.
-        let is_unbalanced = is_flown && share.abs() < 1.0 && random.next() < 0.3;
+        let is_unbalanced = is_flown && share.abs() < 1.0 && random.next() < 0.04;
         let imbalance_kg_m = if is_unbalanced { random.between(1e-4, 1e-3) } else { 0.0 };
         bench.put(values, &name("staticImbalance"), imbalance_kg_m);
         bench.put_vector(values, &name("position"), &random.direction());
