@@ -115,8 +115,12 @@ fn wheels(bench: &Plant, random: &mut RandomNumbers, is_flown: bool, values: &mu
             _ => random.between(-1.0, 1.0),
         };
         bench.put(values, &name("startMomentum"), share * capacity_n_m_s);
-        // Light, as a rotor out of balance makes for many short segments.
-        let is_unbalanced = is_flown && share.abs() < 1.0 && random.next() < 0.04;
+        // Slow, as a fast rotor out of balance makes for many short segments.
+        let is_unbalanced = is_flown && share.abs() < 1.0 && random.next() < 0.2;
+        if is_unbalanced {
+            bench.put(values, &name("startMomentum"), if is_locked { 0.0 } else { 0.002 * capacity_n_m_s });
+            bench.put(values, &name("maxTorque"), 1e-4);
+        }
         let imbalance_kg_m = if is_unbalanced { random.between(1e-4, 1e-3) } else { 0.0 };
         bench.put(values, &name("staticImbalance"), imbalance_kg_m);
         bench.put_vector(values, &name("position"), &random.direction());
