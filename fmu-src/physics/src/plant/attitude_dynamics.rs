@@ -540,9 +540,7 @@ impl AttitudeDynamics {
             torque_body_n_m: external.torque_body_n_m + torque_body_n_m,
         };
         let [force_body_n, torque_body_n_m] = self.thrusters.load().at(time_s);
-        let constant_body_n_m = self.dump.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m);
-        loads[Effect::Thrusters] =
-            ForceTorque { force_body_n, torque_body_n_m: torque_body_n_m + constant_body_n_m };
+        loads[Effect::Thrusters] = ForceTorque { force_body_n, torque_body_n_m };
         Evaluation { instant, loads, mass }
     }
 
@@ -627,6 +625,11 @@ impl AttitudeDynamics {
     /// Time between dumps.
     pub fn spacing(&self) -> &DumpSpacing {
         &self.spacing
+    }
+
+    /// The torque with `others_body_n_m` of everything else, in N m, where a dump is a constant torque.
+    pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
+        self.dump.map_or(*others_body_n_m, |dump| others_body_n_m + dump.torque_body_n_m)
     }
 
     /// Whether a dump lasts.

@@ -57,12 +57,6 @@ pub fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, s
     let earth = knowns![v.earth.position].only_if(can_control(v));
     let requested = knowns![&inputs.places, earth, dump.request, dump.target, &inputs.weighed_panels];
     table.output(dump.active, requested, knowns![turning, dump.threshold]);
-    // A dump by a constant torque, in controlled and free flight.
-    let begins = knowns![&start.begun, &start.attitude, turning, v.attitude.source];
-    let leaves = knowns![dump.threshold, dump.reinit_to, dump.reinit_fraction, dump.target, dump.torque];
-    for output in [v.torque.thruster, v.torque.total] {
-        table.output(output, to_target, knowns![&begins, &leaves]);
-    }
 }
 
 /// Wheels, and the controller that drives them.

@@ -290,7 +290,10 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     }
     let variables = context.variables;
     let convention = state.configuration.as_ref()?.momentum.convention;
-    let torque_body = Vector3::from(values.vector(variables.torque.total));
+    let mut torque_body = Vector3::from(values.vector(variables.torque.total));
+    if let Some(flown) = state.dynamics.as_ref().filter(|_| values.boolean(variables.dump.active)) {
+        torque_body = flown.with_dump_body_n_m(&torque_body);
+    }
     if let Some(element) = variables.attitude.q.index_of(output) {
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
         return Some(attitude.quaternion_rate(&values.vector(variables.attitude.rate).into())[element]);
