@@ -1,9 +1,10 @@
 //! Directions in the body frame as azimuth and elevation (paper 000, "Spacecraft coordinate system").
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Azimuth A and elevation E of a direction: u = [cos E sin A, -cos E cos A, -sin E].
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct SunAngles {
     /// From the -Y axis toward +X, -pi..pi, in rad.
     pub azimuth_rad: f64,

@@ -2,7 +2,11 @@
 
 use nalgebra::Vector3;
 
-use crate::attitude::{MovingFrame, MovingUnit};
+use super::downlink::{SunPlace, both_solutions};
+use super::law::PointingVectors;
+use super::moving::{Moving, direction, moving};
+use crate::attitude::{MovingFrame, MovingUnit, angle_between_rad};
+use crate::numerics::scalar::Scalar;
 use crate::environment::CartesianState;
 
 /// Directions from the spacecraft, in EME2000, with their rates.
@@ -112,6 +116,24 @@ pub fn downlink(lines: &LinesOfSight) -> AttitudeCommand {
     }
 }
 
+/// Downlink attitude with the Sun off -Y (eqs 19 to 22): the Sun at `place`, the Earth in the XY plane on that side of it.
+pub fn downlink_toward(lines: &LinesOfSight, place: &SunPlace) -> AttitudeCommand {
+    let [to_sun, to_earth] = [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
+    let Some(solutions) = both_solutions(&to_sun, &to_earth, place.angles) else { return sun_pointing(lines) };
+    let [behind, ahead] = solutions.azimuths;
+    let vectors = PointingVectors {
+        boresight_body: solutions.sun_body,
+        aimpoint: to_sun,
+        body_roll: direction(if place.earth_ahead { ahead } else { behind }, Moving::constant(0.0)),
+        external_roll: to_earth,
+    };
+    let Some(pointing) = vectors.pointing() else { return sun_pointing(lines) };
+    // Beyond it no attitude has the Sun there and the Earth in the plane.
+    let sine = angle_between_rad(&lines.sun.direction, &lines.earth.direction).sin();
+    let margin = sine - place.angles.elevation_rad.sin().abs();
+    AttitudeCommand { frame: pointing.frame(), margins: [margin, f64::INFINITY] }
+}
+
 /// Fallback with nothing but the Sun: -Y toward it, +Z toward the north of EME2000 as far as possible (toward the
 /// equinox where the Sun stands at the pole).
 pub fn sun_pointing(lines: &LinesOfSight) -> AttitudeCommand {
@@ -159,6 +181,33 @@ mod tests {
 
     fn in_body(wanted: &AttitudeCommand, unit: &MovingUnit) -> Vector3<f64> {
         wanted.frame.inertial_from_body.inverse() * unit.direction
+    }
+
+    #[test]
+    fn a_downlink_off_the_sun_has_sun_and_earth_where_they_are_asked_for() {
+        let mut checked = 0;
+        for (i, lines) in many().enumerate() {
+            let k = i as f64;
+            let angles = SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
+            let theta_rad = angle_between_rad(&lines.sun.direction, &lines.earth.direction);
+            if angles.elevation_rad.abs() > theta_rad.min(std::f64::consts::PI - theta_rad) - 1e-3 {
+                continue;
+            }
+            checked += 1;
+            for earth_ahead in [false, true] {
+                let frame = downlink_toward(&lines, &SunPlace { angles, earth_ahead }).frame;
+                let body = |direction: &Vector3<f64>| frame.inertial_from_body.inverse() * direction;
+                let sun = SunAngles::of(&body(&lines.sun.direction));
+                let earth = body(&lines.earth.direction);
+                assert_relative_eq!(sun.azimuth_rad, angles.azimuth_rad, epsilon = 1e-12);
+                assert_relative_eq!(sun.elevation_rad, angles.elevation_rad, epsilon = 1e-12);
+                assert_relative_eq!(earth.z, 0.0, epsilon = 1e-12);
+                // Ahead of the Sun's azimuth about -Z, by less than half a turn.
+                let ahead = (SunAngles::of(&earth).azimuth_rad - sun.azimuth_rad).sin();
+                assert!(theta_rad > 3.0 || (ahead > 0.0) == earth_ahead, "{ahead} {earth_ahead}");
+            }
+        }
+        assert!(checked > 100, "{checked}");
     }
 
     #[test]

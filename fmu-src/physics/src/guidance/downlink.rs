@@ -10,7 +10,10 @@
 //! - where none is inside, the one nearest to a quadrant gives the antenna. The antenna looks along the quadrant's bound,
 //!   and the Sun comes as near to the asked place as the Earth there allows.
 
+use core::f64::consts::TAU;
+
 use nalgebra::{ComplexField, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::antenna::{Antenna, AntennaAzimuth, BOUND_RAD};
 use super::law::PointingVectors;
@@ -27,6 +30,22 @@ pub struct DownlinkRequest {
     pub antenna_azimuth_rad: Option<f64>,
     /// Where the Sun is to stand in the body frame; zero is on -Y. Read where no azimuth is given.
     pub sun_body: SunAngles,
+}
+
+/// Where the Sun stands in the body frame during a downlink, and on which side of it the Earth: one of eq 20's two solutions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SunPlace {
+    /// Of the Sun.
+    pub angles: SunAngles,
+    /// Whether the Earth's azimuth is A + delta; else A - delta.
+    pub earth_ahead: bool,
+}
+
+impl SunPlace {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        [self.angles.azimuth_rad, self.angles.elevation_rad].iter().all(|angle_rad| angle_rad.abs() <= TAU)
+    }
 }
 
 /// A downlink attitude.

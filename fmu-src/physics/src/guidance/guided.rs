@@ -2,7 +2,8 @@
 
 use crate::attitude::{MovingFrame, rotation_vector};
 
-use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, science};
+use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, downlink_toward, science};
+use super::downlink::SunPlace;
 use super::schedule::{Activity, Schedule, Window};
 
 /// The guidance law of the orbital phase.
@@ -16,6 +17,8 @@ pub struct Guided {
     pub elevation_limit_rad: f64,
     /// Turn rate between the two attitudes, in rad/s; 0 = at once, as in paper 000.
     pub slew_rate_rad_s: f64,
+    /// Where the Sun stands during the present downlink, and during the slew out of it; `None`: on -Y.
+    pub sun_place: Option<SunPlace>,
 }
 
 /// The guided attitude at a time.
@@ -88,7 +91,10 @@ impl Guided {
     fn command(&self, activity: Activity, lines: &LinesOfSight) -> AttitudeCommand {
         match activity {
             Activity::Science => science(lines, self.science, self.elevation_limit_rad),
-            Activity::Downlink => downlink(lines),
+            Activity::Downlink => match &self.sun_place {
+                Some(place) => downlink_toward(lines, place),
+                None => downlink(lines),
+            },
         }
     }
 }
@@ -97,7 +103,7 @@ impl Guided {
 mod tests {
     //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
     use super::*;
-    use crate::attitude::MovingUnit;
+    use crate::attitude::{MovingUnit, SunAngles};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
@@ -123,10 +129,12 @@ mod tests {
                 downlink_start_s: 7200.0,
                 downlink_end_s: 36_000.0,
                 every: 2,
+                once: false,
             },
             science: ScienceRule::Nadir,
             elevation_limit_rad: 0.2,
             slew_rate_rad_s,
+            sun_place: None,
         }
     }
 
@@ -147,7 +155,14 @@ mod tests {
 
     #[test]
     fn rate_is_the_derivative_of_the_axes_everywhere() {
-        let law = guided(2e-3);
+        let angles = SunAngles { azimuth_rad: -0.1, elevation_rad: 0.15 };
+        let off_sun = SunPlace { angles, earth_ahead: false };
+        for sun_place in [None, Some(off_sun)] {
+            rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
+        }
+    }
+
+    fn rate_is_the_derivative(law: &Guided) {
         for t in [100.0, 7300.0, 7500.0, 20_000.0, 36_100.0, 50_000.0] {
             let dt = 0.01;
             let at = |t| law.at(t, lines).frame.inertial_from_body;

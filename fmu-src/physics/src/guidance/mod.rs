@@ -45,7 +45,8 @@ mod test_orbit;
 pub mod timeline;
 pub mod velocity_path;
 
-pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, science, sun_pointing};
+pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing};
+pub use downlink::SunPlace;
 pub use guided::{Guided, GuidedAttitude};
 pub use law::{Pointing, PointingVectors};
 pub use schedule::{Activity, Schedule, Window};

@@ -25,6 +25,8 @@ pub struct Schedule {
     pub downlink_end_s: f64,
     /// A window after every how many periapses; 0 = never.
     pub every: u32,
+    /// Whether the first window is the only one.
+    pub once: bool,
 }
 
 /// The activity at a time, when it began and when it ends.
@@ -42,6 +44,9 @@ impl Schedule {
     /// Activity at `time_s`, in the time scale of `periapsis_s`. Edges belong to what follows them.
     pub fn window(&self, time_s: f64) -> Window {
         let cycle_s = f64::from(self.every) * self.period_s;
+        if self.once {
+            return self.window_after(&[self.periapsis_s], time_s);
+        }
         let length_s = (self.downlink_end_s - self.downlink_start_s).min(cycle_s);
         if self.every == 0 || !cycle_s.is_finite() || length_s.is_nan() || length_s <= 0.0 {
             return Window::NEVER;
@@ -104,6 +109,7 @@ mod tests {
             downlink_start_s: 2.0 * HOUR_S,
             downlink_end_s: 10.0 * HOUR_S,
             every: 2,
+            once: false,
         }
     }
 
@@ -152,6 +158,15 @@ mod tests {
         ] {
             assert_eq!(schedule.window(3.0 * HOUR_S).activity, Activity::Science);
         }
+    }
+
+    #[test]
+    fn one_window_is_the_only_one() {
+        let schedule = Schedule { once: true, period_s: f64::INFINITY, every: 1, ..paper() };
+        let downlink = |hour: i32| schedule.window(f64::from(hour) * HOUR_S).activity == Activity::Downlink;
+        assert!((-100..100).all(|hour| downlink(hour) == (2..10).contains(&hour)));
+        assert_eq!(schedule.window(11.0 * HOUR_S).since_s, 10.0 * HOUR_S);
+        assert_eq!(schedule.window(0.0).until_s, 2.0 * HOUR_S);
     }
 
     #[test]

@@ -135,10 +135,12 @@ pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
                 downlink_start_s: 0.0,
                 downlink_end_s: 0.0,
                 every: 0,
+                once: false,
             },
             science: ScienceRule::Nadir,
             elevation_limit_rad: 0.2,
             slew_rate_rad_s: 0.0,
+            sun_place: None,
         },
         burn,
     }
