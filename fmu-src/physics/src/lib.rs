@@ -27,4 +27,6 @@ pub mod momentum;
 
 pub mod plant;
 
+pub mod management;
+
 pub mod spin;

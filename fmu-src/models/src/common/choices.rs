@@ -191,3 +191,12 @@ optional_enumeration_of! {
         mono4 = 3 => Mono4,
     }
 }
+
+/// From where downlinks are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum DownlinkReference {
+    /// From periapsis, a window after every guided.downlinkEvery of them.
+    Periapsis = 1,
+    /// From the start: one window.
+    Start = 2,
+}

@@ -3,6 +3,7 @@
 pub mod choices;
 pub mod ephemeris;
 pub mod loads;
+pub mod management;
 pub mod spacecraft;
 pub mod start_values;
 pub mod variables;

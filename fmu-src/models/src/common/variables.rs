@@ -8,7 +8,7 @@ use physics::environment::orbit::Elements;
 use physics::environment::paper004::MERCURY_AS_PRINTED;
 use physics::guidance::{self, Guided, Schedule};
 
-use super::choices::{DayTemperature, EclipseMethod, ScienceRule};
+use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
 
 /// What a planet's surface does with sunlight; the defaults are Mercury's as they fit paper 004, which prints none.
 #[derive(Variables)]
@@ -87,15 +87,18 @@ pub struct GuidedVariables {
     /// Sun elevation per (Sun-nadir angle - 90 deg) under the scaled rule; 0.25 is fitted to paper 000's Table 2.
     #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.25)]
     pub science_gain: Real,
-    /// Begin of downlink after periapsis.
+    /// Begin of downlink after periapsis, or after the start.
     #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 7_200.0)]
     pub downlink_start: Real,
-    /// End of downlink after periapsis.
+    /// End of downlink after periapsis, or after the start.
     #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 36_000.0)]
     pub downlink_end: Real,
     /// A downlink after every how many periapses; 0 = never.
     #[parameter(min = 0, max = 1_000, start = 2)]
     pub downlink_every: Integer,
+    /// From where downlinks are counted.
+    #[parameter(start = DownlinkReference::Periapsis)]
+    pub downlink_reference: Choice<DownlinkReference>,
     /// Turn rate between science and downlink attitudes; 0 = at once, as in paper 000.
     #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = 0.0)]
     pub slew_rate: Real,
@@ -146,7 +149,8 @@ pub fn followed(values: &Values, body: Body, parameter: Real, default: f64, own:
 }
 
 impl GuidedVariables {
-    /// The guidance law of an orbit with this periapsis and period, in s.
+    /// The guidance law of an orbit with this periapsis and period, in s, or of one window after the start, all in s past J2000
+    /// TDB.
     ///
     /// # Errors
     /// A downlink that ends before it begins.
@@ -155,6 +159,7 @@ impl GuidedVariables {
         values: &Values,
         periapsis_s: f64,
         period_s: f64,
+        start_epoch_s: f64,
         elevation_limit_rad: f64,
     ) -> Result<Guided, Failure> {
         let [start_s, end_s] = [self.downlink_start, self.downlink_end].map(|time| values.real(time));
@@ -164,13 +169,15 @@ impl GuidedVariables {
                  after the end; guided.downlinkEvery = 0 for no downlink"
             )));
         }
+        let once = matches!(values.choice(self.downlink_reference), Some(DownlinkReference::Start));
         Ok(Guided {
             schedule: Schedule {
-                periapsis_s,
-                period_s,
+                periapsis_s: if once { start_epoch_s } else { periapsis_s },
+                period_s: if once { f64::INFINITY } else { period_s },
                 downlink_start_s: start_s,
                 downlink_end_s: end_s,
                 every: values.integer(self.downlink_every).unsigned_abs(),
+                once,
             },
             science: match values.choice(self.science_rule) {
                 Some(ScienceRule::Nadir) => guidance::ScienceRule::Nadir,
@@ -181,6 +188,8 @@ impl GuidedVariables {
             },
             elevation_limit_rad,
             slew_rate_rad_s: values.real(self.slew_rate),
+            sun_place: None,
+            managed: false,
         })
     }
 }

@@ -15,6 +15,7 @@ use nalgebra::Vector3;
 use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Totals};
 use physics::plant::{
     Configuration, Evaluation, ExternalLoad, Flight, IdealFlight, PropagatorState, ReactionControlSettings,
+    SunPlanner,
 };
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
@@ -24,11 +25,10 @@ use outputs::{dynamic, flyable, log_dump};
 use setup::Plan;
 pub use setup::{MomentumPlant, PlantSetup};
 use variables::PlantVariables;
-use variables::choices::OrbitSource;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 6;
+    const STATE_VERSION: u32 = 7;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -126,9 +126,7 @@ impl Model for MomentumPlant {
         };
         if changed {
             state.propagator.cut(&configuration, step.start_s, changes.light);
-            if changes.orbit
-                && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
-            {
+            if changes.orbit && inputs::is_given(context.variables, values) {
                 state.propagator.move_to(&configuration, step.start_s).map_err(outputs::failure)?;
             }
         }
@@ -145,7 +143,9 @@ impl Model for MomentumPlant {
         }
         let thrusters = take_thrusters(context, values, state)?;
         let rises = state.request.rises(values.boolean(context.variables.dump.request));
-        let (mut flown, spacing) = ideal(context, values, state, &mut configuration, &thrusters, &load)?;
+        let manager = inputs::manager(context, values, &configuration);
+        let acting = Acting { load: &load, planner: &manager };
+        let (mut flown, spacing) = ideal(context, values, state, &mut configuration, &thrusters, acting)?;
         if rises {
             let target = Vector3::from(values.vector(context.variables.dump.target));
             note_dump(context, spacing, &flown.dump_to(step.start_s, target));
@@ -210,8 +210,11 @@ fn begin(
     let thrusters = take_thrusters(context, values, state)?;
     inputs::propulsion::check(&thrusters, &configuration)?;
     let load = |_: f64| load;
-    let (mut flown, spacing) = ideal(context, values, state, &mut configuration, &thrusters, &load)?;
-    let begun = flown.begin(time_s).map_err(outputs::failure)?;
+    let manager = inputs::manager(context, values, &configuration);
+    let acting = Acting { load: &load, planner: &manager };
+    let (mut flown, spacing) = ideal(context, values, state, &mut configuration, &thrusters, acting)?;
+    let momentum = Vector3::from(values.vector(context.variables.start.momentum));
+    let begun = flown.begin(time_s, momentum).map_err(outputs::failure)?;
     *flown.integrator = MomentumIntegrator::new(time_s, start_totals(context, values, &begun));
     flown.advance(time_s, |event| note_dump(context, spacing, event)).map_err(outputs::failure)?;
     let evaluation = flown.evaluate(time_s);
@@ -238,6 +241,13 @@ fn take_thrusters(
     }
 }
 
+/// What acts from outside, and who chooses the Sun's place during downlinks.
+#[derive(Clone, Copy)]
+struct Acting<'f> {
+    load: &'f dyn Fn(f64) -> ExternalLoad,
+    planner: &'f dyn SunPlanner,
+}
+
 /// The flight in an attitude that is followed ideally, and the time between its dumps.
 fn ideal<'f>(
     context: &'f Plan<'_>,
@@ -245,7 +255,7 @@ fn ideal<'f>(
     state: &'f mut PlantState,
     configuration: &'f mut Configuration,
     thrusters: &'f ReactionControlSettings,
-    load: &'f dyn Fn(f64) -> ExternalLoad,
+    acting: Acting<'f>,
 ) -> Result<(IdealFlight<'f, 'f>, &'f mut DumpSpacing), Failure> {
     let flown = IdealFlight {
         flight: Flight {
@@ -255,7 +265,8 @@ fn ideal<'f>(
             ephemeris: &mut state.ephemeris,
             light: state.light.as_mut(),
             propellant: &mut state.propellant,
-            external: load,
+            external: acting.load,
+            planner: acting.planner,
         },
         integrator: &mut state.integrator,
         thrusters,

@@ -7,6 +7,7 @@ mod disturbance_torque;
 mod dynamics;
 mod flown_ephemeris;
 mod guidance;
+mod management;
 mod named_model;
 mod plant_changes;
 mod plant_commands;

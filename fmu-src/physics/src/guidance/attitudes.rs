@@ -6,8 +6,8 @@ use super::downlink::{SunPlace, both_solutions};
 use super::law::PointingVectors;
 use super::moving::{Moving, direction, moving};
 use crate::attitude::{MovingFrame, MovingUnit, angle_between_rad};
-use crate::numerics::scalar::Scalar;
 use crate::environment::CartesianState;
+use crate::numerics::scalar::Scalar;
 
 /// Directions from the spacecraft, in EME2000, with their rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,7 +119,9 @@ pub fn downlink(lines: &LinesOfSight) -> AttitudeCommand {
 /// Downlink attitude with the Sun off -Y (eqs 19 to 22): the Sun at `place`, the Earth in the XY plane on that side of it.
 pub fn downlink_toward(lines: &LinesOfSight, place: &SunPlace) -> AttitudeCommand {
     let [to_sun, to_earth] = [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
-    let Some(solutions) = both_solutions(&to_sun, &to_earth, place.angles) else { return sun_pointing(lines) };
+    let Some(solutions) = both_solutions(&to_sun, &to_earth, place.angles) else {
+        return sun_pointing(lines);
+    };
     let [behind, ahead] = solutions.azimuths;
     let vectors = PointingVectors {
         boresight_body: solutions.sun_body,
@@ -188,7 +190,8 @@ mod tests {
         let mut checked = 0;
         for (i, lines) in many().enumerate() {
             let k = i as f64;
-            let angles = SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
+            let angles =
+                SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
             let theta_rad = angle_between_rad(&lines.sun.direction, &lines.earth.direction);
             if angles.elevation_rad.abs() > theta_rad.min(std::f64::consts::PI - theta_rad) - 1e-3 {
                 continue;

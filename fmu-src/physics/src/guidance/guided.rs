@@ -19,6 +19,8 @@ pub struct Guided {
     pub slew_rate_rad_s: f64,
     /// Where the Sun stands during the present downlink, and during the slew out of it; `None`: on -Y.
     pub sun_place: Option<SunPlace>,
+    /// Whether that place is chosen anew where a downlink begins.
+    pub managed: bool,
 }
 
 /// The guided attitude at a time.
@@ -135,6 +137,7 @@ mod tests {
             elevation_limit_rad: 0.2,
             slew_rate_rad_s,
             sun_place: None,
+            managed: false,
         }
     }
 

@@ -35,6 +35,7 @@ impl PeriapsisCount {
         };
         let orbit = TwoBodyOrbit::from_state(&state, surroundings.planet.gm_m3_s2, epoch_s).ok();
         let orbit = orbit.filter(|orbit| orbit.period_s().is_finite());
+        let orbit = orbit.filter(|_| !law.schedule.once);
         let schedule = orbit.map_or(Schedule { period_s: f64::INFINITY, ..law.schedule }, |orbit| {
             self.schedule(&law.schedule, &orbit)
         });

@@ -17,6 +17,20 @@ pub struct MomentumIntegrator {
     dumps: Dumps,
 }
 
+/// Why the integration stopped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stop {
+    /// The time asked for is covered.
+    Reached,
+    /// Thrusters dumped.
+    Dump(DumpEvent),
+    /// Something is to be chosen.
+    Choice {
+        /// When, in s.
+        at_s: f64,
+    },
+}
+
 impl MomentumIntegrator {
     /// Begins at `time_s` with `totals`.
     pub fn new(time_s: f64, totals: Totals) -> Self {
@@ -74,27 +88,30 @@ impl MomentumIntegrator {
         mut report: impl FnMut(&DumpEvent),
     ) -> Result<(), F::Failure> {
         let mut dumped_s = None;
-        while let Some(event) = self.advance_to_dump(flight, settings, time_s, dumped_s)? {
+        while let Stop::Dump(event) = self.advance_to_stop(flight, settings, time_s, dumped_s)? {
             report(&event);
             dumped_s = Some(event.time_s);
         }
         Ok(())
     }
 
-    /// The same up to the next dump, which is over; one at `dumped_s` is not watched for again.
+    /// The same up to the next dump, which is over, or choice, which is due; a dump at `dumped_s` is not watched for again.
     ///
     /// # Errors
     /// What ends the flight; everything before stays.
-    pub fn advance_to_dump<F: TorqueModel>(
+    pub fn advance_to_stop<F: TorqueModel>(
         &mut self,
         flight: &mut F,
         settings: &Settings,
         time_s: f64,
         dumped_s: Option<f64>,
-    ) -> Result<Option<DumpEvent>, F::Failure> {
+    ) -> Result<Stop, F::Failure> {
         let edge_tolerance_s = edge_tolerance_s(time_s);
         while self.segment.end_s() <= time_s + edge_tolerance_s {
             let start_s = self.segment.end_s();
+            if flight.must_choose(start_s) {
+                return Ok(Stop::Choice { at_s: start_s });
+            }
             let longest_s = self.segment.next_longest_s();
             let totals = self.segment.totals(start_s);
             let horizon_s = flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
@@ -107,12 +124,12 @@ impl MomentumIntegrator {
                 });
                 self.segment = self.segment.expecting(longest_s);
                 self.dumps.check()?;
-                return Ok(Some(event));
+                return Ok(Stop::Dump(event));
             }
             self.segment =
                 MomentumSegment::build(flight, settings, start_s, horizon_s, totals, &first, longest_s)?;
         }
-        Ok(None)
+        Ok(Stop::Reached)
     }
 
     /// The velocity changes by `delta_v_inertial_m_s` where a dump just ended.

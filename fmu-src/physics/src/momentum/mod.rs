@@ -13,7 +13,7 @@ mod totals;
 mod wheels;
 
 pub use dump::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, Reinitialise, TooManyDumps};
-pub use integrator::MomentumIntegrator;
+pub use integrator::{MomentumIntegrator, Stop};
 pub use segment::Settings;
 pub use torque_model::{Effort, EventValues, Sample, TorqueModel, after_event_s};
 pub use totals::{Convention, Totals};

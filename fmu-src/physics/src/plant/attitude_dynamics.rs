@@ -12,7 +12,7 @@ use crate::attitude::control::{
     AccelerometerState, ControlTarget, ControllerState, Estimate, EstimatorState, sensed_sun,
 };
 use crate::attitude::{Appendages, Attitude, BodyLoad, BodyMotion, GyrostatMotion, Quaternion};
-use crate::momentum::{DumpEvent, DumpSpacing, Dumps};
+use crate::momentum::{DumpEvent, DumpSpacing, Dumps, Totals};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
@@ -26,6 +26,7 @@ use super::dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, Tracke
 use super::error::PlantError;
 use super::evaluation::{Evaluation, ExternalLoad};
 use super::flight::Flight;
+use super::outlook::StartMomentum;
 use super::reaction_control::ReactionControl;
 use super::wheel_control::WheelControl;
 use super::work::{Cost, WorkExceeded};
@@ -325,7 +326,7 @@ impl AttitudeDynamics {
         );
         let Some(control) = &settings.control else { return Ok(()) };
         let tracked = match inputs.tracked {
-            Tracked::Guidance => Tracked::Attitude(self.guided(flight, body, time_s, work_limit)),
+            Tracked::Guidance => Tracked::Attitude(self.guided(flight, body, time_s, work_limit)?),
             tracked => tracked,
         };
         let target = match tracked {
@@ -380,22 +381,29 @@ impl AttitudeDynamics {
         body: &BodyMotion,
         time_s: f64,
         work_limit: u32,
-    ) -> Command {
+    ) -> Result<Command, PlantError> {
         if let Some(command) = self.guidance
             && time_s < self.next_guidance_s - tolerance_s(time_s)
         {
-            return command;
+            return Ok(command);
         }
         self.next_guidance_s = next_multiple_s(time_s + tolerance_s(time_s), GUIDANCE_INTERVAL_S);
-        let frame = flight.plant(time_s, body, work_limit).guided_frame(time_s);
+        let totals = Totals {
+            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
+            torque_integral_body_n_m_s: Vector3::zeros(),
+            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
+        };
+        let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
+        flight.choose_sun_place(time_s, &totals, momentum, work_limit)?;
+        let guided = flight.plant(time_s, body, work_limit).guided_attitude(time_s);
         let held =
             Command { attitude: self.estimate.attitude, rate_body_rad_s: Vector3::zeros(), since_s: time_s };
-        let command = frame.map_or(held, |frame| Command {
-            attitude: Attitude::from_rotation(&frame.inertial_from_body),
-            rate_body_rad_s: frame.rate_body_rad_s,
+        let command = guided.map_or(held, |guided| Command {
+            attitude: Attitude::from_rotation(&guided.frame.inertial_from_body),
+            rate_body_rad_s: guided.frame.rate_body_rad_s,
             since_s: time_s,
         });
-        *self.guidance.insert(command)
+        Ok(*self.guidance.insert(command))
     }
 
     /// The torque the controller asks for, and what wheels or thrusters give of it.

@@ -14,7 +14,7 @@ use crate::environment::frames::Frame;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
 use crate::environment::paper004::KeplerPlanet;
 use crate::environment::sun::pressure_n_m2;
-use crate::guidance::Guided;
+use crate::guidance::{Guided, SunPlace};
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::spacecraft::{MassProperties, Panel, SunshadeModel, with_panels};
@@ -39,6 +39,20 @@ impl AttitudeSource {
             Self::Guided(guided) => Some(guided),
             Self::Commanded(_) => None,
             Self::Dynamic(dynamic) => dynamic.guided.as_ref(),
+        }
+    }
+}
+
+impl AttitudeSource {
+    /// Puts the Sun there during downlinks.
+    pub(super) fn set_sun_place(&mut self, place: Option<SunPlace>) {
+        let guided = match self {
+            Self::Guided(guided) => Some(guided),
+            Self::Commanded(_) => None,
+            Self::Dynamic(dynamic) => dynamic.guided.as_mut(),
+        };
+        if let Some(guided) = guided {
+            guided.sun_place = place;
         }
     }
 }
@@ -117,6 +131,13 @@ pub enum Motion {
         radius_m: f64,
         /// Whether light, heat and external forces accelerate the spacecraft.
         feedback: bool,
+    },
+    /// None: position and velocity about the centre are these, EME2000.
+    Held {
+        /// Position and velocity.
+        state: CartesianState,
+        /// When they were given, in s past J2000 TDB.
+        since_epoch_s: f64,
     },
 }
 

@@ -11,12 +11,13 @@ use crate::attitude::{MovingFrame, gravity_gradient_n_m};
 use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
+use crate::guidance::GuidedAttitude;
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
 use crate::spacecraft::{MassProperties, Panel};
 
-use super::configuration::{Configuration, Motion};
+use super::configuration::{AttitudeSource, Configuration, Motion};
 use super::error::PlantError;
 use super::instant::Instant;
 use super::kinematics::Kinematics;
@@ -24,6 +25,7 @@ use super::light_and_heat::RadiationBuilder;
 use super::propagator_state::PropagatorState;
 use super::radiation_segment::RadiationSegment;
 use super::radiation_solver::RadiationSolver;
+use super::sun_choice::SunChoice;
 use super::work::Cost;
 
 /// Nodes at which the acceleration of a segment is taken.
@@ -90,12 +92,32 @@ pub struct PreparedSpacecraft<'a> {
     pub orbit_method: &'a OrbitMethod,
 }
 
+impl PreparedSpacecraft<'_> {
+    /// Direct sunlight without self-shadows, about the centre of mass.
+    pub(super) fn sunlight(
+        &self,
+        configuration: &Configuration,
+        beam: &Beam<f64>,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> ForceTorque<f64> {
+        let (solar, center_of_mass) = (self.solar, center_of_mass_body_m);
+        let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
+        for (index, (panel, setting)) in self.panels.iter().zip(&configuration.panels).enumerate() {
+            if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body) {
+                sum += solar.panel(index, beam, angle_rad, center_of_mass);
+            }
+        }
+        sum
+    }
+}
+
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a, L> {
     prepared: PreparedSpacecraft<'a>,
     kinematics: Kinematics<'a>,
     segment: &'a mut Option<RadiationSegment>,
     light: Option<&'a mut RadiationSolver>,
+    sun_choice: SunChoice,
     external: L,
 }
 
@@ -115,9 +137,9 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         external: L,
         work_limit: u32,
     ) -> Self {
-        let PropagatorState { trajectory, light: segment } = propagator;
+        let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
         let kinematics = Kinematics::new(configuration, trajectory, ephemeris, work_limit);
-        Self { prepared, kinematics, segment, light, external }
+        Self { prepared, kinematics, segment, light, sun_choice: *sun_choice, external }
     }
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
@@ -153,9 +175,14 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         self.kinematics.smooth_until(start_s, limit_s)
     }
 
-    /// Frame and rate that guidance commands at `time_s`; `None` where there is none.
-    pub(super) fn guided_frame(&mut self, time_s: f64) -> Option<MovingFrame> {
-        self.kinematics.guided_frame(time_s)
+    /// Frame and rate that guidance commands at `time_s`, and its window; `None` where there is none.
+    pub(super) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
+        self.kinematics.guided_attitude(time_s)
+    }
+
+    /// Pressure of sunlight without a shadow, in Pa.
+    pub(super) fn pressure_pa(&self, instant: &Instant) -> f64 {
+        self.kinematics.configuration.light.pressure_pa(instant.sun_distance_m)
     }
 
     /// Time since the last periapsis, in s.
@@ -179,21 +206,9 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
             let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
             let beam =
                 Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
-            loads[Effect::Solar] = self.sunlight(&beam, center_of_mass_body_m);
+            loads[Effect::Solar] = self.prepared.sunlight(configuration, &beam, center_of_mass_body_m);
         }
         loads
-    }
-
-    fn sunlight(&self, beam: &Beam<f64>, center_of_mass: &Vector3<f64>) -> ForceTorque<f64> {
-        let configuration = self.kinematics.configuration;
-        let solar = self.prepared.solar;
-        let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
-        for (index, (panel, setting)) in self.prepared.panels.iter().zip(&configuration.panels).enumerate() {
-            if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body) {
-                sum += solar.panel(index, beam, angle_rad, center_of_mass);
-            }
-        }
-        sum
     }
 
     /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
@@ -263,6 +278,15 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
         let known_s = self.orbit_and_light(start_s)?.min(limit_s);
         let instant = self.kinematics.instant(start_s);
         Ok(self.kinematics.attitude_until_s(start_s, &instant, known_s))
+    }
+
+    fn must_choose(&mut self, start_s: f64) -> bool {
+        match &self.kinematics.configuration.attitude {
+            AttitudeSource::Guided(guided) if guided.managed => {
+                self.sun_choice.is_due(self.kinematics.instant(start_s).regime.downlink)
+            }
+            _ => false,
+        }
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {

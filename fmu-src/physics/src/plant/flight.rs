@@ -4,15 +4,18 @@ use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, MovingFrame};
 use crate::environment::ephemeris::Ephemeris;
-use crate::momentum::TorqueModel;
+use crate::guidance::Activity;
+use crate::momentum::{TorqueModel, Totals};
 use crate::propulsion::PropellantState;
 use crate::spacecraft::MassProperties;
 
 use super::configuration::{AttitudeSource, Command, Configuration, DynamicAttitude};
 use super::error::PlantError;
 use super::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
+use super::outlook::{Outlook, StartMomentum};
 use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
+use super::sun_choice::SunPlanner;
 
 /// Where the body flies: everything that its loads follow from.
 pub struct Flight<'f> {
@@ -30,6 +33,8 @@ pub struct Flight<'f> {
     pub propellant: &'f mut PropellantState,
     /// Force and torque from outside at a time, body frame, by which an orbit goes that forces act on.
     pub external: &'f dyn Fn(f64) -> ExternalLoad,
+    /// Who chooses the Sun's place during downlinks; asked where the guidance is managed.
+    pub planner: &'f dyn SunPlanner,
 }
 
 impl Flight<'_> {
@@ -40,7 +45,62 @@ impl Flight<'_> {
     pub fn guided_start(&mut self, time_s: f64, work_limit: u32) -> Result<Option<MovingFrame>, PlantError> {
         let mut plant = self.as_configured(work_limit);
         plant.prepare(time_s, time_s)?;
-        Ok(plant.guided_frame(time_s))
+        Ok(plant.guided_attitude(time_s).map(|guided| guided.frame))
+    }
+
+    /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
+    /// where it is over, the next one may choose.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub(super) fn choose_sun_place(
+        &mut self,
+        time_s: f64,
+        totals: &Totals,
+        momentum: StartMomentum,
+        work_limit: u32,
+    ) -> Result<(), PlantError> {
+        let Some(law) = self.configuration.attitude.guided().copied().filter(|law| law.managed) else {
+            return Ok(());
+        };
+        let mut plant = self.as_configured(work_limit);
+        let Some(guided) = plant.guided_attitude(time_s) else { return Ok(()) };
+        let downlink = guided.window.activity == Activity::Downlink;
+        let choice = &mut self.propagator.sun_choice;
+        let is_anew = downlink && choice.in_force && choice.chosen_s == Some(time_s);
+        if !(choice.is_due(downlink) || is_anew) {
+            return Ok(());
+        }
+        choice.in_force = downlink;
+        if !downlink {
+            return Ok(());
+        }
+        choice.chosen_s = Some(time_s);
+        let until_s = guided.window.until_s - self.configuration.epoch_minus_time_s;
+        let chosen = if until_s.is_finite() && until_s > time_s {
+            let planner = self.planner;
+            let mut plant = self.as_configured(work_limit);
+            let instant = plant.instant(time_s);
+            let pressure_pa = plant.pressure_pa(&instant);
+            let mut outlook = Outlook {
+                flight: self,
+                law,
+                totals: *totals,
+                work_limit,
+                time_s,
+                span_s: until_s - time_s,
+                momentum,
+                to_sun: instant.geometry.to_sun.position_m.normalize(),
+                to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
+                pressure_pa,
+            };
+            planner.choose(&mut outlook)?
+        } else {
+            None
+        };
+        self.propagator.sun_choice.chosen = chosen;
+        self.configuration.attitude.set_sun_place(self.propagator.sun_choice.place());
+        Ok(())
     }
 
     /// Mass properties with the panels as they stand where the flight begins in this attitude.

@@ -6,12 +6,13 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::momentum::{DumpEvent, MomentumIntegrator, TorqueModel};
+use crate::momentum::{DumpEvent, MomentumIntegrator, Stop, TorqueModel, Totals};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 use super::error::PlantError;
 use super::evaluation::Evaluation;
 use super::flight::Flight;
+use super::outlook::StartMomentum;
 use super::reaction_control_settings::ReactionControlSettings;
 
 /// What the last dump left beside its impulse.
@@ -43,11 +44,20 @@ pub struct IdealFlight<'f, 'c> {
 }
 
 impl IdealFlight<'_, '_> {
-    /// Makes the flight ready at its start; everything there.
+    /// Makes the flight ready at its start, where the system has this momentum, body frame, in N m s; everything there.
     ///
     /// # Errors
     /// What ends the flight.
-    pub fn begin(&mut self, time_s: f64) -> Result<Evaluation, PlantError> {
+    pub fn begin(
+        &mut self,
+        time_s: f64,
+        momentum_body_n_m_s: Vector3<f64>,
+    ) -> Result<Evaluation, PlantError> {
+        let mut plant = self.flight.as_configured(self.work_limit);
+        let frame = plant.instant(time_s).frame;
+        let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
+        let given = StartMomentum::Body(momentum_body_n_m_s);
+        self.flight.choose_sun_place(time_s, &totals, given, self.work_limit)?;
         let mut plant = self.flight.as_configured(self.work_limit);
         plant.prepare(time_s, time_s)?;
         Ok(plant.evaluate(time_s))
@@ -73,21 +83,27 @@ impl IdealFlight<'_, '_> {
     /// What ends the flight.
     pub fn advance(&mut self, time_s: f64, mut report: impl FnMut(&DumpEvent)) -> Result<(), PlantError> {
         let settings = self.flight.configuration.momentum;
-        if self.thrusters.thrusters.is_empty() {
-            let mut plant = self.flight.as_configured(self.work_limit);
-            return self.integrator.advance(&mut plant, &settings, time_s, report);
-        }
         let mut dumped_s = None;
         loop {
             let mut plant = self.flight.as_configured(self.work_limit);
-            let Some(event) = self.integrator.advance_to_dump(&mut plant, &settings, time_s, dumped_s)?
-            else {
-                return Ok(());
-            };
-            self.book(&event);
-            report(&event);
-            dumped_s = Some(event.time_s);
+            match self.integrator.advance_to_stop(&mut plant, &settings, time_s, dumped_s)? {
+                Stop::Reached => return Ok(()),
+                Stop::Choice { at_s } => self.choose(at_s)?,
+                Stop::Dump(event) => {
+                    self.book(&event);
+                    report(&event);
+                    dumped_s = Some(event.time_s);
+                    self.choose(event.time_s)?;
+                }
+            }
         }
+    }
+
+    /// The Sun's place, where it is due.
+    fn choose(&mut self, time_s: f64) -> Result<(), PlantError> {
+        let totals = self.integrator.totals(time_s);
+        let momentum = StartMomentum::of(&totals, self.flight.configuration.momentum.convention);
+        self.flight.choose_sun_place(time_s, &totals, momentum, self.work_limit)
     }
 
     /// Propellant, push and mass properties after a dump.

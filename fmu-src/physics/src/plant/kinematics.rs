@@ -161,12 +161,12 @@ impl<'a> Kinematics<'a> {
         })
     }
 
-    /// Frame and rate that guidance commands at `time_s`; `None` where there is none.
-    pub fn guided_frame(&mut self, time_s: f64) -> Option<MovingFrame> {
+    /// What guidance commands at `time_s`; `None` where there is none.
+    pub fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
         let configuration = self.configuration;
         let guided = configuration.attitude.guided()?;
         let geometry = self.geometry(time_s);
-        Some(self.guided(guided, time_s, &geometry).frame)
+        Some(self.guided(guided, time_s, &geometry))
     }
 
     /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::configuration::{Configuration, Motion};
 use super::error::PlantError;
 use super::radiation_segment::RadiationSegment;
+use super::sun_choice::SunChoice;
 use super::trajectory::Trajectory;
 
 /// State of the propagator, beside the totals of the momentum integrator. Serialisable and complete: together with the
@@ -16,12 +17,16 @@ pub struct PropagatorState {
     pub trajectory: Trajectory,
     /// Light and heat of the present segment; absent before the first one.
     pub light: Option<RadiationSegment>,
+    /// Where the Sun stands during downlinks.
+    pub sun_choice: SunChoice,
 }
 
 impl PropagatorState {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        self.trajectory.is_sound() && self.light.as_ref().is_none_or(RadiationSegment::is_sound)
+        self.trajectory.is_sound()
+            && self.sun_choice.is_sound()
+            && self.light.as_ref().is_none_or(RadiationSegment::is_sound)
     }
 
     /// At the start of a flight.
@@ -29,7 +34,7 @@ impl PropagatorState {
     /// # Errors
     /// A start below the surface.
     pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, PlantError> {
-        Ok(Self { trajectory: Trajectory::new(configuration, time_s)?, light: None })
+        Ok(Self { trajectory: Trajectory::new(configuration, time_s)?, ..Self::default() })
     }
 
     /// Goes on from another place; the heat stored in the surfaces comes along.

@@ -43,6 +43,14 @@ struct Periapses {
     scheduled_s: [f64; KEPT],
 }
 
+/// Position and velocity where no orbit is integrated.
+fn closed_form(configuration: &Configuration, time_s: f64) -> CartesianState {
+    match configuration.motion {
+        Motion::Held { state, .. } => state,
+        _ => configuration.orbit.state_at(time_s + configuration.epoch_minus_time_s),
+    }
+}
+
 /// Whether two times at which a window begins are one.
 fn is_same_window(configuration: &Configuration, since_s: f64, time_s: f64) -> bool {
     let rounding_s = 8.0 * spacing(time_s.abs().max((time_s + configuration.epoch_minus_time_s).abs()));
@@ -94,14 +102,17 @@ impl Trajectory {
     pub fn state_at(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
         match &self.orbit {
             Some(orbit) => orbit.state_at(time_s),
-            None => configuration.orbit.state_at(time_s + configuration.epoch_minus_time_s),
+            None => closed_form(configuration, time_s),
         }
     }
 
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, configuration: &Configuration, time_s: f64) -> f64 {
         if self.orbit.is_none() || !configuration.orbit.period_s().is_finite() {
-            let epoch_s = time_s + configuration.epoch_minus_time_s;
+            let epoch_s = match configuration.motion {
+                Motion::Held { since_epoch_s, .. } => since_epoch_s,
+                _ => time_s + configuration.epoch_minus_time_s,
+            };
             return configuration.orbit.time_since_periapsis_s(epoch_s);
         }
         let [last_s, before_s] = self.periapses.last_s;
@@ -130,7 +141,7 @@ impl Trajectory {
             (Some(orbit), _) if time_s >= orbit.start_s() => orbit.state_at(time_s),
             (Some(_), Some((since_s, state))) if is_same_window(configuration, *since_s, time_s) => *state,
             // Before the flight began the spacecraft was on its two-body orbit.
-            _ => configuration.orbit.state_at(time_s + configuration.epoch_minus_time_s),
+            _ => closed_form(configuration, time_s),
         }
     }
 

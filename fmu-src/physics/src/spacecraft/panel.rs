@@ -18,6 +18,8 @@ pub enum PanelControl {
     SunOffset,
     /// The angle about the axis is given.
     Angle,
+    /// The cell side keeps an angle to the Sun's direction that is commanded.
+    Command,
 }
 
 /// A flat panel whose axis of rotation passes through its centre (paper 000, eqs 9-11).

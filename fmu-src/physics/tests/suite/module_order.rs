@@ -17,6 +17,7 @@ const ORDER: &[&str] = &[
     "guidance",
     "momentum",
     "plant",
+    "management",
     "spin",
 ];
 

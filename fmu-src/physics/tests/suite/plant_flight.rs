@@ -74,10 +74,13 @@ pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
             downlink_start_s: 7200.0,
             downlink_end_s: 36_000.0,
             every: 2,
+            once: false,
         },
         science: ScienceRule::Scaled { gain: 0.25 },
         elevation_limit_rad: 0.2269,
         slew_rate_rad_s: 3e-3,
+        sun_place: None,
+        managed: false,
     })
 }
 

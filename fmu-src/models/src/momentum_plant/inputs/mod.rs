@@ -14,6 +14,8 @@ use physics::constants;
 use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
+use physics::guidance::Guided;
+use physics::management::Manager;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
     self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
@@ -26,6 +28,7 @@ use super::setup::Plan;
 use super::variables::PlantVariables;
 use super::variables::choices::{DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource, PanelTilt};
 use crate::common::ephemeris;
+use crate::common::management::Limits;
 use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
@@ -51,7 +54,7 @@ pub fn refreshed(
     let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
     let limit_m = data.radius_m;
     let lowest_m = orbit.elements().periapsis_distance_m();
-    let from_elements = !matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
+    let from_elements = !is_given(variables, values);
     if from_elements && lowest_m <= limit_m {
         return Err(Failure::new(format!(
             "orbit.semiMajorAxis, orbit.eccentricity: the periapsis at {lowest_m:.0} m lies inside {}, whose \
@@ -70,15 +73,17 @@ pub fn refreshed(
         if !values.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
+        let offset = |sun_offset| PanelSetting::SunOffset {
+            offset_rad: values.real(sun_offset),
+            tilt_sign: match values.choice(panel.tilt) {
+                Some(PanelTilt::Negative) => -1.0,
+                Some(PanelTilt::Positive) | None => 1.0,
+            },
+        };
         match values.choice(panel.control).map_or(PanelControl::SunOffset, |it| it.0) {
             PanelControl::Angle => PanelSetting::Angle(values.real(panel.angle)),
-            PanelControl::SunOffset => PanelSetting::SunOffset {
-                offset_rad: values.real(panel.sun_offset),
-                tilt_sign: match values.choice(panel.tilt) {
-                    Some(PanelTilt::Negative) => -1.0,
-                    Some(PanelTilt::Positive) | None => 1.0,
-                },
-            },
+            PanelControl::SunOffset => offset(panel.sun_offset),
+            PanelControl::Command => offset(panel.sun_offset_command),
         }
     }));
     let mut configuration = Configuration {
@@ -86,7 +91,7 @@ pub fn refreshed(
         center: body,
         attitude: attitude(context, values, state, body, &orbit)?,
         orbit,
-        motion: motion(variables, values, &data),
+        motion: motion(variables, values, &data, time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s)),
         ephemeris: ephemeris_source(&center, context, values, state)?,
         light: if values.boolean(variables.solar.fixed_pressure) {
             SunLight::Fixed { pressure_pa: values.real(variables.solar.pressure) }
@@ -176,19 +181,18 @@ fn orbit(
     let (orbit, data) = (&variables.orbit, center.data());
     match values.choice(orbit.source) {
         // Nothing is computed on it before position and velocity are set.
-        Some(OrbitSource::Inputs) if state.waiting => {
-            let start = CartesianState::on_circle(1e10, data.gm_m3_s2);
-            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_minus_time_s)
-                .map_err(|error| Failure::new(format!("planet.gravitationalParameter: {error}")))
+        Some(OrbitSource::Inputs | OrbitSource::Held) if state.waiting => {
+            circle(1e10, data.gm_m3_s2, epoch_minus_time_s)
         }
-        Some(OrbitSource::Inputs) => {
-            let start = CartesianState {
-                position_m: Vector3::from(values.vector(orbit.position)),
-                velocity_m_s: Vector3::from(values.vector(orbit.velocity)),
-            };
+        Some(source @ (OrbitSource::Inputs | OrbitSource::Held)) => {
+            let start = given_state(variables, values);
             let epoch_s = time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s);
-            TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s)
-                .map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
+            let found = TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s);
+            if source == OrbitSource::Held && found.is_err() {
+                // It counts the downlinks alone.
+                return circle(start.position_m.norm(), data.gm_m3_s2, epoch_s);
+            }
+            found.map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
         }
         Some(OrbitSource::Elements) | None => {
             let epoch_s = values.real(variables.start.epoch);
@@ -198,8 +202,28 @@ fn orbit(
     }
 }
 
-fn motion(variables: &PlantVariables, values: &Values, center: &BodyData) -> Motion {
+/// Whether position and velocity are inputs.
+pub fn is_given(variables: &PlantVariables, values: &Values) -> bool {
+    matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs | OrbitSource::Held))
+}
+
+fn given_state(variables: &PlantVariables, values: &Values) -> CartesianState {
+    CartesianState {
+        position_m: Vector3::from(values.vector(variables.orbit.position)),
+        velocity_m_s: Vector3::from(values.vector(variables.orbit.velocity)),
+    }
+}
+
+fn circle(radius_m: f64, gm_m3_s2: f64, epoch_s: f64) -> Result<TwoBodyOrbit, Failure> {
+    TwoBodyOrbit::from_state(&CartesianState::on_circle(radius_m, gm_m3_s2), gm_m3_s2, epoch_s)
+        .map_err(|error| Failure::new(format!("planet.gravitationalParameter, orbit.position: {error}")))
+}
+
+fn motion(variables: &PlantVariables, values: &Values, center: &BodyData, given_epoch_s: f64) -> Motion {
     let orbit = &variables.orbit;
+    if matches!(values.choice(orbit.source), Some(OrbitSource::Held)) {
+        return Motion::Held { state: given_state(variables, values), since_epoch_s: given_epoch_s };
+    }
     if !matches!(values.choice(orbit.dynamics), Some(OrbitDynamics::Disturbed)) {
         return Motion::TwoBody;
     }
@@ -266,7 +290,11 @@ fn attitude(
     let guided = || {
         let period_s = if center.is_planet() { orbit.period_s() } else { f64::INFINITY };
         let elevation_limit_rad = values.real(variables.keep_in.elevation);
-        variables.guided.read(values, orbit.periapsis_epoch_s(0), period_s, elevation_limit_rad)
+        let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
+        let law = variables.guided.read(values, periapsis_s, period_s, start_s, elevation_limit_rad)?;
+        let (managed, sun_place) =
+            (variables.momentum.management.manages(values), state.propagator.sun_choice.place());
+        Ok::<_, Failure>(Guided { managed, sun_place, ..law })
     };
     let guides_itself = dynamics::guides_itself(context, values);
     if dynamics::is_dynamic(context, values) {
@@ -278,6 +306,14 @@ fn attitude(
     } else {
         Ok(plant::AttitudeSource::Commanded(state.command))
     }
+}
+
+/// Who chooses the Sun's place during downlinks.
+pub fn manager<'s>(context: &Plan<'s>, values: &Values, configuration: &Configuration) -> Manager<'s> {
+    let variables = context.variables;
+    let limits = Limits { azimuth: variables.keep_in.azimuth, elevation: variables.keep_in.elevation };
+    let spacecraft = &context.setup.spacecraft;
+    variables.momentum.management.manager(values, limits, spacecraft, configuration.sunshade)
 }
 
 fn settings(variables: &PlantVariables, values: &Values) -> Settings {

@@ -17,6 +17,7 @@ use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
+use super::is_given;
 use super::propulsion::{SaidOfThrusters, reaction_control};
 use crate::common::choices::{CommandKind, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
@@ -331,13 +332,14 @@ fn is_zero(vector: &[f64]) -> bool {
 /// The inputs without which there is no flight and that are not set yet.
 pub fn unset_places(context: &Plan<'_>, values: &Values) -> Vec<&'static str> {
     let variables = context.variables;
-    let orbit_given = matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs));
+    let orbit_given = is_given(variables, values);
+    let moves = !matches!(values.choice(variables.orbit.source), Some(OrbitSource::Held));
     let sun_given = matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs));
     // About the Sun, the Sun is at zero.
     let planet = !matches!(values.choice(variables.orbit.center), Some(OrbitCenter(Body::Sun)));
     let places = [
         (orbit_given, variables.orbit.position, "orbit.position"),
-        (orbit_given, variables.orbit.velocity, "orbit.velocity"),
+        (orbit_given && moves, variables.orbit.velocity, "orbit.velocity"),
         (sun_given && planet, variables.sun.position, "sun.position"),
     ];
     let unset = places.iter().filter(|(given, place, _)| *given && is_zero(&values.vector(*place)));
@@ -389,7 +391,8 @@ fn tunables(context: &Plan<'_>, values: &Values) -> [f64; 8] {
 fn light_inputs<'a>(context: &'a Plan<'_>, values: &'a Values) -> impl Iterator<Item = f64> + 'a {
     let variables = context.variables;
     let vectors = [variables.sun.position, variables.earth.position, variables.spacecraft.center_of_mass];
-    let panels =
-        variables.panel.iter().flat_map(|panel| [values.real(panel.angle), values.real(panel.sun_offset)]);
+    let panels = variables.panel.iter().flat_map(|panel| {
+        [panel.angle, panel.sun_offset, panel.sun_offset_command].map(|angle| values.real(angle))
+    });
     vectors.into_iter().flat_map(|vector| values.vector(vector)).chain(panels)
 }

@@ -7,13 +7,12 @@ use physics::guidance::system::CommandKind as Kind;
 use physics::momentum::{DumpEvent, Totals};
 use physics::plant::{
     AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, ExternalLoad, Flight, Motion,
-    PropagatorState, Tracked,
+    PropagatorState, SunPlanner, Tracked,
 };
 
 use super::super::inputs::state::{Changes, PlantState};
 use super::super::inputs::{self, dynamics, propulsion};
 use super::super::setup::Plan;
-use super::super::variables::choices::OrbitSource;
 use super::propulsion::write_thrusters;
 use super::write::{self as outputs, flyable, log_dump};
 use crate::common::choices::CommandKind;
@@ -71,8 +70,9 @@ pub fn begin(
     let mut rate_body_rad_s = Vector3::from(values.vector(context.variables.start.rate));
     let [start_load, _] = dynamics::external(context, values, InputsOverTime::held(), time_s);
     let acting = |_: f64| start_load;
+    let manager = inputs::manager(context, values, &configuration);
     if is_default && dynamics::guides_itself(context, values) {
-        let guided = flight(context, state, &mut configuration, &acting)?
+        let guided = flight(context, state, &mut configuration, &acting, &manager)?
             .guided_start(time_s, settings.work_limit)
             .map_err(outputs::failure)?;
         if let Some(frame) = guided {
@@ -82,7 +82,7 @@ pub fn begin(
     }
     let mut mass = configuration.loaded();
     if settings.panels_have_mass {
-        mass = flight(context, state, &mut configuration, &acting)?.mass_at_start(time_s, attitude);
+        mass = flight(context, state, &mut configuration, &acting, &manager)?.mass_at_start(time_s, attitude);
         settings.gyrostat.set_mass_properties(mass.inertia_body_kg_m2, mass.center_of_mass_body_m);
     }
     let wheels = &context.variables.wheel;
@@ -98,7 +98,7 @@ pub fn begin(
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
     let limit = settings.work_limit;
     if let Some(mut shown) = state.dynamics.take() {
-        let mut flight = flight(context, state, &mut configuration, &acting)?;
+        let mut flight = flight(context, state, &mut configuration, &acting, &manager)?;
         stretch
             .with_inputs(|inputs| {
                 let silent = &mut |_: &DumpEvent| {};
@@ -150,8 +150,7 @@ pub fn step(
         if loads_change {
             state.propagator.cut(&configuration, step.start_s, true);
         }
-        if changes.orbit && matches!(values.choice(context.variables.orbit.source), Some(OrbitSource::Inputs))
-        {
+        if changes.orbit && inputs::is_given(context.variables, values) {
             state.propagator.move_to(&configuration, step.start_s).map_err(outputs::failure)?;
         }
     }
@@ -165,7 +164,8 @@ pub fn step(
     let stretch = Stretch { context, values, over_time, tracked: tracked(context, values, state) };
     let acting = |time_s: f64| dynamics::external(context, stretch.values, over_time, time_s)[0];
     propulsion::warn(context, stretch.values, &settings.thrusters, &mut state.said_of_thrusters, step);
-    let mut flight = flight(context, state, &mut configuration, &acting)?;
+    let manager = inputs::manager(context, stretch.values, &configuration);
+    let mut flight = flight(context, state, &mut configuration, &acting, &manager)?;
     stretch
         .with_inputs(|inputs| {
             flown.command_thrusters(&settings, inputs, step.start_s, step.end_s);
@@ -184,6 +184,7 @@ fn flight<'f>(
     state: &'f mut PlantState,
     configuration: &'f mut Configuration,
     external: &'f dyn Fn(f64) -> ExternalLoad,
+    planner: &'f dyn SunPlanner,
 ) -> Result<Flight<'f>, Failure> {
     Ok(Flight {
         prepared: context.setup.prepared_spacecraft(configuration.sunshade)?,
@@ -193,6 +194,7 @@ fn flight<'f>(
         light: state.light.as_mut(),
         propellant: &mut state.propellant,
         external,
+        planner,
     })
 }
 
@@ -209,9 +211,10 @@ fn show(
     let Some(flown) = state.dynamics.take() else { return Ok(()) };
     let body = flown.body(settings, time_s);
     let [external, _] = dynamics::external(context, values, over_time, time_s);
+    let manager = inputs::manager(context, values, configuration);
     let evaluation = flown.evaluation(
         settings,
-        &mut flight(context, state, configuration, &|_| external)?,
+        &mut flight(context, state, configuration, &|_| external, &manager)?,
         &body,
         external,
         time_s,

@@ -53,6 +53,8 @@ pub fn write(
     values.set_vector(variables.acceleration, acceleration_m_s2.into());
     values.set_vector(variables.delta_v, totals.delta_v_inertial_m_s.into());
 
+    values.set_boolean(variables.momentum.target_clamped, state.propagator.sun_choice.is_clamped());
+
     let sun = SunAngles::of(&instant.sun_body);
     let planet_body_m = instant.planet_body_m.unwrap_or_default();
     values.set_vector(variables.sun.position_body, instant.sun_position_body_m().into());

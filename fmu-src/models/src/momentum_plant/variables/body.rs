@@ -58,6 +58,9 @@ pub struct PanelVariables {
     /// Rotation angle when panel control is by angle.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
+    /// Angle between the panel's normal and the Sun direction when panel control is by command.
+    #[input(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    pub sun_offset_command: Real,
     /// Rotation angle in effect, about the panel's axis from its zero position.
     #[output(unit = "rad", display = "deg")]
     pub angle_actual: Real,

@@ -47,6 +47,8 @@ pub enum OrbitSource {
     Elements = 1,
     /// From the position and velocity inputs, anew whenever they change.
     Inputs = 2,
+    /// The position and velocity inputs themselves, which are not propagated.
+    Held = 3,
 }
 
 /// What moves the spacecraft.
@@ -79,6 +81,8 @@ enumeration_of! {
         sunOffset = 1 => SunOffset,
         /// The input angle.
         angle = 2 => Angle,
+        /// The angle to the Sun of the input sunOffsetCommand.
+        command = 3 => Command,
     }
 }
 

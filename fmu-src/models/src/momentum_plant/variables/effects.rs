@@ -8,6 +8,7 @@ use super::super::setup::PlantSetup;
 use super::choices::{DumpReinitTo, MomentumConvention};
 use super::defaults;
 use crate::common::loads::{ForceBySource, TorqueBySource};
+use crate::common::management::ManagementVariables;
 use crate::common::variables::WorkLimit;
 
 /// Light of the planet.
@@ -124,6 +125,8 @@ pub struct SolverVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct MomentumVariables {
+    #[group(name = "")]
+    pub management: ManagementVariables,
     /// What momentum.body and the dump thresholds mean.
     #[parameter(start = MomentumConvention(Convention::Inertial))]
     pub convention: Choice<MomentumConvention>,
@@ -133,6 +136,10 @@ pub struct MomentumVariables {
     /// System momentum in EME2000: always the physical total.
     #[output(unit = "N.m.s", nominal = 1.0)]
     pub inertial: RealVector<3>,
+    /// Whether the Sun's place that brings the momentum to the target of the present downlink is not admissible, so that it
+    /// comes as near as one that is can bring it.
+    #[output]
+    pub target_clamped: Boolean,
 }
 
 /// Thruster dumps: in guided and commanded flight an impulse, in controlled and free flight pulses of the file's thrusters, or

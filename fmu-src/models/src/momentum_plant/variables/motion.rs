@@ -77,8 +77,9 @@ pub struct OrbitVariables {
     /// What the spacecraft flies around.
     #[parameter(start = OrbitCenter(Body::Mercury))]
     pub center: Choice<OrbitCenter>,
-    /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity. While one of these two is zero the
-    /// flight waits for it: the attitude is held and nothing acts.
+    /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity, or these are where the spacecraft is.
+    /// While one of the two is zero, of a held place the position, the flight waits for it: the attitude is held and nothing
+    /// acts.
     #[parameter(start = OrbitSource::Elements)]
     pub source: Choice<OrbitSource>,
     /// What moves the spacecraft. On a disturbed orbit downlinks are counted from the periapses it really passes.
@@ -115,10 +116,10 @@ pub struct OrbitVariables {
     /// True anomaly at the start.
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = 0.0)]
     pub true_anomaly: Real,
-    /// Position about the centre in EME2000 when orbit.source is inputs; the orbit starts anew when it changes.
+    /// Position about the centre in EME2000 when orbit.source is inputs, where the orbit starts anew when it changes, or held.
     #[input(unit = "m", display = "km", start = [0.0; 3])]
     pub position: RealVector<3>,
-    /// Velocity about the centre in EME2000 when orbit.source is inputs.
+    /// Velocity about the centre in EME2000 when orbit.source is inputs or held.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
     pub velocity: RealVector<3>,
     /// Time since the last periapsis.

@@ -1,0 +1,102 @@
+//! Momentum management by sunlight: its parameters, and the manager they describe.
+
+use fmi_export::{Choice, Integer, Real, RealVector, Values, Variables};
+use nalgebra::Vector3;
+use physics::management::{Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
+use physics::spacecraft::{Spacecraft, SunshadeModel};
+
+use super::choices::enumeration_of;
+
+enumeration_of! {
+    /// What sunlight is used for during downlinks.
+    MomentumStrategy(Strategy) {
+        /// Nothing: the Sun stands on -Y, thrusters dump.
+        dumpsOnly = 1 => DumpsOnly,
+        /// Every downlink brings the momentum toward momentum.target.
+        reactive = 2 => Reactive,
+        /// Every downlink brings it where the coming momentum.horizon cycles, forecast, keep its components smallest.
+        predictive = 3 => Predictive,
+    }
+}
+
+enumeration_of! {
+    /// Body components of momentum that sunlight brings to a target.
+    MomentumTargetAxes(TargetAxes) {
+        /// X, by the Sun's elevation; its azimuth stays 0 as far as the antennas allow.
+        x = 1 => X,
+        /// Z, by the Sun's azimuth; its elevation stays 0.
+        z = 2 => Z,
+        /// Both.
+        xz = 3 => XAndZ,
+    }
+}
+
+enumeration_of! {
+    /// How the Sun's place is computed.
+    MomentumTargeting(TargetingMethod) {
+        /// The whole torque of direct sunlight, panels included, and the turn of the momentum with the attitude.
+        exact = 1 => Exact,
+        /// Paper 000's eq 17: the sunshade alone, to first order in the angles; up to 8 % short.
+        linear = 2 => Linear,
+    }
+}
+
+/// Parameters of momentum management.
+#[derive(Variables)]
+pub struct ManagementVariables {
+    /// What sunlight is used for during downlinks. It acts where the attitude is guided, in controlled flight with
+    /// command.source = guidance too.
+    #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
+    pub strategy: Choice<MomentumStrategy>,
+    /// Body components of momentum that sunlight brings to a target.
+    #[parameter(start = MomentumTargetAxes(TargetAxes::XAndZ))]
+    pub target_axes: Choice<MomentumTargetAxes>,
+    /// How the Sun's place is computed.
+    #[parameter(start = MomentumTargeting(TargetingMethod::Exact))]
+    pub targeting: Choice<MomentumTargeting>,
+    /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention.
+    #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
+    pub target: RealVector<3>,
+    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none). Without a cycle to
+    /// come they are momentum.target.
+    #[parameter(min = 1, max = 100, start = 4)]
+    pub horizon: Integer,
+}
+
+/// Keep-in limits of the Sun about -Y.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Greatest azimuth.
+    pub azimuth: Real,
+    /// Greatest elevation.
+    pub elevation: Real,
+}
+
+impl ManagementVariables {
+    /// Whether downlinks are used.
+    pub fn manages(&self, values: &Values) -> bool {
+        values.choice(self.strategy).is_some_and(|it| it.0 != Strategy::DumpsOnly)
+    }
+
+    /// The manager of a spacecraft whose shade takes the light in this form.
+    pub fn manager<'s>(
+        &self,
+        values: &Values,
+        limits: Limits,
+        spacecraft: &'s Spacecraft,
+        sunshade: SunshadeModel,
+    ) -> Manager<'s> {
+        Manager {
+            strategy: values.choice(self.strategy).map_or(Strategy::DumpsOnly, |it| it.0),
+            targeting: Targeting {
+                axes: values.choice(self.target_axes).map_or(TargetAxes::XAndZ, |it| it.0),
+                method: values.choice(self.targeting).map_or(TargetingMethod::Exact, |it| it.0),
+                azimuth_limit_rad: values.real(limits.azimuth),
+                elevation_limit_rad: values.real(limits.elevation),
+            },
+            target_body_n_m_s: Vector3::from(values.vector(self.target)),
+            horizon: values.integer(self.horizon).unsigned_abs(),
+            sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! Momentum management by sunlight: targets that are hit, limits, strategies, and what must not change them.
+
+use models::MomentumPlant;
+use nalgebra::Vector3;
+
+use super::named_model::{NamedInstance, NamedModel, assert_same};
+
+const HOUR_S: f64 = 3600.0;
+
+type Plant<'m> = NamedInstance<'m, MomentumPlant>;
+type Sets = Vec<(&'static str, f64)>;
+
+/// A spacecraft that stands still beside a Sun and an Earth that do: one downlink of eight hours after an hour.
+fn still(separation_deg: f64) -> Sets {
+    let earth_rad = separation_deg.to_radians();
+    vec![
+        ("orbit.source", 3.0),
+        ("orbit.position[1]", 1e7),
+        ("orbit.velocity[2]", 1e3),
+        ("ephemeris.source", 3.0),
+        ("sun.position[1]", -4.0e10),
+        ("sun.position[2]", 2.0e10),
+        ("sun.position[3]", 1.0e10),
+        ("earth.position[1]", 1.5e11 * (earth_rad + 2.0).cos()),
+        ("earth.position[2]", 1.5e11 * (earth_rad + 2.0).sin()),
+        ("earth.position[3]", 3e10),
+        ("gravityGradient.enabled", 0.0),
+        ("guided.downlinkReference", 2.0),
+        ("guided.downlinkStart", HOUR_S),
+        ("guided.downlinkEnd", 9.0 * HOUR_S),
+        ("momentum.strategy", 2.0),
+        ("start.momentum[1]", 0.4),
+        ("start.momentum[2]", -0.1),
+        ("start.momentum[3]", -0.3),
+        ("spacecraft.centerOfMass[3]", 0.02),
+    ]
+}
+
+fn with(sets: &Sets, more: &[(&'static str, f64)]) -> Sets {
+    let mut all: Sets =
+        sets.iter().filter(|(name, _)| !more.iter().any(|(n, _)| n == name)).copied().collect();
+    all.extend(more);
+    all
+}
+
+#[test]
+fn an_attainable_target_is_hit_to_a_nanonewton_metre_second() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let target = Vector3::new(0.1, 5.0, -0.05);
+    let mut hit = 0;
+    for separation_deg in [20.0, 75.0, 100.0, 160.0] {
+        for convention in [1.0, 2.0] {
+            for axes in [1.0, 2.0, 3.0] {
+                for start_s in [0.0, 1e6] {
+                    let sets = with(
+                        &still(separation_deg),
+                        &[
+                            ("momentum.convention", convention),
+                            ("momentum.targetAxes", axes),
+                            ("momentum.target[1]", target.x),
+                            ("momentum.target[2]", target.y),
+                            ("momentum.target[3]", target.z),
+                        ],
+                    );
+                    let mut flight = named.fly(start_s, &sets).unwrap();
+                    flight.step_to(start_s + 1.5 * HOUR_S).unwrap();
+                    let clamped = flight.boolean("momentum.targetClamped");
+                    let (azimuth_rad, elevation_rad) =
+                        (flight.real("sun.azimuth"), flight.real("sun.elevation"));
+                    let earth = (flight.real("earth.azimuth").to_degrees(), flight.real("earth.elevation"));
+                    assert!(earth.1.abs() < 1e-12, "{earth:?}");
+                    flight.step_to(start_s + 8.0 * HOUR_S).unwrap();
+                    assert_eq!(flight.real("sun.azimuth"), azimuth_rad);
+                    flight.step_to(start_s + 9.0 * HOUR_S - 1e-6).unwrap();
+                    let end = flight.vector("momentum.body");
+                    if clamped {
+                        continue;
+                    }
+                    hit += 1;
+                    let off = end - target;
+                    let wrong = match axes as i32 {
+                        1 => off.x.abs(),
+                        2 => off.z.abs(),
+                        _ => off.xz().amax(),
+                    };
+                    assert!(wrong < 1e-9, "{separation_deg} {convention} {axes}: {off:?}");
+                    assert!(axes != 1.0 || azimuth_rad.abs() < 1e-12);
+                    assert!(axes != 2.0 || elevation_rad.abs() < 1e-12);
+                    let covered = (-90.0..=1e-9).contains(&earth.0) || earth.0 >= 90.0;
+                    assert!(covered && flight.real("keepIn.margin") > -1e-9, "{earth:?}");
+                }
+            }
+        }
+    }
+    assert!(hit >= 36, "{hit}");
+}
+
+#[test]
+fn a_downlink_at_the_start_takes_the_momentum_of_the_start() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let sets = with(&still(60.0), &[("guided.downlinkStart", 0.0), ("guided.downlinkEnd", 8.0 * HOUR_S)]);
+    let mut flight = named.fly(0.0, &sets).unwrap();
+    assert!((flight.vector("momentum.body") - Vector3::new(0.4, -0.1, -0.3)).amax() < 1e-12);
+    assert!(flight.real("sun.elevation").abs() > 0.01);
+    flight.step_to(8.0 * HOUR_S - 1e-6).unwrap();
+    assert!(flight.vector("momentum.body").xz().amax() < 1e-9, "{:?}", flight.vector("momentum.body"));
+}
+
+#[test]
+fn a_target_out_of_reach_is_flagged_while_the_downlink_lasts() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut flight = named.fly(0.0, &with(&still(60.0), &[("momentum.target[1]", 30.0)])).unwrap();
+    assert!(!flight.boolean("momentum.targetClamped"));
+    flight.step_to(2.0 * HOUR_S).unwrap();
+    assert!(flight.boolean("momentum.targetClamped"));
+    let limit_rad = flight.real("keepIn.margin");
+    assert!(limit_rad.abs() < 1e-6, "{limit_rad}");
+    flight.step_to(9.5 * HOUR_S).unwrap();
+    assert!(!flight.boolean("momentum.targetClamped"));
+}
+
+#[test]
+fn the_linear_formula_falls_short_of_the_exact_one() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let end = |targeting: f64| {
+        let sets = [
+            ("momentum.targeting", targeting),
+            ("momentum.convention", 2.0),
+            ("panel[1].enabled", 0.0),
+            ("panel[2].enabled", 0.0),
+        ];
+        let mut flight = named.fly(0.0, &with(&still(60.0), &sets)).unwrap();
+        flight.step_to(HOUR_S - 1e-3).unwrap();
+        let start = flight.vector("momentum.body").xz().norm();
+        flight.step_to(9.0 * HOUR_S - 1e-6).unwrap();
+        flight.vector("momentum.body").xz().norm() / start
+    };
+    let (exact, linear) = (end(1.0), end(2.0));
+    println!("left by the linear formula: {:.2} %", 100.0 * linear);
+    assert!(exact < 1e-8 && (1e-3..0.08).contains(&linear), "{exact} {linear}");
+}
+
+/// Ninety days in the paper's convention.
+fn mission(strategy: f64) -> Sets {
+    vec![
+        ("momentum.strategy", strategy),
+        ("momentum.convention", 2.0),
+        ("solar.fixedPressure", 1.0),
+        ("sunshade.shape", 2.0),
+        ("panel[1].enabled", 0.0),
+        ("panel[2].enabled", 0.0),
+        ("gravityGradient.enabled", 0.0),
+        ("spacecraft.centerOfMass[3]", 0.05),
+        ("dump.threshold[1]", 4.0),
+        ("dump.threshold[2]", 4.0),
+        ("dump.threshold[3]", 4.0),
+        ("dump.reinitFraction", 1.0),
+    ]
+}
+
+#[test]
+fn targets_save_dumps_and_looking_ahead_saves_more() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let dumps = [1.0, 2.0, 3.0].map(|strategy| {
+        [600.0, 3600.0].map(|step_s| {
+            let mut flight = named.fly(0.0, &mission(strategy)).unwrap();
+            flight.fly_to(90.0 * 86_400.0, step_s).unwrap();
+            flight.integer("dump.count")
+        })
+    });
+    println!("dumps only, reactive, predictive: {dumps:?}");
+    assert!(dumps.iter().all(|[fine, coarse]| fine == coarse), "{dumps:?}");
+    assert!(dumps[0][0] > dumps[1][0] && dumps[1][0] >= dumps[2][0], "{dumps:?}");
+}
+
+#[test]
+fn cutting_and_saving_change_no_bit() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    for strategy in [2.0, 3.0] {
+        for more in [
+            &[("guided.slewRate", 1e-3)][..],
+            &[("momentum.convention", 1.0), ("gravityGradient.enabled", 1.0)],
+            &[("orbit.dynamics", 2.0)],
+            &[("momentum.convention", 1.0), ("attitude.source", 3.0), ("command.source", 2.0)],
+        ] {
+            let sets = with(&mission(strategy), more);
+            let is_flown = more.iter().any(|(name, _)| *name == "attitude.source");
+            let (from_s, until_s) = if is_flown { (6000.0, 8000.0) } else { (80_000.0, 220_000.0) };
+            let mut whole = named.fly(0.0, &sets).unwrap();
+            whole.step_to(until_s).unwrap();
+            let mut cut: Plant<'_> = named.fly(0.0, &sets).unwrap();
+            cut.step_to(from_s).unwrap();
+            let mut at_s = from_s;
+            while at_s < until_s {
+                at_s = (at_s + if is_flown { 333.3 } else { 7777.7 }).min(until_s);
+                cut.step_to(at_s).unwrap();
+                cut = cut.restored();
+            }
+            assert_same(&whole, &cut);
+        }
+    }
+}
+
+#[test]
+fn a_controlled_flight_turns_to_the_chosen_place() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let sets = with(
+        &still(60.0),
+        &[
+            ("attitude.source", 3.0),
+            ("command.source", 2.0),
+            ("start.momentum[1]", 0.0),
+            ("start.momentum[2]", 0.0),
+            ("start.momentum[3]", 0.0),
+            ("wheel[1].startMomentum", 0.5),
+            ("guided.downlinkStart", 100.0),
+            ("guided.downlinkEnd", 8.0 * HOUR_S + 100.0),
+            ("momentum.strategy", 2.0),
+        ],
+    );
+    let mut flight = named.fly(0.0, &sets).unwrap();
+    flight.step_to(99.0).unwrap();
+    let before = flight.vector("momentum.body");
+    flight.step_to(2000.0).unwrap();
+    let (azimuth_rad, elevation_rad) = (flight.real("sun.azimuth"), flight.real("sun.elevation"));
+    assert!(azimuth_rad.abs().max(elevation_rad.abs()) > 0.02, "{azimuth_rad} {elevation_rad} {before:?}");
+    flight.step_to(8.0 * HOUR_S + 100.0).unwrap();
+    let end = flight.vector("momentum.body");
+    // The slew, and what a controller is off, are all that is missing.
+    assert!(
+        flight.boolean("momentum.targetClamped") || end.xz().norm() < 0.03 * before.xz().norm(),
+        "{before:?} {end:?}"
+    );
+}
+
+#[test]
+fn a_commanded_offset_turns_the_panels_as_a_parameter_does() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut by_parameter = named.fly(0.0, &[("panel[1].sunOffset", 0.7)]).unwrap();
+    let commanded = [("panel[1].control", 3.0), ("panel[1].sunOffsetCommand", 0.7)];
+    let mut by_input = named.fly(0.0, &commanded).unwrap();
+    for flight in [&mut by_parameter, &mut by_input] {
+        flight.step_to(5000.0).unwrap();
+    }
+    assert_eq!(by_parameter.output_bits(), by_input.output_bits());
+    by_input.set("panel[1].sunOffsetCommand", 0.3);
+    by_input.step_to(5001.0).unwrap();
+    assert_ne!(by_parameter.real("panel[1].angleActual"), by_input.real("panel[1].angleActual"));
+}
+
+#[test]
+fn a_held_place_is_the_inputs_own() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut flight = named.fly(0.0, &still(60.0)).unwrap();
+    flight.step_to(500.0).unwrap();
+    assert_eq!(flight.vector("position"), Vector3::new(1e7, 0.0, 0.0));
+    assert_eq!(flight.vector("velocity"), Vector3::new(0.0, 1e3, 0.0));
+    flight.set("orbit.position[3]", 2e6);
+    flight.step_to(501.0).unwrap();
+    assert_eq!(flight.vector("position"), Vector3::new(1e7, 0.0, 2e6));
+    // Without a velocity it stands still; without a position it is not known.
+    let mut resting = named.fly(0.0, &with(&still(60.0), &[("orbit.velocity[2]", 0.0)])).unwrap();
+    resting.step_to(10.0 * HOUR_S).unwrap();
+    assert_eq!(resting.vector("position"), Vector3::new(1e7, 0.0, 0.0));
+    let waiting = named.fly(0.0, &with(&still(60.0), &[("orbit.position[1]", 0.0)])).unwrap();
+    assert_eq!(waiting.vector("sun.direction"), Vector3::zeros());
+}

@@ -1,0 +1,144 @@
+//! Where the Sun may stand during a downlink: inside the keep-in zone, with the Earth in the plane of the antennas and inside
+//! the quadrant of one of them.
+//!
+//! The Earth's azimuth is A - delta or A + delta, cos delta = cos theta / cos E (eq 20), which needs
+//! |E| <= min(theta, 180 deg - theta). An antenna that covers the azimuths m - 45 deg to m + 45 deg allows the azimuths
+//! A of the Sun within 45 deg of m + delta or m - delta.
+
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+use crate::attitude::SunAngles;
+use crate::guidance::SunPlace;
+
+/// Limits of the Sun's place about -Y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KeepInLimits {
+    /// Greatest magnitude of the azimuth, 0 to pi/2.
+    pub azimuth_rad: f64,
+    /// Greatest magnitude of the elevation, 0 to pi/2.
+    pub elevation_rad: f64,
+}
+
+/// One side of the Sun for the Earth, and one antenna.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branch {
+    /// Whether the Earth's azimuth is A + delta.
+    pub earth_ahead: bool,
+    /// Middle of the antenna's quadrant, in rad.
+    middle_rad: f64,
+    /// Angle between Sun and Earth, in rad.
+    separation_rad: f64,
+    limits: KeepInLimits,
+}
+
+impl Branch {
+    /// All four, that of the default attitude (eq 18) first.
+    pub fn all(limits: KeepInLimits, separation_rad: f64) -> [Self; 4] {
+        const SUNSHADE_RAD: f64 = -FRAC_PI_4;
+        const BACK_RAD: f64 = 3.0 * FRAC_PI_4;
+        let branch = |earth_ahead, middle_rad| Self { earth_ahead, middle_rad, separation_rad, limits };
+        let (behind, ahead) = (branch(false, SUNSHADE_RAD), branch(true, BACK_RAD));
+        let (first, second) = if separation_rad < FRAC_PI_2 { (behind, ahead) } else { (ahead, behind) };
+        [first, second, branch(true, SUNSHADE_RAD), branch(false, BACK_RAD)]
+    }
+
+    /// Greatest magnitude of the elevation, in rad.
+    pub fn elevation_rad(&self) -> f64 {
+        self.limits.elevation_rad.min(self.separation_rad).min(PI - self.separation_rad)
+    }
+
+    /// Least and greatest azimuth at an elevation; `None` where no azimuth will do.
+    pub fn azimuths_rad(&self, elevation_rad: f64) -> Option<[f64; 2]> {
+        let cosine = (self.separation_rad.cos() / elevation_rad.cos()).clamp(-1.0, 1.0);
+        let delta_rad = if self.earth_ahead { cosine.acos() } else { -cosine.acos() };
+        let middle_rad = (self.middle_rad - delta_rad + PI).rem_euclid(TAU) - PI;
+        let most_rad = self.limits.azimuth_rad.min(FRAC_PI_2);
+        let low_rad = (middle_rad - FRAC_PI_4).max(-most_rad);
+        let high_rad = (middle_rad + FRAC_PI_4).min(most_rad);
+        // What stands at a bound is inside, whatever rounding says.
+        let is_point = high_rad < low_rad && high_rad > low_rad - ROUNDING_RAD;
+        if high_rad >= low_rad || is_point { Some([low_rad.min(high_rad), high_rad]) } else { None }
+    }
+
+    /// The place with these angles if it is admissible.
+    pub fn place(&self, angles: SunAngles) -> Option<SunPlace> {
+        let nearest = self.nearest(angles)?;
+        let off_rad = (nearest.angles.azimuth_rad - angles.azimuth_rad)
+            .abs()
+            .max((nearest.angles.elevation_rad - angles.elevation_rad).abs());
+        (off_rad <= ROUNDING_RAD).then_some(nearest)
+    }
+
+    /// The admissible place nearest to these angles, elevation first.
+    pub fn nearest(&self, angles: SunAngles) -> Option<SunPlace> {
+        let most_rad = self.elevation_rad();
+        let elevation_rad = angles.elevation_rad.clamp(-most_rad, most_rad);
+        let [low_rad, high_rad] = self.azimuths_rad(elevation_rad)?;
+        let azimuth_rad = angles.azimuth_rad.clamp(low_rad, high_rad);
+        Some(SunPlace { angles: SunAngles { azimuth_rad, elevation_rad }, earth_ahead: self.earth_ahead })
+    }
+}
+
+/// Angles closer than this are one, in rad.
+const ROUNDING_RAD: f64 = 1e-12;
+
+#[cfg(test)]
+mod tests {
+    //! Where the Earth stands, by the downlink law itself.
+    use super::*;
+    use crate::attitude::MovingUnit;
+    use crate::guidance::{LinesOfSight, downlink_toward};
+    use nalgebra::Vector3;
+
+    const LIMITS: KeepInLimits = KeepInLimits { azimuth_rad: 0.26, elevation_rad: 0.23 };
+
+    fn lines(separation_rad: f64) -> LinesOfSight {
+        let still = |direction| MovingUnit { direction, rate_1_s: Vector3::zeros() };
+        LinesOfSight {
+            sun: still(Vector3::x()),
+            planet: None,
+            earth: still(Vector3::new(separation_rad.cos(), separation_rad.sin(), 0.0)),
+            sun_from_planet: None,
+        }
+    }
+
+    #[test]
+    fn admissible_places_have_the_earth_in_a_quadrant_and_others_have_not() {
+        let (mut inside, mut outside) = (0, 0);
+        for i in 1..180 {
+            let separation_rad = f64::from(i).to_radians();
+            let lines = lines(separation_rad);
+            for branch in Branch::all(LIMITS, separation_rad) {
+                for j in -26..=26 {
+                    for k in [-0.22_f64, -0.1, 0.0, 0.07, 0.2] {
+                        let angles = SunAngles { azimuth_rad: 0.01 * f64::from(j), elevation_rad: k };
+                        if k.abs() > separation_rad.min(PI - separation_rad) {
+                            assert_eq!(branch.place(angles), None);
+                            continue;
+                        }
+                        let place = SunPlace { angles, earth_ahead: branch.earth_ahead };
+                        let frame = downlink_toward(&lines, &place).frame;
+                        let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
+                        let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
+                        let off_rad = (azimuth_rad - branch.middle_rad + PI).rem_euclid(TAU) - PI;
+                        if (off_rad.abs() - FRAC_PI_4).abs() < 1e-9 {
+                            continue;
+                        }
+                        let covered = off_rad.abs() < FRAC_PI_4;
+                        assert_eq!(branch.place(angles).is_some(), covered, "{i} {branch:?} {angles:?}");
+                        if covered { inside += 1 } else { outside += 1 }
+                    }
+                }
+            }
+        }
+        assert!(inside > 10_000 && outside > 10_000, "{inside} {outside}");
+    }
+
+    #[test]
+    fn the_first_branch_is_the_default_attitude() {
+        for degrees in [1.0_f64, 30.0, 89.0, 91.0, 150.0, 179.0] {
+            let place = Branch::all(LIMITS, degrees.to_radians())[0].place(SunAngles::default());
+            assert_eq!(place.map(|it| it.earth_ahead), Some(degrees > 90.0), "{degrees}");
+        }
+    }
+}

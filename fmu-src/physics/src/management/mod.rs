@@ -1,0 +1,13 @@
+//! Momentum management by sunlight (paper 000, eqs 14 to 22 and "Momentum management strategies"): where the Sun should stand
+//! during a downlink so that its torque brings the momentum to a target, and which target that is.
+
+mod admissible;
+mod linear;
+mod profile;
+mod strategy;
+mod targeting;
+
+pub use linear::LinearTorque;
+pub use profile::{Reach, Swing, best_target};
+pub use strategy::{Manager, Strategy};
+pub use targeting::{Aim, TargetAxes, Targeted, Targeting, TargetingMethod};

@@ -1,0 +1,122 @@
+//! Strategies of paper 000: dumps alone, reactive targets, predictive targets.
+//!
+//! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the momentum from which the coming
+//! cycles, forecast in their default attitudes, keep its components smallest ([`super::profile`]); without a cycle to come it
+//! is reactive.
+
+use nalgebra::Vector3;
+
+use super::linear::LinearTorque;
+use super::profile::{Reach, Swing, best_target};
+use super::targeting::{Aim, Targeted, Targeting};
+use crate::plant::{ChosenPlace, Outlook, PlantError, SunPlanner};
+use crate::radiation::TorquePolynomial;
+use crate::spacecraft::{Sunshade, SunshadeModel};
+
+/// What sunlight is used for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategy {
+    /// Nothing: downlinks have the Sun on -Y.
+    #[default]
+    DumpsOnly,
+    /// To bring the momentum to one target.
+    Reactive,
+    /// To bring it where the coming cycles keep it smallest.
+    Predictive,
+}
+
+/// A strategy with all it needs of parameters and spacecraft.
+#[derive(Clone, Copy, Debug)]
+pub struct Manager<'a> {
+    /// Strategy.
+    pub strategy: Strategy,
+    /// Axes, formula, limits.
+    pub targeting: Targeting,
+    /// Momentum a reactive downlink aims at, body frame, in N m s.
+    pub target_body_n_m_s: Vector3<f64>,
+    /// How many cycles ahead predictive targets look.
+    pub horizon: u32,
+    /// The shade, for the linear formula.
+    pub sunshade: Option<(&'a Sunshade, SunshadeModel)>,
+}
+
+/// Samples of a forecast a cycle.
+const SAMPLES: f64 = 96.0;
+
+impl SunPlanner for Manager<'_> {
+    fn choose(&self, outlook: &mut Outlook<'_, '_>) -> Result<Option<ChosenPlace>, PlantError> {
+        let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
+            return Ok(None);
+        };
+        let swings = if self.strategy == Strategy::Predictive { self.swings(outlook)? } else { Vec::new() };
+        let linear = self.linear(outlook);
+        let threshold = outlook.threshold_body_n_m_s();
+        let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
+        let aim = Aim {
+            to_sun: outlook.to_sun,
+            to_earth,
+            momentum: outlook.momentum,
+            span_s: outlook.span_s,
+            torque_body_n_m: &torque,
+            linear: linear.map(|formula| (formula, outlook.pressure_pa)),
+        };
+        let target = self.predicted(&aim, &swings, &threshold).unwrap_or(self.target_body_n_m_s);
+        let targeted = self.targeting.sun_place(&aim, &target);
+        Ok(targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped }))
+    }
+}
+
+impl Manager<'_> {
+    fn linear(&self, outlook: &Outlook<'_, '_>) -> Option<LinearTorque> {
+        let (shade, model) = self.sunshade?;
+        let center_of_mass_body_m = outlook.center_of_mass_body_m();
+        let polynomial = TorquePolynomial::of_sunshade(shade, model, &center_of_mass_body_m).ok()?;
+        Some(LinearTorque::new(&polynomial, shade.dcm_body_from_shade))
+    }
+
+    /// What each coming span of science does to the momentum, by component.
+    fn swings(&self, outlook: &mut Outlook<'_, '_>) -> Result<Vec<[Swing; 3]>, PlantError> {
+        let cycle_s = outlook.cycle_s();
+        let mut swings: Vec<[Swing; 3]> = Vec::new();
+        if !cycle_s.is_finite() || cycle_s <= 0.0 {
+            return Ok(swings);
+        }
+        let until_s = outlook.time_s + f64::from(self.horizon) * cycle_s;
+        let (mut base, mut was_downlink) = (Vector3::zeros(), true);
+        outlook.forecast(until_s, cycle_s / SAMPLES, |at| {
+            if at.downlink {
+                base = at.momentum_body_n_m_s;
+            } else {
+                if was_downlink {
+                    swings.push([Swing::default(); 3]);
+                }
+                if let Some(last) = swings.last_mut() {
+                    for (axis, swing) in last.iter_mut().enumerate() {
+                        swing.note(at.momentum_body_n_m_s[axis] - base[axis]);
+                    }
+                }
+            }
+            was_downlink = at.downlink;
+        })?;
+        Ok(swings)
+    }
+
+    /// The target that keeps the momentum of the coming cycles smallest; `None` without such a cycle.
+    fn predicted(
+        &self,
+        aim: &Aim<'_>,
+        swings: &[[Swing; 3]],
+        threshold: &Vector3<f64>,
+    ) -> Option<Vector3<f64>> {
+        if swings.is_empty() {
+            return None;
+        }
+        let now = self.targeting.default_momentum(aim)?;
+        let [along_x, along_z] = self.targeting.reach(aim)?;
+        let best = |axis: usize, reach: Reach| {
+            let along: Vec<Swing> = swings.iter().map(|swing| swing[axis]).collect();
+            best_target(now[axis], reach, &along, threshold[axis])
+        };
+        Some(Vector3::new(best(0, along_x), 0.0, best(2, along_z)))
+    }
+}

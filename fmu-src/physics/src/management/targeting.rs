@@ -1,0 +1,334 @@
+//! Where the Sun should stand during a downlink so that components of momentum end at a target (paper 000, eqs 14 to 22).
+//!
+//! Equation: C(A, E) H + span T(A, E) = target on the targeted axes, C the downlink attitude with the Sun at azimuth A and
+//! elevation E, T the whole torque of sunlight there; with momentum by the body integral, H + span T(A, E) = target. With one
+//! axis the other angle stays 0, or as near to it as the antennas allow. The linear method takes H in the default attitude and
+//! the shade's torque to first order in the angles (eq 17).
+//! Method: Newton with central differences on both sides of the Sun and for both antennas; for one axis a bracketed root. Where
+//! no admissible place reaches the target, the one that comes nearest to it in momentum, by golden section search.
+//! Error measure: none at run time; the equation holds to rounding where a root is found.
+
+use nalgebra::{Matrix2, Vector2, Vector3};
+
+use super::admissible::{Branch, KeepInLimits};
+use super::linear::LinearTorque;
+use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
+use crate::guidance::{LinesOfSight, SunPlace, downlink_toward};
+use crate::numerics::roots;
+use crate::plant::StartMomentum;
+
+/// Components of momentum that sunlight is to bring to a target.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TargetAxes {
+    /// X, by the Sun's elevation.
+    X,
+    /// Z, by the Sun's azimuth.
+    Z,
+    /// Both.
+    #[default]
+    XAndZ,
+}
+
+impl TargetAxes {
+    /// Whether X and Z are targeted.
+    pub fn asked(self) -> [bool; 2] {
+        [self != Self::Z, self != Self::X]
+    }
+}
+
+/// How the Sun's place is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TargetingMethod {
+    /// The whole torque, and the attitude's turn of the momentum.
+    #[default]
+    Exact,
+    /// Eq 17.
+    Linear,
+}
+
+/// What targeting may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Targeting {
+    /// Components with a target.
+    pub axes: TargetAxes,
+    /// Formula.
+    pub method: TargetingMethod,
+    /// Keep-in limits of the Sun about -Y: greatest magnitude of the azimuth, in rad.
+    pub azimuth_limit_rad: f64,
+    /// Of the elevation, in rad.
+    pub elevation_limit_rad: f64,
+}
+
+/// What a downlink starts from and what its light does.
+pub struct Aim<'a> {
+    /// Unit vector to the Sun, EME2000.
+    pub to_sun: Vector3<f64>,
+    /// Unit vector to the Earth, EME2000.
+    pub to_earth: Vector3<f64>,
+    /// Momentum at the start.
+    pub momentum: StartMomentum,
+    /// How long the downlink lasts, in s.
+    pub span_s: f64,
+    /// Torque of sunlight in N m, body frame, with the Sun in this direction of the body frame.
+    pub torque_body_n_m: &'a dyn Fn(&Vector3<f64>) -> Vector3<f64>,
+    /// The shade's linear formula and the pressure of sunlight, in Pa; absent without a shade.
+    pub linear: Option<(LinearTorque, f64)>,
+}
+
+/// The place found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Targeted {
+    /// Where the Sun is to stand.
+    pub place: SunPlace,
+    /// Whether the place that reaches the target is not admissible, or there is none.
+    pub clamped: bool,
+}
+
+/// Newton steps.
+const NEWTON_STEPS: usize = 30;
+/// Half width of central differences, in rad.
+const DIFFERENCE_RAD: f64 = 1e-5;
+/// What is left of a target counts as rounding below this part of momentum and target, and of 1 N m s.
+const ROUNDING: f64 = 1e-13;
+/// Steps of a golden section search.
+const GOLDEN_STEPS: usize = 44;
+/// Intervals looked through for a root.
+const INTERVALS: usize = 16;
+
+impl Targeting {
+    /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
+    /// or no place is admissible.
+    pub fn sun_place(&self, aim: &Aim<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
+        let branches = self.branches(aim)?;
+        match self.method {
+            TargetingMethod::Exact => self.exact(aim, target_body_n_m_s, &branches),
+            TargetingMethod::Linear => self.linear(aim, target_body_n_m_s, &branches),
+        }
+    }
+
+    /// What the downlink can add to X and Z of the momentum at the start, in N m s, with the other angle at 0: least and most.
+    pub fn reach(&self, aim: &Aim<'_>) -> Option<[[f64; 2]; 2]> {
+        let branch = self.branches(aim)?[0];
+        let change = |elevation_rad: f64, azimuth_rad: f64| {
+            let sun_body = direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
+            (aim.torque_body_n_m)(&sun_body) * aim.span_s
+        };
+        let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
+        let most_rad = branch.elevation_rad();
+        let [low_rad, high_rad] = branch.azimuths_rad(0.0)?;
+        Some([
+            sorted(change(-most_rad, 0.0).x, change(most_rad, 0.0).x),
+            sorted(change(0.0, low_rad).z, change(0.0, high_rad).z),
+        ])
+    }
+
+    /// Momentum at the start in the default downlink attitude, body frame, in N m s.
+    pub fn default_momentum(&self, aim: &Aim<'_>) -> Option<Vector3<f64>> {
+        let place = self.branches(aim)?[0].nearest(SunAngles::default())?;
+        Some(aim.momentum_body_n_m_s(&place))
+    }
+
+    fn branches(&self, aim: &Aim<'_>) -> Option<[Branch; 4]> {
+        let separation_rad = angle_between_rad(&aim.to_sun, &aim.to_earth);
+        // Neither places nor separation is known where one has no direction.
+        let has_plane = separation_rad.sin() > 1e-9;
+        let limits =
+            KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad };
+        has_plane.then(|| Branch::all(limits, separation_rad))
+    }
+
+    fn exact(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch; 4]) -> Option<Targeted> {
+        let tolerance = ROUNDING * (1.0 + aim.momentum.magnitude_n_m_s() + target.norm());
+        let mut best: Option<(f64, Targeted)> = None;
+        for branch in branches {
+            let found = match self.axes {
+                TargetAxes::XAndZ => self.both(aim, target, branch, tolerance),
+                TargetAxes::X | TargetAxes::Z => self.one(aim, target, branch),
+            };
+            let Some((place, left)) = found else { continue };
+            let is_reached = left <= 10.0 * tolerance;
+            if is_reached {
+                return Some(Targeted { place, clamped: false });
+            }
+            if best.is_none_or(|(least, _)| left < least - tolerance) {
+                best = Some((left, Targeted { place, clamped: true }));
+            }
+        }
+        best.map(|(_, targeted)| targeted)
+    }
+
+    /// The place for both axes on one branch, and what is left of the target.
+    fn both(
+        &self,
+        aim: &Aim<'_>,
+        target: &Vector3<f64>,
+        branch: &Branch,
+        tolerance: f64,
+    ) -> Option<(SunPlace, f64)> {
+        let left = |azimuth_rad: f64, elevation_rad: f64| {
+            let angles = SunAngles { azimuth_rad, elevation_rad };
+            aim.left(&SunPlace { angles, earth_ahead: branch.earth_ahead }, target).xz()
+        };
+        let start = branch.nearest(SunAngles::default())?.angles;
+        if let Some(angles) = newton(start, left, tolerance)
+            && let Some(place) = branch.place(angles)
+        {
+            return Some((place, left(place.angles.azimuth_rad, place.angles.elevation_rad).norm()));
+        }
+        let along_azimuth = |elevation_rad: f64| {
+            let [low_rad, high_rad] = branch.azimuths_rad(elevation_rad)?;
+            Some(golden(low_rad, high_rad, |azimuth_rad| left(azimuth_rad, elevation_rad).norm()))
+        };
+        let most_rad = branch.elevation_rad();
+        let (elevation_rad, least) = golden(-most_rad, most_rad, |elevation_rad| {
+            along_azimuth(elevation_rad).map_or(f64::INFINITY, |(_, least)| least)
+        });
+        let (azimuth_rad, _) = along_azimuth(elevation_rad)?;
+        Some((branch.nearest(SunAngles { azimuth_rad, elevation_rad })?, least))
+    }
+
+    /// The same for one axis, the other angle at 0 as far as that is admissible.
+    fn one(&self, aim: &Aim<'_>, target: &Vector3<f64>, branch: &Branch) -> Option<(SunPlace, f64)> {
+        let by_elevation = self.axes == TargetAxes::X;
+        let angles = |angle_rad: f64| {
+            if by_elevation {
+                SunAngles { azimuth_rad: 0.0, elevation_rad: angle_rad }
+            } else {
+                SunAngles { azimuth_rad: angle_rad, elevation_rad: 0.0 }
+            }
+        };
+        let [low_rad, high_rad] = if by_elevation {
+            [-branch.elevation_rad(), branch.elevation_rad()]
+        } else {
+            branch.azimuths_rad(0.0)?
+        };
+        let left = |angle_rad: f64| {
+            branch.nearest(angles(angle_rad)).map_or(f64::NAN, |place| {
+                let left = aim.left(&place, target);
+                if by_elevation { left.x } else { left.z }
+            })
+        };
+        let at = |k: usize| low_rad + (high_rad - low_rad) * k as f64 / INTERVALS as f64;
+        let roots = (0..INTERVALS).filter_map(|k| {
+            let (from, to) = (at(k), at(k + 1));
+            let changes_sign = left(from) * left(to) <= 0.0;
+            changes_sign.then(|| roots::bracketed(from, to, 0.0, left).ok()).flatten()
+        });
+        let nearest = roots.min_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let angle_rad = nearest.unwrap_or_else(|| {
+            let misses = (0..=INTERVALS).map(|k| (at(k), left(at(k)).abs()));
+            let best = misses.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(angle_rad, _)| angle_rad);
+            let step_rad = (high_rad - low_rad) / INTERVALS as f64;
+            let (from, to) = ((best - step_rad).max(low_rad), (best + step_rad).min(high_rad));
+            golden(from, to, |angle_rad| left(angle_rad).abs()).0
+        });
+        let place = branch.nearest(angles(angle_rad))?;
+        let left = left(angle_rad).abs();
+        left.is_finite().then_some((place, left))
+    }
+
+    fn linear(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch; 4]) -> Option<Targeted> {
+        let (linear, pressure_pa) = aim.linear.as_ref()?;
+        let start = branches[0].nearest(SunAngles::default())?;
+        let [by_x, by_z] = self.axes.asked();
+        let mut change = target - aim.momentum_body_n_m_s(&start);
+        change.y = 0.0;
+        for (component, asked) in [(0, by_x), (2, by_z)] {
+            if !asked {
+                change[component] = 0.0;
+            }
+        }
+        let asked = linear.sun_angles(&(change / aim.span_s), *pressure_pa, self.axes.asked());
+        let wanted = asked.unwrap_or_default();
+        let distance_rad = |place: &SunPlace| {
+            let to = direction_from_angles(place.angles);
+            angle_between_rad(&to, &direction_from_angles(wanted))
+        };
+        let places = branches.iter().filter_map(|branch| branch.nearest(wanted));
+        let nearest = |best: SunPlace, next: SunPlace| {
+            if distance_rad(&next) < distance_rad(&best) - ROUNDING { next } else { best }
+        };
+        let place = places.reduce(nearest)?;
+        let clamped = asked.is_none() || distance_rad(&place) > 1e-9;
+        Some(Targeted { place, clamped })
+    }
+}
+
+impl Aim<'_> {
+    /// Momentum at the start in the attitude with the Sun at `place`, body frame, in N m s.
+    fn momentum_body_n_m_s(&self, place: &SunPlace) -> Vector3<f64> {
+        match self.momentum {
+            StartMomentum::Body(momentum) => momentum,
+            StartMomentum::Inertial(momentum) => {
+                let still = |direction| MovingUnit { direction, rate_1_s: Vector3::zeros() };
+                let (sun, earth) = (still(self.to_sun), still(self.to_earth));
+                let lines = LinesOfSight { sun, earth, planet: None, sun_from_planet: None };
+                downlink_toward(&lines, place).frame.inertial_from_body.inverse() * momentum
+            }
+        }
+    }
+
+    /// Momentum at the end less the target, body frame, in N m s.
+    fn left(&self, place: &SunPlace, target: &Vector3<f64>) -> Vector3<f64> {
+        let torque = (self.torque_body_n_m)(&direction_from_angles(place.angles));
+        self.momentum_body_n_m_s(place) + torque * self.span_s - target
+    }
+}
+
+/// A root by Newton's method, steps halved while they make it worse.
+fn newton(start: SunAngles, left: impl Fn(f64, f64) -> Vector2<f64>, tolerance: f64) -> Option<SunAngles> {
+    let mut at = Vector2::new(start.azimuth_rad, start.elevation_rad);
+    let mut now = left(at.x, at.y);
+    for _ in 0..NEWTON_STEPS {
+        if now.norm() <= tolerance {
+            break;
+        }
+        let slope = |axis: usize| {
+            let step = Vector2::ith(axis, DIFFERENCE_RAD);
+            let (ahead, behind) = (at + step, at - step);
+            (left(ahead.x, ahead.y) - left(behind.x, behind.y)) / (2.0 * DIFFERENCE_RAD)
+        };
+        let step = Matrix2::from_columns(&[slope(0), slope(1)]).try_inverse()? * now;
+        let mut share = 1.0;
+        let (next, then) = loop {
+            let next = at - step * share;
+            let then = left(next.x, next.y);
+            if then.norm() < now.norm() || share < 1e-3 {
+                break (next, then);
+            }
+            share *= 0.5;
+        };
+        if then.norm() >= now.norm() {
+            break;
+        }
+        (at, now) = (next, then);
+    }
+    let is_angle = at.amax() < core::f64::consts::FRAC_PI_2;
+    (is_angle && now.norm() <= 10.0 * tolerance)
+        .then_some(SunAngles { azimuth_rad: at.x, elevation_rad: at.y })
+}
+
+/// Where a function of one lowest value has it in [`low`, `high`], and that value; the ends count.
+fn golden(low: f64, high: f64, mut function: impl FnMut(f64) -> f64) -> (f64, f64) {
+    const SHARE: f64 = 0.618_033_988_749_894_9;
+    let (mut from, mut to) = (low, high);
+    let (mut a, mut b) = (to - SHARE * (to - from), from + SHARE * (to - from));
+    let (mut f_a, mut f_b) = (function(a), function(b));
+    for _ in 0..GOLDEN_STEPS {
+        if f_a <= f_b {
+            (to, b, f_b) = (b, a, f_a);
+            a = to - SHARE * (to - from);
+            f_a = function(a);
+        } else {
+            (from, a, f_a) = (a, b, f_b);
+            b = from + SHARE * (to - from);
+            f_b = function(b);
+        }
+    }
+    let middle = 0.5 * (from + to);
+    let ends = [low, high, middle].map(|at| (at, function(at)));
+    ends.into_iter().fold((middle, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+}
+
+#[cfg(test)]
+mod tests;

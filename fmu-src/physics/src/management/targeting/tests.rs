@@ -1,0 +1,199 @@
+//! The equation at the place found, a search over all places where the target is out of reach, and the linear formula's error.
+
+use approx::assert_relative_eq;
+use nalgebra::Rotation3;
+
+use super::*;
+use crate::radiation::{Beam, SolarModel, TorquePolynomial};
+use crate::spacecraft::{MESSENGER_TOML, Spacecraft};
+
+const PRESSURE_PA: f64 = 5.0145e-5;
+const SPAN_S: f64 = 28_800.0;
+const TARGETING: Targeting = Targeting {
+    axes: TargetAxes::XAndZ,
+    method: TargetingMethod::Exact,
+    azimuth_limit_rad: 15.0 * crate::constants::DEG_RAD,
+    elevation_limit_rad: 13.0 * crate::constants::DEG_RAD,
+};
+
+struct Craft {
+    spacecraft: Spacecraft,
+    solar: SolarModel,
+    center_of_mass_m: Vector3<f64>,
+}
+
+impl Craft {
+    fn new(center_of_mass_m: Vector3<f64>, shade_turn_rad: f64) -> Self {
+        let mut spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+        if let Some(shade) = &mut spacecraft.sunshade {
+            let turn = Rotation3::from_euler_angles(0.3 * shade_turn_rad, shade_turn_rad, 0.0);
+            shade.dcm_body_from_shade = *turn.matrix();
+        }
+        let solar = SolarModel::new(&spacecraft);
+        Self { spacecraft, solar, center_of_mass_m }
+    }
+
+    fn torque(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
+        let beam = Beam { source_body: *sun_body, pressure_pa: PRESSURE_PA };
+        let angles: Vec<f64> = self
+            .spacecraft
+            .panels
+            .iter()
+            .map(|panel| panel.angle_for_sun_offset(sun_body, 1.1, 1.0))
+            .collect();
+        self.solar.total(&beam, &angles, &self.center_of_mass_m).torque_body_n_m
+    }
+
+    fn linear(&self) -> (LinearTorque, f64) {
+        let shade = self.spacecraft.sunshade.as_ref().unwrap();
+        let polynomial = TorquePolynomial::of_sunshade(shade, shade.model, &self.center_of_mass_m).unwrap();
+        (LinearTorque::new(&polynomial, shade.dcm_body_from_shade), PRESSURE_PA)
+    }
+}
+
+fn earth(separation_deg: f64) -> Vector3<f64> {
+    let angle_rad = separation_deg.to_radians();
+    Vector3::new(0.2 * angle_rad.sin(), angle_rad.cos(), -(0.96_f64).sqrt() * angle_rad.sin())
+}
+
+/// The body frame of a place typed anew: rows of the body axes from Sun and Earth.
+fn body_from_inertial(to_sun: &Vector3<f64>, to_earth: &Vector3<f64>, place: &SunPlace) -> Rotation3<f64> {
+    let separation_rad = to_sun.angle(to_earth);
+    let SunAngles { azimuth_rad, elevation_rad } = place.angles;
+    let delta_rad = (separation_rad.cos() / elevation_rad.cos()).acos();
+    let earth_rad = if place.earth_ahead { azimuth_rad + delta_rad } else { azimuth_rad - delta_rad };
+    let sun_body = direction_from_angles(place.angles);
+    let earth_body = Vector3::new(earth_rad.sin(), -earth_rad.cos(), 0.0);
+    let triad = |a: &Vector3<f64>, b: &Vector3<f64>| {
+        let normal = a.cross(b).normalize();
+        nalgebra::Matrix3::from_columns(&[*a, normal, a.cross(&normal)])
+    };
+    Rotation3::from_matrix_unchecked(triad(&sun_body, &earth_body) * triad(to_sun, to_earth).transpose())
+}
+
+fn aims() -> Vec<(f64, StartMomentum)> {
+    let separations = [25.0, 60.0, 85.0, 95.0, 130.0, 160.0];
+    let momenta = [Vector3::new(0.3, 0.1, -0.2), Vector3::new(-0.8, 0.3, 0.4), Vector3::zeros()];
+    let both = |momentum| [StartMomentum::Inertial(momentum), StartMomentum::Body(momentum)];
+    separations
+        .into_iter()
+        .flat_map(|degrees| momenta.into_iter().flat_map(both).map(move |it| (degrees, it)))
+        .collect()
+}
+
+#[test]
+fn an_attainable_target_is_hit_to_rounding() {
+    let mut reached = [0; 3];
+    for turn_rad in [0.0, 0.05] {
+        let craft = Craft::new(Vector3::new(0.01, -0.01, 0.02), turn_rad);
+        let torque = |sun: &Vector3<f64>| craft.torque(sun);
+        for (degrees, momentum) in aims() {
+            let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
+            let linear = Some(craft.linear());
+            let aim = Aim { to_sun, to_earth, momentum, span_s: SPAN_S, torque_body_n_m: &torque, linear };
+            for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::XAndZ, 2)] {
+                let targeting = Targeting { axes, ..TARGETING };
+                let target = Vector3::new(-0.05, 7.0, 0.1);
+                let Some(Targeted { place, clamped }) = targeting.sun_place(&aim, &target) else {
+                    panic!("{degrees} {momentum:?}")
+                };
+                if clamped {
+                    continue;
+                }
+                reached[count] += 1;
+                let body = body_from_inertial(&to_sun, &to_earth, &place);
+                let start = match momentum {
+                    StartMomentum::Inertial(momentum) => body * momentum,
+                    StartMomentum::Body(momentum) => momentum,
+                };
+                let end = start + craft.torque(&(body * to_sun)) * SPAN_S;
+                for (component, asked) in [(0, axes.asked()[0]), (2, axes.asked()[1])] {
+                    if asked {
+                        assert_relative_eq!(end[component], target[component], epsilon = 1e-11);
+                    }
+                }
+                assert!(place.angles.azimuth_rad.abs() <= targeting.azimuth_limit_rad);
+                assert!(place.angles.elevation_rad.abs() <= targeting.elevation_limit_rad);
+                let earth_rad = SunAngles::of(&(body * to_earth)).azimuth_rad.to_degrees();
+                assert!(
+                    (-90.0 - 1e-9..=1e-9).contains(&earth_rad) || earth_rad >= 90.0 - 1e-9,
+                    "{earth_rad}"
+                );
+            }
+        }
+    }
+    assert!(reached.iter().all(|count| *count > 20), "{reached:?}");
+}
+
+#[test]
+fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
+    let craft = Craft::new(Vector3::new(0.0, 0.0, 0.05), 0.0);
+    let torque = |sun: &Vector3<f64>| craft.torque(sun);
+    let mut clamped = 0;
+    for (degrees, momentum) in aims() {
+        let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
+        let aim = Aim { to_sun, to_earth, momentum, span_s: SPAN_S, torque_body_n_m: &torque, linear: None };
+        for target in
+            [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
+        {
+            let found = TARGETING.sun_place(&aim, &target).unwrap();
+            clamped += i32::from(found.clamped);
+            let best = aim.left(&found.place, &target).xz().norm();
+            for branch in TARGETING.branches(&aim).unwrap() {
+                for i in -40..=40 {
+                    for j in -40..=40 {
+                        let angles = SunAngles {
+                            azimuth_rad: TARGETING.azimuth_limit_rad * f64::from(i) / 40.0,
+                            elevation_rad: TARGETING.elevation_limit_rad * f64::from(j) / 40.0,
+                        };
+                        let Some(place) = branch.place(angles) else { continue };
+                        let other = aim.left(&place, &target).xz().norm();
+                        assert!(other > best - 1e-6, "{degrees} {momentum:?} {target:?}: {other} {best}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(clamped > 90, "{clamped}");
+}
+
+#[test]
+fn the_linear_formula_falls_short_by_a_few_per_cent() {
+    let craft = Craft::new(Vector3::new(0.0, 0.0, 0.0), 0.0);
+    let shade = |sun: &Vector3<f64>| {
+        let beam = Beam { source_body: *sun, pressure_pa: PRESSURE_PA };
+        craft.solar.sunshade(&beam, &craft.center_of_mass_m).torque_body_n_m
+    };
+    let (to_sun, to_earth) = (Vector3::y(), earth(60.0));
+    let linear = Some(craft.linear());
+    let momentum = StartMomentum::Body(Vector3::zeros());
+    let aim = Aim { to_sun, to_earth, momentum, span_s: SPAN_S, torque_body_n_m: &shade, linear };
+    let by =
+        |method, target: &Vector3<f64>| Targeting { method, ..TARGETING }.sun_place(&aim, target).unwrap();
+    let mut worst = 0.0_f64;
+    for share in [-0.9, -0.4, 0.3, 0.9] {
+        let target = Vector3::new(0.6 * share, 0.0, -0.3 * share);
+        let (exact, linear) = (by(TargetingMethod::Exact, &target), by(TargetingMethod::Linear, &target));
+        assert!(aim.left(&exact.place, &target).xz().norm() < 1e-11);
+        worst = worst.max(aim.left(&linear.place, &target).xz().norm() / target.xz().norm());
+    }
+    // The notes say up to 8 % inside the zone.
+    assert!((0.002..0.08).contains(&worst), "{worst}");
+}
+
+#[test]
+fn without_a_plane_of_sun_and_earth_there_is_no_place() {
+    let none = |_: &Vector3<f64>| Vector3::zeros();
+    for to_earth in [Vector3::y(), -Vector3::y()] {
+        let momentum = StartMomentum::Body(Vector3::x());
+        let aim = Aim {
+            to_sun: Vector3::y(),
+            to_earth,
+            momentum,
+            span_s: SPAN_S,
+            torque_body_n_m: &none,
+            linear: None,
+        };
+        assert_eq!(TARGETING.sun_place(&aim, &Vector3::zeros()), None);
+    }
+}

@@ -1,0 +1,154 @@
+//! What can be known where a downlink begins: Sun and Earth, torque by the Sun's place, and momentum ahead.
+//!
+//! A forecast flies the same spacecraft on a copy of its state, guided ideally in the default downlink attitudes, without dumps,
+//! what is applied from outside being held: nothing of the flight itself changes.
+
+use nalgebra::Vector3;
+
+use super::configuration::AttitudeSource;
+use super::error::PlantError;
+use super::evaluation::Plant;
+use super::flight::Flight;
+use crate::guidance::Guided;
+use crate::momentum::{Convention, MomentumIntegrator, Totals};
+use crate::radiation::Beam;
+
+/// Momentum where a downlink begins, in N m s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StartMomentum {
+    /// EME2000; it stays there while the body turns.
+    Inertial(Vector3<f64>),
+    /// Body components, whatever the attitude: the integral of each component of torque, or a start that is given in them.
+    Body(Vector3<f64>),
+}
+
+impl StartMomentum {
+    /// What a choice of attitude makes of totals under a convention.
+    pub fn of(totals: &Totals, convention: Convention) -> Self {
+        match convention {
+            Convention::Inertial => Self::Inertial(totals.momentum_inertial_n_m_s),
+            Convention::BodyIntegral => Self::Body(totals.torque_integral_body_n_m_s),
+        }
+    }
+
+    /// Magnitude, in N m s.
+    pub fn magnitude_n_m_s(&self) -> f64 {
+        match self {
+            Self::Inertial(momentum) | Self::Body(momentum) => momentum.norm(),
+        }
+    }
+}
+
+/// Momentum at a time ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForecastMomentum {
+    /// When, in s.
+    pub time_s: f64,
+    /// Whether a downlink lasts then.
+    pub downlink: bool,
+    /// By the flight's convention, body frame, in N m s.
+    pub momentum_body_n_m_s: Vector3<f64>,
+}
+
+/// Where a downlink begins.
+pub struct Outlook<'o, 'f> {
+    pub(super) flight: &'o mut Flight<'f>,
+    pub(super) law: Guided,
+    pub(super) totals: Totals,
+    pub(super) work_limit: u32,
+    /// When, in s.
+    pub time_s: f64,
+    /// How long the downlink lasts, in s.
+    pub span_s: f64,
+    /// Momentum here.
+    pub momentum: StartMomentum,
+    /// Unit vector to the Sun, EME2000.
+    pub to_sun: Vector3<f64>,
+    /// Unit vector to the Earth, EME2000; `None` where its place is not known.
+    pub to_earth: Option<Vector3<f64>>,
+    /// Pressure of sunlight, in Pa, without a shadow.
+    pub pressure_pa: f64,
+}
+
+impl Outlook<'_, '_> {
+    /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.
+    pub fn torque_body_n_m(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
+        let (configuration, panels) = (&*self.flight.configuration, self.flight.prepared.panels);
+        let center_of_mass = configuration.mass_properties(panels, sun_body).center_of_mass_body_m;
+        let beam = Beam { source_body: *sun_body, pressure_pa: self.pressure_pa };
+        self.flight.prepared.sunlight(configuration, &beam, &center_of_mass).torque_body_n_m
+    }
+
+    /// Centre of mass with the panels as they stand to a Sun on -Y, body frame, in m.
+    pub fn center_of_mass_body_m(&self) -> Vector3<f64> {
+        let (configuration, panels) = (&*self.flight.configuration, self.flight.prepared.panels);
+        configuration.mass_properties(panels, &-Vector3::y()).center_of_mass_body_m
+    }
+
+    /// Length of a cycle of science and downlink, in s; infinite where none follows.
+    pub fn cycle_s(&self) -> f64 {
+        let schedule = &self.law.schedule;
+        if schedule.once { f64::INFINITY } else { f64::from(schedule.every) * schedule.period_s }
+    }
+
+    /// Momentum from here to `until_s`, every `step_s`.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn forecast(
+        &mut self,
+        until_s: f64,
+        step_s: f64,
+        mut visit: impl FnMut(ForecastMomentum),
+    ) -> Result<(), PlantError> {
+        let Self { flight, law, totals, work_limit, time_s, .. } = self;
+        let guided = Guided { managed: false, sun_place: None, ..*law };
+        let configuration = &mut *flight.configuration;
+        let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(guided));
+        let momentum = configuration.momentum;
+        configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
+        let settings = configuration.momentum;
+        let mut propagator = flight.propagator.clone();
+        propagator.cut(configuration, *time_s, true);
+        let applied = (flight.external)(*time_s);
+        let mut integrator = MomentumIntegrator::new(*time_s, *totals);
+        let steps = ((until_s - *time_s) / step_s).ceil().max(0.0) as usize;
+        let mut flown = Ok(());
+        for step in 0..=steps {
+            let at_s = (*time_s + step as f64 * step_s).min(until_s);
+            let mut plant = Plant::new(
+                flight.prepared,
+                flight.configuration,
+                &mut propagator,
+                flight.ephemeris,
+                flight.light.as_deref_mut(),
+                |_| applied,
+                *work_limit,
+            );
+            flown = integrator.advance(&mut plant, &settings, at_s, |_| {});
+            if flown.is_err() {
+                break;
+            }
+            let instant = plant.instant(at_s);
+            visit(ForecastMomentum {
+                time_s: at_s,
+                downlink: instant.regime.downlink,
+                momentum_body_n_m_s: integrator
+                    .totals(at_s)
+                    .momentum_body_n_m_s(settings.convention, &instant.frame.inertial_from_body),
+            });
+        }
+        (flight.configuration.attitude, flight.configuration.momentum) = (attitude, momentum);
+        flown
+    }
+
+    /// Which momentum the flight's convention watches.
+    pub fn convention(&self) -> Convention {
+        self.flight.configuration.momentum.convention
+    }
+
+    /// Magnitude of each component that triggers a dump, in N m s.
+    pub fn threshold_body_n_m_s(&self) -> Vector3<f64> {
+        self.flight.configuration.momentum.policy.threshold_body_n_m_s
+    }
+}

@@ -1,0 +1,60 @@
+//! Where the Sun stands during a downlink, chosen where the downlink begins.
+
+use serde::{Deserialize, Serialize};
+
+use super::error::PlantError;
+use super::outlook::Outlook;
+use crate::guidance::SunPlace;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+
+/// Who chooses the Sun's place; asked once a downlink, and again after a dump at its very beginning.
+pub trait SunPlanner {
+    /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be flown.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    fn choose(&self, outlook: &mut Outlook<'_, '_>) -> Result<Option<ChosenPlace>, PlantError>;
+}
+
+/// A place of the Sun in the body frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChosenPlace {
+    /// Of the Sun.
+    pub place: SunPlace,
+    /// Whether limits keep the momentum from its target.
+    pub clamped: bool,
+}
+
+/// The last choice; the slew after a downlink starts from its attitude.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SunChoice {
+    /// What was chosen.
+    pub chosen: Option<ChosenPlace>,
+    /// When, in s.
+    pub(super) chosen_s: Option<f64>,
+    /// Whether its downlink lasts.
+    pub(super) in_force: bool,
+}
+
+impl SunChoice {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.chosen.is_none_or(|chosen| chosen.place.is_sound())
+            && self.chosen_s.is_none_or(|at_s| at_s.abs() <= GREATEST_IN_STATE)
+    }
+
+    /// The Sun's place in the downlink attitude; `None`: on -Y.
+    pub fn place(&self) -> Option<SunPlace> {
+        self.chosen.map(|chosen| chosen.place)
+    }
+
+    /// Whether a downlink lasts whose target is out of reach.
+    pub fn is_clamped(&self) -> bool {
+        self.in_force && self.chosen.is_some_and(|chosen| chosen.clamped)
+    }
+
+    /// Whether something is due in a window of downlink or of science.
+    pub(super) fn is_due(&self, downlink: bool) -> bool {
+        downlink != self.in_force
+    }
+}
