@@ -46,7 +46,7 @@ fn nutation_follows_eq_8_with_the_nutation_kick_pulse_by_pulse() {
                     plant
                         .advance(&spinner, first + (f64::from(k - 1) + 0.4) * turns * period + width_s)
                         .unwrap();
-                    let seen = plant.motion().at(plant.time_s()).nutation_rad();
+                    let seen = plant.state().nutation_rad(plant.motion().inertia());
                     // Eq 8 sums transverse over axial momentum: the tangent. Up to 0.01 rad angle and tangent are one.
                     let sum = uniform_train_rad(kick, spin.phase_advance_rad(turns), k);
                     let expected = if sum < 0.01 { sum } else { sum.atan() };
