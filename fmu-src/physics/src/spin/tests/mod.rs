@@ -4,12 +4,14 @@ mod flights;
 mod late;
 mod motion;
 mod observation;
+mod products;
 mod refusals;
 mod rocket;
 mod split;
 mod steering;
 mod tank;
 mod theory;
+mod valves;
 mod work;
 
 use nalgebra::Vector3;
