@@ -39,14 +39,21 @@ fn motion(table: &mut Dependencies, setup: &Spinner, v: &SpinVariables) {
     let spin = &knowns![v.spin.initial_rate];
     let tilted = &knowns![spin, inertia(v), start.nutation, start.nutation_phase];
     let attitude = &knowns![start.q];
-    // The principal axes turn in the body where the table has products of inertia.
-    let turns_axes = &switches.clone().only_if(setup.mass_properties.products_of_inertia_kg_m2.is_some());
+    // Propellant turns the principal axes in the body where the table has products of inertia.
+    let propellant_turns = setup.mass_properties.products_of_inertia_kg_m2.is_some();
+    let turns_axes = &switches.clone().only_if(propellant_turns);
+    let loaded = knowns![v.propellant.loaded].only_if(propellant_turns);
+    let axes = &knowns![v.inertia, v.products_of_inertia, v.mass_properties.source, loaded];
 
     table.output(v.attitude.q, nothing, attitude);
     table.output(v.spin_axis.inertial, nothing, attitude);
     table.output(v.spin_axis.displacement, nothing, nothing);
     table.output(v.momentum.body, nothing, tilted);
-    table.output(v.attitude.rate, switches, tilted);
+    for axis in 0..2 {
+        table.output(v.attitude.rate.element(axis), switches, tilted);
+    }
+    let coned = knowns![spin, axes, start.nutation, start.nutation_phase];
+    table.output(v.attitude.rate.element(2), switches, coned);
     table.output(v.momentum.inertial, nothing, knowns![tilted, attitude]);
     table.output(v.momentum.displacement, nothing, nothing);
     table.output(v.spin.rate, switches, spin);
@@ -54,7 +61,7 @@ fn motion(table: &mut Dependencies, setup: &Spinner, v: &SpinVariables) {
     table.output(v.mass_properties.inertia, switches, inertia(v));
     table.output(v.inertia_ratio, switches, inertia(v));
     table.output(v.nutation.angle, turns_axes, start.nutation);
-    table.output(v.coning.angle, turns_axes, inertia(v));
+    table.output(v.coning.angle, turns_axes, axes);
     // Without nutation its phase is what rounding leaves.
     table.output(v.nutation.phase, switches, knowns![tilted, attitude]);
     table.output(v.nutation.predicted, switches, nothing);

@@ -105,11 +105,9 @@ impl Inertia {
         let (principal, axes) = principal_axes(&Matrix3::new(j1, p12, p13, p12, j2, p23, p13, p23, j3));
         match Self::new(principal) {
             Ok(body) => Ok(Self { axes: Some(axes), ..body }),
-            Err(_) => Err(InertiaError::Tensor {
-                diagonal: diagonal_kg_m2,
-                products: products_kg_m2,
-                principal,
-            }),
+            Err(_) => {
+                Err(InertiaError::Tensor { diagonal: diagonal_kg_m2, products: products_kg_m2, principal })
+            }
         }
     }
 

@@ -47,8 +47,8 @@ fn rotate(tensor: &mut Matrix3<f64>, axes: &mut Matrix3<f64>, p: usize, q: usize
     }
     // The smaller of both angles: tan(2 angle) = 2 product / (J_qq - J_pp).
     let half_cotangent = (tensor[(q, q)] - tensor[(p, p)]) / (2.0 * product);
-    let tangent =
-        if half_cotangent >= 0.0 { 1.0 } else { -1.0 } / (half_cotangent.abs() + libm::hypot(1.0, half_cotangent));
+    let tangent = if half_cotangent >= 0.0 { 1.0 } else { -1.0 }
+        / (half_cotangent.abs() + libm::hypot(1.0, half_cotangent));
     let cosine = libm::hypot(1.0, tangent).recip();
     let sine = tangent * cosine;
     tensor[(p, p)] -= tangent * product;
@@ -75,8 +75,7 @@ fn quaternion(m: &Matrix3<f64>) -> Quaternion {
         if diagonal[i] > least { i } else { best }
     });
     if largest == 3 {
-        let parts =
-            [m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)], 1.0 + trace];
+        let parts = [m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)], 1.0 + trace];
         return Quaternion(parts).normalized();
     }
     let (i, j, k) = (largest, (largest + 1) % 3, (largest + 2) % 3);

@@ -151,8 +151,11 @@ impl Outputs {
         let sectors = f64::from(spinner.sun_sensor.sectors);
         // Without a Sun there is no period of its crossings.
         let sun_known = directions.sun_inertial != Vector3::zeros();
-        let variation_s =
-            if sun_known { period_variation_s(nutation_rad, spin_rate_rad_s, sun_angle_rad).abs() } else { 0.0 };
+        let variation_s = if sun_known {
+            period_variation_s(nutation_rad, spin_rate_rad_s, sun_angle_rad).abs()
+        } else {
+            0.0
+        };
         let (law, sequencer) = (plant.propulsion().valves().law(), plant.sequencer());
         let next_edge_s = match sequencer.map(Sequencer::phase) {
             Some(Phase::Waiting { on_s, .. }) => on_s,

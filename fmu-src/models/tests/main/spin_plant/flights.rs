@@ -194,10 +194,7 @@ fn a_state_saved_in_a_ramp_of_the_thrust_continues_to_the_bit() {
 
 #[test]
 fn a_pulse_shorter_than_its_valve_opens_is_flagged() {
-    let mut spinner = Spinner::new()
-        .set_integer("burn.plan", 4)
-        .set("thruster[8].minOnTime", 0.1)
-        .start();
+    let mut spinner = Spinner::new().set_integer("burn.plan", 4).set("thruster[8].minOnTime", 0.1).start();
     spinner.put("thruster[8].onTime", 0.096);
     spinner.to(1.0);
     assert!(spinner.boolean("thruster[8].tooShort") && spinner.real("propellant.used") == 0.0);

@@ -229,7 +229,8 @@ impl Sensors {
         // Pickets count from the Sun pulse: without a Sun there are none.
         let sun_known = directions.sun_inertial != Vector3::zeros();
         let seen = turn.is_none_or(|turn| {
-            sun_known && searched(star_picket(spinner, directions, motion.inertia(), &state), turn, tracker.every)
+            sun_known
+                && searched(star_picket(spinner, directions, motion.inertia(), &state), turn, tracker.every)
         });
         if !(visible && seen) {
             return;
@@ -260,12 +261,7 @@ impl Sensors {
 }
 
 /// Picket of the star: its azimuth about the momentum after the Sun's.
-fn star_picket(
-    spinner: &Spinner,
-    directions: &Directions,
-    inertia: &Inertia,
-    state: &RigidBodyState,
-) -> u32 {
+fn star_picket(spinner: &Spinner, directions: &Directions, inertia: &Inertia, state: &RigidBodyState) -> u32 {
     let pole = state.momentum_inertial;
     let ahead = |direction: &Vector3<f64>| {
         let seen = state

@@ -129,7 +129,13 @@ impl Start {
             let PulseExecution { valve, scatter } = self.execution[k];
             return refuse(
                 "thruster[k].minOnTime, riseTime, tailOffTime, scatter",
-                format!("{}, {}, {} s, {scatter} with k = {}", valve.min_on_s, valve.rise_s, valve.tail_off_s, k + 1),
+                format!(
+                    "{}, {}, {} s, {scatter} with k = {}",
+                    valve.min_on_s,
+                    valve.rise_s,
+                    valve.tail_off_s,
+                    k + 1
+                ),
                 "allowed are times of 0 s and more, and a scatter from 0 to 1",
             );
         }

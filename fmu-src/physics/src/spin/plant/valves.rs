@@ -133,7 +133,8 @@ impl Valves {
     /// What the thrusters exert from `since_s` on with the valves as they are.
     fn law_from(&self, spinner: &Spinner, since_s: f64) -> ThrustLaw {
         let mut law = ThrustLaw::none(since_s);
-        for ((valve, execution), thruster) in self.valves.iter().zip(&self.execution).zip(&spinner.thrusters) {
+        for ((valve, execution), thruster) in self.valves.iter().zip(&self.execution).zip(&spinner.thrusters)
+        {
             let shares = valve.thrust(&execution.valve, since_s);
             if shares == [0.0; 2] {
                 continue;

@@ -42,8 +42,9 @@ fn runge_kutta(
     let attitude = Quaternion([0.1, -0.3, 0.2, 0.9]).normalized();
     let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| attitude.inertial_from_body(&axis));
     let inverse = body.try_inverse().unwrap();
-    let slope =
-        |w: &Vector3<f64>, m: &Matrix3<f64>| (inverse * (torque - w.cross(&(body * w))), m * w.cross_matrix());
+    let slope = |w: &Vector3<f64>, m: &Matrix3<f64>| {
+        (inverse * (torque - w.cross(&(body * w))), m * w.cross_matrix())
+    };
     let run = |steps: usize| {
         let dt = end_s / steps as f64;
         let (mut w, mut m) = (rate, Matrix3::from_columns(&columns));
@@ -244,7 +245,11 @@ fn tensors_that_no_body_has_are_refused_by_name() {
 #[test]
 fn the_file_gives_products_for_each_point_of_the_table() {
     let with = |line: &str| {
-        let text = super::ACE.replacen("transverse_quotient = 1.0", &format!("transverse_quotient = 1.0\n{line}"), 1);
+        let text = super::ACE.replacen(
+            "transverse_quotient = 1.0",
+            &format!("transverse_quotient = 1.0\n{line}"),
+            1,
+        );
         Spinner::parse("my.toml", &text)
     };
     let three = "products_of_inertia_kg_m2 = [[0, 0, 0], [1.0, 2.0, -4.0], [3.0, 2.0, 0.0]]";
@@ -258,8 +263,14 @@ fn the_file_gives_products_for_each_point_of_the_table() {
     assert_eq!(ace().mass_properties.products_kg_m2(97.5), [0.0; 3]);
     for (line, parts) in [
         ("products_of_inertia_kg_m2 = [[0, 0, 0]]", ["products_of_inertia_kg_m2", "a list of 1"]),
-        ("products_of_inertia_kg_m2 = [[0, 0, 0], [0, 0, nan], [0, 0, 0]]", ["products_of_inertia_kg_m2[2]", "nan"]),
-        ("products_of_inertia_kg_m2 = [[0, 0, 0], [0, 0, 300], [0, 0, 0]]", ["productsOfInertia", "principal"]),
+        (
+            "products_of_inertia_kg_m2 = [[0, 0, 0], [0, 0, nan], [0, 0, 0]]",
+            ["products_of_inertia_kg_m2[2]", "nan"],
+        ),
+        (
+            "products_of_inertia_kg_m2 = [[0, 0, 0], [0, 0, 300], [0, 0, 0]]",
+            ["productsOfInertia", "principal"],
+        ),
     ] {
         let text = with(line).unwrap_err().to_string().replace("NaN", "nan");
         assert!(parts.iter().all(|part| text.contains(part)), "{text}");

@@ -152,7 +152,8 @@ fn the_predicted_nutation_takes_ramps_exactly() {
             let dt = width_s / f64::from(steps);
             let (mut x, mut y) = (0.0, 0.0);
             for i in 0..steps {
-                let torque = |share: f64, axis: usize| start[axis] + slope[axis] * dt * (f64::from(i) + share);
+                let torque =
+                    |share: f64, axis: usize| start[axis] + slope[axis] * dt * (f64::from(i) + share);
                 let mx = x + 0.5 * dt * (torque(0.0, 0) - lambda * y);
                 let my = y + 0.5 * dt * (torque(0.0, 1) + lambda * x);
                 x += dt * (torque(0.5, 0) - lambda * my);
@@ -177,7 +178,9 @@ fn the_predicted_nutation_takes_ramps_exactly() {
 fn burns_with_slow_valves_move_by_what_they_plan() {
     let spinner = ace();
     for timing in [Timing::Clock, Timing::SunCrossing, Timing::TruePhase] {
-        for (shape, turns) in [(Shape::Uniform, 1.0), (Shape::Uniform, 0.5), (Shape::Tapered { order: 1 }, 1.0)] {
+        for (shape, turns) in
+            [(Shape::Uniform, 1.0), (Shape::Uniform, 0.5), (Shape::Tapered { order: 1 }, 1.0)]
+        {
             let fly = |valve: ValveTiming| {
                 let mut start = start(valve, 0.0);
                 start.damper_time_constant_s = 0.0;
@@ -202,13 +205,14 @@ fn burns_with_slow_valves_move_by_what_they_plan() {
             assert_relative_eq!(burn.propellant_kg(&spinner), needed_kg, max_relative = 1e-12);
             let moved = Predictions::of(&plant).manoeuvre_rad;
             assert_relative_eq!(seen.momentum_displacement_rad, moved, max_relative = 1e-3);
-            // The thrust, not the valve, is centred on the instant that points at the target: else 0.03 of it goes aside.
+            // The thrust, not the valve, is centred on the instant that points at the target: else 0.03 of it goes aside. Sun
+            // pulses are seen from the nutating axis, and nutation turns a little otherwise under slow pulses.
             let aside = |plant: &Plant| {
                 let end = plant.state().momentum_inertial.normalize();
                 end.dot(&Vector3::new(-0.6, 0.8, 0.0)) / moved
             };
             let [slow, quick] = [&plant, &fly(ValveTiming::default())].map(aside);
-            assert!((slow - quick).abs() < 1e-3, "{timing:?} {shape:?} {turns}: {slow} {quick}");
+            assert!((slow - quick).abs() < 3e-3, "{timing:?} {shape:?} {turns}: {slow} {quick}");
             assert_relative_eq!(seen.nutation_rad, seen.predicted_nutation_rad, epsilon = 2e-4 * moved);
         }
     }
@@ -312,12 +316,14 @@ fn an_empty_tank_shuts_a_rising_valve() {
 
 #[test]
 fn the_file_says_how_thrusters_execute_pulses() {
-    let keys = "name = \"IIIR\"\nmin_on_time_s = 0.02\nrise_time_s = 0.01\ntail_off_time_s = 0.03\nscatter = 0.05";
+    let keys =
+        "name = \"IIIR\"\nmin_on_time_s = 0.02\nrise_time_s = 0.01\ntail_off_time_s = 0.03\nscatter = 0.05";
     let spinner = Spinner::parse("my.toml", &ACE.replacen("name = \"IIIR\"", keys, 1)).unwrap();
     let execution = PulseExecution::of(&spinner);
     let valve = ValveTiming { min_on_s: 0.02, rise_s: 0.01, tail_off_s: 0.03 };
     assert_eq!(execution[7], PulseExecution { valve, scatter: 0.05 });
     assert_eq!(execution[6], PulseExecution::default());
-    let error = Spinner::parse("my.toml", &ACE.replacen("name = \"IIIR\"", "name = \"IIIR\"\nscatter = -1", 1));
+    let error =
+        Spinner::parse("my.toml", &ACE.replacen("name = \"IIIR\"", "name = \"IIIR\"\nscatter = -1", 1));
     assert!(error.unwrap_err().to_string().contains("scatter"));
 }
