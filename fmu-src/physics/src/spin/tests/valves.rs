@@ -310,6 +310,11 @@ fn an_empty_tank_shuts_a_rising_valve() {
         plant.advance(&spinner, 5.0).unwrap();
         ends.push(Outputs::of(&plant, &spinner));
     }
+    let mut plant = Plant::start(&spinner, &start, directions(), fire, 0.0).unwrap();
+    for (time_s, on) in [(8f64.sqrt() - 1e-7, true), (8f64.sqrt() + 1e-7, false)] {
+        plant.advance(&spinner, time_s).unwrap();
+        assert_eq!(Outputs::of(&plant, &spinner).thrusters_on != 0, on, "{time_s}");
+    }
     assert_eq!(ends[0].propellant_left_kg, 0.0);
     assert!(ends.iter().all(|end| *end == ends[0]));
 }
