@@ -36,6 +36,8 @@ impl Kernels {
         let spacecraft = options.spacecraft.unwrap_or(naif::MESSENGER);
         if targets.contains(&FlownTarget::Spacecraft) {
             title += &format!(", spacecraft {spacecraft}");
+        } else if options.spacecraft.is_some() {
+            return Err("--spacecraft: allowed where --bodies names the spacecraft".into());
         }
         let kernels = Self { files, center, spacecraft, title };
         for target in targets {
