@@ -95,6 +95,8 @@ fn fits_keep_their_error_against_the_closed_form() {
         assert!(found_m <= 1.05 * stated_m + 0.01, "{}: {found_m} m, said {stated_m} m", model.target);
         assert!(found_m >= 0.5 * stated_m, "{}: {found_m} m, said {stated_m} m", model.target);
     }
+    // The kernels' velocities are the slopes of their positions.
+    assert!(made.precise.iter().all(|model| model.error.velocity_m_s < 0.5));
     assert_eq!(made.precise.len(), 3);
     // Sun to planet, Sun to Earth, planet to spacecraft.
     assert_eq!(made.coarse.len(), 3);
