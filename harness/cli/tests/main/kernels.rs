@@ -58,6 +58,9 @@ fn fit(kernels: &[&Path], stop: &str, more: &[&str], status: i32) -> String {
     for kernel in kernels {
         arguments.extend(["--kernel", shown(kernel)]);
     }
+    if !more.contains(&"--output") {
+        arguments.extend(["--output", "-"]);
+    }
     run(&[&arguments[..], more].concat(), status)
 }
 
@@ -152,7 +155,8 @@ fn a_span_that_is_not_covered_is_told_with_the_one_that_is() {
     let text = fit(&both, "2011-04-04 TDB", &["--coarse", "--coarse-until", "2011-06-01 UTC"], 1);
     assert!(text.contains("to 2011-06-01T00:00:00 UTC, allowed"), "{text}");
     // Before UTC dates are in TDB.
-    let early = ["ephemeris", "--start", "1950-01-01 TDB", "--stop", "1950-02-01 TDB", "--kernel"];
+    let early =
+        ["ephemeris", "--start", "1950-01-01 TDB", "--stop", "1950-02-01 TDB", "--output", "-", "--kernel"];
     let text = run(&[&early[..], &[shown(&planets)]].concat(), 1);
     assert!(text.contains("found 1950-01-01T00:00:00 TDB to 1950-02-01T00:00:00 TDB"), "{text}");
 }
