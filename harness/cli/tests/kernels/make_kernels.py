@@ -5,7 +5,7 @@
 
 The files are committed; `tests/main/kernels.rs` repeats the circles in its own words. Coordinates are J2000, km and TDB seconds.
 planets.bsp covers 24 days from START, craft.bsp 2 days: spacecraft -236, whose first segment is on a circle of half the radius,
-of which SPICE takes the second; and spacecraft -121 on the first and the third half day.
+of which SPICE takes the second; spacecraft -121 on the first and the third half day; -122 and -123 on the first.
 """
 
 from pathlib import Path
@@ -81,6 +81,12 @@ def write_craft() -> None:
         states = np.array([state("craft", at) for at in epochs])
         spice.spkw09(
             handle, -121, 199, "J2000", epochs[0], epochs[-1], "halves", 15, len(epochs), states, epochs
+        )
+    epochs = np.arange(START, START + 0.5 * DAY + 1.0, 1800.0)
+    states = np.array([state("craft", at) for at in epochs])
+    for target, write, degree in [(-122, spice.spkw08, 15), (-123, spice.spkw12, 11)]:
+        write(
+            handle, target, 199, "J2000", epochs[0], epochs[-1], "half", degree, len(epochs), states, epochs[0], 1800.0
         )
     spice.spkcls(handle)
 
