@@ -1,6 +1,6 @@
 //! Groups of variables that several models have.
 
-use fmi_export::{Choice, Failure, Integer, Real, Values, Variables};
+use fmi_export::{Choice, Failure, Integer, Knowns, Real, Values, Variables, knowns};
 use physics::bodies::Body;
 use physics::bodies::surface::{self, MERCURY, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
@@ -123,6 +123,20 @@ pub struct EllipseVariables {
     /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY_AS_PRINTED.true_anomaly_rad)]
     pub true_anomaly: Real,
+}
+
+impl EllipseVariables {
+    /// All of them.
+    pub fn knowns(&self) -> Knowns {
+        knowns![
+            self.semi_major_axis,
+            self.eccentricity,
+            self.inclination,
+            self.ascending_node,
+            self.periapsis_argument,
+            self.true_anomaly,
+        ]
+    }
 }
 
 /// The value of a parameter about a body, or the body's own where it was left at `default`, which is Mercury's.

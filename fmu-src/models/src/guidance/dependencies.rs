@@ -131,15 +131,7 @@ impl Parameters {
             planet.prime_meridian,
             planet.rotation_rate,
         ];
-        let places = knowns![
-            ephemeris.source,
-            ephemeris.ellipse.semi_major_axis,
-            ephemeris.ellipse.eccentricity,
-            ephemeris.ellipse.inclination,
-            ephemeris.ellipse.ascending_node,
-            ephemeris.ellipse.periapsis_argument,
-            ephemeris.ellipse.true_anomaly,
-        ];
+        let places = knowns![ephemeris.source, &ephemeris.ellipse.knowns()];
         let zones = knowns![
             keep_in.enabled,
             keep_in.azimuth,

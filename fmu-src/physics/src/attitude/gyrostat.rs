@@ -146,6 +146,12 @@ impl Gyrostat {
         &self.center_of_mass_body_m
     }
 
+    /// Whether nothing swings on it and every rotor is balanced.
+    pub fn is_rigid(&self) -> bool {
+        let Appendages { modes, sloshes, imbalances } = &self.appendages;
+        modes.is_empty() && sloshes.is_empty() && imbalances.is_empty()
+    }
+
     /// How many modal coordinates there are: one of each flexible mode, then two of each pendulum.
     pub fn oscillator_count(&self) -> usize {
         self.appendages.modes.len() + 2 * self.appendages.sloshes.len()

@@ -32,6 +32,8 @@ use super::work::{Cost, WorkExceeded};
 
 /// Guidance is sampled at whole multiples of this, in s.
 const GUIDANCE_INTERVAL_S: f64 = 1.0;
+/// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
+const FLEXIBLE_UNITS: u32 = 8;
 
 /// A dump by a constant torque, of a spacecraft without thrusters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -193,9 +195,10 @@ impl AttitudeDynamics {
     ) -> Result<(), PlantError> {
         self.go_on(settings, flight);
         let mut left = settings.work_limit;
+        let units = if settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
-            left = left.checked_sub(1).ok_or(WorkExceeded {
+            left = left.checked_sub(units).ok_or(WorkExceeded {
                 limit: settings.work_limit,
                 reached_s: time_s,
                 most: Cost::Segment,

@@ -67,6 +67,7 @@ impl DisturbanceInterval {
         let end_s = plant.smooth_until(start_s, known_s);
         let span_s = end_s - start_s;
         let [first, second] = NODES.map(|node| plant.evaluate(start_s + node * span_s));
+        first.check(start_s)?;
         let line = |of: &dyn Fn(&Evaluation) -> Vector3<f64>| -> Linear {
             let (a, b) = (of(&first), of(&second));
             let slope = (b - a) / (NODES[1] - NODES[0]);

@@ -13,6 +13,17 @@ pub enum PlantError {
     /// The orbit.
     #[error(transparent)]
     Orbit(#[from] OrbitIntegrationError),
+    /// A place where no spacecraft can be.
+    #[error(
+        "at {time_s} s the spacecraft at {position_m:?} m about the orbit's centre is inside the planet or the Sun, or its \
+         position is no number"
+    )]
+    Nowhere {
+        /// When, in s.
+        time_s: f64,
+        /// Position about the orbit's centre, EME2000, in m.
+        position_m: [f64; 3],
+    },
     /// Light and heat have no meaning where the spacecraft is.
     #[error(
         "at {time_s} s, the spacecraft being at {position_m:?} m about the orbit's centre, light has no meaning: {source}"

@@ -55,12 +55,17 @@ impl Evaluation {
         Self { instant: Instant::nowhere(frame), loads: Loads::zero(), mass }
     }
 
-    /// Whether a spacecraft can be there: outside the planet and the Sun, every number finite.
-    pub fn is_somewhere(&self) -> bool {
+    /// Checks that a spacecraft can be there at `time_s`: outside the planet and the Sun, every number finite.
+    ///
+    /// # Errors
+    /// A place inside one of them.
+    pub fn check(&self, time_s: f64) -> Result<(), PlantError> {
         let total = self.loads.total();
-        self.instant.sun_distance_m > RADIUS_SUN_M
+        let is_somewhere = self.instant.sun_distance_m > RADIUS_SUN_M
             && self.instant.lit_fraction.is_finite()
-            && total.torque_body_n_m.iter().chain(&total.force_body_n).all(|x| x.is_finite())
+            && total.torque_body_n_m.iter().chain(&total.force_body_n).all(|x| x.is_finite());
+        let position_m = self.instant.geometry.spacecraft.position_m;
+        if is_somewhere { Ok(()) } else { Err(PlantError::Nowhere { time_s, position_m: position_m.into() }) }
     }
 
     /// Force of all effects, EME2000, in N.

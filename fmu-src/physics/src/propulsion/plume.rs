@@ -52,23 +52,12 @@ fn panel_hit(panel: &Panel, angle_rad: f64, any_in: &AnyIn<'_>) -> bool {
 mod tests {
     //! A nozzle that looks at a panel's edge, and away from it.
     use super::*;
-    use crate::spacecraft::{MESSENGER_TOML, ValveTiming};
+    use crate::spacecraft::MESSENGER_TOML;
 
     fn nozzle(position: [f64; 3], exhaust: [f64; 3], half_angle_deg: f64) -> Thruster {
         let (position_body_m, force_body_n) = (Vector3::from(position), -Vector3::from(exhaust) * 4.4);
-        Thruster {
-            name: String::new(),
-            position_body_m,
-            force_body_n,
-            torque_body_n_m: position_body_m.cross(&force_body_n),
-            flow_kg_s: 0.002,
-            valve: ValveTiming::default(),
-            scatter: 0.0,
-            set: None,
-            tank: 0,
-            at_pressure_pa: None,
-            plume_half_angle_rad: half_angle_deg.to_radians(),
-        }
+        let plume_half_angle_rad = half_angle_deg.to_radians();
+        Thruster { plume_half_angle_rad, ..Thruster::plain(position_body_m, force_body_n) }
     }
 
     #[test]

@@ -300,25 +300,11 @@ impl Problem {
 mod tests {
     //! Against thrusters whose best choice is known by symmetry, and against a search over all small sets.
     use super::*;
-    use crate::spacecraft::ValveTiming;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
     fn thruster(at: [f64; 3], force: [f64; 3]) -> Thruster {
-        let (position_body_m, force_body_n) = (Vector3::from(at), Vector3::from(force));
-        Thruster {
-            name: String::new(),
-            position_body_m,
-            force_body_n,
-            torque_body_n_m: position_body_m.cross(&force_body_n),
-            flow_kg_s: 0.002,
-            valve: ValveTiming::default(),
-            scatter: 0.0,
-            set: None,
-            tank: 0,
-            at_pressure_pa: None,
-            plume_half_angle_rad: 0.0,
-        }
+        Thruster::plain(Vector3::from(at), Vector3::from(force))
     }
 
     /// Pairs on the six faces of a cube, pushing along it: twelve thrusters, a couple each way about each axis.

@@ -79,6 +79,24 @@ impl Thruster {
     pub fn torque_about_n_m(&self, point_body_m: &Vector3<f64>) -> Vector3<f64> {
         self.torque_body_n_m - point_body_m.cross(&self.force_body_n)
     }
+
+    /// One with nothing but a place, a force and a flow.
+    #[cfg(test)]
+    pub(crate) fn plain(position_body_m: Vector3<f64>, force_body_n: Vector3<f64>) -> Self {
+        Self {
+            name: String::new(),
+            position_body_m,
+            force_body_n,
+            torque_body_n_m: position_body_m.cross(&force_body_n),
+            flow_kg_s: 0.002,
+            valve: ValveTiming::default(),
+            scatter: 0.0,
+            set: None,
+            tank: 0,
+            at_pressure_pa: None,
+            plume_half_angle_rad: 0.0,
+        }
+    }
 }
 
 /// Force, torque and flow of a set of thrusters.

@@ -21,9 +21,10 @@ pub fn swinging(table: &mut Dependencies, v: &PlantVariables, start: &Start) {
         .map(|wheel| knowns![wheel.axis, wheel.start_momentum, wheel.inertia, wheel.static_imbalance]);
     let turning = knowns![&start.begun, v.attitude.source, wheels.collect::<Knowns>()];
     let force = &turning.only_if(!v.wheel.is_empty());
-    let places = v.wheel.iter().map(|wheel| wheel.position).collect::<Knowns>();
-    let levers = knowns![places, v.spacecraft.center_of_mass].only_if(!v.wheel.is_empty());
     for axis in 0..3 {
+        let places = v.wheel.iter().map(|wheel| knowns![across(wheel.position, axis)]).collect::<Knowns>();
+        let center_of_mass = across(v.spacecraft.center_of_mass, axis);
+        let levers = knowns![places, center_of_mass].only_if(!v.wheel.is_empty());
         // Propellant aside of its axis turns the body by the force across.
         let aside = across(v.force.applied, axis).only_if(!v.slosh.is_empty());
         table.output(v.torque.total.element(axis), aside, knowns![force, &levers]);

@@ -98,15 +98,7 @@ impl Start {
         ];
         let elements = knowns![shape, orientation];
         let turned_about_z = knowns![v.planet.pole_right_ascension];
-        let ephemeris = knowns![
-            v.start.epoch,
-            ephemeris.ellipse.semi_major_axis,
-            ephemeris.ellipse.eccentricity,
-            ephemeris.ellipse.inclination,
-            ephemeris.ellipse.ascending_node,
-            ephemeris.ellipse.periapsis_argument,
-            ephemeris.ellipse.true_anomaly,
-        ];
+        let ephemeris = knowns![v.start.epoch, &ephemeris.ellipse.knowns()];
         let sun_z = knowns![&begun, &elements, &ephemeris];
         let sun = knowns![&sun_z, &turned_about_z];
         let schedule =

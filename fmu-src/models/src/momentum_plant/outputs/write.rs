@@ -322,7 +322,9 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
 /// Why a flight ends, with the variables to look at.
 pub fn failure(error: PlantError) -> Failure {
     let hint = match &error {
-        PlantError::Light { .. } => "; see orbit.*, sun.position and planet.radius",
+        PlantError::Nowhere { .. } | PlantError::Light { .. } => {
+            "; see orbit.*, sun.position and planet.radius"
+        }
         PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
         PlantError::Work(exceeded) => {
             let most = match exceeded.most {
@@ -364,15 +366,7 @@ pub fn flyable(evaluation: &Evaluation, totals: &Totals, time_s: f64) -> Result<
              force.applied, spacecraft.mass and spacecraft.centerOfMass"
         )));
     }
-    if evaluation.is_somewhere() {
-        return Ok(());
-    }
-    let spacecraft = evaluation.instant.geometry.spacecraft.position_m;
-    Err(Failure::new(format!(
-        "at {time_s} s the spacecraft at {:?} m about the orbit's centre is inside the planet or the Sun, or its position \
-         is no number; see orbit.*, sun.position and planet.radius",
-        spacecraft.as_slice()
-    )))
+    evaluation.check(time_s).map_err(failure)
 }
 
 /// Reports a dump.

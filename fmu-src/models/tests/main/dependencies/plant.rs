@@ -183,6 +183,9 @@ fn draw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, shapes: boo
             bench.put(&mut values, &format!("panel[{k}].enabled"), f64::from(u8::from(random.next() < 0.9)));
         }
     }
+    if is_flown(bench, &values) {
+        plant_dynamics::unbalance(bench, random, &mut values);
+    }
     redraw(bench, random, subject, &mut values);
     values
 }

@@ -8,6 +8,17 @@ use super::random::RandomNumbers;
 
 type Plant = Bench<MomentumPlant>;
 
+/// Puts some rotors out of balance; what is drawn anew with the same options has the same ones, so that no state between two
+/// has a fast rotor out of balance.
+pub fn unbalance(bench: &Plant, random: &mut RandomNumbers, values: &mut Tables) {
+    for k in 1..9 {
+        let name = format!("wheel[{k}].staticImbalance");
+        if bench.has(&name) {
+            bench.put(values, &name, if random.next() < 0.2 { 1e-3 } else { 0.0 });
+        }
+    }
+}
+
 /// Numbers and flags of wheels, sensors and control; `is_flown` tells whether body and wheels move by them.
 pub fn redraw(bench: &Plant, random: &mut RandomNumbers, is_flown: bool, values: &mut Tables) {
     control(bench, random, values);
@@ -115,14 +126,12 @@ fn wheels(bench: &Plant, random: &mut RandomNumbers, is_flown: bool, values: &mu
             _ => random.between(-1.0, 1.0),
         };
         bench.put(values, &name("startMomentum"), share * capacity_n_m_s);
-        // Slow, as a fast rotor out of balance makes for many short segments.
-        let is_unbalanced = is_flown && share.abs() < 1.0 && random.next() < 0.2;
-        if is_unbalanced {
+        if bench.real(values, &name("staticImbalance")) > 0.0 {
+            // Slow, as a fast rotor out of balance makes for many short segments.
             bench.put(values, &name("startMomentum"), if is_locked { 0.0 } else { 0.002 * capacity_n_m_s });
             bench.put(values, &name("maxTorque"), 1e-4);
+            bench.put(values, &name("staticImbalance"), random.between(1e-4, 1e-3));
         }
-        let imbalance_kg_m = if is_unbalanced { random.between(1e-4, 1e-3) } else { 0.0 };
-        bench.put(values, &name("staticImbalance"), imbalance_kg_m);
         bench.put_vector(values, &name("position"), &random.direction());
     }
 }

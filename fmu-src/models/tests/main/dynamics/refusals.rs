@@ -61,3 +61,22 @@ fn a_torn_state_is_refused_or_flies_on() {
     }
     assert!(refused > 20, "{refused}");
 }
+
+#[test]
+fn a_place_inside_the_planet_is_refused_before_the_body_is_flown_there() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    // Nothing is left for a body that its gravity gradient spins up.
+    let sets = [
+        ("orbit.source", 2.0),
+        ("orbit.velocity[1]", 2500.0),
+        ("gravityGradient.enabled", 1.0),
+        ("solver.workLimit", 2e4),
+    ];
+    for (source, shadow) in [(FREE, 1.0), (FREE, 4.0), (CONTROLLED, 1.0), (CONTROLLED, 4.0)] {
+        let mut flight = named.fly(0.0, &with(&[source, &sets, &[("eclipse.method", shadow)]])).unwrap();
+        flight.step_to(1.0).unwrap();
+        flight.set("orbit.position[2]", 1e-4);
+        let told = flight.step_to(2.0).unwrap_err().to_string();
+        assert!(told.contains("inside the planet") && told.contains("orbit.*"), "{told}");
+    }
+}

@@ -221,7 +221,8 @@ impl Shadow {
     pub fn fraction_and_gaps(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> (f64, [f64; 2]) {
         let none = f64::INFINITY;
         if self.model == ShadowModel::Off {
-            return (1.0, [none; 2]);
+            let outside = spacecraft_m.norm() >= self.planet_radius_m;
+            return if outside { (1.0, [none; 2]) } else { (f64::NAN, [f64::NAN; 2]) };
         }
         let Ok(discs) = self.discs(spacecraft_m, sun_m) else { return (f64::NAN, [f64::NAN; 2]) };
         let all_or_nothing = |gap_rad: f64| (f64::from(gap_rad >= 0.0), [gap_rad, none]);
