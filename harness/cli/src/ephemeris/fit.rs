@@ -13,7 +13,8 @@ use physics::{
     numerics::chebyshev::Segment,
 };
 
-use super::source::Source;
+use super::source::{Failure, Source};
+use crate::interrupt;
 
 /// Length of the segments to begin with: of planets, and of the spacecraft.
 const LONGEST_S: [f64; 2] = [16.0 * DAY_S, 0.25 * DAY_S];
@@ -46,19 +47,17 @@ pub struct Asked {
     pub is_quiet: bool,
 }
 
-type Failure = Box<dyn std::error::Error>;
-
 /// The precise model of a target.
-pub fn precise(source: &mut Source, asked: &Asked) -> Result<FittedBody<SegmentTable>, Failure> {
+pub fn precise(source: &dyn Source, asked: &Asked) -> Result<FittedBody<SegmentTable>, Failure> {
     let &Asked { target, span_s, .. } = asked;
-    if target == FlownTarget::from(source.center) {
-        return Err(format!("--bodies: {target} is orbit.center, from where positions count").into());
+    if target == FlownTarget::from(source.center()) {
+        return Err(format!("--bodies: {target} is the center, from where positions count").into());
     }
     if let Some(degree) = asked.degree {
         let plan = FitPlan::new(span_s, asked.segment_s.unwrap_or(SEGMENT_S));
-        let [states] = flown(source, [target], &plan.epochs_s(), asked.is_quiet)?;
+        let states = flown_alone(source, target, &plan.epochs_s(), asked.is_quiet)?;
         let (motion, error) = plan.fit(&states, degree.min(GREATEST_DEGREE));
-        return Ok(FittedBody { target, center: source.center, motion, error });
+        return Ok(FittedBody { target, center: source.center(), motion, error });
     }
     let is_spacecraft = usize::from(target == FlownTarget::Spacecraft);
     let mut segment_s = asked.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
@@ -66,11 +65,11 @@ pub fn precise(source: &mut Source, asked: &Asked) -> Result<FittedBody<SegmentT
     let mut best: Option<(FitError, f64)> = None;
     for _ in 0..=halvings {
         let plan = FitPlan::new(span_s, segment_s);
-        let [states] = flown(source, [target], &plan.epochs_s(), asked.is_quiet)?;
+        let states = flown_alone(source, target, &plan.epochs_s(), asked.is_quiet)?;
         for degree in DEGREES {
             let (motion, error) = plan.fit(&states, degree);
             if error.position_m <= asked.tolerance_m {
-                return Ok(FittedBody { target, center: source.center, motion, error });
+                return Ok(FittedBody { target, center: source.center(), motion, error });
             }
             if best.is_none_or(|(best, _)| error.position_m < best.position_m) {
                 best = Some((error, segment_s));
@@ -93,22 +92,34 @@ pub fn precise(source: &mut Source, asked: &Asked) -> Result<FittedBody<SegmentT
     .into())
 }
 
-fn flown<const N: usize>(
-    source: &Source,
-    targets: [FlownTarget; N],
+fn flown(
+    source: &dyn Source,
+    targets: &[FlownTarget],
     epochs_s: &[f64],
     is_quiet: bool,
-) -> Result<[Vec<CartesianState>; N], Failure> {
-    let named = targets.map(|target| target.to_string()).join(", ");
-    let bar = terminal::progress(epochs_s.len() as u64, &format!("epochs of {named}"), is_quiet);
-    let states = source.states(targets, epochs_s, || bar.inc(1));
+) -> Result<Vec<Vec<CartesianState>>, Failure> {
+    let named: Vec<String> = targets.iter().map(ToString::to_string).collect();
+    let bar = terminal::progress(epochs_s.len() as u64, &format!("epochs of {}", named.join(", ")), is_quiet);
+    let states = source.states(targets, epochs_s, &mut || {
+        bar.inc(1);
+        if interrupt::raised() { Err("interrupted".into()) } else { Ok(()) }
+    });
     bar.finish_and_clear();
     states
 }
 
+fn flown_alone(
+    source: &dyn Source,
+    target: FlownTarget,
+    epochs_s: &[f64],
+    is_quiet: bool,
+) -> Result<Vec<CartesianState>, Failure> {
+    Ok(flown(source, &[target], epochs_s, is_quiet)?.pop().unwrap_or_default())
+}
+
 /// The coarse models: of the planet in the centre, of the Earth, and of the spacecraft if it is among the targets.
 pub fn coarse(
-    source: &mut Source,
+    source: &dyn Source,
     targets: &[FlownTarget],
     span_s: [f64; 2],
     is_quiet: bool,
@@ -121,7 +132,7 @@ pub fn coarse(
     epochs.extend(nodes_s.into_iter().enumerate().map(|(node, at_s)| (at_s, Some(node))));
     epochs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let epochs_s: Vec<f64> = epochs.iter().map(|(at_s, _)| *at_s).collect();
-    let center = source.center;
+    let center = source.center();
     let mut models = Vec::new();
     let mut add = |target: FlownTarget, about: Body, states: &[CartesianState]| -> Result<(), Failure> {
         let mut samples = [CartesianState::default(); COARSE_SAMPLES];
@@ -151,8 +162,11 @@ pub fn coarse(
         };
         states.iter().zip(sun).map(difference).collect()
     };
-    let [sun, earth, spacecraft] =
-        flown(source, [FlownTarget::Sun, FlownTarget::Earth, FlownTarget::Spacecraft], &epochs_s, is_quiet)?;
+    // One flight for all.
+    let mut wanted = vec![FlownTarget::Sun, FlownTarget::Earth];
+    wanted.extend(targets.contains(&FlownTarget::Spacecraft).then_some(FlownTarget::Spacecraft));
+    let mut states = flown(source, &wanted, &epochs_s, is_quiet)?.into_iter();
+    let [sun, earth] = [(); 2].map(|()| states.next().unwrap_or_default());
     let origin = vec![CartesianState::default(); epochs_s.len()];
     if center != Body::Sun {
         add(center.into(), Body::Sun, &from_sun(&origin, &sun))?;
@@ -160,7 +174,7 @@ pub fn coarse(
     if center != Body::Earth {
         add(FlownTarget::Earth, Body::Sun, &from_sun(&earth, &sun))?;
     }
-    if targets.contains(&FlownTarget::Spacecraft) {
+    if let Some(spacecraft) = states.next() {
         add(FlownTarget::Spacecraft, center, &spacecraft)?;
     }
     Ok(models)

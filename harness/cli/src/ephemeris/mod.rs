@@ -1,6 +1,10 @@
-//! `heliotorque ephemeris`: Chebyshev fits and coarse elements of what an FMU flies, as an ephemeris file that others carry.
+//! `heliotorque ephemeris`: Chebyshev fits and coarse elements of what an FMU flies or SPICE kernels place, as an ephemeris
+//! file that others carry.
 
 mod fit;
+mod flight;
+#[cfg(feature = "spk")]
+mod kernel;
 pub mod options;
 mod report;
 mod source;
@@ -11,13 +15,16 @@ use std::{
 };
 
 use files::Destination;
+#[cfg(feature = "spk")]
+use physics::environment::flown::FlownTarget;
 use physics::environment::flown::{FlownEphemeris, to_toml};
 
 use crate::{interrupt, outcome::Outcome};
 use fit::Asked;
+use flight::Flight;
 use options::Ephemeris;
 pub use report::{FILE, of, read, summary};
-use source::Source;
+use source::{Failure, Source};
 
 /// Tells what a file holds, or everything that is wrong with it.
 pub fn run_check(path: &Path, (bytes, read): (usize, Result<FlownEphemeris, String>)) -> Outcome {
@@ -40,9 +47,8 @@ pub fn run_check(path: &Path, (bytes, read): (usize, Result<FlownEphemeris, Stri
 pub fn run(arguments: &Ephemeris) -> Outcome {
     let [start_s, stop_s] = arguments.span_s()?;
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(FILE));
-    let inputs: Vec<&Path> = vec![arguments.source.as_path()];
-    let destination = Destination::open(&output, "--output", &inputs)?;
-    let mut source = Source::open(&arguments.source, &arguments.set, start_s)?;
+    let destination = Destination::open(&output, "--output", &arguments.inputs())?;
+    let source = source(arguments, [start_s, stop_s])?;
     let mut made = FlownEphemeris { source: Some(source.title()), ..FlownEphemeris::default() };
     for target in arguments.targets() {
         let asked = Asked {
@@ -53,14 +59,14 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
             tolerance_m: arguments.tolerance,
             is_quiet: arguments.quiet,
         };
-        made.precise.push(fit::precise(&mut source, &asked)?);
+        made.precise.push(fit::precise(source.as_ref(), &asked)?);
         if interrupt::raised() {
             return Ok(ExitCode::from(interrupt::INTERRUPTED));
         }
     }
     if arguments.coarse {
         let span_s = [start_s, arguments.coarse_until_s(stop_s)?];
-        made.coarse = fit::coarse(&mut source, &arguments.targets(), span_s, arguments.quiet)?;
+        made.coarse = fit::coarse(source.as_ref(), &arguments.targets(), span_s, arguments.quiet)?;
     }
     let text = to_toml(&made);
     // What a spacecraft will read is what was made.
@@ -78,4 +84,18 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
         terminal::print(&told)?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where the states come from: kernels if there are any, otherwise a flight.
+fn source(arguments: &Ephemeris, span_s: [f64; 2]) -> Result<Box<dyn Source>, Failure> {
+    #[cfg(feature = "spk")]
+    if arguments.kernels.is_given() {
+        let (mut targets, mut span_s) = (arguments.targets(), span_s);
+        if arguments.coarse {
+            targets.extend([FlownTarget::Sun, FlownTarget::Earth]);
+            span_s[1] = arguments.coarse_until_s(span_s[1])?;
+        }
+        return Ok(Box::new(kernel::Kernels::open(&arguments.kernels, &targets, span_s)?));
+    }
+    Ok(Box::new(Flight::open(&arguments.source, &arguments.set, span_s[0])?))
 }

@@ -1,10 +1,12 @@
 //! Options of `heliotorque ephemeris`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use physics::environment::{dates, flown::FlownTarget};
 
+#[cfg(feature = "spk")]
+use super::kernel::KernelOptions;
 use crate::values::{DEFAULT_TEMPLATE, span};
 
 /// Shown with the help.
@@ -24,6 +26,9 @@ pub struct Ephemeris {
     /// The FMU whose flight is fitted: a MomentumPlant, whose outputs place Sun, Earth and spacecraft about orbit.center
     #[arg(value_name = "FMU", default_value = DEFAULT_TEMPLATE)]
     pub source: PathBuf,
+    #[cfg(feature = "spk")]
+    #[command(flatten)]
+    pub kernels: KernelOptions,
     /// First epoch, a date in UTC or TDB: '2011-04-06T00:00:00 UTC'
     #[arg(long, value_name = "DATE")]
     pub start: String,
@@ -71,14 +76,25 @@ pub struct Ephemeris {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum BodyKind {
     /// The Sun
+    #[cfg_attr(feature = "spk", value(alias = "10"))]
     Sun,
     /// The Earth
+    #[cfg_attr(feature = "spk", value(alias = "399"))]
     Earth,
     /// The spacecraft
     Spacecraft,
 }
 
 impl Ephemeris {
+    /// The files it reads.
+    pub fn inputs(&self) -> Vec<&Path> {
+        #[cfg(feature = "spk")]
+        if self.kernels.is_given() {
+            return self.kernels.kernel.iter().map(PathBuf::as_path).collect();
+        }
+        vec![self.source.as_path()]
+    }
+
     /// First and last epoch, in s past J2000 TDB.
     pub fn span_s(&self) -> Result<[f64; 2], String> {
         let start_s = epoch_s("--start", &self.start)?;

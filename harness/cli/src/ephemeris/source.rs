@@ -1,150 +1,27 @@
-//! An FMU as the source of an ephemeris: it is flown, and its outputs say where everything is.
+//! What an ephemeris is fitted to: states of bodies and of the spacecraft about a centre.
 
-use std::path::Path;
-
-use loader::{Error, Fmu, Instance, InstanceOptions, Value};
-use nalgebra::Vector3;
 use physics::{
     bodies::Body,
     environment::{CartesianState, flown::FlownTarget},
 };
 
-use crate::{epoch, interrupt};
+/// Why a source gives no states.
+pub type Failure = Box<dyn std::error::Error>;
 
-/// Parameter with the epoch at the start of a flight.
-const START_EPOCH: &str = "start.epoch";
-/// Parameter that says from where positions count.
-const CENTER: &str = "orbit.center";
-
-/// A flight that can be repeated.
-pub struct Source {
-    fmu: Fmu,
-    shown: String,
-    sets: Vec<(String, Value)>,
-    start_s: f64,
+/// States over time in EME2000.
+pub trait Source {
     /// From where positions count.
-    pub center: Body,
-}
-
-/// Positions and velocities in the order of the outputs: x, y, z of each.
-type Outputs = [u32; 6];
-
-impl Source {
-    /// An FMU with these settings, its flight starting at an epoch.
-    pub fn open(path: &Path, settings: &[String], start_s: f64) -> Result<Self, Box<dyn std::error::Error>> {
-        let fmu = Fmu::open(path)?;
-        let shown = path.display().to_string();
-        let description = fmu.description();
-        let names =
-            [START_EPOCH, CENTER, "sun.positionInertial[1]", "earth.positionInertial[1]", "position[1]"];
-        if let Some(name) = names.into_iter().find(|name| fmu.variable(name).is_err()) {
-            return Err(format!(
-                "{shown}: {} has no variable {name}, allowed: a MomentumPlant, which places Sun, Earth and spacecraft",
-                description.model_name
-            )
-            .into());
-        }
-        let mut sets = Vec::new();
-        for setting in settings {
-            sets.extend(loader::parse_assignment(description, &epoch::in_seconds(description, setting)?)?);
-        }
-        if sets.iter().any(|(name, _)| name == START_EPOCH) {
-            return Err(format!("--set {START_EPOCH}: --start says when the flight begins").into());
-        }
-        sets.extend(loader::parse_assignment(description, &format!("{START_EPOCH}={start_s:e}"))?);
-        let mut source = Self { fmu, shown, sets, start_s, center: Body::Mercury };
-        let mut instance = source.started()?;
-        let center = instance.get(CENTER)?.to_string();
-        source.center = Body::ALL
-            .into_iter()
-            .find(|body| FlownTarget::from(*body).to_string() == center || code(*body) == center)
-            .ok_or_else(|| format!("{}: {CENTER} is {center}, which no ephemeris names", source.shown))?;
-        Ok(source)
-    }
+    fn center(&self) -> Body;
 
     /// What an ephemeris says of where it comes from.
-    pub fn title(&self) -> String {
-        let description = self.fmu.description();
-        let sets = self.sets.iter().filter(|(name, _)| name != START_EPOCH);
-        let sets: Vec<String> = sets.map(|(name, value)| format!("{name} = {value}")).collect();
-        let with = if sets.is_empty() { String::new() } else { format!(" with {}", sets.join(", ")) };
-        format!("{} {}{with}", description.model_name, description.guid)
-    }
+    fn title(&self) -> String;
 
-    /// Positions and velocities of targets from the centre at epochs that do not fall, of one flight; `told` hears of each
-    /// epoch.
-    pub fn states<const N: usize>(
+    /// Positions and velocities of each target from the centre at epochs that do not fall, in s past J2000 TDB; `told` hears
+    /// of each epoch and may end the work.
+    fn states(
         &self,
-        targets: [FlownTarget; N],
+        targets: &[FlownTarget],
         epochs_s: &[f64],
-        mut told: impl FnMut(),
-    ) -> Result<[Vec<CartesianState>; N], Box<dyn std::error::Error>> {
-        let mut outputs: [Outputs; N] = [[0; 6]; N];
-        for (outputs, target) in outputs.iter_mut().zip(targets) {
-            let (position, velocity) = match target {
-                FlownTarget::Sun => ("sun.positionInertial", "sun.velocityInertial"),
-                FlownTarget::Earth => ("earth.positionInertial", "earth.velocityInertial"),
-                _ => ("position", "velocity"),
-            };
-            let names = [position, velocity].into_iter().flat_map(|name| (1..=3).map(move |i| (name, i)));
-            for (slot, (name, i)) in outputs.iter_mut().zip(names) {
-                *slot = self.fmu.variable(&format!("{name}[{i}]"))?.value_reference;
-            }
-        }
-        let mut instance = self.started()?;
-        let mut time_s = 0.0;
-        let mut states = targets.map(|_| Vec::with_capacity(epochs_s.len()));
-        for epoch_s in epochs_s {
-            let next_s = epoch_s - self.start_s;
-            if next_s > time_s {
-                instance.do_step(time_s, next_s - time_s, true).map_err(|error| self.in_fmu(&error))?;
-                time_s = next_s;
-            }
-            for (outputs, states) in outputs.iter().zip(&mut states) {
-                let mut values = [0.0; 6];
-                instance.get_reals(outputs, &mut values)?;
-                let [x, y, z, vx, vy, vz] = values;
-                states.push(CartesianState {
-                    position_m: Vector3::new(x, y, z),
-                    velocity_m_s: Vector3::new(vx, vy, vz),
-                });
-            }
-            told();
-            if interrupt::raised() {
-                return Err("interrupted".into());
-            }
-        }
-        Ok(states)
-    }
-
-    fn started(&self) -> Result<Instance, Box<dyn std::error::Error>> {
-        let started = || -> Result<Instance, Error> {
-            let mut instance = Instance::new(&self.fmu, "ephemeris", &InstanceOptions::default())?;
-            instance.setup_experiment(None, 0.0, None)?;
-            for (name, value) in &self.sets {
-                instance.set(name, value)?;
-            }
-            instance.enter_initialization_mode()?;
-            instance.exit_initialization_mode()?;
-            Ok(instance)
-        };
-        started().map_err(|error| self.in_fmu(&error).into())
-    }
-
-    fn in_fmu(&self, error: &Error) -> String {
-        format!("{}: {}", self.shown, Error::chain(error))
-    }
-}
-
-/// The value of a body among those that `orbit.center` takes.
-fn code(body: Body) -> String {
-    let number = match body {
-        Body::Mercury => 1,
-        Body::Sun => 2,
-        Body::Venus => 3,
-        Body::Earth => 4,
-        Body::Mars => 6,
-        Body::Jupiter => 7,
-    };
-    number.to_string()
+        told: &mut dyn FnMut() -> Result<(), Failure>,
+    ) -> Result<Vec<Vec<CartesianState>>, Failure>;
 }

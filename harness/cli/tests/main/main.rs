@@ -6,6 +6,8 @@ mod drawings;
 mod ephemerides;
 mod files;
 mod hostile;
+#[cfg(feature = "spk")]
+mod kernels;
 mod packs;
 mod plans;
 mod runs;

@@ -1,0 +1,94 @@
+//! Kernels that place bodies about a center, as a source to fit.
+
+use physics::{
+    bodies::Body,
+    environment::{CartesianState, flown::FlownTarget},
+};
+
+use super::{
+    chain, coverage,
+    naif::{self, Center},
+    options::KernelOptions,
+    spk_file::SpkFile,
+};
+use crate::ephemeris::source::{Failure, Source};
+
+/// Open kernels, of which the later ones count first.
+pub struct Kernels {
+    files: Vec<SpkFile>,
+    center: Center,
+    spacecraft: i32,
+    title: String,
+}
+
+impl Kernels {
+    /// Opens the kernels that are named, and looks whether they place the targets over a span.
+    ///
+    /// # Errors
+    ///
+    /// A file that is no SPK, a body that none holds, a span that they do not cover.
+    pub fn open(options: &KernelOptions, targets: &[FlownTarget], span_s: [f64; 2]) -> Result<Self, Failure> {
+        let files: Vec<SpkFile> =
+            options.kernel.iter().map(|path| SpkFile::open(path)).collect::<Result<_, _>>()?;
+        let center = options.center.unwrap_or(Center { body: Body::Mercury, id: naif::id(Body::Mercury) });
+        let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+        let mut title = format!("SPK {} from {}", names.join(", "), naif::named(center.id));
+        let spacecraft = options.spacecraft.unwrap_or(naif::MESSENGER);
+        if targets.contains(&FlownTarget::Spacecraft) {
+            title += &format!(", spacecraft {spacecraft}");
+        } else if options.spacecraft.is_some() {
+            return Err("--spacecraft: allowed where --bodies names the spacecraft".into());
+        }
+        let kernels = Self { files, center, spacecraft, title };
+        for target in targets {
+            coverage::check(&kernels.files, kernels.id(*target), center, span_s)?;
+        }
+        Ok(kernels)
+    }
+
+    fn id(&self, target: FlownTarget) -> i32 {
+        match target.body() {
+            Some(body) if body == self.center.body => self.center.id,
+            Some(body) => naif::id(body),
+            None => self.spacecraft,
+        }
+    }
+
+    fn state(&self, target: FlownTarget, at_s: f64) -> Result<CartesianState, String> {
+        let (files, ids) = (&self.files[..], [self.id(target), self.center.id]);
+        let [up, down] = ids.map(|id| chain::ancestors(files, id, at_s));
+        let common = chain::common(&up, &down).ok_or_else(|| format!("--kernel: {target} is not placed"))?;
+        let [target, center] = ids.map(|id| chain::state_from(files, id, common, at_s));
+        let (target, center) = (target?, center?);
+        Ok(CartesianState {
+            position_m: target.position_m - center.position_m,
+            velocity_m_s: target.velocity_m_s - center.velocity_m_s,
+        })
+    }
+}
+
+impl Source for Kernels {
+    fn center(&self) -> Body {
+        self.center.body
+    }
+
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn states(
+        &self,
+        targets: &[FlownTarget],
+        epochs_s: &[f64],
+        told: &mut dyn FnMut() -> Result<(), Failure>,
+    ) -> Result<Vec<Vec<CartesianState>>, Failure> {
+        let mut states = vec![Vec::with_capacity(epochs_s.len()); targets.len()];
+        for at_s in epochs_s {
+            for (target, states) in targets.iter().zip(&mut states) {
+                states.push(self.state(*target, *at_s)?);
+            }
+            told()?;
+        }
+        Ok(states)
+    }
+}
