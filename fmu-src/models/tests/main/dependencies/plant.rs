@@ -76,10 +76,9 @@ fn is_flown(bench: &Plant, values: &Tables) -> bool {
 const CARRIERS: &[(&str, &str)] = &[
     ("sunshade.polynomialValid", "sun.direction"),
     ("sun.litFraction", "heliocentric.position"),
-    ("momentum.body", "attitude.q"),
+    ("momentum.", "attitude.q"),
     ("dump.", "attitude.q"),
     ("dump.", "momentum.inertial"),
-    ("momentum.targetClamped", "attitude.q"),
     // What is commanded for good at the start turns the body under all light.
     ("torque.", "attitude.q"),
     // A dump begins where the momentum exceeds a threshold.
@@ -229,6 +228,8 @@ fn redraw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, values: &
         q.iter_mut().for_each(|x| *x /= norm);
         bench.put_vector(values, name, &q);
     }
+    let torque_n_m = if random.next() < 0.5 { 1e-5 } else { 0.0 };
+    bench.put_vector(values, "torque.applied", &random.direction().map(|x| torque_n_m * x));
     bench.put_vector(values, "command.rate", &random.direction().map(|x| 1e-3 * x));
     let momentum_n_m_s = random.between(2.0, 6.0);
     bench.put_vector(values, "start.momentum", &random.direction().map(|x| momentum_n_m_s * x));
