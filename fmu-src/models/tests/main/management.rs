@@ -288,7 +288,7 @@ fn sources_add_up_to_the_momentum_since_the_last_dump() {
     let named = NamedModel::<MomentumPlant>::shipped();
     for convention in [1.0, 2.0] {
         let sets =
-            with(&mission(2.0), &[("momentum.convention", convention), ("gravityGradient.enabled", 1.0)]);
+            with(&mission(1.0), &[("momentum.convention", convention), ("gravityGradient.enabled", 1.0)]);
         let mut flight = named.fly(0.0, &[&sets[..], &EFFECTS[..2], &EFFECTS[3..]].concat()).unwrap();
         let (mut since, mut dumps, mut checked) = (Vector3::zeros(), 0, 0);
         for day in 1..=60 {
