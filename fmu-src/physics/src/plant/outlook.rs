@@ -110,7 +110,10 @@ impl Outlook<'_, '_> {
         let guided = Guided { managed: false, sun_place: None, ..*law };
         let configuration = &mut *flight.configuration;
         let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(guided));
-        let momentum = configuration.momentum;
+        let (momentum, light_and_heat) = (configuration.momentum, configuration.light_and_heat);
+        // Tolerances shorten what is too coarse.
+        configuration.momentum.grid_s = momentum.grid_s.max(step_s);
+        configuration.light_and_heat.grid_s = light_and_heat.grid_s.max(step_s);
         configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
         let settings = configuration.momentum;
         let mut propagator = flight.propagator.clone();
@@ -143,7 +146,9 @@ impl Outlook<'_, '_> {
                     .momentum_body_n_m_s(settings.convention, &instant.frame.inertial_from_body),
             });
         }
-        (flight.configuration.attitude, flight.configuration.momentum) = (attitude, momentum);
+        let configuration = &mut *flight.configuration;
+        configuration.attitude = attitude;
+        (configuration.momentum, configuration.light_and_heat) = (momentum, light_and_heat);
         flown
     }
 

@@ -133,7 +133,8 @@ impl Start {
             management.strategy,
             management.target_axes,
             management.targeting,
-            management.target,
+            management.target.element(0),
+            management.target.element(2),
             v.start.momentum,
             v.keep_in.azimuth,
         ];
