@@ -339,7 +339,9 @@ impl GuidanceState {
             let to_sun_m = value(&surroundings.to_sun());
             let to_earth_m = value(&surroundings.to_earth());
             let is_span = span_s.is_finite() && span_s > 0.0;
-            is_span.then(|| chooser.choose(&DownlinkStart { to_sun_m, to_earth_m, attitude, span_s })).flatten()
+            is_span
+                .then(|| chooser.choose(&DownlinkStart { to_sun_m, to_earth_m, attitude, span_s }))
+                .flatten()
         });
     }
 

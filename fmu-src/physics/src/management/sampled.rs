@@ -16,8 +16,8 @@ use crate::plant::{StartMomentum, SunLight, SunlitCraft};
 pub struct SampledManager<'a> {
     /// Strategy and target.
     pub manager: Manager<'a>,
-    /// What the light meets; absent where nothing is managed.
-    pub craft: Option<SunlitCraft<'a>>,
+    /// What the light meets.
+    pub craft: SunlitCraft<'a>,
     /// Sunlight.
     pub light: SunLight,
     /// What the momentum means.
@@ -28,7 +28,10 @@ pub struct SampledManager<'a> {
 
 impl SunChooser for SampledManager<'_> {
     fn choose(&self, start: &DownlinkStart) -> Option<ChosenPlace> {
-        let craft = self.craft.filter(|_| self.manager.strategy != Strategy::DumpsOnly)?;
+        if self.manager.strategy == Strategy::DumpsOnly {
+            return None;
+        }
+        let craft = &self.craft;
         let pressure_pa = self.light.pressure_pa(start.to_sun_m.norm());
         let momentum = match self.convention {
             Convention::Inertial => {
@@ -43,10 +46,7 @@ impl SunChooser for SampledManager<'_> {
             momentum,
             span_s: start.span_s,
             torque_body_n_m: &torque,
-            linear: self
-                .manager
-                .linear(&craft.center_of_mass_body_m())
-                .map(|formula| (formula, pressure_pa)),
+            linear: self.manager.linear(&craft.center_of_mass_body_m()).map(|formula| (formula, pressure_pa)),
         };
         self.manager.place(&aim, None)
     }
