@@ -38,7 +38,8 @@ const QUIET: &[(&str, f64)] = &[
     ("momentum.body[3]", MOMENTUM[2]),
     ("estimate.q[1]", 0.6),
     ("estimate.q[4]", 0.8),
-    ("panel[1].nominalSunOffset", 0.5),
+    ("panel[1].nominalSunOffset", 0.3),
+    ("panel[2].nominalSunOffset", 0.3),
     ("hotPole.enabled", 0.0),
     ("monitor.enabled", 0.0),
 ];
@@ -131,7 +132,7 @@ fn a_window_of_the_orbit_phase_aims_at_its_own_end() {
     let mut guidance = guidances.fly(0.0, &with(&[&still(60.0), QUIET, &windows])).unwrap();
     let mut plant = plants.fly(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
     guidance.step_to(3.0).unwrap();
-    assert_eq!(guidance.real("sun.azimuth"), 0.0);
+    assert!(guidance.real("sun.azimuth").abs() < 1e-12);
     // The momentum at the window's begin counts.
     plant.step_to(3.0).unwrap();
     set_vector(&mut guidance, "momentum.body", &plant.vector("momentum.body"));
