@@ -4,6 +4,7 @@
 use nalgebra::Vector3;
 
 use super::delta_v::{BurnPhase, BurnSettings};
+use super::downlink_sun::SunOnMinusY;
 use super::system::{GuidanceState, SampleInputs};
 use super::test_burn::{BurnFlight, guidance_settings, sample_inputs, settings, surroundings};
 use super::velocity_path::VelocityPath;

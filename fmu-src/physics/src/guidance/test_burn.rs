@@ -9,6 +9,7 @@ use super::command::{PointingCommand, Scenario};
 use super::constraints::Constraints;
 use super::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
 use super::downlink::LinkLimits;
+use super::downlink_sun::SunOnMinusY;
 use super::guided::Guided;
 use super::keep_in::{KeepIn, KeepInMethod};
 use super::modes::{ModeSettings, Sensed};
