@@ -169,6 +169,7 @@ impl Parameters {
                 guided.downlink_start,
                 guided.downlink_end,
                 guided.downlink_every,
+                guided.downlink_reference,
                 guided.slew_rate,
                 planet.gravitational_parameter,
             ],
