@@ -196,7 +196,9 @@ fn sun_place(setup: &GuidanceSetup, v: &GuidanceVariables) -> Knowns {
         momentum.strategy,
         momentum.aim.target_axes,
         momentum.aim.targeting,
-        momentum.aim.target,
+        // What the Sun's place brings to a target.
+        momentum.aim.target.element(0),
+        momentum.aim.target.element(2),
         momentum.convention,
         momentum.body,
         v.start.q,
@@ -258,10 +260,11 @@ fn judgement(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Pa
     let moved = &knowns![&i.scanned, v.limb.height_rate, &i.increment, &i.momentum];
     let aimed = &knowns![&p.path, &p.thrust_direction];
     let in_line = &knowns![&i.attitude, &i.instrument_along_roll];
+    let span = &knowns![v.guided.downlink_start, v.guided.downlink_end];
     table.output(
         v.geometry.degenerate,
         knowns![in_line, moved],
-        knowns![in_line, &p.mode, &p.device, aimed, &p.sun_place, &p.span],
+        knowns![in_line, &p.mode, &p.device, aimed, &p.sun_place, span],
     );
     let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
     let start = &knowns![attitude, &p.mode, &p.device, &p.guided, aimed, &p.sun_place];

@@ -416,6 +416,10 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         bench.put(values, "ephemeris.source", 3.0);
         bench.put(values, "guided.downlinkStart", random.between(0.0, 900.0));
         bench.put(values, "guided.downlinkEnd", random.between(9000.0, 36_000.0));
+        if random.next() < 0.5 {
+            // Not connected: the attitude held turns the momentum.
+            bench.put_vector(values, "estimate.q", &[0.0, 0.0, 0.0, 1.0]);
+        }
     }
     if let Subject::Lost(what) = subject {
         bench.put(values, "ephemeris.source", 3.0);
