@@ -66,7 +66,7 @@ mod tests {
         assert_eq!(sample(4.1, 3.0, 0.5), (true, left));
         assert_eq!(sample(4.2, 3.0, 0.5), (false, left));
         assert_eq!(sample(4.2, 3.0, -1.1), (true, Vector3::new(-2.0, 3.0, 0.5)));
-        assert_eq!(sample(3.9, 3.0, -1.1).0, false);
+        assert!(!sample(3.9, 3.0, -1.1).0);
         assert_eq!(sample(-4.5, 3.0, -1.1), (true, Vector3::new(2.0, 3.0, 0.5)));
     }
 }
