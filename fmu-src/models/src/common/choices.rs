@@ -4,7 +4,8 @@ use fmi_export::Enumeration;
 use physics::bodies::{Body, surface};
 use physics::environment::eclipse::ShadowModel;
 use physics::guidance::system;
-use physics::spacecraft::{Spacecraft, SunshadeModel, ThrusterSet};
+use physics::momentum::Convention;
+use physics::spacecraft::{Panel, Spacecraft, SunshadeModel, ThrusterSet};
 
 /// An enumeration whose items are the variants of an enum of physics: `item = value => Variant`, each with its description.
 macro_rules! enumeration_of {
@@ -130,6 +131,40 @@ impl SunshadeShape {
     /// What a spacecraft file asks for; plates without a shade.
     pub fn of(spacecraft: &Spacecraft) -> Self {
         Self(spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model))
+    }
+}
+
+/// Sense in which a panel tilts off the Sun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum PanelTilt {
+    /// Right-handed about the panel's axis.
+    Positive = 1,
+    /// Left-handed about the panel's axis.
+    Negative = 2,
+}
+
+impl PanelTilt {
+    /// The sense in which a spacecraft file tilts a panel.
+    pub fn of(panel: &Panel) -> Self {
+        if panel.tilt_sign < 0.0 { Self::Negative } else { Self::Positive }
+    }
+
+    /// +1 or -1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Negative => -1.0,
+            Self::Positive => 1.0,
+        }
+    }
+}
+
+enumeration_of! {
+    /// Meaning of system momentum in the body frame.
+    MomentumConvention(Convention) {
+        /// Physical: the inertial total shown in body components.
+        inertial = 1 => Inertial,
+        /// Paper 000: each body component of torque integrated on its own.
+        bodyIntegral = 2 => BodyIntegral,
     }
 }
 

@@ -41,13 +41,9 @@ enumeration_of! {
     }
 }
 
-/// Parameters of momentum management.
+/// What downlinks bring the momentum to.
 #[derive(Variables)]
-pub struct ManagementVariables {
-    /// What sunlight is used for during downlinks. It acts where the attitude is guided, in controlled flight with
-    /// command.source = guidance too.
-    #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
-    pub strategy: Choice<MomentumStrategy>,
+pub struct TargetingVariables {
     /// Body components of momentum that sunlight brings to a target.
     #[parameter(start = MomentumTargetAxes(TargetAxes::XAndZ))]
     pub target_axes: Choice<MomentumTargetAxes>,
@@ -57,6 +53,34 @@ pub struct ManagementVariables {
     /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub target: RealVector<3>,
+}
+
+impl TargetingVariables {
+    /// Axes, formula and limits.
+    pub fn read(&self, values: &Values, azimuth_limit_rad: f64, elevation_limit_rad: f64) -> Targeting {
+        Targeting {
+            axes: values.choice(self.target_axes).map_or(TargetAxes::XAndZ, |it| it.0),
+            method: values.choice(self.targeting).map_or(TargetingMethod::Exact, |it| it.0),
+            azimuth_limit_rad,
+            elevation_limit_rad,
+        }
+    }
+
+    /// The target, body frame, in N m s.
+    pub fn target_body_n_m_s(&self, values: &Values) -> Vector3<f64> {
+        Vector3::from(values.vector(self.target))
+    }
+}
+
+/// Parameters of momentum management.
+#[derive(Variables)]
+pub struct ManagementVariables {
+    /// What sunlight is used for during downlinks. It acts where the attitude is guided, in controlled flight with
+    /// command.source = guidance too.
+    #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
+    pub strategy: Choice<MomentumStrategy>,
+    #[group(name = "")]
+    pub aim: TargetingVariables,
     /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none). Without a cycle to
     /// come they are momentum.target.
     #[parameter(min = 1, max = 100, start = 4)]
@@ -88,13 +112,8 @@ impl ManagementVariables {
     ) -> Manager<'s> {
         Manager {
             strategy: values.choice(self.strategy).map_or(Strategy::DumpsOnly, |it| it.0),
-            targeting: Targeting {
-                axes: values.choice(self.target_axes).map_or(TargetAxes::XAndZ, |it| it.0),
-                method: values.choice(self.targeting).map_or(TargetingMethod::Exact, |it| it.0),
-                azimuth_limit_rad: values.real(limits.azimuth),
-                elevation_limit_rad: values.real(limits.elevation),
-            },
-            target_body_n_m_s: Vector3::from(values.vector(self.target)),
+            targeting: self.aim.read(values, values.real(limits.azimuth), values.real(limits.elevation)),
+            target_body_n_m_s: self.aim.target_body_n_m_s(values),
             horizon: values.integer(self.horizon).unsigned_abs(),
             sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
         }

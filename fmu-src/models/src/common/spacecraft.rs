@@ -4,8 +4,10 @@ use std::collections::BTreeSet;
 
 use fmi_export::{Failure, Knowns, RealMatrix, RealVector, SetupError, Values};
 use nalgebra::Matrix3;
+use physics::momentum::WheelArray;
+use physics::radiation::SolarModel;
 use physics::radiation::disturbance::{DisturbanceModel, Options};
-use physics::spacecraft::{self, Spacecraft};
+use physics::spacecraft::{self, Spacecraft, SunshadeModel};
 use serde::Serialize;
 
 /// The inertia in body axes that `spacecraft.inertia` holds by rows, in kg m2.
@@ -18,6 +20,53 @@ pub fn inertia_body_kg_m2(values: &Values, handle: RealMatrix<3, 3>) -> Result<M
     spacecraft::check_inertia(&inertia)
         .map_err(|allowed| Failure::new(format!("spacecraft.inertia is {rows:?}, allowed: {allowed}")))?;
     Ok(inertia)
+}
+
+/// A spacecraft prepared for sunlight with its shade in each shape.
+#[derive(Clone, Debug)]
+pub struct PreparedShapes {
+    /// The shade as plates; absent if the file describes it as a cylinder only.
+    plates: Option<SolarModel>,
+    /// The shade as a cylinder.
+    cylinder: Option<SolarModel>,
+}
+
+impl PreparedShapes {
+    /// Of one spacecraft.
+    pub fn of(spacecraft: &Spacecraft) -> Self {
+        let prepared = |model| SolarModel::with_sunshade_model(spacecraft, model).ok();
+        Self { plates: prepared(SunshadeModel::Plates), cylinder: prepared(SunshadeModel::Cylinder) }
+    }
+
+    /// The shape asked for, of the spacecraft of this name.
+    ///
+    /// # Errors
+    /// A shape that the file does not describe.
+    pub fn solar(&self, model: SunshadeModel, name: &str) -> Result<&SolarModel, Failure> {
+        let prepared = match model {
+            SunshadeModel::Plates => &self.plates,
+            SunshadeModel::Cylinder => &self.cylinder,
+        };
+        prepared.as_ref().ok_or_else(|| {
+            let (asked, other) = match model {
+                SunshadeModel::Plates => ("plates", "cylinder"),
+                SunshadeModel::Cylinder => ("cylinder", "plates"),
+            };
+            Failure::new(format!(
+                "sunshade.shape: found {asked}, allowed: {other}, as which alone the spacecraft.toml of {name} describes the \
+                 shade"
+            ))
+        })
+    }
+}
+
+/// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
+/// 000's for small wheels.
+pub fn dump_threshold_n_m_s(spacecraft: &Spacecraft, wheel_array: Option<&WheelArray>) -> [f64; 3] {
+    let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
+    let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
+    let guaranteed_n_m_s = wheel_array.map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
+    spacecraft.dump_threshold_n_m_s.map_or([guaranteed_n_m_s.unwrap_or(smallest_n_m_s); 3], Into::into)
 }
 
 /// A face whose temperature and force are reported.

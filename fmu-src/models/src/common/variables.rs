@@ -1,12 +1,14 @@
 //! Groups of variables that several models have.
 
-use fmi_export::{Choice, Failure, Integer, Knowns, Real, Values, Variables, knowns};
+use fmi_export::{Boolean, Choice, Failure, Integer, Knowns, Real, Values, Variables, knowns};
 use physics::bodies::Body;
 use physics::bodies::surface::{self, MERCURY, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements;
 use physics::environment::paper004::MERCURY_AS_PRINTED;
+use physics::environment::sun::SOLAR_FLUX_PAPER_000_W_M2;
 use physics::guidance::{self, Guided, Schedule};
+use physics::plant::SunLight;
 
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
 
@@ -43,6 +45,36 @@ impl SurfaceVariables {
                 .choice(self.day_temperature)
                 .map_or(surface::DayTemperature::Uniform, |it| it.0),
         }
+    }
+}
+
+/// Sunlight.
+#[derive(Variables)]
+pub struct SolarVariables {
+    /// Solar flux at 1 AU; 1353 W/m2 reproduces paper 000's pressure (well-known simulators use 1349 to 1368).
+    #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_PAPER_000_W_M2)]
+    pub flux: Real,
+    /// Whether the pressure is solar.pressure everywhere instead of following the distance from the Sun.
+    #[parameter(start = false)]
+    pub fixed_pressure: Boolean,
+    /// Radiation pressure when it is fixed; the default is paper 000's value at 0.3 AU.
+    #[parameter(unit = "Pa", display = "uPa", min = 0.0, max = 1.0, start = 5.0145e-5)]
+    pub pressure: Real,
+}
+
+impl SolarVariables {
+    /// The sunlight.
+    pub fn read(&self, values: &Values) -> SunLight {
+        if values.boolean(self.fixed_pressure) {
+            SunLight::Fixed { pressure_pa: values.real(self.pressure) }
+        } else {
+            SunLight::Distance { flux_w_m2: values.real(self.flux) }
+        }
+    }
+
+    /// All of them.
+    pub fn knowns(&self) -> Knowns {
+        knowns![self.flux, self.fixed_pressure, self.pressure]
     }
 }
 

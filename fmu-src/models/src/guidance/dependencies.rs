@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use super::setup::GuidanceSetup;
 use super::variables::GuidanceVariables;
 use super::variables::commands::AimpointVariables;
+use crate::common::spacecraft::has_both_shapes;
 
 /// Inputs by what they act on.
 struct Inputs {
@@ -35,6 +36,8 @@ struct Inputs {
     rolls: Knowns,
     /// The velocity that a burn added since the last sample, along the body axes.
     increment: Knowns,
+    /// The momentum with which a downlink begins.
+    momentum: Knowns,
 }
 
 impl Inputs {
@@ -97,6 +100,7 @@ impl Inputs {
             second_aimpoint: self::aimpoint(&v.second_aimpoint),
             rolls,
             increment: knowns![v.accelerometer.delta_v],
+            momentum: knowns![v.momentum.body],
         }
     }
 }
@@ -115,6 +119,10 @@ struct Parameters {
     thrust_direction: Knowns,
     /// Its nominal acceleration.
     acceleration: Knowns,
+    /// Where a downlink puts the Sun, its length and the keep-in zone aside.
+    sun_place: Knowns,
+    /// How long a downlink lasts.
+    span: Knowns,
 }
 
 impl Parameters {
@@ -161,14 +169,44 @@ impl Parameters {
                 guided.downlink_start,
                 guided.downlink_end,
                 guided.downlink_every,
+                guided.downlink_reference,
                 guided.slew_rate,
                 planet.gravitational_parameter,
             ],
             path: knowns![v.burn.delta_v, v.burn.profile],
             thrust_direction: knowns![v.burn.thrust_direction, thrusters(direction_differs)],
             acceleration: knowns![v.burn.acceleration, thrusters(acceleration_differs)],
+            sun_place: sun_place(setup, v),
+            span: knowns![
+                guided.downlink_start,
+                guided.downlink_end,
+                guided.downlink_every,
+                guided.downlink_reference,
+                planet.gravitational_parameter,
+            ],
         }
     }
+}
+
+/// Where a downlink puts the Sun: strategy, target, the torque that it counts on, and the momentum it begins with.
+fn sun_place(setup: &GuidanceSetup, v: &GuidanceVariables) -> Knowns {
+    let momentum = &v.momentum;
+    let panels = v.panel.iter().map(|panel| knowns![panel.nominal_sun_offset, panel.tilt, panel.enabled]);
+    knowns![
+        momentum.strategy,
+        momentum.aim.target_axes,
+        momentum.aim.targeting,
+        // What the Sun's place brings to a target.
+        momentum.aim.target.element(0),
+        momentum.aim.target.element(2),
+        momentum.convention,
+        momentum.body,
+        v.start.q,
+        v.spacecraft.center_of_mass,
+        v.solar.knowns(),
+        knowns![v.sunshade.shape].only_if(has_both_shapes(&setup.spacecraft)),
+        panels.collect::<Knowns>(),
+    ]
 }
 
 /// One row an unknown.
@@ -180,6 +218,7 @@ pub fn table(setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
     judgement(&mut table, v, i, p);
     devices(&mut table, v, i, p);
     burn(&mut table, v, i, p);
+    momentum(&mut table, v, i, p);
     table
 }
 
@@ -194,9 +233,9 @@ fn command(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
         table.output(output, kind, knowns![kind, &p.mode, &p.path]);
     }
     let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
-    let later = &knowns![attitude, &i.scanned, v.limb.height_rate, &i.increment];
+    let later = &knowns![attitude, &i.scanned, v.limb.height_rate, &i.increment, &i.momentum];
     let aimed = &knowns![&p.path, &p.thrust_direction];
-    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, method, aimed];
+    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, method, aimed, &p.sun_place];
     for output in [knowns![v.command.q], knowns![v.sun.azimuth, v.sun.elevation]] {
         table.output(output, later, knowns![start, v.start.q]);
     }
@@ -218,12 +257,17 @@ fn judgement(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Pa
         knowns![&i.existence, scan_frame, &p.mode, compatibility(v)],
     );
     table.output(v.earth.sun_separation, &i.existence, knowns![&i.existence, &p.mode, &p.path]);
-    let moved = &knowns![&i.scanned, v.limb.height_rate, &i.increment];
+    let moved = &knowns![&i.scanned, v.limb.height_rate, &i.increment, &i.momentum];
     let aimed = &knowns![&p.path, &p.thrust_direction];
     let in_line = &knowns![&i.attitude, &i.instrument_along_roll];
-    table.output(v.geometry.degenerate, knowns![in_line, moved], knowns![in_line, &p.mode, &p.device, aimed]);
+    let span = &knowns![v.guided.downlink_start, v.guided.downlink_end];
+    table.output(
+        v.geometry.degenerate,
+        knowns![in_line, moved],
+        knowns![in_line, &p.mode, &p.device, aimed, &p.sun_place, span],
+    );
     let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
-    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, aimed];
+    let start = &knowns![attitude, &p.mode, &p.device, &p.guided, aimed, &p.sun_place];
     for output in [knowns![v.target.reachable], knowns![v.constraint.sun_keep_in]] {
         table.output(output, knowns![attitude, moved], start);
     }
@@ -247,13 +291,17 @@ fn devices(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Para
             knowns![camera, &p.mode, &p.device, v.keep_in.method],
         );
     }
-    let antenna = &knowns![basic, v.boresight.azimuth, directions(&v.aimpoint), &i.velocities];
+    let antenna = &knowns![basic, v.boresight.azimuth, directions(&v.aimpoint), &i.velocities, &i.momentum];
     for output in [knowns![v.antenna.select], knowns![v.antenna.azimuth]] {
-        table.output(output, antenna, knowns![antenna, &p.mode, &p.guided, v.keep_in.method]);
+        table.output(output, antenna, knowns![antenna, &p.mode, &p.guided, &p.sun_place, v.keep_in.method]);
     }
     let link = &knowns![antenna, &i.aimpoint, &i.rolls];
     let limits = knowns![v.link.sun_exclusion, v.link.beam, v.keep_in.method, v.subsolar.method];
-    table.output(v.link.available, knowns![link, &i.scanned], knowns![link, &p.mode, &p.guided, limits]);
+    table.output(
+        v.link.available,
+        knowns![link, &i.scanned],
+        knowns![link, &p.mode, &p.guided, &p.sun_place, limits],
+    );
 }
 
 /// What a burn tells the thrusters and what it finds.
@@ -271,6 +319,22 @@ fn burn(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Paramet
     let turned = knowns![measured, v.estimate.q, v.position, v.sun.position, v.earth.position];
     for output in [knowns![burn.velocity], knowns![burn.velocity_error]] {
         table.output(output, &turned, knowns![]);
+    }
+}
+
+/// What is said of targets, what thrusters are asked for, and how panels stand.
+fn momentum(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Parameters) {
+    let (momentum, dump) = (&v.momentum, &v.dump);
+    let begun = &knowns![&i.mode, v.pointing.scenario, v.boresight.option, v.velocity, &i.momentum];
+    table.output(momentum.target_clamped, begun, knowns![begun, &p.mode, &p.sun_place, &p.span]);
+    let asked = knowns![&i.momentum, dump.threshold];
+    table.output(dump.request, &i.momentum, &asked);
+    for axis in 0..3 {
+        let policy = knowns![dump.reinit_to, dump.reinit_fraction, momentum.aim.target.element(axis)];
+        table.output(dump.target.element(axis), &i.momentum, knowns![&asked, policy]);
+    }
+    for panel in &v.panel {
+        table.output(panel.sun_offset, knowns![], panel.nominal_sun_offset);
     }
 }
 

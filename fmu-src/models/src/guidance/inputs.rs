@@ -29,6 +29,7 @@ use physics::guidance::scenario::GuidanceHardware;
 use physics::guidance::system::GuidanceSettings;
 use physics::guidance::velocity_path::VelocityPath;
 use physics::guidance::{Surroundings, TargetPlanet};
+use physics::plant::PanelSetting;
 
 use super::setup::Plan;
 use super::variables::choices::EphemerisSource;
@@ -42,6 +43,8 @@ pub struct Fixed {
     planet: TargetPlanet,
     source: EphemerisSource,
     bodies: BodiesFromCenter,
+    /// The panels as they are commanded; tunable, and set anew with every step.
+    pub panels: Vec<PanelSetting>,
     /// The burn of the scenario burn.
     pub burn: BurnSettings,
 }
@@ -93,7 +96,13 @@ impl Fixed {
             None
         };
         let bodies = BodiesFromCenter { center: body, ellipse };
-        Ok(Self { planet, source, bodies, burn: burn(context, values)? })
+        Ok(Self {
+            planet,
+            source,
+            bodies,
+            panels: Vec::with_capacity(v.panel.len()),
+            burn: burn(context, values)?,
+        })
     }
 }
 
@@ -360,6 +369,11 @@ impl<'a> Reader<'a> {
     /// Sum of the accelerometers' increments.
     pub fn delta_v_body_m_s(&self) -> Vector3<f64> {
         self.vector(self.context.variables.accelerometer.delta_v)
+    }
+
+    /// System momentum along the body axes.
+    pub fn momentum_body_n_m_s(&self) -> Vector3<f64> {
+        self.vector(self.context.variables.momentum.body)
     }
 
     /// Whether an input asks for a mode.

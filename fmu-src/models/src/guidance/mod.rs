@@ -2,6 +2,7 @@
 
 mod dependencies;
 mod inputs;
+mod management;
 mod outputs;
 mod setup;
 mod variables;
@@ -14,6 +15,7 @@ use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::system::{self, GuidanceSettings, GuidanceState, SampleInputs, TimedEntries};
+use physics::management::{DumpRequests, SampledManager};
 use serde::{Deserialize, Serialize};
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
@@ -26,6 +28,7 @@ use variables::GuidanceVariables;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct State {
     system: GuidanceState,
+    dumps: DumpRequests,
     /// The communication point reached, in s.
     time_s: f64,
     /// Epoch less time, in s.
@@ -45,7 +48,7 @@ pub struct State {
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 2;
+    const STATE_VERSION: u32 = 3;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -101,6 +104,7 @@ impl Model for Guidance {
         let epoch_s = values.real(context.variables.start.epoch);
         let mut state = State {
             system: GuidanceState::new(inputs::start_attitude(context, values)?, start_s),
+            dumps: DumpRequests::default(),
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
             said_unconnected: false,
@@ -109,13 +113,14 @@ impl Model for Guidance {
             fixed: None,
         };
         let mut shown = state.clone();
-        let fixed = Fixed::read(context, values)?;
+        let mut fixed = Fixed::read(context, values)?;
+        management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.said_unconnected = shown.said_unconnected;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
-        outputs::write(context, values, &shown.system, &fixed.burn, start_s, epoch_s);
+        outputs::write(context, values, &shown.system, &shown.dumps, &fixed.burn, start_s, epoch_s);
         state.fixed = Some(fixed);
         Ok(state)
     }
@@ -126,7 +131,8 @@ impl Model for Guidance {
         state: &mut State,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
-        let fixed = state.fixed.take().map_or_else(|| Fixed::read(context, values), Ok)?;
+        let mut fixed = state.fixed.take().map_or_else(|| Fixed::read(context, values), Ok)?;
+        management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         let limit = context.variables.solver.units(values);
         let mut samples = 0;
@@ -144,13 +150,17 @@ impl Model for Guidance {
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
-        outputs::write(context, values, &state.system, &fixed.burn, step.end_s, epoch_s);
+        outputs::write(context, values, &state.system, &state.dumps, &fixed.burn, step.end_s, epoch_s);
         state.fixed = Some(fixed);
         Ok(StepEnd::at(step.end_s))
     }
 
     fn check_state(_setup: &GuidanceSetup, state: &State) -> Result<(), Failure> {
-        if state.system.is_sound() && state.epoch_minus_time_s.is_finite() && state.time_s.is_finite() {
+        if state.system.is_sound()
+            && state.dumps.is_sound()
+            && state.epoch_minus_time_s.is_finite()
+            && state.time_s.is_finite()
+        {
             return Ok(());
         }
         Err(Failure::new(
@@ -218,8 +228,13 @@ impl State {
         }
         sensed.request = sensed.request.or(entry.and_then(|entry| entry.mode));
         let delta_v_body_m_s = reader.delta_v_body_m_s();
+        let momentum_body_n_m_s = reader.momentum_body_n_m_s();
+        self.dumps.sample(&management::policy(context, values), &momentum_body_n_m_s);
+        let keep_in = settings.modes.operational.keep_in.unwrap_or(settings.keep_in);
+        let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
+        let manager = SampledManager { momentum_body_n_m_s, ..manager };
         let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
-        self.system.sample(&settings, &inputs);
+        self.system.sample(&settings, &inputs, &manager);
         Ok(())
     }
 }

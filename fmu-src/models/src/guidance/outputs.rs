@@ -4,6 +4,7 @@ use fmi_export::{Real, Values};
 
 use physics::guidance::delta_v::{BurnPhase, BurnSettings, BurnState};
 use physics::guidance::system::GuidanceState;
+use physics::management::DumpRequests;
 
 use super::setup::Plan;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
@@ -17,6 +18,7 @@ pub fn write(
     context: &Plan<'_>,
     values: &mut Values,
     state: &GuidanceState,
+    dumps: &DumpRequests,
     burn: &BurnSettings,
     time_s: f64,
     epoch_s: f64,
@@ -56,6 +58,12 @@ pub fn write(
     values.set_boolean(v.constraint.hot_pole, judged.hot_pole);
     values.set_boolean(v.constraint.clamped, judged.clamped);
     self::burn(context, values, state.burn(), burn);
+    for panel in &v.panel {
+        values.set_real(panel.sun_offset, values.real(panel.nominal_sun_offset));
+    }
+    values.set_boolean(v.momentum.target_clamped, state.downlink_sun().is_clamped());
+    values.set_boolean(v.dump.request, dumps.is_requested());
+    values.set_vector(v.dump.target, (*dumps.target_body_n_m_s()).into());
 }
 
 /// Writes what a burn tells the thrusters and what it found.

@@ -7,8 +7,11 @@ use nalgebra::Vector3;
 use physics::environment::flown::FlownEphemeris;
 use physics::guidance::nominal_thrust::NominalThrust;
 use physics::guidance::timeline::Timeline;
+use physics::momentum::WheelArray;
 use physics::spacecraft::{Spacecraft, SunKeepIn, ThrusterSet};
 use serde::Serialize;
+
+use crate::common::spacecraft::{PreparedShapes, dump_threshold_n_m_s};
 
 /// Guidance.
 pub struct Guidance;
@@ -21,6 +24,9 @@ pub type Plan<'a> = Context<'a, Guidance>;
 pub struct GuidanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
+    /// Prepared for sunlight.
+    #[serde(skip)]
+    pub shapes: PreparedShapes,
     /// Positions over time, if there is a file of them; they do not enter the GUID.
     #[serde(skip)]
     pub ephemeris: Option<Arc<FlownEphemeris>>,
@@ -33,7 +39,13 @@ impl GuidanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
-        Ok(Self { spacecraft, ephemeris: None, timeline: None })
+        Ok(Self { shapes: PreparedShapes::of(&spacecraft), spacecraft, ephemeris: None, timeline: None })
+    }
+
+    /// The dump threshold, as MomentumPlant has it.
+    pub fn dump_threshold_n_m_s(&self) -> [f64; 3] {
+        let axes: Vec<_> = self.spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+        dump_threshold_n_m_s(&self.spacecraft, WheelArray::new(&axes).as_ref())
     }
 
     /// Takes the commands of a timeline.

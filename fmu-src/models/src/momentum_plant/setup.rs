@@ -8,11 +8,12 @@ use physics::environment::flown::FlownEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PreparedSpacecraft};
-use physics::radiation::{SolarModel, TorquePolynomial};
+use physics::radiation::TorquePolynomial;
 use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
 use serde::Serialize;
 
 use super::variables::choices::AttitudeSource;
+use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -25,15 +26,12 @@ pub type Plan<'a> = Context<'a, MomentumPlant>;
 pub struct PlantSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
-    /// Prepared for sunlight with the shade as plates; absent if the file describes it as a cylinder only.
+    /// Prepared for sunlight.
     #[serde(skip)]
-    plates: Option<SolarModel>,
-    /// The same with the shade as a cylinder.
-    #[serde(skip)]
-    cylinder: Option<SolarModel>,
+    shapes: PreparedShapes,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
-    pub reported_faces: Vec<crate::common::spacecraft::ReportedFace>,
+    pub reported_faces: Vec<ReportedFace>,
     /// Distribution of momentum over the wheels; absent unless they span all directions.
     #[serde(skip)]
     pub wheel_array: Option<WheelArray>,
@@ -53,13 +51,11 @@ impl PlantSetup {
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-        let prepared = |model| SolarModel::with_sunshade_model(&spacecraft, model).ok();
         let wheel_array = WheelArray::new(&axes);
         Ok(Self {
             control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
-            reported_faces: crate::common::spacecraft::reported_faces(file, &spacecraft)?,
-            plates: prepared(SunshadeModel::Plates),
-            cylinder: prepared(SunshadeModel::Cylinder),
+            reported_faces: reported_faces(file, &spacecraft)?,
+            shapes: PreparedShapes::of(&spacecraft),
             wheel_array,
             ephemeris: None,
             orbit_method: OrbitMethod::default(),
@@ -89,26 +85,8 @@ impl PlantSetup {
     pub fn prepared_spacecraft(&self, model: SunshadeModel) -> Result<PreparedSpacecraft<'_>, Failure> {
         Ok(PreparedSpacecraft {
             panels: &self.spacecraft.panels,
-            solar: self.solar(model)?,
+            solar: self.shapes.solar(model, &self.spacecraft.name)?,
             orbit_method: &self.orbit_method,
-        })
-    }
-
-    fn solar(&self, model: SunshadeModel) -> Result<&SolarModel, Failure> {
-        let prepared = match model {
-            SunshadeModel::Plates => &self.plates,
-            SunshadeModel::Cylinder => &self.cylinder,
-        };
-        prepared.as_ref().ok_or_else(|| {
-            let (asked, other) = match model {
-                SunshadeModel::Plates => ("plates", "cylinder"),
-                SunshadeModel::Cylinder => ("cylinder", "plates"),
-            };
-            Failure::new(format!(
-                "sunshade.shape: found {asked}, allowed: {other}, as which alone the spacecraft.toml of {} describes \
-                 the shade",
-                self.spacecraft.name
-            ))
         })
     }
 

@@ -4,6 +4,7 @@
 use nalgebra::Vector3;
 
 use super::delta_v::{BurnPhase, BurnSettings};
+use super::downlink_sun::SunOnMinusY;
 use super::system::{GuidanceState, SampleInputs};
 use super::test_burn::{BurnFlight, guidance_settings, sample_inputs, settings, surroundings};
 use super::velocity_path::VelocityPath;
@@ -124,7 +125,7 @@ fn under_way(burn: &BurnSettings, count: u32) -> (GuidanceState, SampleInputs) {
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
     let mut inputs = sample_inputs(Attitude::default(), Vector3::zeros());
     for _ in 0..count {
-        guidance.sample(&settings, &inputs);
+        guidance.sample(&settings, &inputs, &SunOnMinusY);
         let command = *guidance.command();
         let next_s = guidance.next_sample_s();
         inputs = sample_inputs(command.attitude_at(next_s), inputs.delta_v_body_m_s);
@@ -140,7 +141,7 @@ fn the_commanded_rate_turns_the_thrust_along_the_path() {
     let burn = BurnSettings { path: Some(powered_turn()), ..settings(Vector3::x()) };
     let (mut guidance, inputs) = under_way(&burn, 900);
     let before = *guidance.command();
-    guidance.sample(&guidance_settings(burn), &inputs);
+    guidance.sample(&guidance_settings(burn), &inputs, &SunOnMinusY);
     let after = *guidance.command();
     let turn = before.attitude_at(900.0 - 1.0).rotation_vector_to(&after.attitude_at(900.0));
     let mean = (before.rate_body_rad_s + after.rate_body_rad_s) * 0.5;
@@ -171,7 +172,7 @@ fn a_burn_without_acceleration_times_out() {
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
     let inputs = sample_inputs(Attitude::default(), Vector3::zeros());
     for second in 0..60 {
-        guidance.sample(&all, &inputs);
+        guidance.sample(&all, &inputs, &SunOnMinusY);
         let expected = (5..26).contains(&second).then_some(25.5);
         assert_eq!(guidance.burn().stop_s(), expected, "{second} s");
         assert!(guidance.is_sound());
@@ -189,32 +190,32 @@ fn a_burn_interrupted_does_not_go_on_by_itself() {
     let mut guidance = burning;
     let mut lost = inputs;
     lost.sensed.estimate = None;
-    guidance.sample(&all, &lost);
+    guidance.sample(&all, &lost, &SunOnMinusY);
     assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: false });
     let mut promoted = inputs;
     promoted.sensed.request = Some(super::mode::Mode::Operational);
     for _ in 0..10 {
-        guidance.sample(&all, &promoted);
+        guidance.sample(&all, &promoted, &SunOnMinusY);
         assert_eq!(guidance.burn().stop_s(), None);
     }
     // Another scenario ends it, the same one again is another burn.
     let mut guidance = burning;
     let mut other = inputs;
     other.command.scenario = Some(super::command::Scenario::Nadir);
-    guidance.sample(&all, &other);
+    guidance.sample(&all, &other, &SunOnMinusY);
     assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: false });
-    guidance.sample(&all, &inputs);
+    guidance.sample(&all, &inputs, &SunOnMinusY);
     assert!(guidance.burn().stop_s().is_some());
     assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
     // An entry of a timeline that goes on with its scenario does not begin it anew, one that names it does.
     let mut guidance = burning;
     let mut planned = inputs;
     planned.entries.scenario = Some(7);
-    guidance.sample(&all, &planned);
+    guidance.sample(&all, &planned, &SunOnMinusY);
     assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
     planned.entries.scenario = None;
     planned.delta_v_body_m_s += Vector3::z() * 0.088;
-    guidance.sample(&all, &planned);
+    guidance.sample(&all, &planned, &SunOnMinusY);
     assert!(guidance.burn().velocity_m_s().norm() > 0.08);
 }
 
@@ -231,7 +232,7 @@ fn no_thrust_without_direction_or_off_the_aim() {
     all.modes.operational.keep_in = Some(all.keep_in);
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
     for _ in 0..20 {
-        guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()));
+        guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
     }
     assert!(guidance.judgement().sun_keep_in && !guidance.judgement().reachable);
     assert_eq!(guidance.burn().phase(), BurnPhase::Waiting);

@@ -30,6 +30,8 @@ pub struct DownlinkRequest {
     pub antenna_azimuth_rad: Option<f64>,
     /// Where the Sun is to stand in the body frame; zero is on -Y. Read where no azimuth is given.
     pub sun_body: SunAngles,
+    /// Which of both azimuths the Earth has; `None`: as above. Read where no azimuth is given.
+    pub earth_ahead: Option<bool>,
 }
 
 /// Where the Sun stands in the body frame during a downlink, and on which side of it the Earth: one of eq 20's two solutions.
@@ -46,6 +48,15 @@ impl SunPlace {
     pub fn is_sound(&self) -> bool {
         [self.angles.azimuth_rad, self.angles.elevation_rad].iter().all(|angle_rad| angle_rad.abs() <= TAU)
     }
+}
+
+/// A place of the Sun that was chosen for a downlink.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChosenPlace {
+    /// Of the Sun.
+    pub place: SunPlace,
+    /// Whether limits keep the momentum from its target.
+    pub clamped: bool,
 }
 
 /// A downlink attitude.
@@ -86,7 +97,11 @@ pub fn downlink(
             let minus_y = fixed(direction_from_angles(SunAngles::default()));
             (Moving::constant(azimuth_rad), minus_y, false)
         }
-        None => (solutions.preferred(), solutions.sun_body, solutions.clamped),
+        None => {
+            let [minus, plus] = solutions.azimuths;
+            let asked = request.earth_ahead.map(|ahead| if ahead { plus } else { minus });
+            (asked.unwrap_or_else(|| solutions.preferred()), solutions.sun_body, solutions.clamped)
+        }
     };
     let AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad } =
         AntennaAzimuth::of(azimuth.re);

@@ -13,6 +13,7 @@ mod constraint_tests;
 pub mod constraints;
 pub mod delta_v;
 pub mod downlink;
+mod downlink_sun;
 mod guided;
 pub mod hot_pole;
 pub mod keep_in;
@@ -46,7 +47,8 @@ pub mod timeline;
 pub mod velocity_path;
 
 pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing};
-pub use downlink::SunPlace;
+pub use downlink::{ChosenPlace, SunPlace};
+pub use downlink_sun::{DownlinkStart, DownlinkSun, SunChooser, SunOnMinusY};
 pub use guided::{Guided, GuidedAttitude};
 pub use law::{Pointing, PointingVectors};
 pub use schedule::{Activity, Schedule, Window};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::attitudes::LinesOfSight;
 use super::guided::{Guided, GuidedAttitude};
 use super::moving::{MovingVector, rate, value};
-use super::schedule::Schedule;
+use super::schedule::{Schedule, Window};
 use super::surroundings::Surroundings;
 use crate::attitude::MovingUnit;
 use crate::environment::CartesianState;
@@ -28,6 +28,28 @@ impl PeriapsisCount {
     /// velocity give; between disturbed orbits the count goes on. Where a slew begins the spacecraft stood on that orbit, and
     /// Sun and Earth moved evenly since.
     pub fn attitude(&mut self, law: &Guided, surroundings: &Surroundings) -> GuidedAttitude {
+        let (orbit, schedule) = self.counted(&law.schedule, surroundings);
+        let (epoch_s, now) = (surroundings.epoch_s, lines_of_sight(surroundings));
+        Guided { schedule, ..*law }.at(epoch_s, |at_s| match orbit {
+            Some(orbit) if at_s != epoch_s => {
+                lines_of_sight(&surroundings.moved_to(at_s, &orbit.state_at(at_s)))
+            }
+            _ => now,
+        })
+    }
+
+    /// What is being done, and until when, in s past J2000 TDB.
+    pub fn window(&mut self, windows: &Schedule, surroundings: &Surroundings) -> Window {
+        let (_, schedule) = self.counted(windows, surroundings);
+        schedule.window(surroundings.epoch_s)
+    }
+
+    /// The present orbit, if it is one whose periapses count, and its windows.
+    fn counted(
+        &mut self,
+        windows: &Schedule,
+        surroundings: &Surroundings,
+    ) -> (Option<TwoBodyOrbit>, Schedule) {
         let epoch_s = surroundings.epoch_s;
         let state = CartesianState {
             position_m: value(&surroundings.position),
@@ -35,17 +57,10 @@ impl PeriapsisCount {
         };
         let orbit = TwoBodyOrbit::from_state(&state, surroundings.planet.gm_m3_s2, epoch_s).ok();
         let orbit = orbit.filter(|orbit| orbit.period_s().is_finite());
-        let orbit = orbit.filter(|_| !law.schedule.once);
-        let schedule = orbit.map_or(Schedule { period_s: f64::INFINITY, ..law.schedule }, |orbit| {
-            self.schedule(&law.schedule, &orbit)
-        });
-        let now = lines_of_sight(surroundings);
-        Guided { schedule, ..*law }.at(epoch_s, |at_s| match orbit {
-            Some(orbit) if at_s != epoch_s => {
-                lines_of_sight(&surroundings.moved_to(at_s, &orbit.state_at(at_s)))
-            }
-            _ => now,
-        })
+        let orbit = orbit.filter(|_| !windows.once);
+        let schedule = orbit
+            .map_or(Schedule { period_s: f64::INFINITY, ..*windows }, |orbit| self.schedule(windows, &orbit));
+        (orbit, schedule)
     }
 
     fn schedule(&mut self, windows: &Schedule, orbit: &TwoBodyOrbit) -> Schedule {

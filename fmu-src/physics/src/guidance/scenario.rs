@@ -9,7 +9,7 @@ use super::antenna::{AntennaAzimuth, Beam};
 use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
 use super::command::{BoresightOption, PointingCommand, Scenario};
 use super::delta_v::BurnAim;
-use super::downlink::{Downlink, DownlinkRequest, downlink};
+use super::downlink::{Downlink, DownlinkRequest, SunPlace, downlink};
 use super::law::{Pointing, PointingVectors};
 use super::lighting::SubsolarMethod;
 use super::limb::{LimbPoint, generic_limb, terminator_limb};
@@ -40,8 +40,8 @@ pub struct PointingProgress {
     pub scan_elapsed_s: Option<f64>,
     /// Since the limb scenario began, in s.
     pub limb_elapsed_s: f64,
-    /// Where the Sun stands in the body frame in downlink.
-    pub downlink_sun_body: SunAngles,
+    /// Where the Sun stands in the body frame in downlink; `None`: on -Y.
+    pub downlink_sun: Option<SunPlace>,
     /// Where a burn wants its thrust.
     pub burn: Option<BurnAim>,
 }
@@ -198,7 +198,8 @@ fn antenna_at_the_earth(r: &Reading<'_>) -> Option<Aimed> {
     let commanded = boresight.option == Some(BoresightOption::PhasedArray);
     let request = DownlinkRequest {
         antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
-        sun_body: r.progress.downlink_sun_body,
+        sun_body: r.progress.downlink_sun.map_or(SunAngles::default(), |place| place.angles),
+        earth_ahead: r.progress.downlink_sun.map(|place| place.earth_ahead),
     };
     let Downlink { vectors, antenna, antenna_azimuth_rad, clamped } =
         downlink(&r.surroundings.to_sun(), &r.surroundings.to_earth(), &request)?;

@@ -11,10 +11,11 @@ use serde::{Deserialize, Serialize};
 
 use super::antenna::{Antenna, AntennaAzimuth, Beam};
 use super::boresight::DeviceAngle;
-use super::command::{LimbCommand, PointingCommand, ScanCommand, Scenario};
+use super::command::{BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario};
 use super::constraints::{ConstrainedPointing, Constraints};
 use super::delta_v::{BurnSettings, BurnState, MeasuredMotion};
-use super::downlink::{LinkLimits, link};
+use super::downlink::{LinkLimits, SunPlace, link};
+use super::downlink_sun::{DownlinkStart, DownlinkSun, SunChooser};
 use super::guided::Guided;
 use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
@@ -165,6 +166,7 @@ pub struct GuidanceState {
     /// The limb scenario and since when it is commanded, in s.
     limb: Option<(Scenario, f64)>,
     burn: BurnState,
+    downlink_sun: DownlinkSun,
     next_sample_s: f64,
 }
 
@@ -198,6 +200,7 @@ impl GuidanceState {
             law: None,
             limb: None,
             burn: BurnState::default(),
+            downlink_sun: DownlinkSun::default(),
             next_sample_s: start_s,
         }
     }
@@ -232,6 +235,11 @@ impl GuidanceState {
         &self.burn
     }
 
+    /// Where the Sun stands in downlink.
+    pub fn downlink_sun(&self) -> &DownlinkSun {
+        &self.downlink_sun
+    }
+
     /// When the next sample is due, in s.
     pub fn next_sample_s(&self) -> f64 {
         self.next_sample_s
@@ -243,8 +251,13 @@ impl GuidanceState {
         (self.next_sample_s < end_s - tolerance_s).then_some(self.next_sample_s)
     }
 
-    /// Takes the sample that is due.
-    pub fn sample(&mut self, settings: &GuidanceSettings<'_>, inputs: &SampleInputs) {
+    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins.
+    pub fn sample(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        inputs: &SampleInputs,
+        chooser: &impl SunChooser,
+    ) {
         let time_s = self.next_sample_s;
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
@@ -272,6 +285,8 @@ impl GuidanceState {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
+                    let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
+                    self.place_sun(settings, &command, surroundings, attitude, chooser);
                     self.point(&Now { settings, constraints, surroundings, time_s }, &command);
                     let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
                     if is_law && self.judgement.reachable {
@@ -289,7 +304,50 @@ impl GuidanceState {
         }
         if self.modes.mode != Mode::Operational {
             self.burn.end();
+            self.downlink_sun.end();
         }
+    }
+
+    /// Puts the Sun where a downlink begins.
+    fn place_sun(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        command: &PointingCommand,
+        surroundings: &Surroundings,
+        attitude: Attitude,
+        chooser: &impl SunChooser,
+    ) {
+        let windows = &settings.orbit_phase.schedule;
+        let found = match command.scenario {
+            _ if self.modes.mode != Mode::Operational => None,
+            Some(scenario @ Scenario::Downlink) => {
+                let is_free = command.boresight.option != Some(BoresightOption::PhasedArray);
+                is_free.then_some((scenario, windows.downlink_end_s - windows.downlink_start_s))
+            }
+            Some(scenario @ Scenario::OrbitPhase) => {
+                let window = self.periapses.window(windows, surroundings);
+                let is_downlink = window.activity == Activity::Downlink;
+                is_downlink.then_some((scenario, window.until_s - surroundings.epoch_s))
+            }
+            _ => None,
+        };
+        let Some((scenario, span_s)) = found else {
+            self.downlink_sun.end();
+            return;
+        };
+        self.downlink_sun.last(scenario, self.entries.scenario, || {
+            let to_sun_m = value(&surroundings.to_sun());
+            let to_earth_m = value(&surroundings.to_earth());
+            let is_span = span_s.is_finite() && span_s > 0.0;
+            is_span
+                .then(|| chooser.choose(&DownlinkStart { to_sun_m, to_earth_m, attitude, span_s }))
+                .flatten()
+        });
+    }
+
+    /// The Sun's place in the downlinks of the mode; `None`: on -Y.
+    fn sun_place(&self) -> Option<SunPlace> {
+        self.downlink_sun.place().filter(|_| self.modes.mode == Mode::Operational)
     }
 
     /// Azimuth and elevation of the Sun in the frame of `attitude` at `time_s`; both 0 while it is not known.
@@ -337,6 +395,7 @@ impl GuidanceState {
             && self.modes.is_sound()
             && self.periapses.is_sound()
             && self.burn.is_sound()
+            && self.downlink_sun.is_sound()
     }
 
     /// Whether a step could begin at `time_s`.
@@ -446,12 +505,13 @@ impl GuidanceState {
     /// The vectors that the command asks for.
     fn aimed(&mut self, now: &Now<'_>, command: &PointingCommand) -> Option<Aimed> {
         if command.scenario == Some(Scenario::OrbitPhase) {
-            return Some(self.orbit_phase(&now.settings.orbit_phase, now.surroundings));
+            let law = Guided { sun_place: self.sun_place(), ..now.settings.orbit_phase };
+            return Some(self.orbit_phase(&law, now.surroundings));
         }
         let progress = PointingProgress {
             scan_elapsed_s: self.scan_since_s.map(|since_s| now.time_s - since_s),
             limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
-            downlink_sun_body: SunAngles::default(),
+            downlink_sun: self.sun_place(),
             burn: self.burn.aim(&now.settings.burn),
         };
         aim(command, &now.settings.hardware, now.surroundings, &progress)

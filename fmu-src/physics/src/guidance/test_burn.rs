@@ -9,6 +9,7 @@ use super::command::{PointingCommand, Scenario};
 use super::constraints::Constraints;
 use super::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
 use super::downlink::LinkLimits;
+use super::downlink_sun::SunOnMinusY;
 use super::guided::Guided;
 use super::keep_in::{KeepIn, KeepInMethod};
 use super::modes::{ModeSettings, Sensed};
@@ -204,7 +205,7 @@ impl BurnFlight {
         let path = self.settings.path.unwrap();
         let dt = 1.0 / f64::from(RATE_HZ);
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
-        guidance.sample(&settings, &sample_inputs(Attitude::default(), Vector3::zeros()));
+        guidance.sample(&settings, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
         // The turn to the burn is done.
         let mut attitude = guidance.command().attitude_at(0.0);
         let mut accelerometers = AccelerometerState::new(&self.accelerometers);
@@ -220,7 +221,7 @@ impl BurnFlight {
                 let to_s = time_s + dt * f64::from(self.samples_per_exchange);
                 while guidance.due_before(to_s).is_some() {
                     let inputs = sample_inputs(attitude, *accelerometers.delta_v_body_m_s());
-                    guidance.sample(&settings, &inputs);
+                    guidance.sample(&settings, &inputs, &SunOnMinusY);
                     let rate = guidance.command().rate_body_rad_s;
                     if guidance.burn().stop_s().is_some() {
                         fastest_rad_s = fastest_rad_s.max(rate.norm());

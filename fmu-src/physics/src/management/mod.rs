@@ -2,12 +2,16 @@
 //! during a downlink so that its torque brings the momentum to a target, and which target that is.
 
 mod admissible;
+mod dump_request;
 mod linear;
 mod profile;
+mod sampled;
 mod strategy;
 mod targeting;
 
+pub use dump_request::DumpRequests;
 pub use linear::LinearTorque;
 pub use profile::{Reach, Swing, best_target};
+pub use sampled::SampledManager;
 pub use strategy::{Manager, Strategy};
 pub use targeting::{Aim, TargetAxes, Targeted, Targeting, TargetingMethod};

@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 use super::linear::LinearTorque;
 use super::profile::{Reach, Swing, best_target};
 use super::targeting::{Aim, Targeted, Targeting};
-use crate::plant::{ChosenPlace, Outlook, PlantError, SunPlanner};
+use crate::guidance::ChosenPlace;
+use crate::plant::{Outlook, PlantError, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
 
@@ -49,7 +50,7 @@ impl SunPlanner for Manager<'_> {
             return Ok(None);
         };
         let swings = if self.strategy == Strategy::Predictive { self.swings(outlook)? } else { Vec::new() };
-        let linear = self.linear(outlook);
+        let linear = self.linear(&outlook.center_of_mass_body_m());
         let threshold = outlook.threshold_body_n_m_s();
         let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
         let aim = Aim {
@@ -60,18 +61,22 @@ impl SunPlanner for Manager<'_> {
             torque_body_n_m: &torque,
             linear: linear.map(|formula| (formula, outlook.pressure_pa)),
         };
-        let target = self.predicted(&aim, &swings, &threshold).unwrap_or(self.target_body_n_m_s);
-        let targeted = self.targeting.sun_place(&aim, &target);
-        Ok(targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped }))
+        Ok(self.place(&aim, self.predicted(&aim, &swings, &threshold)))
     }
 }
 
 impl Manager<'_> {
-    fn linear(&self, outlook: &Outlook<'_, '_>) -> Option<LinearTorque> {
+    /// The shade's linear formula about this centre of mass; `None` without a shade.
+    pub(super) fn linear(&self, center_of_mass_body_m: &Vector3<f64>) -> Option<LinearTorque> {
         let (shade, model) = self.sunshade?;
-        let center_of_mass_body_m = outlook.center_of_mass_body_m();
-        let polynomial = TorquePolynomial::of_sunshade(shade, model, &center_of_mass_body_m).ok()?;
+        let polynomial = TorquePolynomial::of_sunshade(shade, model, center_of_mass_body_m).ok()?;
         Some(LinearTorque::new(&polynomial, shade.dcm_body_from_shade))
+    }
+
+    /// Where the Sun is to stand for a predicted target, or else the one target; `None` where no place is admissible.
+    pub(super) fn place(&self, aim: &Aim<'_>, predicted: Option<Vector3<f64>>) -> Option<ChosenPlace> {
+        let targeted = self.targeting.sun_place(aim, &predicted.unwrap_or(self.target_body_n_m_s));
+        targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped })
     }
 
     /// What each coming span of science does to the momentum, by component.

@@ -39,6 +39,12 @@ impl DumpPolicy {
         self.excess_n_m_s(momentum_body_n_m_s) > EXCEEDED_N_M_S
     }
 
+    /// The same of each component.
+    pub fn exceeded_by(&self, momentum_body_n_m_s: &Vector3<f64>) -> [bool; 3] {
+        let excess_n_m_s = momentum_body_n_m_s.abs() - self.threshold_body_n_m_s;
+        excess_n_m_s.map(|it| it > EXCEEDED_N_M_S).into()
+    }
+
     /// How far the worst component lies above its threshold, in N m s; negative while none does.
     pub fn excess_n_m_s(&self, momentum_body_n_m_s: &Vector3<f64>) -> f64 {
         (momentum_body_n_m_s.abs() - self.threshold_body_n_m_s).max()

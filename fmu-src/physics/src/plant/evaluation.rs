@@ -26,6 +26,7 @@ use super::propagator_state::PropagatorState;
 use super::radiation_segment::RadiationSegment;
 use super::radiation_solver::RadiationSolver;
 use super::sun_choice::SunChoice;
+use super::sunlit::SunlitCraft;
 use super::work::Cost;
 
 /// Nodes at which the acceleration of a segment is taken.
@@ -100,14 +101,17 @@ impl PreparedSpacecraft<'_> {
         beam: &Beam<f64>,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> ForceTorque<f64> {
-        let (solar, center_of_mass) = (self.solar, center_of_mass_body_m);
-        let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
-        for (index, (panel, setting)) in self.panels.iter().zip(&configuration.panels).enumerate() {
-            if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body) {
-                sum += solar.panel(index, beam, angle_rad, center_of_mass);
-            }
+        self.sunlit(configuration).load(beam, center_of_mass_body_m)
+    }
+
+    /// The spacecraft as sunlight meets it.
+    pub(super) fn sunlit<'c>(&'c self, configuration: &'c Configuration) -> SunlitCraft<'c> {
+        SunlitCraft {
+            solar: self.solar,
+            panels: self.panels,
+            settings: &configuration.panels,
+            mass_at_zero: configuration.mass_at_zero(),
         }
-        sum
     }
 }
 

@@ -11,7 +11,6 @@ use super::evaluation::Plant;
 use super::flight::Flight;
 use crate::guidance::Guided;
 use crate::momentum::{Convention, MomentumIntegrator, Totals};
-use crate::radiation::Beam;
 
 /// Momentum where a downlink begins, in N m s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,16 +73,13 @@ pub struct Outlook<'o, 'f> {
 impl Outlook<'_, '_> {
     /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.
     pub fn torque_body_n_m(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
-        let (configuration, panels) = (&*self.flight.configuration, self.flight.prepared.panels);
-        let center_of_mass = configuration.mass_properties(panels, sun_body).center_of_mass_body_m;
-        let beam = Beam { source_body: *sun_body, pressure_pa: self.pressure_pa };
-        self.flight.prepared.sunlight(configuration, &beam, &center_of_mass).torque_body_n_m
+        let flight = &*self.flight;
+        flight.prepared.sunlit(flight.configuration).torque_body_n_m(sun_body, self.pressure_pa)
     }
 
     /// Centre of mass with the panels as they stand to a Sun on -Y, body frame, in m.
     pub fn center_of_mass_body_m(&self) -> Vector3<f64> {
-        let (configuration, panels) = (&*self.flight.configuration, self.flight.prepared.panels);
-        configuration.mass_properties(panels, &-Vector3::y()).center_of_mass_body_m
+        self.flight.prepared.sunlit(self.flight.configuration).center_of_mass_body_m()
     }
 
     /// Length of a cycle of science and downlink, in s; infinite where none follows, and where nothing may be forecast.

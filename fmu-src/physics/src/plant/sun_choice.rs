@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::PlantError;
 use super::outlook::Outlook;
-use crate::guidance::SunPlace;
+use crate::guidance::{ChosenPlace, SunPlace};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// Who chooses the Sun's place; asked once a downlink, and again after a dump at its very beginning.
@@ -14,15 +14,6 @@ pub trait SunPlanner {
     /// # Errors
     /// What ends a flight.
     fn choose(&self, outlook: &mut Outlook<'_, '_>) -> Result<Option<ChosenPlace>, PlantError>;
-}
-
-/// A place of the Sun in the body frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ChosenPlace {
-    /// Of the Sun.
-    pub place: SunPlace,
-    /// Whether limits keep the momentum from its target.
-    pub clamped: bool,
 }
 
 /// The last choice; the slew after a downlink starts from its attitude.

@@ -255,3 +255,21 @@ pub enum EphemerisModel {
     /// Polynomials of Keplerian elements.
     Coarse = 2,
 }
+
+/// What sunlight is used for during downlinks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum MomentumStrategy {
+    /// Nothing: the Sun stands on -Y.
+    DumpsOnly = 1,
+    /// Every downlink brings the momentum toward momentum.target.
+    Reactive = 2,
+}
+
+/// Where a requested dump leaves a component that exceeded its threshold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum DumpReinitTo {
+    /// The opposite sign at dump.reinitFraction of the threshold.
+    Opposite = 1,
+    /// The component of momentum.target.
+    Target = 2,
+}

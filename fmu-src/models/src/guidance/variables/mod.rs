@@ -5,6 +5,7 @@ pub mod choices;
 pub mod commands;
 pub mod ephemeris;
 pub mod limits;
+pub mod momentum;
 pub mod outputs;
 pub mod surroundings;
 
@@ -12,7 +13,7 @@ use fmi_export::{Real, RealVector, Variables};
 use physics::guidance::scan::SCANS;
 
 use super::setup::GuidanceSetup;
-use crate::common::variables::{GuidedVariables, WorkLimit};
+use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
 use burn::{AccelerometerVariables, BurnVariables, ThrustVariables};
 use commands::{
     AimpointVariables, BodyRollVariables, BoresightVariables, ExternalRollVariables, LimbVariables,
@@ -23,6 +24,7 @@ use limits::{
     AntennaVariables, EarthAcquisitionVariables, HotPoleVariables, KeepInVariables, LinkVariables,
     MdisVariables, MonitorVariables, SafeHoldVariables, SunSearchVariables,
 };
+use momentum::{DumpVariables, MomentumVariables, PanelVariables, SpacecraftVariables, SunshadeVariables};
 use outputs::{CommandVariables, ConstraintVariables, GeometryVariables};
 use surroundings::{
     EarthVariables, EstimateVariables, PlanetVariables, StartVariables, SubsolarVariables, SunVariables,
@@ -97,6 +99,18 @@ pub struct GuidanceVariables {
     pub burn: BurnVariables,
     #[group]
     pub thrust: ThrustVariables,
+    #[group]
+    pub spacecraft: SpacecraftVariables,
+    #[group]
+    pub sunshade: SunshadeVariables,
+    #[group]
+    pub solar: SolarVariables,
+    #[group(count = setup.spacecraft.panels.len())]
+    pub panel: Vec<PanelVariables>,
+    #[group]
+    pub momentum: MomentumVariables,
+    #[group]
+    pub dump: DumpVariables,
     #[group]
     pub geometry: GeometryVariables,
     #[group]

@@ -131,20 +131,15 @@ impl Start {
         let management = &v.momentum.management;
         let aimed = knowns![
             management.strategy,
-            management.target_axes,
-            management.targeting,
-            management.target.element(0),
-            management.target.element(2),
+            management.aim.target_axes,
+            management.aim.targeting,
+            management.aim.target.element(0),
+            management.aim.target.element(2),
             v.start.momentum,
             v.keep_in.azimuth,
         ];
-        let light = knowns![
-            v.solar.flux,
-            v.solar.fixed_pressure,
-            v.solar.pressure,
-            v.spacecraft.center_of_mass,
-            panels.iter().collect::<Knowns>(),
-        ];
+        let light =
+            knowns![v.solar.knowns(), v.spacecraft.center_of_mass, panels.iter().collect::<Knowns>(),];
         let shade = knowns![v.sunshade.shape].only_if(has_both_shapes(&setup.spacecraft));
         let mass = knowns![v.spacecraft.mass].only_if(panels_weigh(setup));
         let guidance = knowns![guidance, aimed, light, shade, mass];

@@ -93,7 +93,7 @@ fn light_and_loads(
     let (torque, force, planet) = (&v.torque, &v.force, &v.planet);
     let surface = &planet.surface;
 
-    let sunlight = &knowns![v.solar.flux, v.solar.fixed_pressure, v.solar.pressure];
+    let sunlight = &v.solar.knowns();
     let eclipse = &knowns![planet.radius, v.eclipse.method];
     let shade = &knowns![v.sunshade.shape].only_if(has_both_shapes(spacecraft));
     let is_shadowed = can_shadow(spacecraft);

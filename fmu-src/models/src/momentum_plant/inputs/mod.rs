@@ -18,7 +18,7 @@ use physics::guidance::Guided;
 use physics::management::Manager;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
-    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver, SunLight,
+    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver,
 };
 use physics::spacecraft::{PanelControl, SunshadeModel};
 
@@ -26,7 +26,8 @@ use self::center::Center;
 use self::state::PlantState;
 use super::setup::Plan;
 use super::variables::PlantVariables;
-use super::variables::choices::{DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource, PanelTilt};
+use super::variables::choices::{DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
+use crate::common::choices::PanelTilt;
 use crate::common::ephemeris;
 use crate::common::management::Limits;
 use crate::common::spacecraft::inertia_body_kg_m2;
@@ -75,10 +76,7 @@ pub fn refreshed(
         }
         let offset = |sun_offset| PanelSetting::SunOffset {
             offset_rad: values.real(sun_offset),
-            tilt_sign: match values.choice(panel.tilt) {
-                Some(PanelTilt::Negative) => -1.0,
-                Some(PanelTilt::Positive) | None => 1.0,
-            },
+            tilt_sign: values.choice(panel.tilt).map_or(1.0, PanelTilt::sign),
         };
         match values.choice(panel.control).map_or(PanelControl::SunOffset, |it| it.0) {
             PanelControl::Angle => PanelSetting::Angle(values.real(panel.angle)),
@@ -93,11 +91,7 @@ pub fn refreshed(
         orbit,
         motion: motion(variables, values, &data, time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s)),
         ephemeris: ephemeris_source(&center, context, values, state)?,
-        light: if values.boolean(variables.solar.fixed_pressure) {
-            SunLight::Fixed { pressure_pa: values.real(variables.solar.pressure) }
-        } else {
-            SunLight::Distance { flux_w_m2: values.real(variables.solar.flux) }
-        },
+        light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, data.radius_m)?,
         light_and_heat: RadiationSettings {
             planet_light: values.boolean(variables.planet_light.enabled),

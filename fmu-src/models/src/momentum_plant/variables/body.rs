@@ -3,9 +3,9 @@
 use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
-use super::choices::{PanelControl, PanelTilt};
+use super::choices::PanelControl;
 use super::defaults;
-use crate::common::choices::SunshadeShape;
+use crate::common::choices::{PanelTilt, SunshadeShape};
 
 /// Mass properties.
 #[derive(Variables)]
@@ -50,7 +50,7 @@ pub struct PanelVariables {
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset: Real,
     /// Sense of that tilt; the paper does not print it.
-    #[parameter(start = defaults::panel_tilt(setup, index))]
+    #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
     /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
     #[parameter(start = true)]

@@ -3,7 +3,6 @@
 use fmi_export::Enumeration;
 use physics::attitude::control::Allocation;
 use physics::environment::frames::Frame;
-use physics::momentum::Convention;
 use physics::spacecraft;
 
 use crate::common::choices::enumeration_of;
@@ -83,25 +82,6 @@ enumeration_of! {
         angle = 2 => Angle,
         /// The angle to the Sun of the input sunOffsetCommand.
         command = 3 => Command,
-    }
-}
-
-/// Sense in which a panel tilts off the Sun.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum PanelTilt {
-    /// Right-handed about the panel's axis.
-    Positive = 1,
-    /// Left-handed about the panel's axis.
-    Negative = 2,
-}
-
-enumeration_of! {
-    /// Meaning of system momentum in the body frame.
-    MomentumConvention(Convention) {
-        /// Physical: the inertial total shown in body components.
-        inertial = 1 => Inertial,
-        /// Paper 000: each body component of torque integrated on its own.
-        bodyIntegral = 2 => BodyIntegral,
     }
 }
 

@@ -1,17 +1,15 @@
 //! Start values that are computed or come from the spacecraft.
 
 use physics::bodies::{Body, BodyData};
-use physics::environment::{ephemeris, orbit, paper004, sun, time};
-use physics::spacecraft::{self, SunKeepIn};
+use physics::environment::{ephemeris, orbit, paper004, time};
+use physics::spacecraft::SunKeepIn;
 
-use super::choices::PanelTilt;
 use crate::momentum_plant::setup::PlantSetup;
 
 /// 2009-04-06 00:00 TDB: orbit insertion in paper 000's plan, in s past J2000 TDB.
 pub const EPOCH_TDB_S: f64 = time::MOMENTUM_STUDY_START_S;
 pub const EARLIEST_EPOCH_S: f64 = ephemeris::EARLIEST_EPOCH_S;
 pub const VALID_EPOCH_S: f64 = ephemeris::VALID_EPOCH_S;
-pub const SOLAR_FLUX_W_M2: f64 = sun::SOLAR_FLUX_PAPER_000_W_M2;
 /// The body that the other defaults are of.
 pub const MERCURY: &BodyData = Body::Mercury.data();
 /// Elements of the default orbit: paper 004's Table 3, referred to Mercury's equator.
@@ -30,25 +28,9 @@ pub fn inertia_kg_m2(setup: &PlantSetup) -> [[f64; 3]; 3] {
     setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into()
 }
 
-/// The sense in which the spacecraft file tilts a panel.
-pub fn panel_tilt(setup: &PlantSetup, index: usize) -> PanelTilt {
-    if setup.spacecraft.panels[index].tilt_sign < 0.0 { PanelTilt::Negative } else { PanelTilt::Positive }
-}
-
 /// The keep-in zone; without one in the file every direction is allowed.
 pub fn keep_in(setup: &PlantSetup) -> SunKeepIn {
     let everywhere =
         SunKeepIn { azimuth_rad: core::f64::consts::PI, elevation_rad: core::f64::consts::FRAC_PI_2 };
     setup.spacecraft.sun_keep_in.unwrap_or(everywhere)
-}
-
-/// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
-/// 000's for small wheels.
-pub fn dump_threshold_n_m_s(setup: &PlantSetup) -> [f64; 3] {
-    let spacecraft = &setup.spacecraft;
-    let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
-    let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
-    let array = setup.wheel_array.as_ref();
-    let guaranteed_n_m_s = array.map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
-    spacecraft.dump_threshold_n_m_s.map_or([guaranteed_n_m_s.unwrap_or(smallest_n_m_s); 3], Into::into)
 }

@@ -5,10 +5,11 @@ use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 use physics::momentum::Convention;
 
 use super::super::setup::PlantSetup;
-use super::choices::{DumpReinitTo, MomentumConvention};
-use super::defaults;
+use super::choices::DumpReinitTo;
+use crate::common::choices::MomentumConvention;
 use crate::common::loads::{ForceBySource, MomentumBySource, TorqueBySource};
 use crate::common::management::ManagementVariables;
+use crate::common::spacecraft::dump_threshold_n_m_s;
 use crate::common::variables::WorkLimit;
 
 /// Light of the planet.
@@ -150,7 +151,7 @@ pub struct MomentumVariables {
 #[variables(setup = PlantSetup)]
 pub struct DumpVariables {
     /// Magnitude of a body component of momentum that triggers a dump; a very large value means never.
-    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = defaults::dump_threshold_n_m_s(setup))]
+    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft, setup.wheel_array.as_ref()))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.
     #[parameter(start = DumpReinitTo::Opposite)]

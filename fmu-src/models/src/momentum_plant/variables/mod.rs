@@ -27,12 +27,12 @@ use propulsion::{
     AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
 use surroundings::{
-    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SolarVariables, SunVariables,
+    EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SunVariables,
 };
 
 use super::setup::PlantSetup;
 use crate::common::loads::PlateVariables;
-use crate::common::variables::{EclipseVariables, GuidedVariables};
+use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
 
 /// Every variable of the plant, in the order of the XML.
 #[derive(Variables)]

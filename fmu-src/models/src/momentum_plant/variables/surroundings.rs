@@ -47,21 +47,6 @@ pub struct PlanetVariables {
     pub position_body: RealVector<3>,
 }
 
-/// Sunlight.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct SolarVariables {
-    /// Solar flux at 1 AU; 1353 W/m2 reproduces paper 000's pressure (well-known simulators use 1349 to 1368).
-    #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = defaults::SOLAR_FLUX_W_M2)]
-    pub flux: Real,
-    /// Whether the pressure is solar.pressure everywhere instead of following the distance from the Sun.
-    #[parameter(start = false)]
-    pub fixed_pressure: Boolean,
-    /// Radiation pressure when it is fixed; the default is paper 000's value at 0.3 AU.
-    #[parameter(unit = "Pa", display = "uPa", min = 0.0, max = 1.0, start = 5.0145e-5)]
-    pub pressure: Real,
-}
-
 /// The Sun as seen from the spacecraft.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]

@@ -50,6 +50,9 @@ const CARRIERS: &[(&str, &str)] = &[
     // A burn begins where the thrust is on its aim, and ends by what was measured.
     ("thrust.", "command.q"),
     ("burn.timedOut", "thrust.request"),
+    ("momentum.targetClamped", "sun.azimuth"),
+    ("momentum.targetClamped", "sun.elevation"),
+    ("dump.request", "dump.target[1]"),
     // Every output that is judged with an attitude depends on the mode and on whether there is one.
     ("", "mode.active"),
     ("", "command.kind"),
@@ -92,6 +95,8 @@ enum Subject {
     Link,
     /// A burn, waiting or under way.
     Burn,
+    /// A downlink that begins with momentum: of the scenario, or of the orbit phase.
+    Momentum,
 }
 
 fn subjects() -> Vec<Subject> {
@@ -106,6 +111,8 @@ fn subjects() -> Vec<Subject> {
         Subject::Monitor,
         Subject::Link,
         Subject::Burn,
+        Subject::Momentum,
+        Subject::Momentum,
         Subject::Generic,
         Subject::Monitor,
         Subject::Generic,
@@ -233,6 +240,25 @@ fn draw(bench: &Guide, random: &mut RandomNumbers, subject: Subject) -> Tables {
             bench.put(&mut values, "hotPole.enabled", chance(random, 0.3));
             bench.put(&mut values, "monitor.enabled", chance(random, 0.3));
             bench.put(&mut values, "burn.thrusters", random.whole(0, 3));
+        }
+        Subject::Momentum => {
+            let scenario = if random.next() < 0.7 { 6 } else { 10 };
+            item(bench, &mut values, "pointing.scenario", scenario);
+            bench.put(&mut values, "boresight.option", random.whole(0, 3));
+            bench.put(&mut values, "momentum.strategy", 2.0);
+            bench.put(&mut values, "momentum.targetAxes", random.whole(1, 3));
+            bench.put(&mut values, "momentum.targeting", random.whole(1, 2));
+            bench.put(&mut values, "momentum.convention", random.whole(1, 2));
+            bench.put(&mut values, "solar.fixedPressure", chance(random, 0.3));
+            bench.put(&mut values, "dump.reinitTo", random.whole(1, 2));
+            bench.put(&mut values, "guided.downlinkEvery", 1.0);
+            bench.put(&mut values, "monitor.enabled", 0.0);
+            bench.put(&mut values, "keepIn.enabled", chance(random, 0.3));
+            bench.put(&mut values, "hotPole.enabled", chance(random, 0.3));
+            for panel in (1..).take_while(|k| bench.has(&format!("panel[{k}].tilt"))) {
+                bench.put(&mut values, &format!("panel[{panel}].tilt"), random.whole(1, 2));
+                bench.put(&mut values, &format!("panel[{panel}].enabled"), chance(random, 0.8));
+            }
         }
     }
     redraw(bench, random, subject, &mut values);
@@ -385,6 +411,16 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         bench.put(values, "guided.downlinkStart", random.between(0.0, 900.0));
         bench.put(values, "guided.downlinkEnd", random.between(900.0, 9000.0));
     }
+    redraw_momentum(bench, random, values);
+    if subject == Subject::Momentum {
+        bench.put(values, "ephemeris.source", 3.0);
+        bench.put(values, "guided.downlinkStart", random.between(0.0, 900.0));
+        bench.put(values, "guided.downlinkEnd", random.between(9000.0, 36_000.0));
+        if random.next() < 0.5 {
+            // Not connected: the attitude held turns the momentum.
+            bench.put_vector(values, "estimate.q", &[0.0, 0.0, 0.0, 1.0]);
+        }
+    }
     if let Subject::Lost(what) = subject {
         bench.put(values, "ephemeris.source", 3.0);
         let place = place * radius_m;
@@ -438,6 +474,20 @@ fn redraw_burn(bench: &Guide, random: &mut RandomNumbers, values: &mut Tables) {
     bench.put_vector(values, "accelerometer.deltaV", &random.direction().map(|x| 0.2 * x));
 }
 
+/// Momentum of which some is beyond a threshold, and what acts on it.
+fn redraw_momentum(bench: &Guide, random: &mut RandomNumbers, values: &mut Tables) {
+    bench.put_vector(values, "momentum.body", &random.direction().map(|x| 0.4 * x));
+    bench.put_vector(values, "momentum.target", &random.direction().map(|x| 0.4 * x));
+    bench.put_vector(values, "dump.threshold", &[0; 3].map(|_| random.between(0.1, 0.5)));
+    bench.put(values, "dump.reinitFraction", random.between(0.0, 1.0));
+    bench.put_vector(values, "spacecraft.centerOfMass", &random.direction().map(|x| 0.03 * x));
+    bench.put(values, "solar.flux", random.between(1_000.0, 2_000.0));
+    bench.put(values, "solar.pressure", random.between(3e-5, 6e-5));
+    for panel in (1..).take_while(|k| bench.has(&format!("panel[{k}].tilt"))) {
+        bench.put(values, &format!("panel[{panel}].nominalSunOffset"), random.between(0.1, 1.4));
+    }
+}
+
 /// Inputs as masters send them before the first exchange.
 fn unset(bench: &Guide, random: &mut RandomNumbers, values: &mut Tables) {
     let inputs = [
@@ -454,6 +504,7 @@ fn unset(bench: &Guide, random: &mut RandomNumbers, values: &mut Tables) {
         ("externalRoll.vector", 3, 0.1),
         ("scan.rate", 3, 0.1),
         ("scan.duration", 3, 0.3),
+        ("momentum.body", 3, 0.1),
     ];
     for (name, length, share) in inputs {
         if random.next() < share {
@@ -623,7 +674,12 @@ fn measure(text: &str, rounds: usize) {
                 bench.look_at_start_edge(&edge, 0.0);
             }
         }
-        let Some(mut flight) = bench.initialize(&values, 0.0) else { continue };
+        let mut begun = values.clone();
+        if subject == Subject::Momentum {
+            bench.put(&mut begun, "pointing.scenario", 3.0);
+            bench.put_vector(&mut begun, "momentum.body", &[0.0; 3]);
+        }
+        let Some(mut flight) = bench.initialize(&begun, 0.0) else { continue };
         if let Subject::Lost(_) = subject {
             bench.put(&mut flight.values, "mode.request", 3.0);
         }
@@ -640,6 +696,13 @@ fn measure(text: &str, rounds: usize) {
                 "accelerometer.deltaV",
                 &random.direction().map(|x| 0.2 * x),
             );
+            flight.changed = true;
+        }
+        if subject == Subject::Momentum {
+            // The downlink begins here.
+            bench.copy(&mut flight.values, &values, |name| {
+                name == "pointing.scenario" || name.starts_with("momentum.body")
+            });
             flight.changed = true;
         }
         if subject == Subject::Modes {

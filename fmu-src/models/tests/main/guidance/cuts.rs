@@ -5,8 +5,9 @@ use models::Guidance;
 use super::super::named_model::{NamedModel, assert_same};
 use super::{Flight, PLACED, with};
 
-/// A scan; the monitor at work in Safe Hold; windows of the orbit phase with slews; a burn that times out.
-const CASES: [&[(&str, f64)]; 4] = [
+/// A scan; the monitor at work in Safe Hold; windows of the orbit phase with slews; a burn that times out; downlinks that put
+/// the Sun elsewhere, of the scenario and of the orbit phase.
+const CASES: [&[(&str, f64)]; 6] = [
     &[
         ("pointing.scenario", 2.0),
         ("aimpoint.option", 7.0),
@@ -45,12 +46,42 @@ const CASES: [&[(&str, f64)]; 4] = [
         ("burn.timeout", 60.7),
         ("accelerometer.deltaV[2]", 0.3),
     ],
+    &[
+        ("pointing.scenario", 6.0),
+        ("keepIn.azimuth", 0.3),
+        ("keepIn.elevation", 0.3),
+        ("momentum.strategy", 2.0),
+        ("momentum.body[1]", 0.3),
+        ("momentum.body[3]", -0.4),
+        ("dump.threshold[3]", 0.2),
+        ("estimate.q[1]", 0.6),
+        ("estimate.q[4]", 0.8),
+        ("monitor.enabled", 0.0),
+    ],
+    &[
+        ("pointing.scenario", 10.0),
+        ("guided.downlinkReference", 2.0),
+        ("guided.downlinkStart", 33.3),
+        ("guided.downlinkEnd", 9_000.0),
+        ("guided.slewRate", 1e-3),
+        ("momentum.strategy", 2.0),
+        ("momentum.convention", 2.0),
+        ("momentum.body[1]", 0.3),
+        ("momentum.body[3]", -0.4),
+        ("monitor.enabled", 0.0),
+    ],
 ];
 
 /// What `assert_same` leaves out: outputs that change at samples only.
 fn discrete(flight: &Flight<'_>) -> Vec<u64> {
-    let names =
-        ["command.rate[1]", "command.rate[2]", "command.error[1]", "mdis.angle", "earth.sunSeparation"];
+    let names = [
+        "command.rate[1]",
+        "command.rate[2]",
+        "command.error[1]",
+        "mdis.angle",
+        "earth.sunSeparation",
+        "dump.target[3]",
+    ];
     let bits = names.map(|name| flight.real(name).to_bits());
     let items = ["command.kind", "mode.active", "antenna.select"].map(|name| flight.integer(name) as u64);
     [&bits[..], &items[..]].concat()

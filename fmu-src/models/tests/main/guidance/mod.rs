@@ -4,6 +4,7 @@ mod burn;
 mod cuts;
 mod ephemeris;
 mod modes;
+mod momentum;
 mod pointing;
 mod same_law;
 mod zeros;

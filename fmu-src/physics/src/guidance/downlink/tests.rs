@@ -40,7 +40,7 @@ fn sun_at_its_angles_and_earth_in_the_plane() {
         let [to_sun, to_earth] = random_lines(&mut random);
         let mut limit_rad = |most_rad: f64| random.within(-most_rad, most_rad);
         let sun_body = SunAngles { azimuth_rad: limit_rad(0.4), elevation_rad: limit_rad(0.4) };
-        let request = DownlinkRequest { antenna_azimuth_rad: None, sun_body };
+        let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
         let found = downlink(&to_sun, &to_earth, &request).unwrap();
         let pointing = found.vectors.pointing().unwrap();
         let body = |v: &MovingVector| value(&pointing.to_body(&unit(v).unwrap()));
@@ -110,7 +110,7 @@ fn one_two_or_no_azimuth_lies_in_a_quadrant() {
         let theta_rad = f64::to_radians(theta_deg);
         let earth = fixed(Vector3::new(theta_rad.cos(), theta_rad.sin(), 0.0));
         let sun_body = SunAngles { azimuth_rad: f64::to_radians(sun_deg), elevation_rad: 0.0 };
-        let request = DownlinkRequest { antenna_azimuth_rad: None, sun_body };
+        let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
         let found = downlink(&fixed(Vector3::x()), &earth, &request).unwrap();
         let off_deg = found.antenna_azimuth_rad.to_degrees() - expected_deg;
         assert!(off_deg.abs() < 1e-10, "{sun_deg} {theta_deg}: {found:?}");
@@ -159,7 +159,7 @@ fn the_rate_is_the_difference_of_the_attitude() {
         let motions = [Motion::random(&mut random), Motion::random(&mut random)];
         let mut limit_rad = |most_rad: f64| random.within(-most_rad, most_rad);
         let sun_body = SunAngles { azimuth_rad: limit_rad(0.4), elevation_rad: limit_rad(0.4) };
-        let request = DownlinkRequest { antenna_azimuth_rad: None, sun_body };
+        let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
         let at = |time_s: f64| {
             let [to_sun, to_earth] = motions.map(|motion| motion.at(time_s));
             let found = downlink(&to_sun, &to_earth, &request)?;
@@ -183,7 +183,7 @@ fn in_line_the_attitude_is_finite_and_nothing_without_direction() {
     for earth in [sun, -sun, fixed(Vector3::x()), fixed(-Vector3::x())] {
         for elevation_rad in [0.0, 0.2, -0.2] {
             let sun_body = SunAngles { azimuth_rad: 0.1, elevation_rad };
-            let request = DownlinkRequest { antenna_azimuth_rad: None, sun_body };
+            let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
             let found = downlink(&sun, &earth, &request).unwrap();
             let pointing = found.vectors.pointing().unwrap();
             assert!(pointing.degenerate && pointing.frame().rate_body_rad_s.iter().all(|x| x.is_finite()));

@@ -1,0 +1,90 @@
+//! From parameters and inputs to who puts the Sun in its place and asks for dumps.
+
+use fmi_export::{Failure, Values};
+use nalgebra::Vector3;
+use physics::guidance::keep_in::KeepIn;
+use physics::management::{Manager, SampledManager, Strategy};
+use physics::momentum::{Convention, DumpPolicy, Reinitialise};
+use physics::plant::{PanelSetting, SunlitCraft};
+use physics::spacecraft::{MassProperties, SunshadeModel};
+
+use super::setup::Plan;
+use super::variables::choices::{DumpReinitTo, MomentumStrategy};
+use crate::common::choices::PanelTilt;
+
+/// Sets the panels as they are commanded; `panels` is memory to use again.
+pub fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<PanelSetting>) {
+    panels.clear();
+    panels.extend(context.variables.panel.iter().map(|panel| {
+        if !values.boolean(panel.enabled) {
+            return PanelSetting::Disabled;
+        }
+        PanelSetting::SunOffset {
+            offset_rad: values.real(panel.nominal_sun_offset),
+            tilt_sign: values.choice(panel.tilt).map_or(1.0, PanelTilt::sign),
+        }
+    }));
+}
+
+/// Who puts the Sun in its place, where this momentum begins a downlink.
+///
+/// # Errors
+/// A shade that the file does not describe, a strategy without a downlink.
+pub fn manager<'a>(
+    context: &'a Plan<'_>,
+    values: &Values,
+    panels: &'a [PanelSetting],
+    keep_in: &KeepIn,
+) -> Result<SampledManager<'a>, Failure> {
+    let v = context.variables;
+    let spacecraft = &context.setup.spacecraft;
+    let sunshade = values.choice(v.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    let strategy = match values.choice(v.momentum.strategy) {
+        Some(MomentumStrategy::Reactive) => Strategy::Reactive,
+        Some(MomentumStrategy::DumpsOnly) | None => Strategy::DumpsOnly,
+    };
+    let [start_s, end_s] = [v.guided.downlink_start, v.guided.downlink_end].map(|time| values.real(time));
+    if strategy != Strategy::DumpsOnly && start_s >= end_s {
+        return Err(Failure::new(format!(
+            "momentum.strategy, guided.downlinkStart, guided.downlinkEnd: found a strategy for downlinks from {start_s:?} s to \
+             {end_s:?} s, allowed: dumpsOnly, or an end after the start"
+        )));
+    }
+    Ok(SampledManager {
+        manager: Manager {
+            strategy,
+            targeting: v.momentum.aim.read(values, keep_in.azimuth_rad, keep_in.elevation_rad),
+            target_body_n_m_s: v.momentum.aim.target_body_n_m_s(values),
+            horizon: 0,
+            sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
+        },
+        craft: SunlitCraft {
+            solar: context.setup.shapes.solar(sunshade, &spacecraft.name)?,
+            panels: &spacecraft.panels,
+            settings: panels,
+            mass_at_zero: MassProperties {
+                center_of_mass_body_m: Vector3::from(values.vector(v.spacecraft.center_of_mass)),
+                ..spacecraft.mass_properties
+            },
+        },
+        light: v.solar.read(values),
+        convention: values.choice(v.momentum.convention).map_or(Convention::Inertial, |it| it.0),
+        momentum_body_n_m_s: Vector3::from([0.0; 3]),
+    })
+}
+
+/// When a dump is asked for, and to which momentum.
+pub fn policy(context: &Plan<'_>, values: &Values) -> DumpPolicy {
+    let v = context.variables;
+    DumpPolicy {
+        threshold_body_n_m_s: Vector3::from(values.vector(v.dump.threshold)),
+        reinitialise: match values.choice(v.dump.reinit_to) {
+            Some(DumpReinitTo::Target) => {
+                Reinitialise::Target { momentum_body_n_m_s: v.momentum.aim.target_body_n_m_s(values) }
+            }
+            Some(DumpReinitTo::Opposite) | None => {
+                Reinitialise::Opposite { fraction: values.real(v.dump.reinit_fraction) }
+            }
+        },
+    }
+}

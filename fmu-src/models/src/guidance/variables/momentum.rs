@@ -1,0 +1,92 @@
+//! Momentum management: what the Sun's place in downlink and dumps follow from, and what they are.
+
+use core::f64::consts::PI;
+
+use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::momentum::Convention;
+
+use super::super::setup::GuidanceSetup;
+use super::choices::{DumpReinitTo, MomentumStrategy};
+use crate::common::choices::{MomentumConvention, PanelTilt, SunshadeShape};
+use crate::common::management::TargetingVariables;
+
+/// Mass properties.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct SpacecraftVariables {
+    /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
+    #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
+    pub center_of_mass: RealVector<3>,
+}
+
+/// Sunshade.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct SunshadeVariables {
+    /// Which model of the shade takes the light.
+    #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
+    pub shape: Choice<SunshadeShape>,
+}
+
+/// One solar panel.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct PanelVariables {
+    /// Angle between the panel's normal and the Sun direction that is commanded, and that targets count on.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    pub nominal_sun_offset: Real,
+    /// Sense of that tilt; the paper does not print it.
+    #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
+    pub tilt: Choice<PanelTilt>,
+    /// Whether the panel takes part in the torque that targets count on.
+    #[parameter(start = true)]
+    pub enabled: Boolean,
+    /// Commanded angle between the panel's normal and the Sun direction.
+    #[output(unit = "rad", display = "deg")]
+    pub sun_offset: Real,
+}
+
+/// System momentum.
+#[derive(Variables)]
+pub struct MomentumVariables {
+    /// What sunlight is used for during downlinks, in Operational: the Sun's place is chosen where the scenario downlink begins
+    /// without an antenna's azimuth, or a window of the orbit phase does, and held. The scenario counts on a downlink of
+    /// guided.downlinkEnd - guided.downlinkStart.
+    #[parameter(start = MomentumStrategy::DumpsOnly)]
+    pub strategy: Choice<MomentumStrategy>,
+    #[group(name = "")]
+    pub aim: TargetingVariables,
+    /// What momentum.body means. As inertial total it is turned to EME2000 by estimate.q, or by the commanded attitude where
+    /// that is not connected.
+    #[parameter(start = MomentumConvention(Convention::Inertial))]
+    pub convention: Choice<MomentumConvention>,
+    /// System momentum in the body frame.
+    #[input(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
+    pub body: RealVector<3>,
+    /// Whether the Sun's place that brings the momentum to the target of the present downlink is not admissible, so that it
+    /// comes as near as one that is can bring it.
+    #[output]
+    pub target_clamped: Boolean,
+}
+
+/// Thruster dumps.
+#[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
+pub struct DumpVariables {
+    /// Magnitude of a body component of momentum that asks for a dump; a very large value means never.
+    #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = setup.dump_threshold_n_m_s())]
+    pub threshold: RealVector<3>,
+    /// Where a component goes that exceeded its threshold; the others stay.
+    #[parameter(start = DumpReinitTo::Opposite)]
+    pub reinit_to: Choice<DumpReinitTo>,
+    /// Fraction of the threshold, of opposite sign, after a dump: 1 is paper 000's; 0 dumps to zero.
+    #[parameter(tunable, unit = "1", min = 0.0, max = 1.0, start = 0.9)]
+    pub reinit_fraction: Real,
+    /// Whether a dump is asked for: from the sample at which a component of momentum.body is first beyond its threshold to the
+    /// next one, a second later. A component asks again after it came back; longer communication steps miss requests.
+    #[output]
+    pub request: Boolean,
+    /// Momentum in the body frame that the last request asks for; 0 before any.
+    #[output(discrete, unit = "N.m.s")]
+    pub target: RealVector<3>,
+}

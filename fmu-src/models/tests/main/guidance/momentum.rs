@@ -1,0 +1,243 @@
+//! Momentum management: targets that a plant reaches by what guidance commands, limits, and requests for dumps.
+
+use fmi_export::Model;
+use models::{Guidance, MomentumPlant};
+use nalgebra::Vector3;
+
+use super::super::named_model::{NamedInstance, NamedModel};
+use super::{Flight, PLACED, quaternion, set_vector, with};
+
+const HOUR_S: f64 = 3600.0;
+const SPAN_S: f64 = 8.0 * HOUR_S;
+const MOMENTUM: [f64; 3] = [0.4, -0.1, -0.3];
+const TARGET: Vector3<f64> = Vector3::new(0.1, 5.0, -0.05);
+
+/// A spacecraft, a Sun and an Earth that stand still.
+fn still(separation_deg: f64) -> Vec<(&'static str, f64)> {
+    let earth_rad = separation_deg.to_radians() + 2.0;
+    vec![
+        ("ephemeris.source", 3.0),
+        ("sun.position[1]", -4.0e10),
+        ("sun.position[2]", 2.0e10),
+        ("sun.position[3]", 1.0e10),
+        ("earth.position[1]", 1.5e11 * earth_rad.cos()),
+        ("earth.position[2]", 1.5e11 * earth_rad.sin()),
+        ("earth.position[3]", 3e10),
+        ("spacecraft.centerOfMass[3]", 0.02),
+        ("start.q[1]", 0.6),
+        ("start.q[4]", 0.8),
+    ]
+}
+
+const QUIET: &[(&str, f64)] = &[
+    ("position[1]", 1e7),
+    ("pointing.scenario", 6.0),
+    ("momentum.strategy", 2.0),
+    ("momentum.body[1]", MOMENTUM[0]),
+    ("momentum.body[2]", MOMENTUM[1]),
+    ("momentum.body[3]", MOMENTUM[2]),
+    ("estimate.q[1]", 0.6),
+    ("estimate.q[4]", 0.8),
+    ("panel[1].nominalSunOffset", 0.3),
+    ("panel[2].nominalSunOffset", 0.3),
+    ("hotPole.enabled", 0.0),
+    ("monitor.enabled", 0.0),
+];
+
+/// A plant in the same place that follows commands and takes its panels' offsets from guidance.
+const FOLLOWS: &[(&str, f64)] = &[
+    ("attitude.source", 2.0),
+    ("orbit.source", 3.0),
+    ("orbit.position[1]", 1e7),
+    ("gravityGradient.enabled", 0.0),
+    ("start.momentum[1]", MOMENTUM[0]),
+    ("start.momentum[2]", MOMENTUM[1]),
+    ("start.momentum[3]", MOMENTUM[2]),
+    ("command.q[1]", 0.6),
+    ("command.q[4]", 0.8),
+    ("panel[1].control", 3.0),
+    ("panel[2].control", 3.0),
+];
+
+fn follow(plant: &mut NamedInstance<'_, MomentumPlant>, guidance: &Flight<'_>) {
+    for (i, value) in (1..).zip(quaternion(guidance, "command.q")) {
+        plant.set(&format!("command.q[{i}]"), value);
+    }
+    for k in 1..=2 {
+        let offset_rad = guidance.real(&format!("panel[{k}].sunOffset"));
+        plant.set(&format!("panel[{k}].sunOffsetCommand"), offset_rad);
+    }
+}
+
+#[test]
+fn a_plant_that_follows_reaches_an_attainable_target() {
+    let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
+    let mut hit = 0;
+    for separation_deg in [20.0, 60.0, 75.0, 100.0, 160.0] {
+        for convention in [1.0, 2.0] {
+            for axes in [1.0, 2.0, 3.0] {
+                let place = with(&[&still(separation_deg), &[("momentum.convention", convention)]]);
+                let asked = [
+                    ("momentum.targetAxes", axes),
+                    ("momentum.target[1]", TARGET.x),
+                    ("momentum.target[2]", TARGET.y),
+                    ("momentum.target[3]", TARGET.z),
+                ];
+                let mut guidance = guidances.fly(0.0, &with(&[&place, QUIET, &asked])).unwrap();
+                let mut plant = plants.fly(0.0, &with(&[&place, FOLLOWS])).unwrap();
+                let before = plant.vector("momentum.body");
+                assert!((before - Vector3::from(MOMENTUM)).amax() < 1e-12, "{before:?}");
+                guidance.step_to(1.0).unwrap();
+                let clamped = guidance.boolean("momentum.targetClamped");
+                follow(&mut plant, &guidance);
+                // What is held while the downlink lasts, whatever the momentum does.
+                set_vector(&mut guidance, "momentum.body", &Vector3::new(-1.0, 1.0, 1.0));
+                let held = quaternion(&guidance, "command.q");
+                guidance.step_to(600.0).unwrap();
+                assert_eq!(quaternion(&guidance, "command.q"), held);
+                plant.step_to(SPAN_S).unwrap();
+                let seen = (plant.real("sun.azimuth"), plant.real("sun.elevation"));
+                let told = (guidance.real("sun.azimuth"), guidance.real("sun.elevation"));
+                assert!((seen.0 - told.0).abs() < 1e-12 && (seen.1 - told.1).abs() < 1e-12);
+                let earth_rad = plant.real("earth.azimuth");
+                assert!(plant.real("earth.elevation").abs() < 1e-12);
+                assert!((guidance.real("antenna.azimuth") - earth_rad).abs() < 1e-9);
+                assert!(plant.real("keepIn.margin") > -1e-9);
+                if clamped {
+                    continue;
+                }
+                hit += 1;
+                let off = plant.vector("momentum.body") - TARGET;
+                let wrong = match axes as i32 {
+                    1 => off.x.abs(),
+                    2 => off.z.abs(),
+                    _ => off.xz().amax(),
+                };
+                assert!(wrong < 1e-9, "{separation_deg} {convention} {axes}: {off:?}");
+            }
+        }
+    }
+    assert!(hit >= 20, "{hit}");
+}
+
+#[test]
+fn a_window_of_the_orbit_phase_aims_at_its_own_end() {
+    let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
+    let windows = [
+        ("pointing.scenario", 10.0),
+        ("guided.downlinkReference", 2.0),
+        ("guided.downlinkStart", 3.0),
+        ("guided.downlinkEnd", 3.0 + SPAN_S),
+    ];
+    let mut guidance = guidances.fly(0.0, &with(&[&still(60.0), QUIET, &windows])).unwrap();
+    let mut plant = plants.fly(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
+    guidance.step_to(3.0).unwrap();
+    assert!(guidance.real("sun.azimuth").abs() < 1e-12);
+    // The momentum at the window's begin counts.
+    plant.step_to(3.0).unwrap();
+    set_vector(&mut guidance, "momentum.body", &plant.vector("momentum.body"));
+    guidance.step_to(4.0).unwrap();
+    assert!(!guidance.boolean("momentum.targetClamped"));
+    follow(&mut plant, &guidance);
+    plant.step_to(3.0 + SPAN_S).unwrap();
+    let end = plant.vector("momentum.body");
+    assert!(end.xz().amax() < 1e-9, "{end:?}");
+}
+
+#[test]
+fn a_target_out_of_reach_is_flagged_while_the_downlink_lasts() {
+    let named = NamedModel::<Guidance>::shipped();
+    let far = [("momentum.target[1]", 30.0)];
+    let mut flight = named.fly(0.0, &with(&[&still(60.0), QUIET, &far])).unwrap();
+    assert!(flight.boolean("momentum.targetClamped"));
+    flight.step_to(1.0).unwrap();
+    let sun_rad = [flight.real("sun.azimuth"), flight.real("sun.elevation")].map(f64::abs);
+    assert!(sun_rad[1] > 0.1, "{sun_rad:?}");
+    flight.set("pointing.scenario", 3.0);
+    flight.step_to(2.0).unwrap();
+    assert!(!flight.boolean("momentum.targetClamped"));
+    // In Safe Hold the Sun stands on -Y.
+    flight.set("pointing.scenario", 6.0);
+    flight.set("mode.request", 2.0);
+    flight.step_to(3.0).unwrap();
+    assert!(!flight.boolean("momentum.targetClamped"));
+    assert!(flight.real("sun.elevation").abs() < 1e-12 && flight.real("sun.azimuth").abs() < 1e-12);
+}
+
+#[test]
+fn an_antenna_of_its_own_leaves_the_momentum_alone() {
+    let named = NamedModel::<Guidance>::shipped();
+    let own = [("boresight.option", 4.0), ("boresight.azimuth", -0.6)];
+    let q = [1.0, 2.0].map(|strategy| {
+        let sets = with(&[&still(60.0), QUIET, &own, &[("momentum.strategy", strategy)]]);
+        quaternion(&named.fly(0.0, &sets).unwrap(), "command.q")
+    });
+    assert_eq!(q[0], q[1]);
+}
+
+#[test]
+fn a_component_beyond_its_threshold_asks_once() {
+    let named = NamedModel::<Guidance>::shipped();
+    let limits = [("dump.threshold[1]", 4.0), ("dump.threshold[2]", 5.0), ("dump.threshold[3]", 6.0)];
+    let mut flight = named.fly(0.0, &with(&[PLACED, &limits])).unwrap();
+    let mut end_s = 0.0;
+    let mut sample = |flight: &mut Flight<'_>, momentum: [f64; 3]| {
+        set_vector(flight, "momentum.body", &momentum.into());
+        end_s += 1.0;
+        flight.step_to(end_s).unwrap();
+        (flight.boolean("dump.request"), flight.vector("dump.target"))
+    };
+    let nothing = (false, Vector3::zeros());
+    assert_eq!(sample(&mut flight, [0.0; 3]), nothing);
+    assert_eq!(sample(&mut flight, [3.9, -4.9, 5.9]), nothing);
+    let left = Vector3::new(-3.6, -4.9, 1.0);
+    assert_eq!(sample(&mut flight, [4.1, -4.9, 1.0]), (true, left));
+    assert_eq!(sample(&mut flight, [4.2, -4.9, 1.0]), (false, left));
+    assert_eq!(sample(&mut flight, [4.2, -5.1, 1.0]), (true, Vector3::new(-3.6, 4.5, 1.0)));
+    assert!(!sample(&mut flight, [3.0, 3.0, 3.0]).0);
+    assert_eq!(sample(&mut flight, [-4.5, 3.0, 3.0]), (true, Vector3::new(3.6, 3.0, 3.0)));
+    let zero = [("dump.reinitTo", 2.0), ("momentum.target[1]", 0.5), ("momentum.body[1]", 4.5)];
+    let flight = named.fly(0.0, &with(&[PLACED, &limits, &zero])).unwrap();
+    assert!(flight.boolean("dump.request"));
+    assert_eq!(flight.vector("dump.target"), Vector3::new(0.5, 0.0, 0.0));
+}
+
+#[test]
+fn a_request_makes_a_plant_dump_to_its_target() {
+    let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
+    let limits = [("dump.threshold[1]", 0.3)];
+    let mut guidance = guidances.fly(0.0, &with(&[&still(60.0), QUIET, &limits])).unwrap();
+    let mut plant = plants.fly(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
+    guidance.step_to(1.0).unwrap();
+    plant.set("dump.request", f64::from(u8::from(guidance.boolean("dump.request"))));
+    for (i, value) in (1..).zip(guidance.vector("dump.target").iter()) {
+        plant.set(&format!("dump.target[{i}]"), *value);
+    }
+    plant.step_to(1e-3).unwrap();
+    assert_eq!(plant.integer("dump.count"), 1);
+    let after = plant.vector("momentum.body");
+    assert!((after - Vector3::new(-0.27, MOMENTUM[1], MOMENTUM[2])).amax() < 1e-6, "{after:?}");
+}
+
+#[test]
+fn zero_inputs_and_bad_ones() {
+    let named = NamedModel::<Guidance>::shipped();
+    let zero: Vec<_> = named.inputs().into_iter().map(|name| (name, 0.0)).collect();
+    let mut flight = named.fly(0.0, &with(&[&zero, &[("momentum.strategy", 2.0)]])).unwrap();
+    flight.step_to(60.0).unwrap();
+    assert_eq!(flight.not_finite(), None);
+    let mut flight =
+        named.fly(0.0, &with(&[PLACED, &[("pointing.scenario", 6.0), ("momentum.strategy", 2.0)]])).unwrap();
+    flight.step_to(60.0).unwrap();
+    assert_eq!(flight.not_finite(), None);
+    let refused = |sets: &[(&str, f64)]| named.fly(0.0, sets).err().unwrap().to_string();
+    let never = [("momentum.strategy", 2.0), ("guided.downlinkEnd", 7200.0)];
+    let found = refused(&never);
+    assert!(found.contains("momentum.strategy") && found.contains("guided.downlinkEnd"), "{found}");
+    // A file that describes the shade as plates alone.
+    let (head, tail) = <Guidance as Model>::DEFAULT_SETUP.split_once("[sunshade.cylinder]").unwrap();
+    let rest = tail.split_once("\n[").unwrap().1;
+    let plates = NamedModel::<Guidance>::with("plates.toml", &format!("{head}[{rest}"));
+    let found = plates.fly(0.0, &[("sunshade.shape", 2.0)]).err().unwrap().to_string();
+    assert!(found.contains("sunshade.shape"), "{found}");
+}

@@ -1,0 +1,72 @@
+//! When a sampled guidance asks thrusters for a dump, and to which momentum.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::momentum::DumpPolicy;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+
+/// Requests so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DumpRequests {
+    /// Components beyond their thresholds at the last sample.
+    exceeded: [bool; 3],
+    /// Whether one came beyond its threshold there.
+    request: bool,
+    /// Where the last request leaves the momentum, body frame, in N m s.
+    target_body_n_m_s: Vector3<f64>,
+}
+
+impl DumpRequests {
+    /// Takes a sample: a component asks once, and again after it came back below its threshold.
+    pub fn sample(&mut self, policy: &DumpPolicy, momentum_body_n_m_s: &Vector3<f64>) {
+        let exceeded = policy.exceeded_by(momentum_body_n_m_s);
+        self.request = exceeded.iter().zip(self.exceeded).any(|(now, before)| *now && !before);
+        self.exceeded = exceeded;
+        if self.request {
+            self.target_body_n_m_s = policy.after(momentum_body_n_m_s);
+        }
+    }
+
+    /// Whether the last sample asks for a dump.
+    pub fn is_requested(&self) -> bool {
+        self.request
+    }
+
+    /// Where the last request leaves the momentum, body frame, in N m s; zero before any.
+    pub fn target_body_n_m_s(&self) -> &Vector3<f64> {
+        &self.target_body_n_m_s
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.target_body_n_m_s.iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A request lasts a sample, and each component has its own.
+    use super::*;
+    use crate::momentum::Reinitialise;
+
+    #[test]
+    fn every_crossing_asks_once() {
+        let policy = DumpPolicy {
+            threshold_body_n_m_s: Vector3::new(4.0, 5.0, 1.0),
+            reinitialise: Reinitialise::Opposite { fraction: 0.5 },
+        };
+        let mut requests = DumpRequests::default();
+        let mut sample = |x, y, z| {
+            requests.sample(&policy, &Vector3::new(x, y, z));
+            (requests.is_requested(), *requests.target_body_n_m_s())
+        };
+        assert_eq!(sample(4.0, -5.0, 0.0), (false, Vector3::zeros()));
+        let left = Vector3::new(-2.0, 3.0, 0.5);
+        assert_eq!(sample(4.1, 3.0, 0.5), (true, left));
+        assert_eq!(sample(4.2, 3.0, 0.5), (false, left));
+        assert_eq!(sample(4.2, 3.0, -1.1), (true, Vector3::new(-2.0, 3.0, 0.5)));
+        assert!(!sample(3.9, 3.0, -1.1).0);
+        assert_eq!(sample(-4.5, 3.0, -1.1), (true, Vector3::new(2.0, 3.0, 0.5)));
+    }
+}
