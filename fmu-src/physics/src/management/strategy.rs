@@ -45,7 +45,7 @@ pub struct Manager<'a> {
 const SAMPLES: f64 = 96.0;
 
 impl SunPlanner for Manager<'_> {
-    fn choose(&self, outlook: &mut Outlook<'_, '_>) -> Result<Option<ChosenPlace>, PlantError> {
+    fn choose(&self, outlook: &mut Outlook<'_>) -> Result<Option<ChosenPlace>, PlantError> {
         let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
@@ -80,7 +80,7 @@ impl Manager<'_> {
     }
 
     /// What each coming span of science does to the momentum, by component.
-    fn swings(&self, outlook: &mut Outlook<'_, '_>) -> Result<Vec<[Swing; 3]>, PlantError> {
+    fn swings(&self, outlook: &mut Outlook<'_>) -> Result<Vec<[Swing; 3]>, PlantError> {
         let cycle_s = outlook.cycle_s();
         let mut swings: Vec<[Swing; 3]> = Vec::new();
         if !cycle_s.is_finite() || cycle_s <= 0.0 {

@@ -12,10 +12,9 @@ use crate::spacecraft::MassProperties;
 use super::configuration::{AttitudeSource, Command, Configuration, DynamicAttitude};
 use super::error::PlantError;
 use super::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
-use super::outlook::{Outlook, StartMomentum};
+use super::outlook::{Outlook, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
-use super::sun_choice::SunPlanner;
 
 /// A window computed in epochs begins this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
@@ -80,7 +79,8 @@ impl Flight<'_> {
         if !downlink {
             return Ok(());
         }
-        choice.chosen_s = Some(time_s);
+        // A dump at the very start changes nothing of it.
+        choice.chosen_s = (!first).then_some(time_s);
         let until_s = guided.window.until_s - self.configuration.epoch_minus_time_s;
         let since_s = guided.window.since_s - self.configuration.epoch_minus_time_s;
         let is_under_way = first && since_s < time_s - EPOCH_ROUNDING_S;
@@ -90,7 +90,12 @@ impl Flight<'_> {
             let instant = plant.instant(time_s);
             let pressure_pa = plant.pressure_pa(&instant);
             let mut outlook = Outlook {
-                flight: self,
+                prepared: self.prepared,
+                configuration: self.configuration,
+                propagator: self.propagator,
+                ephemeris: self.ephemeris,
+                light: self.light.as_deref_mut(),
+                applied: (self.external)(time_s),
                 law,
                 totals: *totals,
                 forecasts: !first,

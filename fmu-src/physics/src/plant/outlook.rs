@@ -5,11 +5,13 @@
 
 use nalgebra::Vector3;
 
-use super::configuration::AttitudeSource;
+use super::configuration::{AttitudeSource, Configuration};
 use super::error::PlantError;
-use super::evaluation::Plant;
-use super::flight::Flight;
-use crate::guidance::Guided;
+use super::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
+use super::propagator_state::PropagatorState;
+use super::radiation_solver::RadiationSolver;
+use crate::environment::ephemeris::Ephemeris;
+use crate::guidance::{ChosenPlace, Guided};
 use crate::momentum::{Convention, MomentumIntegrator, Totals};
 
 /// Momentum where a downlink begins, in N m s.
@@ -49,9 +51,23 @@ pub struct ForecastMomentum {
     pub momentum_body_n_m_s: Vector3<f64>,
 }
 
+/// Who chooses the Sun's place; asked once a downlink, and again after a dump at its very beginning.
+pub trait SunPlanner {
+    /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be flown.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    fn choose(&self, outlook: &mut Outlook<'_>) -> Result<Option<ChosenPlace>, PlantError>;
+}
+
 /// Where a downlink begins.
-pub struct Outlook<'o, 'f> {
-    pub(super) flight: &'o mut Flight<'f>,
+pub struct Outlook<'o> {
+    pub(super) prepared: PreparedSpacecraft<'o>,
+    pub(super) configuration: &'o mut Configuration,
+    pub(super) propagator: &'o PropagatorState,
+    pub(super) ephemeris: &'o mut Ephemeris,
+    pub(super) light: Option<&'o mut RadiationSolver>,
+    pub(super) applied: ExternalLoad,
     pub(super) law: Guided,
     pub(super) totals: Totals,
     pub(super) forecasts: bool,
@@ -70,16 +86,15 @@ pub struct Outlook<'o, 'f> {
     pub pressure_pa: f64,
 }
 
-impl Outlook<'_, '_> {
+impl Outlook<'_> {
     /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.
     pub fn torque_body_n_m(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
-        let flight = &*self.flight;
-        flight.prepared.sunlit(flight.configuration).torque_body_n_m(sun_body, self.pressure_pa)
+        self.prepared.sunlit(self.configuration).torque_body_n_m(sun_body, self.pressure_pa)
     }
 
     /// Centre of mass with the panels as they stand to a Sun on -Y, body frame, in m.
     pub fn center_of_mass_body_m(&self) -> Vector3<f64> {
-        self.flight.prepared.sunlit(self.flight.configuration).center_of_mass_body_m()
+        self.prepared.sunlit(self.configuration).center_of_mass_body_m()
     }
 
     /// Length of a cycle of science and downlink, in s; infinite where none follows, and where nothing may be forecast.
@@ -102,9 +117,8 @@ impl Outlook<'_, '_> {
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        let Self { flight, law, totals, work_limit, time_s, .. } = self;
+        let Self { configuration, law, totals, work_limit, time_s, applied, .. } = self;
         let guided = Guided { managed: false, sun_place: None, ..*law };
-        let configuration = &mut *flight.configuration;
         let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(guided));
         let (momentum, light_and_heat) = (configuration.momentum, configuration.light_and_heat);
         // Tolerances shorten what is too coarse.
@@ -112,20 +126,20 @@ impl Outlook<'_, '_> {
         configuration.light_and_heat.grid_s = light_and_heat.grid_s.max(step_s);
         configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
         let settings = configuration.momentum;
-        let mut propagator = flight.propagator.clone();
+        let mut propagator = self.propagator.clone();
         propagator.cut(configuration, *time_s, true);
-        let applied = (flight.external)(*time_s);
+        let applied = *applied;
         let mut integrator = MomentumIntegrator::new(*time_s, *totals);
         let steps = ((until_s - *time_s) / step_s).ceil().max(0.0) as usize;
         let mut flown = Ok(());
         for step in 0..=steps {
             let at_s = (*time_s + step as f64 * step_s).min(until_s);
             let mut plant = Plant::new(
-                flight.prepared,
-                flight.configuration,
+                self.prepared,
+                configuration,
                 &mut propagator,
-                flight.ephemeris,
-                flight.light.as_deref_mut(),
+                self.ephemeris,
+                self.light.as_deref_mut(),
                 |_| applied,
                 *work_limit,
             );
@@ -142,7 +156,6 @@ impl Outlook<'_, '_> {
                     .momentum_body_n_m_s(settings.convention, &instant.frame.inertial_from_body),
             });
         }
-        let configuration = &mut *flight.configuration;
         configuration.attitude = attitude;
         (configuration.momentum, configuration.light_and_heat) = (momentum, light_and_heat);
         flown
@@ -150,11 +163,11 @@ impl Outlook<'_, '_> {
 
     /// Which momentum the flight's convention watches.
     pub fn convention(&self) -> Convention {
-        self.flight.configuration.momentum.convention
+        self.configuration.momentum.convention
     }
 
     /// Magnitude of each component that triggers a dump, in N m s.
     pub fn threshold_body_n_m_s(&self) -> Vector3<f64> {
-        self.flight.configuration.momentum.policy.threshold_body_n_m_s
+        self.configuration.momentum.policy.threshold_body_n_m_s
     }
 }

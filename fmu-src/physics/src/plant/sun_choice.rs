@@ -2,19 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::error::PlantError;
-use super::outlook::Outlook;
 use crate::guidance::{ChosenPlace, SunPlace};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
-
-/// Who chooses the Sun's place; asked once a downlink, and again after a dump at its very beginning.
-pub trait SunPlanner {
-    /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be flown.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    fn choose(&self, outlook: &mut Outlook<'_, '_>) -> Result<Option<ChosenPlace>, PlantError>;
-}
 
 /// The last choice; the slew after a downlink starts from its attitude.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

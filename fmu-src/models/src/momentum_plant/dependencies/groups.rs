@@ -30,11 +30,12 @@ impl Inputs {
     pub fn of(setup: &PlantSetup, v: &PlantVariables) -> Self {
         let places = knowns![v.orbit.position, v.orbit.velocity, v.sun.position];
         let command = knowns![v.command.kind, v.command.q, v.command.rate, v.command.error];
-        let attitude = knowns![&places, command, v.earth.position];
+        let panels = v.panel.iter().map(turned_by).collect::<Knowns>();
+        // Where a flight that waited for its places begins with a downlink, panels tell where the Sun is to stand.
+        let attitude = knowns![&places, command, v.earth.position, &panels];
         let sensors = knowns![v.star_tracker.failed, v.gyro.failed];
         let failed = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
         let dump = knowns![v.dump.request, v.dump.target];
-        let panels = v.panel.iter().map(turned_by).collect::<Knowns>();
         let weighed_panels = panels.clone().only_if(panels_weigh(setup));
         let weight = knowns![&attitude, &weighed_panels].only_if(panels_weigh(setup));
         let controller = knowns![&attitude, &sensors, failed, dump, &weighed_panels].only_if(can_control(v));
