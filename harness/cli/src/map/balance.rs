@@ -32,6 +32,8 @@ pub struct Balance {
 /// The balances near cells of a grid in which both components change sign.
 pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<Vec<Balance>, Error> {
     let (_, greatest_n_m) = grid.most();
+    let is_flat = grid.is_flat();
+    let is_free = |corners: [(usize, usize); 4]| corners.iter().all(|&(column, row)| !is_flat(column, row));
     let mut found: Vec<Balance> = Vec::new();
     let values = TARGETED.map(|axis| grid.component_n_m(axis));
     for row in 0..grid.steps[1] {
@@ -42,9 +44,7 @@ pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<Vec<Balance>, Er
                 at.iter().any(|value| *value < 0.0) && at.iter().any(|value| *value > 0.0)
                     || at.iter().filter(|value| **value == 0.0).count() == 2
             };
-            let is_lit =
-                corners.iter().all(|&(column, row)| grid.at(column, row).force_n != Vector3::zeros());
-            if !is_lit || !values.iter().all(|value| changes(value)) {
+            if !is_free(corners) || !values.iter().all(|value| changes(value)) {
                 continue;
             }
             let [a, b] = [grid.angles_deg(column, row), grid.angles_deg(column + 1, row + 1)];
@@ -53,7 +53,10 @@ pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<Vec<Balance>, Er
             let at = direction(balance.place_deg);
             let cell_rad = (b[1] - a[1]).max(b[0] - a[0]).to_radians();
             let is_near = at.angle(&start) <= 2.0 * cell_rad;
-            if is_near && found.iter().all(|other| direction(other.place_deg).angle(&at) > SAME_RAD) {
+            if is_near
+                && is_free(grid.corners(balance.place_deg))
+                && found.iter().all(|other| direction(other.place_deg).angle(&at) > SAME_RAD)
+            {
                 found.push(balance);
             }
         }

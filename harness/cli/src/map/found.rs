@@ -1,5 +1,7 @@
 //! Everything that a map tells of a craft, found once for picture, table and files.
 
+use std::{panic::resume_unwind, thread};
+
 use loader::Error;
 use nalgebra::Vector3;
 
@@ -8,7 +10,7 @@ use super::{
     craft::Craft,
     grid::{Angles, Grid},
     mission::{Held, Mission},
-    options::Map,
+    options::{SourceKind, Steps},
     region::Region,
     sunlight::Sunlight,
     worth::{self, Worth},
@@ -52,24 +54,34 @@ pub struct Found {
 }
 
 impl Mapped {
-    fn new(sunlight: &mut Sunlight<'_>, limits_deg: Angles, steps: [usize; 2]) -> Result<Self, Error> {
-        let grid = Grid::new(sunlight, limits_deg, steps)?;
-        let mut lines = [Vec::new(), Vec::new(), Vec::new()];
-        for (axis, lines) in lines.iter_mut().enumerate() {
-            *lines = zero_lines::find(sunlight, &grid, axis)?;
-        }
-        let balances = balance::find(sunlight, &grid)?;
-        Ok(Self { grid, lines, balances })
+    fn new(craft: &Craft, source: SourceKind, limits_deg: Angles, steps: [usize; 2]) -> Result<Self, Error> {
+        let grid = Grid::new(craft, source, limits_deg, steps)?;
+        let asked = &grid;
+        let (lines, balances) = thread::scope(|scope| {
+            let of = |axis: usize| {
+                scope.spawn(move || zero_lines::find(&mut Sunlight::new(craft, source)?, asked, axis))
+            };
+            let workers = [of(0), of(1), of(2)];
+            let balances =
+                Sunlight::new(craft, source).and_then(|mut sunlight| balance::find(&mut sunlight, asked));
+            (workers.map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic))), balances)
+        });
+        let [x, y, z] = lines;
+        Ok(Self { grid, lines: [x?, y?, z?], balances: balances? })
     }
 }
 
 impl Found {
     /// Asks the FMU for all of it.
-    pub fn new(craft: &Craft, arguments: &Map, mission: Option<Mission>) -> Result<Self, Error> {
-        let mut sunlight = Sunlight::new(craft, arguments.source)?;
-        let quarter = arguments.step.0 as usize;
-        let sphere = Mapped::new(&mut sunlight, SPHERE_DEG, [4 * quarter, 2 * quarter])?;
-        let zone = Mapped::new(&mut sunlight, craft.zone_rad.map(f64::to_degrees), ZONE_STEPS)?;
+    pub fn new(
+        craft: &Craft,
+        (source, steps): (SourceKind, Steps),
+        mission: Option<Mission>,
+    ) -> Result<Self, Error> {
+        let quarter = steps.0 as usize;
+        let sphere = Mapped::new(craft, source, SPHERE_DEG, [4 * quarter, 2 * quarter])?;
+        let zone = Mapped::new(craft, source, craft.zone_rad.map(f64::to_degrees), ZONE_STEPS)?;
+        let mut sunlight = Sunlight::new(craft, source)?;
         let least = balance::least(&mut sunlight, &zone.grid)?;
         let (ahead_n_m, worths) = worth::find(&mut sunlight, &craft.panels)?;
         let attainable = Attainable::new(craft, &zone.grid, &ahead_n_m, mission);

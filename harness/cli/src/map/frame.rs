@@ -60,6 +60,18 @@ impl Frame {
         }
     }
 
+    /// The nodes of which something holds.
+    pub fn area(
+        &self,
+        pen: &mut Pen,
+        steps: [usize; 2],
+        holds: &impl Fn(usize, usize) -> bool,
+        colour: &str,
+    ) {
+        let lines = self.enclosing(steps, &|column, row| if holds(column, row) { 1.0 } else { -1.0 });
+        pen.area(lines.iter().map(Vec::as_slice), colour);
+    }
+
     /// Closed lines around nodes that are not below 0: a rim of nodes below everything closes them at the border.
     fn enclosing(&self, steps: [usize; 2], value: &impl Fn(usize, usize) -> f64) -> Vec<Vec<Pixel>> {
         let inner = |node: usize, of: usize| node.checked_sub(1).filter(|node| *node <= steps[of]);

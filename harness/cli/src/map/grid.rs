@@ -1,10 +1,16 @@
 //! Loads on a regular grid of the Sun's azimuth and elevation.
 
+use std::{panic::resume_unwind, thread};
+
 use loader::Error;
 use nalgebra::Vector3;
 use physics::attitude::{SunAngles, direction_from_angles};
 
-use super::sunlight::{Load, Sunlight};
+use super::{
+    craft::Craft,
+    options::SourceKind,
+    sunlight::{Load, Sunlight},
+};
 
 /// Least part of the greatest torque that is not rounding.
 const ROUNDING: f64 = 1e-13;
@@ -37,22 +43,46 @@ pub fn angles_deg(direction: &Vector3<f64>) -> Angles {
 }
 
 impl Grid {
-    /// Asks for every node.
-    pub fn new(sunlight: &mut Sunlight<'_>, limits_deg: Angles, steps: [usize; 2]) -> Result<Self, Error> {
-        let mut grid = Self { limits_deg, steps, loads: Vec::with_capacity((steps[0] + 1) * (steps[1] + 1)) };
+    /// Asks for every node, on as many threads as the computer has; what acts depends on the direction alone.
+    pub fn new(
+        craft: &Craft,
+        source: SourceKind,
+        limits_deg: Angles,
+        steps: [usize; 2],
+    ) -> Result<Self, Error> {
+        let empty = Self { limits_deg, steps, loads: Vec::new() };
+        let threads = thread::available_parallelism().map_or(1, usize::from).min(steps[1]);
+        // Rows in turns, as directions differ in what they cost.
+        let rows = thread::scope(|scope| {
+            let asked = |first: usize| {
+                let empty = &empty;
+                scope.spawn(move || -> Result<Vec<Vec<Load>>, Error> {
+                    let mut sunlight = Sunlight::new(craft, source)?;
+                    (first..=steps[1]).step_by(threads).map(|row| empty.row(&mut sunlight, row)).collect()
+                })
+            };
+            let workers: Vec<_> = (0..threads).map(asked).collect();
+            let joined =
+                workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
+            joined.collect::<Result<Vec<_>, Error>>()
+        })?;
+        let loads =
+            (0..=steps[1]).flat_map(|row| rows[row % threads][row / threads].iter().copied()).collect();
+        Ok(Self { loads, ..empty })
+    }
+
+    fn row(&self, sunlight: &mut Sunlight<'_>, row: usize) -> Result<Vec<Load>, Error> {
         // The first azimuth of a whole turn is the last one too.
-        let turns_round = limits_deg[0] == 180.0;
-        for row in 0..=steps[1] {
-            for column in 0..=steps[0] {
-                let load = if turns_round && column == steps[0] {
-                    *grid.at(0, row)
-                } else {
-                    sunlight.at(&direction(grid.angles_deg(column, row)))?
-                };
-                grid.loads.push(load);
-            }
+        let turns_round = self.limits_deg[0] == 180.0;
+        let mut loads: Vec<Load> = Vec::with_capacity(self.steps[0] + 1);
+        for column in 0..=self.steps[0] {
+            let load = match loads.first() {
+                Some(first) if turns_round && column == self.steps[0] => *first,
+                _ => sunlight.at(&direction(self.angles_deg(column, row)))?,
+            };
+            loads.push(load);
         }
-        Ok(grid)
+        Ok(loads)
     }
 
     /// Of a node.
@@ -84,6 +114,31 @@ impl Grid {
     pub fn most(&self) -> (Angles, f64) {
         let sizes = self.nodes().map(|(at, load)| (at, load.torque_n_m.norm()));
         sizes.fold(([0.0; 2], 0.0), |most, next| if next.1 > most.1 { next } else { most })
+    }
+
+    /// Whether a node lies in a region without torque, dark or symmetric: at it and at two of its neighbours all of it is 0.
+    pub fn is_flat(&self) -> impl Fn(usize, usize) -> bool + '_ {
+        let least_n_m = ROUNDING * self.most().1;
+        let vanishes = move |column: usize, row: usize| {
+            column <= self.steps[0]
+                && row <= self.steps[1]
+                && self.at(column, row).torque_n_m.amax() <= least_n_m
+        };
+        move |column, row| {
+            let (left, below) = (column.wrapping_sub(1), row.wrapping_sub(1));
+            let around = [(left, row), (column + 1, row), (column, below), (column, row + 1)];
+            vanishes(column, row)
+                && around.into_iter().filter(|&(column, row)| vanishes(column, row)).count() >= 2
+        }
+    }
+
+    /// The corners of the cell that a place is in.
+    pub fn corners(&self, place_deg: Angles) -> [(usize, usize); 4] {
+        let [column, row] = [0, 1].map(|axis| {
+            let part = 0.5 * (place_deg[axis] / self.limits_deg[axis] + 1.0);
+            ((part * self.steps[axis] as f64).floor().max(0.0) as usize).min(self.steps[axis] - 1)
+        });
+        [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)]
     }
 
     /// A component of torque, 0 where it is rounding of the greatest torque.

@@ -32,7 +32,7 @@ pub fn run(arguments: &Map) -> Outcome {
     let outputs = Outputs::open(arguments)?;
     let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;
     let craft = Craft::open(arguments)?;
-    let found = Found::new(&craft, arguments, mission)?;
+    let found = Found::new(&craft, (arguments.source, arguments.step), mission)?;
     let written = outputs.write(&craft, &found)?;
     if !arguments.quiet {
         let text = table::text(&craft, &found, arguments.source);

@@ -19,16 +19,20 @@ const HEIGHT_OF_PLOT: f64 = 264.0;
 const LEFT: f64 = 76.0;
 const ZONE_LEFT: f64 = 766.0;
 const ZONE_WIDTH: f64 = 310.0;
-const LAST_ROW: f64 = 400.0;
+const LAST_ROW: f64 = 352.0;
 const MICRO: f64 = 1e6;
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
 const LINE: &str = "#111418";
+const NONE: &str = "#c9ccd1";
 const MARK: &str = "#0b6e4f";
 
 /// The sheet.
 pub fn svg(craft: &Craft, found: &Found) -> String {
-    let title =
-        format!("{}: torque of sunlight at {} AU", craft.name, terminal::short(craft.distance_m / AU_M));
+    let title = format!(
+        "{}: torque of sunlight at {} AU",
+        craft.name,
+        terminal::short((craft.distance_m / AU_M * 1e4).round() / 1e4)
+    );
     let mut pen = Pen::new(WIDTH, HEAD + 3.0 * ROW + LAST_ROW, &title);
     pen.text((LEFT, 36.0), 20.0, "start", &format!("fill=\"{INK}\" font-weight=\"bold\""), &title);
     legend(&mut pen);
@@ -69,6 +73,8 @@ fn torque(pen: &mut Pen, mapped: &Mapped, frame: Frame, axis: usize, steps: [f64
     let bands = Bands::new(MICRO * grid.greatest_n_m(axis));
     let value_n_m = grid.component_n_m(axis);
     frame.bands(pen, grid.steps, &|column, row| MICRO * value_n_m(column, row), bands);
+    let is_flat = grid.is_flat();
+    frame.area(pen, grid.steps, &is_flat, NONE);
     for line in &mapped.lines[axis] {
         frame.line(pen, &line.places_deg, &zero_line());
     }
@@ -119,6 +125,10 @@ fn legend(pen: &mut Pen) {
     pen.text((LEFT + 321.0, y + 4.0), 12.0, "start", &fill, "whole torque is least in the zone");
     pen.lines([&[(LEFT + 540.0, y), (LEFT + 566.0, y)][..]], &dashes());
     pen.text((LEFT + 573.0, y + 4.0), 12.0, "start", &fill, "Sun keep-in zone");
+    let none =
+        [(LEFT + 706.0, y - 5.0), (LEFT + 726.0, y - 5.0), (LEFT + 726.0, y + 5.0), (LEFT + 706.0, y + 5.0)];
+    pen.polygon(&none, &format!("fill=\"{NONE}\""));
+    pen.text((LEFT + 733.0, y + 4.0), 12.0, "start", &fill, "no torque");
 }
 
 /// Disturbances that downlinks can undo, the mission's mean among them.

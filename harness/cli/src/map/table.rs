@@ -96,19 +96,20 @@ fn lines(mapped: &Mapped, where_: &str) -> String {
     let count = all.len();
     for (name, line) in all.into_iter().take(MOST_ROWS) {
         let span = |of: usize| line.extent_deg(of).map(angle).join(", ");
-        let crossings =
-            |of: usize| line.crossings_deg(of).into_iter().map(angle).collect::<Vec<_>>().join(", ");
+        let crossings = |of: usize| match line.is_along(of) {
+            true => "along it".to_owned(),
+            false => line.crossings_deg(of).into_iter().map(angle).collect::<Vec<_>>().join(", "),
+        };
         table.add_row([name.to_owned(), span(0), span(1), crossings(0), crossings(1)]);
     }
-    let none: Vec<&str> = NAMES
-        .into_iter()
-        .zip(&mapped.lines)
-        .filter(|(_, lines)| lines.is_empty())
-        .map(|(name, _)| name)
-        .collect();
     let mut text = format!("Lines of zero torque, {where_}");
-    if !none.is_empty() {
-        text += &format!("; none about {}", none.join(", "));
+    for (axis, (name, lines)) in NAMES.into_iter().zip(&mapped.lines).enumerate() {
+        // A component of nothing but rounding.
+        if mapped.grid.greatest_n_m(axis) <= 1e-12 * mapped.grid.most().1 {
+            text += &format!("; {name} is zero everywhere");
+        } else if lines.is_empty() {
+            text += &format!("; none about {name}");
+        }
     }
     if count > 0 {
         text += &format!("\n{table}");
@@ -176,8 +177,11 @@ fn attainable(craft: &Craft, found: &Found) -> String {
     );
     if let Some((mission, _)) = &attainable.mission {
         let [x, z] = mission.mean_torque_n_m().map(micro);
-        text +=
-            &format!("\nMission, by {}: mean disturbance X {}, Z {} uN.m", mission.from, x.trim(), z.trim());
+        text += &format!(
+            "\nMission, by {}: mean disturbance X {x}, Z {z} uN.m, {}",
+            mission.from,
+            verdict::in_the_mean(attainable)
+        );
     }
     for line in verdict::on_mission(craft, attainable) {
         text += &format!("\n{line}");

@@ -15,6 +15,17 @@ pub fn share(craft: &Craft) -> String {
     )
 }
 
+/// Whether downlinks can undo the mission's mean disturbance.
+pub fn in_the_mean(attainable: &Attainable) -> &'static str {
+    let Some((mission, _)) = &attainable.mission else { return "" };
+    let undone = mission.mean_torque_n_m().map(|part| -part);
+    if attainable.mean_added_n_m.holds(undone) {
+        "which downlinks can undo"
+    } else {
+        "more than downlinks can undo"
+    }
+}
+
 /// Sentences on a mission; none without one.
 pub fn on_mission(craft: &Craft, attainable: &Attainable) -> Vec<String> {
     let Some((mission, held)) = &attainable.mission else { return Vec::new() };

@@ -18,6 +18,8 @@ const ZERO: f64 = 1e-12;
 /// What is tried for.
 const TRIED: f64 = 1e-13;
 const MOST_TRIES: u32 = 80;
+/// Places nearer than this to the middle are on it.
+const ON_DEG: f64 = 1e-9;
 
 /// One line.
 pub struct ZeroLine {
@@ -32,13 +34,19 @@ impl ZeroLine {
         [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
     }
 
+    /// Whether all of it is on the middle, 0 of azimuth or of elevation.
+    pub fn is_along(&self, of: usize) -> bool {
+        self.places_deg.iter().all(|place| place[of].abs() < ON_DEG)
+    }
+
     /// Where it crosses the middle, 0 of azimuth or of elevation: the other angle, in deg.
     pub fn crossings_deg(&self, of: usize) -> Vec<f64> {
+        let is_on = |place: &Angles| place[of].abs() < ON_DEG;
         let mut found: Vec<f64> = Vec::new();
         for pair in self.places_deg.windows(2) {
             let (a, b) = (pair[0], pair[1]);
-            // A place on the middle itself counts once, from its lower side.
-            if (a[of] < 0.0) != (b[of] < 0.0) {
+            // A piece of line along the middle crosses it nowhere.
+            if (a[of] < 0.0) != (b[of] < 0.0) && !(is_on(&a) && is_on(&b)) {
                 let part = a[of] / (a[of] - b[of]);
                 found.push(a[1 - of] + part * (b[1 - of] - a[1 - of]));
             }
@@ -51,12 +59,13 @@ impl ZeroLine {
 /// The lines of a component (0 to 2) in a grid.
 pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid, axis: usize) -> Result<Vec<ZeroLine>, Error> {
     let greatest_n_m = grid.greatest_n_m(axis);
-    let value_n_m = grid.component_n_m(axis);
+    let (value_n_m, is_flat) = (grid.component_n_m(axis), grid.is_flat());
     let mut roots: HashMap<Edge, Angles> = HashMap::new();
     let mut failure = None;
     let lines = contour::lines(grid.steps, &value_n_m, |edge| {
         let (a, b) = ([edge.column, edge.row], edge.end());
-        if failure.is_some() || touches_dark(grid, a, b, &value_n_m) {
+        // The border of a region without torque is no line.
+        if failure.is_some() || [a, b].into_iter().any(|[column, row]| is_flat(column, row)) {
             return false;
         }
         let ends = [a, b].map(|[column, row]| (grid.angles_deg(column, row), value_n_m(column, row)));
@@ -77,16 +86,6 @@ pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid, axis: usize) -> Result<Vec
     }
     let placed = |line: Vec<Edge>| line.iter().filter_map(|edge| roots.get(edge).copied()).collect();
     Ok(lines.into_iter().map(|line| ZeroLine { places_deg: placed(line) }).collect())
-}
-
-/// Whether an edge ends on a region of zeros and not on a line of them: the next node beyond is zero too.
-fn touches_dark(grid: &Grid, a: [usize; 2], b: [usize; 2], value_n_m: &impl Fn(usize, usize) -> f64) -> bool {
-    let beyond = |from: [usize; 2], to: [usize; 2]| {
-        let at = |k: usize| (2 * to[k]).checked_sub(from[k]).filter(|index| *index <= grid.steps[k]);
-        let is_zero = value_n_m(to[0], to[1]) == 0.0;
-        is_zero && at(0).zip(at(1)).is_some_and(|(column, row)| value_n_m(column, row) == 0.0)
-    };
-    beyond(a, b) || beyond(b, a)
 }
 
 /// The root between two places of unlike sign, if there is one.
