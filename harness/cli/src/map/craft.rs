@@ -12,7 +12,10 @@ use physics::{
     spacecraft::{Panel, PanelControl, Spacecraft},
 };
 
-use super::options::Map;
+use super::{
+    options::Map,
+    panels::{Rule, Turned},
+};
 use crate::pack::{source, start::with_start_values};
 
 /// Why something could not be done.
@@ -24,21 +27,6 @@ const MODEL: &str = "DisturbanceTorque";
 const FLOWN: &str = "MomentumPlant";
 /// Paper 000's Sun keep-in zone, azimuth and elevation.
 const PAPER_ZONE_RAD: [f64; 2] = [15.0 * DEG_RAD, 13.0 * DEG_RAD];
-
-/// A panel and what turns it.
-pub struct Turned {
-    pub panel: Panel,
-    pub rule: Rule,
-}
-
-/// What sets a panel's angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rule {
-    /// It keeps an angle between cells and Sun, tilted by a sign about its axis.
-    SunOffset { offset_rad: f64, tilt_sign: f64 },
-    /// It stands.
-    Angle(f64),
-}
 
 /// How downlinks share the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +55,8 @@ pub struct Craft {
     /// Whether the zone is the paper's, as the file names none.
     pub is_paper_zone: bool,
     pub downlink: Downlink,
+    /// Panels that MomentumPlant leaves out, which DisturbanceTorque cannot.
+    pub panels_left_out: bool,
     pub threshold_n_m_s: [f64; 3],
     // The FMU's folder, as long as it is in use.
     _folder: Scratch,
@@ -146,6 +136,7 @@ impl Craft {
             zone_rad: zone_rad.unwrap_or(PAPER_ZONE_RAD),
             is_paper_zone: zone_rad.is_none(),
             downlink: downlink(&default_flown, &flown),
+            panels_left_out: panels_left_out(&flown),
             threshold_n_m_s: [1, 2, 3]
                 .map(|axis| real(&flown, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
             _folder: folder,
@@ -200,6 +191,11 @@ fn turned(panels: Vec<Panel>, fmu: &Fmu, flown: &Description, offset_rad: Option
     };
     let numbered = panels.into_iter().enumerate();
     numbered.map(|(index, panel)| Turned { rule: rule(index + 1, &panel), panel }).collect()
+}
+
+fn panels_left_out(flown: &Description) -> bool {
+    let enabled = |number: usize| start_of(flown, &format!("panel[{number}].enabled"));
+    (1..).map_while(enabled).any(|enabled| enabled == value::Value::Boolean(false))
 }
 
 /// Where the file puts the Sun, otherwise the mean distance of the body it flies around.

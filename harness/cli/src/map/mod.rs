@@ -10,6 +10,7 @@ mod grid;
 mod mission;
 pub mod options;
 mod outputs;
+mod panels;
 mod picture;
 mod region;
 mod sunlight;

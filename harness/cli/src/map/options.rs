@@ -62,8 +62,8 @@ pub struct Map {
     /// Write torque (N.m), force (N) and panel angles (deg) for every direction (deg) as CSV; - is the standard output
     #[arg(long, value_name = "CSV")]
     pub csv: Option<PathBuf>,
-    /// Write the lines of zero torque, on which a component vanishes to 1e-12 of its greatest, as CSV: axis, line, azimuth and
-    /// elevation in deg; - is the standard output
+    /// Write the lines of zero torque as CSV: region (all, zone), axis (x, y, z, or xz where X and Z vanish together), number,
+    /// azimuth and elevation in deg; what vanishes does to 1e-12 of its greatest; - is the standard output
     #[arg(long, value_name = "CSV")]
     pub lines: Option<PathBuf>,
     /// Write no picture

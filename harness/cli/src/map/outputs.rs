@@ -4,7 +4,13 @@ use std::path::{Path, PathBuf};
 
 use files::Destination;
 
-use super::{craft::Craft, found::Found, grid::direction, options::Map, picture};
+use super::{
+    craft::Craft,
+    found::Found,
+    grid::{Angles, direction},
+    options::Map,
+    picture,
+};
 use crate::output::check_svg_path;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -98,21 +104,21 @@ fn torque(craft: &Craft, found: &Found) -> String {
     text
 }
 
-/// A row for each place of each line, of all directions and of the zone.
+/// A row for each place of each line and for each balance, of all directions and of the zone.
 fn lines(found: &Found) -> String {
     let mut text = "region,axis,line,sun_azimuth_deg,sun_elevation_deg\n".to_owned();
+    let mut row = |region: &str, axis: &str, line: usize, [azimuth_deg, elevation_deg]: Angles| {
+        let (azimuth, elevation) = (number(azimuth_deg), number(elevation_deg));
+        text.push_str(&format!("{region},{axis},{line},{azimuth},{elevation}\n"));
+    };
     for (region, mapped) in [("all", &found.sphere), ("zone", &found.zone)] {
         for (lines, axis) in mapped.lines.iter().zip(AXES) {
-            for (number_of, line) in lines.iter().enumerate() {
-                for [azimuth_deg, elevation_deg] in &line.places_deg {
-                    text.push_str(&format!(
-                        "{region},{axis},{},{},{}\n",
-                        number_of + 1,
-                        number(*azimuth_deg),
-                        number(*elevation_deg)
-                    ));
-                }
+            for (index, line) in lines.iter().enumerate() {
+                line.places_deg.iter().for_each(|place_deg| row(region, axis, index + 1, *place_deg));
             }
+        }
+        for (index, balance) in mapped.balances.iter().enumerate() {
+            row(region, "xz", index + 1, balance.place_deg);
         }
     }
     text

@@ -2,12 +2,8 @@
 
 use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 use nalgebra::Vector3;
-use physics::numerics::scalar::Dual64;
 
-use super::{
-    craft::{Craft, Rule, Turned},
-    options::SourceKind,
-};
+use super::{craft::Craft, options::SourceKind, panels::Turned};
 
 /// Any step: the model has no memory.
 const STEP_S: f64 = 1.0;
@@ -106,42 +102,6 @@ impl<'a> Sunlight<'a> {
         let mut found = [0.0; 3];
         self.instance.directional_derivative(&self.outputs[..3], &self.inputs, seed, &mut found)?;
         Ok(found.into())
-    }
-}
-
-impl Turned {
-    /// With the Sun in this direction.
-    pub fn angle_rad(&self, sun: &Vector3<f64>) -> f64 {
-        match self.rule {
-            Rule::SunOffset { offset_rad, tilt_sign } => {
-                self.panel.angle_for_sun_offset(sun, offset_rad, tilt_sign)
-            }
-            Rule::Angle(angle_rad) => angle_rad,
-        }
-    }
-
-    /// How the angle changes with a change of the Sun's direction.
-    fn angle_rate(&self, sun: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
-        match self.rule {
-            Rule::SunOffset { offset_rad, tilt_sign } => {
-                let moving = sun.zip_map(change, Dual64::new);
-                self.panel.angle_for_sun_offset(&moving, offset_rad, tilt_sign).eps
-            }
-            Rule::Angle(_) => 0.0,
-        }
-    }
-
-    /// How the angle changes with the offset: cos(tilt) = cos(offset) / s, s being the length of the Sun's direction in the
-    /// panel's plane of rotation; 0 where the offset cannot be kept.
-    fn angle_per_offset(&self, sun: &Vector3<f64>) -> f64 {
-        let Rule::SunOffset { offset_rad, tilt_sign } = self.rule else { return 0.0 };
-        let in_plane = sun.cross(&self.panel.axis_body).norm();
-        let cos_tilt = offset_rad.cos() / in_plane;
-        if cos_tilt.abs() < 1.0 {
-            tilt_sign * offset_rad.sin() / (in_plane * (1.0 - cos_tilt * cos_tilt).sqrt())
-        } else {
-            0.0
-        }
     }
 }
 

@@ -4,10 +4,11 @@ use nalgebra::Vector3;
 use physics::constants::{ASTRONOMICAL_UNIT_M, DAY_S};
 
 use super::{
-    craft::{Craft, Rule},
+    craft::Craft,
     found::{Found, Mapped},
     grid::Angles,
     options::SourceKind,
+    panels::Rule,
     verdict,
 };
 
@@ -58,6 +59,9 @@ fn head(craft: &Craft, found: &Found, source: SourceKind) -> String {
     );
     if !panels.is_empty() {
         text += &format!("\nPanels: {}.", panels.join("; "));
+    }
+    if craft.panels_left_out {
+        text += "\nEvery panel is mapped: panel[k].enabled = false counts in MomentumPlant alone.";
     }
     let mut table =
         terminal::table(&["torque [uN.m]", "azimuth [deg]", "elevation [deg]", "X", "Y", "Z", "size"]);

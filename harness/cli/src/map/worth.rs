@@ -4,7 +4,7 @@ use loader::Error;
 use nalgebra::Vector3;
 
 use super::{
-    craft::{Rule, Turned},
+    panels::{Rule, Turned},
     sunlight::Sunlight,
 };
 
