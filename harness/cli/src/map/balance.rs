@@ -32,8 +32,10 @@ pub struct Balance {
 /// The balances near cells of a grid in which both components change sign.
 pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<Vec<Balance>, Error> {
     let (_, greatest_n_m) = grid.most();
-    let is_flat = grid.is_flat();
-    let is_free = |corners: [(usize, usize); 4]| corners.iter().all(|&(column, row)| !is_flat(column, row));
+    let is_flat = TARGETED.map(|axis| grid.is_flat(axis));
+    let is_free = |corners: [(usize, usize); 4]| {
+        corners.iter().all(|&(column, row)| !is_flat.iter().any(|is_flat| is_flat(column, row)))
+    };
     let mut found: Vec<Balance> = Vec::new();
     let values = TARGETED.map(|axis| grid.component_n_m(axis));
     for row in 0..grid.steps[1] {

@@ -116,19 +116,22 @@ impl Grid {
         sizes.fold(([0.0; 2], 0.0), |most, next| if next.1 > most.1 { next } else { most })
     }
 
-    /// Whether a node lies in a region without torque, dark or symmetric: at it and at two of its neighbours all of it is 0.
-    pub fn is_flat(&self) -> impl Fn(usize, usize) -> bool + '_ {
-        let least_n_m = ROUNDING * self.most().1;
+    /// Whether a node is a corner of a cell on which a component is 0: dark or symmetric. A line of zeros has no such cell.
+    pub fn is_flat(&self, axis: usize) -> impl Fn(usize, usize) -> bool + '_ {
+        let value_n_m = self.component_n_m(axis);
         let vanishes = move |column: usize, row: usize| {
-            column <= self.steps[0]
-                && row <= self.steps[1]
-                && self.at(column, row).torque_n_m.amax() <= least_n_m
+            column <= self.steps[0] && row <= self.steps[1] && value_n_m(column, row) == 0.0
         };
         move |column, row| {
-            let (left, below) = (column.wrapping_sub(1), row.wrapping_sub(1));
-            let around = [(left, row), (column + 1, row), (column, below), (column, row + 1)];
+            let cells = [(0, 0), (1, 0), (0, 1), (1, 1)]
+                .map(|(left, below)| (column.wrapping_sub(left), row.wrapping_sub(below)));
             vanishes(column, row)
-                && around.into_iter().filter(|&(column, row)| vanishes(column, row)).count() >= 2
+                && cells.into_iter().any(|(column, row)| {
+                    let (right, above) = (column.wrapping_add(1), row.wrapping_add(1));
+                    [(column, row), (right, row), (right, above), (column, above)]
+                        .into_iter()
+                        .all(|(column, row)| vanishes(column, row))
+                })
         }
     }
 

@@ -73,7 +73,7 @@ fn torque(pen: &mut Pen, mapped: &Mapped, frame: Frame, axis: usize, steps: [f64
     let bands = Bands::new(MICRO * grid.greatest_n_m(axis));
     let value_n_m = grid.component_n_m(axis);
     frame.bands(pen, grid.steps, &|column, row| MICRO * value_n_m(column, row), bands);
-    let is_flat = grid.is_flat();
+    let is_flat = grid.is_flat(axis);
     frame.area(pen, grid.steps, &is_flat, NONE);
     for line in &mapped.lines[axis] {
         frame.line(pen, &line.places_deg, &zero_line());
@@ -128,7 +128,7 @@ fn legend(pen: &mut Pen) {
     let none =
         [(LEFT + 706.0, y - 5.0), (LEFT + 726.0, y - 5.0), (LEFT + 726.0, y + 5.0), (LEFT + 706.0, y + 5.0)];
     pen.polygon(&none, &format!("fill=\"{NONE}\""));
-    pen.text((LEFT + 733.0, y + 4.0), 12.0, "start", &fill, "no torque");
+    pen.text((LEFT + 733.0, y + 4.0), 12.0, "start", &fill, "no torque about the axis");
 }
 
 /// Disturbances that downlinks can undo, the mission's mean among them.

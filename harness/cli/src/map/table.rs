@@ -133,7 +133,10 @@ fn balances(mapped: &Mapped, where_: &str) -> String {
         "a small turn about X, Z is",
     ]);
     for balance in mapped.balances.iter().take(MOST_ROWS) {
-        let [azimuth, elevation] = balance.place_deg.map(angle);
+        let [mut azimuth, elevation] = balance.place_deg.map(angle);
+        if balance.place_deg[1].abs() > 90.0 - 1e-4 {
+            "any".clone_into(&mut azimuth);
+        }
         let turned = if balance.is_restoring { "turned back" } else { "not turned back" };
         table.add_row([azimuth, elevation, micro(balance.torque_n_m.y), turned.to_owned()]);
     }

@@ -59,12 +59,12 @@ impl ZeroLine {
 /// The lines of a component (0 to 2) in a grid.
 pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid, axis: usize) -> Result<Vec<ZeroLine>, Error> {
     let greatest_n_m = grid.greatest_n_m(axis);
-    let (value_n_m, is_flat) = (grid.component_n_m(axis), grid.is_flat());
+    let (value_n_m, is_flat) = (grid.component_n_m(axis), grid.is_flat(axis));
     let mut roots: HashMap<Edge, Angles> = HashMap::new();
     let mut failure = None;
     let lines = contour::lines(grid.steps, &value_n_m, |edge| {
         let (a, b) = ([edge.column, edge.row], edge.end());
-        // The border of a region without torque is no line.
+        // The border of a region of zeros is no line.
         if failure.is_some() || [a, b].into_iter().any(|[column, row]| is_flat(column, row)) {
             return false;
         }
@@ -85,7 +85,10 @@ pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid, axis: usize) -> Result<Vec
         return Err(error);
     }
     let placed = |line: Vec<Edge>| line.iter().filter_map(|edge| roots.get(edge).copied()).collect();
-    Ok(lines.into_iter().map(|line| ZeroLine { places_deg: placed(line) }).collect())
+    let lines = lines.into_iter().map(|line| ZeroLine { places_deg: placed(line) });
+    // A pole is a point, whatever its azimuth.
+    let is_pole = |line: &ZeroLine| line.places_deg.iter().all(|place| place[1].abs() > 90.0 - ON_DEG);
+    Ok(lines.filter(|line| !is_pole(line)).collect())
 }
 
 /// The root between two places of unlike sign, if there is one.

@@ -138,7 +138,6 @@ fn every_direction_is_what_the_fmu_says() {
         .map(|row| ["force_x_n", "force_y_n", "force_z_n"].map(|name| row[name]))
         .map(|it| norm(&it))
         .fold(0.0, f64::max);
-    let mut kept = 0;
     for row in &rows {
         let (azimuth, elevation) = (row["sun_azimuth_deg"], row["sun_elevation_deg"]);
         let angles = [row["panel_1_angle_deg"], row["panel_2_angle_deg"]].map(f64::to_radians);
@@ -147,7 +146,6 @@ fn every_direction_is_what_the_fmu_says() {
             let expected = messenger_angle_rad(azimuth, elevation, 65_f64.to_radians());
             let apart = (angles[0] - expected).sin().abs();
             assert!(apart < 1e-7 && (angles[0] - expected).cos() > 0.0, "{row:?}: {expected}");
-            kept += 1;
         }
         let found = torque.at(azimuth, elevation, 0.3 * AU_M, &angles);
         for (name, value) in ["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"].into_iter().zip(&found[..3]) {
@@ -157,7 +155,6 @@ fn every_direction_is_what_the_fmu_says() {
             assert!((row[name] - value).abs() <= 1e-14 * greatest_force, "{row:?}: {name} {value}");
         }
     }
-    assert_eq!(kept, rows.len() - 2);
 }
 
 #[test]
