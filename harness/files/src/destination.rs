@@ -103,9 +103,7 @@ impl Destination {
             // What a program makes by default; the user's mask takes away from it.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let temporary = builder.tempfile_in(folder_of(target))?;
-        let registered = Registered::new(temporary.path());
-        Ok((temporary, registered))
+        Registered::with(|| builder.tempfile_in(folder_of(target)), NamedTempFile::path)
     }
 
     fn message(&self, error: &io::Error) -> String {

@@ -1,9 +1,11 @@
 //! Temporary files and folders, removed when they are dropped and when a signal ends the program.
 
 use std::{
-    fs, io,
+    fs, io, mem,
     path::{Path, PathBuf},
     sync::{Mutex, MutexGuard, PoisonError},
+    thread,
+    time::Duration,
 };
 
 use tempfile::TempDir;
@@ -14,12 +16,25 @@ fn known() -> MutexGuard<'static, Vec<PathBuf>> {
     KNOWN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes every temporary file and folder there is. The program ends next: nothing may use them any more.
+/// How often a folder is removed in which a child that was just killed may still write, and the time between.
+const ATTEMPTS: u32 = 100;
+const PAUSE: Duration = Duration::from_millis(5);
+
+/// Removes every temporary file and folder there is. The program ends next: nothing may use them any more, and whoever makes
+/// another one waits for that end.
 pub fn remove_temporaries() {
-    for path in known().drain(..) {
-        // What is gone already needs no removing.
-        let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+    let mut known = known();
+    for path in known.drain(..) {
+        for _ in 0..ATTEMPTS {
+            // What is gone already needs no removing.
+            let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+            if fs::symlink_metadata(&path).is_err() {
+                break;
+            }
+            thread::sleep(PAUSE);
+        }
     }
+    mem::forget(known);
 }
 
 /// A path that [`remove_temporaries`] removes until this value is dropped.
@@ -27,9 +42,16 @@ pub fn remove_temporaries() {
 pub(crate) struct Registered(PathBuf);
 
 impl Registered {
-    pub fn new(path: &Path) -> Self {
-        known().push(path.to_owned());
-        Self(path.to_owned())
+    /// With what `make` makes there; no end of the program falls between the two.
+    pub fn with<T>(
+        make: impl FnOnce() -> io::Result<T>,
+        path: impl FnOnce(&T) -> &Path,
+    ) -> io::Result<(T, Self)> {
+        let mut known = known();
+        let made = make()?;
+        let path = path(&made).to_owned();
+        known.push(path.clone());
+        Ok((made, Self(path)))
     }
 }
 
@@ -49,8 +71,8 @@ pub struct Scratch {
 impl Scratch {
     /// Makes one where the system keeps temporary files; `prefix` begins its name.
     pub fn new(prefix: &str) -> io::Result<Self> {
-        let folder = tempfile::Builder::new().prefix(prefix).tempdir()?;
-        let _registered = Registered::new(folder.path());
+        let make = || tempfile::Builder::new().prefix(prefix).tempdir();
+        let (folder, _registered) = Registered::with(make, TempDir::path)?;
         Ok(Self { folder, _registered })
     }
 

@@ -8,7 +8,7 @@ use super::variables::SpinVariables;
 /// One row an unknown.
 pub fn table(setup: &Spinner, v: &SpinVariables) -> Dependencies {
     let mut table = Dependencies::new();
-    motion(&mut table, v);
+    motion(&mut table, setup, v);
     thrusters(&mut table, setup, v);
     burn(&mut table, v);
     directions(&mut table, v);
@@ -27,43 +27,41 @@ fn switches(v: &SpinVariables) -> Knowns {
     knowns![commands(v).iter().collect::<Knowns>(), v.torque.applied]
 }
 
-/// Parameters of the inertia in force.
+/// Parameters of the inertia in force: products of inertia turn the principal axes, about which all else goes.
 fn inertia(v: &SpinVariables) -> Knowns {
-    knowns![v.inertia, v.mass_properties.source, v.propellant.loaded]
-}
-
-/// Of one moment of inertia.
-fn moment(v: &SpinVariables, axis: usize) -> Knowns {
-    knowns![v.inertia.element(axis), v.mass_properties.source, v.propellant.loaded]
+    knowns![v.inertia, v.products_of_inertia, v.mass_properties.source, v.propellant.loaded]
 }
 
 /// Attitude, rate, momentum, nutation.
-fn motion(table: &mut Dependencies, v: &SpinVariables) {
+fn motion(table: &mut Dependencies, setup: &Spinner, v: &SpinVariables) {
     let nothing = &knowns![];
     let (switches, start) = (&switches(v), &v.start);
     let spin = &knowns![v.spin.initial_rate];
-    let spin_momentum = &knowns![spin, moment(v, 2)];
-    let tilted = &knowns![spin_momentum, start.nutation, start.nutation_phase];
+    let tilted = &knowns![spin, inertia(v), start.nutation, start.nutation_phase];
     let attitude = &knowns![start.q];
+    // Propellant turns the principal axes in the body where the table has products of inertia.
+    let propellant_turns = setup.mass_properties.products_of_inertia_kg_m2.is_some();
+    let turns_axes = &switches.clone().only_if(propellant_turns);
+    let loaded = knowns![v.propellant.loaded].only_if(propellant_turns);
+    let axes = &knowns![v.inertia, v.products_of_inertia, v.mass_properties.source, loaded];
 
     table.output(v.attitude.q, nothing, attitude);
     table.output(v.spin_axis.inertial, nothing, attitude);
     table.output(v.spin_axis.displacement, nothing, nothing);
+    table.output(v.momentum.body, nothing, tilted);
     for axis in 0..2 {
-        table.output(v.momentum.body.element(axis), nothing, tilted);
-        table.output(v.attitude.rate.element(axis), switches, knowns![tilted, moment(v, axis)]);
+        table.output(v.attitude.rate.element(axis), switches, tilted);
     }
-    table.output(v.momentum.body.element(2), nothing, spin_momentum);
-    table.output(v.attitude.rate.element(2), switches, spin);
+    let coned = knowns![spin, axes, start.nutation, start.nutation_phase];
+    table.output(v.attitude.rate.element(2), switches, coned);
     table.output(v.momentum.inertial, nothing, knowns![tilted, attitude]);
     table.output(v.momentum.displacement, nothing, nothing);
     table.output(v.spin.rate, switches, spin);
-    table.output(v.energy, switches, knowns![tilted, inertia(v)]);
-    for axis in 0..3 {
-        table.output(v.mass_properties.inertia.element(axis), switches, moment(v, axis));
-    }
+    table.output(v.energy, switches, tilted);
+    table.output(v.mass_properties.inertia, switches, inertia(v));
     table.output(v.inertia_ratio, switches, inertia(v));
-    table.output(v.nutation.angle, nothing, start.nutation);
+    table.output(v.nutation.angle, turns_axes, start.nutation);
+    table.output(v.coning.angle, turns_axes, axes);
     // Without nutation its phase is what rounding leaves.
     table.output(v.nutation.phase, switches, knowns![tilted, attitude]);
     table.output(v.nutation.predicted, switches, nothing);
@@ -76,6 +74,8 @@ fn thrusters(table: &mut Dependencies, setup: &Spinner, v: &SpinVariables) {
     let commands = commands(v);
     for (thruster, command) in v.thruster.iter().zip(&commands) {
         table.output(thruster.active, command, nothing);
+        let shortest = knowns![thruster.on_time, thruster.min_on_time, v.pulse.resolution];
+        table.output(thruster.too_short, thruster.on_time, shortest);
     }
     for axis in 0..3 {
         let acting = |acts: &dyn Fn(usize) -> bool| {
@@ -126,6 +126,7 @@ fn burn(table: &mut Dependencies, v: &SpinVariables) {
             v.start.nutation,
             v.start.nutation_phase,
             v.damper.time_constant,
+            v.thruster.iter().map(|it| knowns![it.rise_time, it.tail_off_time]).collect::<Knowns>(),
         ],
     );
     table.calculated(burn.planned_count, train);

@@ -2,8 +2,10 @@
 
 use fmi_export::{Failure, RealVector, Step, Values};
 use nalgebra::Vector3;
+use physics::spacecraft::{MOST_THRUSTERS, ValveTiming};
 use physics::spin::{
     burn::BurnRequest,
+    execution::PulseExecution,
     forecast::Timing,
     geometry::{L1Ephemeris, L1Phases},
     plant::{Commands, Directions, MassSource, PulseCommand, Sampling, Start},
@@ -21,8 +23,10 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
     let v = context.variables;
     Start {
         inertia_kg_m2: values.vector(v.inertia),
+        products_kg_m2: values.vector(v.products_of_inertia),
         mass_source: values.choice(v.mass_properties.source).map_or(MassSource::Fixed, |it| it.0),
         propellant_kg: values.real(v.propellant.loaded),
+        execution: execution(context, values),
         spin_rate_rad_s: values.real(v.spin.initial_rate),
         attitude: values.vector(v.start.q),
         nutation_rad: values.real(v.start.nutation),
@@ -48,6 +52,22 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
         seed: i64::from(values.integer(v.seed)) as u64,
         work_limit: v.solver.units(values),
     }
+}
+
+/// How thrusters execute pulses.
+fn execution(context: &Plan<'_>, values: &Values) -> [PulseExecution; MOST_THRUSTERS] {
+    let mut execution = [PulseExecution::default(); MOST_THRUSTERS];
+    for (of_one, v) in execution.iter_mut().zip(&context.variables.thruster) {
+        *of_one = PulseExecution {
+            valve: ValveTiming {
+                min_on_s: values.real(v.min_on_time),
+                rise_s: values.real(v.rise_time),
+                tail_off_s: values.real(v.tail_off_time),
+            },
+            scatter: values.real(v.scatter),
+        };
+    }
+    execution
 }
 
 fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {

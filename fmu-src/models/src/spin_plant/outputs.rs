@@ -39,9 +39,10 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_vector(v.spin_axis.inertial, seen.spin_axis_inertial.into());
     values.set_real(v.spin_axis.displacement, seen.spin_axis_displacement_rad);
     values.set_real(v.nutation.angle, seen.nutation_rad);
-    values.set_real(v.nutation.phase, seen.state.momentum_body.y.atan2(seen.state.momentum_body.x));
+    values.set_real(v.nutation.phase, seen.nutation_phase_rad);
+    values.set_real(v.coning.angle, seen.coning_rad);
     values.set_real(v.nutation.predicted, seen.predicted_nutation_rad);
-    values.set_real(v.spin.rate, seen.rate_rad_s.z);
+    values.set_real(v.spin.rate, seen.spin_rate_rad_s);
     values.set_real(v.spin.period, seen.period_s);
     values.set_real(v.spin.period_change, seen.period_change_s);
     values.set_real(v.spin.period_variation, seen.period_variation_s);
@@ -69,6 +70,7 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_real(v.inertia_ratio, seen.inertia_ratio);
     for (k, thruster) in v.thruster.iter().enumerate() {
         values.set_boolean(thruster.active, seen.thrusters_on >> k & 1 == 1);
+        values.set_boolean(thruster.too_short, seen.too_short >> k & 1 == 1);
     }
     values.set_vector(v.force.thruster, seen.force_body_n.into());
     values.set_vector(v.torque.thruster, seen.torque_body_n_m.into());
@@ -104,7 +106,9 @@ pub fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64
         .or_else(|| of_vector(v.momentum.body, &rates.momentum_body_n_m))
         .or_else(|| of_vector(v.spin_axis.inertial, &rates.spin_axis_1_s))
         .or_else(|| of_vector(v.delta_v, &rates.delta_v_m_s2))
-        .or_else(|| of(v.spin.rate, rates.rate_rad_s2.z))
+        .or_else(|| of_vector(v.force.thruster, &rates.force_body_n_s))
+        .or_else(|| of_vector(v.torque.thruster, &rates.torque_body_n_m_s))
+        .or_else(|| of(v.spin.rate, rates.spin_rate_rad_s2))
         .or_else(|| of(v.nutation.angle, rates.nutation_rad_s))
         .or_else(|| of(v.nutation.phase, rates.nutation_phase_rad_s))
         .or_else(|| of(v.sun.angle, rates.sun_angle_rad_s))

@@ -1,14 +1,24 @@
-//! Principal moments of inertia of a rigid body.
+//! Moments and products of inertia of a rigid body, and its principal axes.
+//!
+//! The tensor in body axes is J = [[J1, P12, P13], [P12, J2, P23], [P13, P23, J3]] with P_ij = -integral of x_i x_j dm: its
+//! elements, as `spacecraft.inertia[i,j]` of a three-axis spacecraft has them.
 
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
+
+use super::principal_axes::principal_axes;
+use super::quaternion::Quaternion;
 
 /// Moments that differ by less than this (relative) count as equal: the body is axisymmetric.
 const AXISYMMETRY: f64 = 1e-13;
 
-/// Principal moments of inertia about the centre of mass; the third axis is the spin axis.
+/// Principal moments of inertia about the centre of mass and where their axes lie in the body; the third principal axis, the
+/// one nearest to the body's third, is the axis of spin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Inertia {
     principal_kg_m2: [f64; 3],
+    /// The principal axes as an attitude in the body frame; `None` where they are the body's.
+    axes: Option<Quaternion>,
 }
 
 /// Why three numbers are no moments of inertia.
@@ -35,6 +45,27 @@ pub enum InertiaError {
         /// Sum of the other two.
         sum: f64,
     },
+    /// A product of inertia is not finite.
+    #[error("productsOfInertia[{index}] is {value} kg m2; a product of inertia is a finite number")]
+    Product {
+        /// 1-based.
+        index: usize,
+        /// What was given.
+        value: f64,
+    },
+    /// Moments and products together are those of no body.
+    #[error(
+        "inertia {diagonal:?} with productsOfInertia {products:?} has the principal moments {principal:?} kg m2; principal \
+         moments are positive, and none is greater than the sum of the other two (triangle inequality)"
+    )]
+    Tensor {
+        /// Moments about the body axes, in kg m2.
+        diagonal: [f64; 3],
+        /// Products 12, 13, 23, in kg m2.
+        products: [f64; 3],
+        /// In kg m2.
+        principal: [f64; 3],
+    },
 }
 
 impl Inertia {
@@ -51,7 +82,106 @@ impl Inertia {
                 return Err(InertiaError::Triangle { index: i + 1, value, sum });
             }
         }
-        Ok(Self { principal_kg_m2 })
+        Ok(Self { principal_kg_m2, axes: None })
+    }
+
+    /// A body with moments about its axes and products 12, 13, 23, in kg m2.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, or a tensor that no distribution of mass has.
+    pub fn with_products(diagonal_kg_m2: [f64; 3], products_kg_m2: [f64; 3]) -> Result<Self, InertiaError> {
+        if products_kg_m2 == [0.0; 3] {
+            return Self::new(diagonal_kg_m2);
+        }
+        for (i, &value) in diagonal_kg_m2.iter().enumerate() {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(InertiaError::NotPositive { index: i + 1, value });
+            }
+        }
+        if let Some(i) = products_kg_m2.iter().position(|value| !value.is_finite()) {
+            return Err(InertiaError::Product { index: i + 1, value: products_kg_m2[i] });
+        }
+        let ([j1, j2, j3], [p12, p13, p23]) = (diagonal_kg_m2, products_kg_m2);
+        let (principal, axes) = principal_axes(&Matrix3::new(j1, p12, p13, p12, j2, p23, p13, p23, j3));
+        match Self::new(principal) {
+            Ok(body) => Ok(Self { axes: Some(axes), ..body }),
+            Err(_) => {
+                Err(InertiaError::Tensor { diagonal: diagonal_kg_m2, products: products_kg_m2, principal })
+            }
+        }
+    }
+
+    /// Whether decoded numbers can be some.
+    pub fn is_sound(&self) -> bool {
+        let is_unit = |it: Quaternion| (it.0.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-12;
+        Self::new(self.principal_kg_m2).is_ok() && self.axes.is_none_or(is_unit)
+    }
+
+    /// Components along the principal axes of a vector in body components.
+    #[inline]
+    pub fn principal_from_body(&self, v_body: &Vector3<f64>) -> Vector3<f64> {
+        self.axes.map_or(*v_body, |axes| axes.body_from_inertial(v_body))
+    }
+
+    /// Body components of a vector along the principal axes.
+    #[inline]
+    pub fn body_from_principal(&self, v_principal: &Vector3<f64>) -> Vector3<f64> {
+        self.axes.map_or(*v_principal, |axes| axes.inertial_from_body(v_principal))
+    }
+
+    /// Attitude of the principal axes of a body in this attitude.
+    #[inline]
+    pub fn principal_attitude(&self, body: Quaternion) -> Quaternion {
+        self.axes.map_or(body, |axes| body.after(axes))
+    }
+
+    /// Attitude of the body whose principal axes have this attitude.
+    #[inline]
+    pub fn body_attitude(&self, principal: Quaternion) -> Quaternion {
+        self.axes.map_or(principal, |Quaternion([x, y, z, w])| principal.after(Quaternion([-x, -y, -z, w])))
+    }
+
+    /// The third principal axis, body components.
+    pub fn spin_axis_body(&self) -> Vector3<f64> {
+        self.body_from_principal(&Vector3::z())
+    }
+
+    /// Components of a vector, given in body components, along the body's first and second axis made perpendicular to the third
+    /// principal axis, and along that: azimuths of spin and nutation count in this frame.
+    pub fn spin_frame_from_body(&self, v_body: &Vector3<f64>) -> Vector3<f64> {
+        match self.axes {
+            None => *v_body,
+            Some(_) => self.spin_frame_body().tr_mul(v_body),
+        }
+    }
+
+    /// Body components of a vector given along the axes of [`Self::spin_frame_from_body`].
+    pub fn body_from_spin_frame(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        match self.axes {
+            None => *v,
+            Some(_) => self.spin_frame_body() * v,
+        }
+    }
+
+    /// The axes of that frame as columns.
+    fn spin_frame_body(&self) -> Matrix3<f64> {
+        let axis = self.spin_axis_body();
+        let first = (Vector3::x() - axis * axis.x).normalize();
+        Matrix3::from_columns(&[first, axis.cross(&first), axis])
+    }
+
+    /// Angle between the body's third axis and the third principal axis, in rad (Wertz: coning).
+    pub fn coning_rad(&self) -> f64 {
+        let axis = self.spin_axis_body();
+        libm::hypot(axis.x, axis.y).atan2(axis.z)
+    }
+
+    /// Angular rate J^-1 h of the momentum `momentum_body`, body components, in rad/s.
+    #[inline]
+    pub fn rate_rad_s(&self, momentum_body: &Vector3<f64>) -> Vector3<f64> {
+        let [i1, i2, i3] = self.principal_kg_m2;
+        let h = self.principal_from_body(momentum_body);
+        self.body_from_principal(&Vector3::new(h.x / i1, h.y / i2, h.z / i3))
     }
 
     /// An axisymmetric body of spin inertia I3 and ratio I3/I_T.

@@ -13,6 +13,7 @@ mod gyrostat_motion;
 mod imbalance;
 mod inertia;
 mod oscillator;
+mod principal_axes;
 mod quaternion;
 mod rigid_body;
 mod rotation;

@@ -1,6 +1,7 @@
 //! State of a rigid body: attitude and angular momentum, and what follows from them with its inertia.
 //!
-//! Equations: w = J^-1 h in body components, E = w.h / 2, nutation angle atan2(sqrt(hx^2 + hy^2), hz).
+//! Equations: w = J^-1 h in body components, E = w.h / 2, nutation angle atan2(sqrt(h1^2 + h2^2), h3) about the principal
+//! axes (Wertz).
 
 use nalgebra::Vector3;
 
@@ -22,14 +23,14 @@ impl RigidBodyState {
     /// Angular rate J^-1 h, body components, in rad/s.
     #[inline]
     pub fn rate_rad_s(&self, inertia: &Inertia) -> Vector3<f64> {
-        let [i1, i2, i3] = inertia.principal_kg_m2();
-        Vector3::new(self.momentum_body.x / i1, self.momentum_body.y / i2, self.momentum_body.z / i3)
+        inertia.rate_rad_s(&self.momentum_body)
     }
 
-    /// Angle from the momentum to the spin axis by atan2, 0..pi, in rad.
+    /// Angle from the momentum to the third principal axis by atan2, 0..pi, in rad.
     #[inline]
-    pub fn nutation_rad(&self) -> f64 {
-        libm::hypot(self.momentum_body.x, self.momentum_body.y).atan2(self.momentum_body.z)
+    pub fn nutation_rad(&self, inertia: &Inertia) -> f64 {
+        let h = inertia.principal_from_body(&self.momentum_body);
+        libm::hypot(h.x, h.y).atan2(h.z)
     }
 
     /// Rotational kinetic energy in J.

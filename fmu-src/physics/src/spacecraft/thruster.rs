@@ -20,7 +20,7 @@ pub enum ThrusterSet {
 }
 
 /// How a valve opens and closes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct ValveTiming {
     /// Shortest time for which it opens, in s; what is asked for less does not fire.
     pub min_on_s: f64,
@@ -39,6 +39,23 @@ impl ValveTiming {
     /// How long the valve is open for so many seconds of full thrust.
     pub fn on_s(&self, full_thrust_s: f64) -> f64 {
         full_thrust_s - 0.5 * (self.tail_off_s - self.rise_s)
+    }
+
+    /// From the opening of the valve to the centre of the thrust of a pulse whose valve is open for `on_s`, at least the time
+    /// it takes to rise.
+    pub fn centre_s(&self, on_s: f64) -> f64 {
+        let (rise_s, tail_s) = (self.rise_s, self.tail_off_s);
+        if rise_s == 0.0 && tail_s == 0.0 {
+            return 0.5 * on_s;
+        }
+        // First moment of the trapezoid over its area.
+        let moment = 0.5 * on_s * (on_s + tail_s) + (tail_s * tail_s - rise_s * rise_s) / 6.0;
+        moment / self.full_thrust_s(on_s)
+    }
+
+    /// Whether decoded times can be some.
+    pub fn is_sound(&self) -> bool {
+        [self.min_on_s, self.rise_s, self.tail_off_s].iter().all(|time_s| (0.0..=1e12).contains(time_s))
     }
 }
 

@@ -6,12 +6,14 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    execution::PulseExecution,
     forecast::{ForecastCase, Range, Timing},
     nutation::Spin,
     spinner::Spinner,
     train::{LEAST_OF_SPLIT, MOST_ORDER, MOST_PULSES, Shape, Train, TrainError},
 };
-use crate::attitude::angle_between_rad;
+use crate::attitude::{Inertia, angle_between_rad};
+use crate::spacecraft::{MOST_THRUSTERS, ValveTiming};
 
 /// A transverse or axial torque below this share of the whole counts as none.
 const NO_TORQUE: f64 = 1e-9;
@@ -37,7 +39,7 @@ pub struct BurnRequest {
     pub opposite_thruster: i32,
     /// Named group or thruster in place of the numbers; empty for none.
     pub group: String,
-    /// Width of a pulse (of the outermost of a taper), in s.
+    /// Width of a pulse (of the outermost of a taper) at full thrust, in s.
     pub pulse_width_s: f64,
     /// Turns from pulse to pulse.
     pub turns_per_pulse: f64,
@@ -100,6 +102,8 @@ pub struct Burn {
     pub torque_body_n_m: Vector3<f64>,
     /// Torque of `opposite_mask`.
     pub opposite_torque_body_n_m: Vector3<f64>,
+    /// How the valves of both open and close.
+    pub valves: [ValveTiming; 2],
     /// The pulses.
     pub train: Train,
     /// Timing.
@@ -114,13 +118,17 @@ pub struct Burn {
 
 /// What a burn starts from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BurnInitialConditions {
+pub struct BurnInitialConditions<'a> {
     /// The true body.
     pub spin: Spin,
+    /// Its moments and principal axes.
+    pub inertia: Inertia,
     /// Angular momentum, inertial, in N m s.
     pub momentum_inertial: Vector3<f64>,
     /// On board, in kg.
     pub propellant_kg: f64,
+    /// How thrusters execute pulses.
+    pub execution: &'a [PulseExecution; MOST_THRUSTERS],
 }
 
 /// Whether two torques (body components, in N m) push opposite ways across the spin axis and equally hard: within 5 deg
@@ -146,14 +154,15 @@ impl Burn {
     pub fn new(
         spinner: &Spinner,
         request: &BurnRequest,
-        initial: &BurnInitialConditions,
+        initial: &BurnInitialConditions<'_>,
     ) -> Result<Self, BurnError> {
         let spin = &initial.spin;
         let (mask, opposite_mask) = masks(spinner, request)?;
         let torque_body_n_m = spinner.thrust(mask).torque_body_n_m;
         let opposite_torque_body_n_m = opposite_mask.map(|m| spinner.thrust(m).torque_body_n_m);
-        let across_n_m = torque_body_n_m.xy().norm();
-        let points = across_n_m > NO_TORQUE * torque_body_n_m.norm().max(NO_TORQUE);
+        // What tilts the momentum is across the principal axis; what a pulse is meant for, its body axes say.
+        let across_n_m = initial.inertia.spin_frame_from_body(&torque_body_n_m).xy().norm();
+        let points = torque_body_n_m.xy().norm() > NO_TORQUE * torque_body_n_m.norm().max(NO_TORQUE);
         if !points && torque_body_n_m.z.abs() < NO_TORQUE {
             return Err(parameter(
                 "burn.thruster",
@@ -220,9 +229,15 @@ impl Burn {
             }
         }
         check_limits(request, &flight, &train)?;
+        let opposite_mask = opposite_mask.unwrap_or(mask);
+        let valves = [mask, if train.alternates() { opposite_mask } else { mask }];
         let burn = Self {
             mask,
-            opposite_mask: opposite_mask.unwrap_or(mask),
+            opposite_mask,
+            valves: [
+                one_timing(spinner, initial.execution, valves[0])?,
+                one_timing(spinner, initial.execution, valves[1])?,
+            ],
             torque_body_n_m,
             opposite_torque_body_n_m: opposite_torque_body_n_m.unwrap_or(torque_body_n_m),
             train,
@@ -231,6 +246,7 @@ impl Burn {
             target_inertial,
             assumed_rate_rad_s,
         };
+        burn.check_valves(request, if points { half_turn_s } else { f64::INFINITY })?;
         let needed_kg = burn.propellant_kg(spinner);
         // Rounding of the sum is no propellant.
         if needed_kg > initial.propellant_kg * (1.0 + 1e-12) {
@@ -248,6 +264,7 @@ impl Burn {
         let torques = [self.torque_body_n_m, self.opposite_torque_body_n_m];
         let norm = self.target_inertial.norm();
         torques.iter().all(|torque| torque.norm_squared().is_finite())
+            && self.valves.iter().all(ValveTiming::is_sound)
             && (norm == 0.0 || (norm - 1.0).abs() < 1e-6)
     }
 
@@ -273,9 +290,60 @@ impl Burn {
         }
     }
 
+    /// From the opening of pulse `k`'s valve to the centre of its thrust, and from there to the closing, in s. The valve is open
+    /// for what gives the pulse's width at full thrust.
+    pub fn about_centre_s(&self, k: u32) -> [f64; 2] {
+        let timing = &self.valves[self.train.half_turns(k) as usize % 2];
+        let on_s = timing.on_s(self.train.width_s(k));
+        let before_s = timing.centre_s(on_s);
+        [before_s, on_s - before_s]
+    }
+
+    /// Refuses pulses that are too short for their valves, or whose thrust lasts longer than `longest_s`.
+    fn check_valves(&self, request: &BurnRequest, longest_s: f64) -> Result<(), BurnError> {
+        for timing in &self.valves {
+            let least_s = timing.min_on_s.max(timing.rise_s);
+            let greatest_s = longest_s - timing.rise_s - timing.tail_off_s;
+            for width_s in (0..=self.train.order()).map(|k| self.train.width_s(k)) {
+                let on_s = timing.on_s(width_s);
+                if on_s > 0.0 && on_s >= least_s * (1.0 - 1e-12) && on_s <= greatest_s {
+                    continue;
+                }
+                let found = format!("{} s", request.pulse_width_s);
+                let allowed = format!(
+                    "a pulse of {width_s} s at full thrust opens its valve for {on_s} s: allowed is what opens it for at                      least thruster[k].minOnTime and riseTime ({least_s} s), with rise and tail-off within half a turn"
+                );
+                return Err(parameter("burn.pulseWidth", found, &allowed));
+            }
+        }
+        Ok(())
+    }
+
     /// Seconds a turn is taken to last.
     pub fn assumed_period_s(&self) -> f64 {
         2.0 * PI / self.assumed_rate_rad_s
+    }
+}
+
+/// How the valves of thrusters that fire together open and close.
+fn one_timing(
+    spinner: &Spinner,
+    execution: &[PulseExecution; MOST_THRUSTERS],
+    mask: u32,
+) -> Result<ValveTiming, BurnError> {
+    let mut of_mask = (0..MOST_THRUSTERS).filter(|k| mask >> k & 1 == 1);
+    let first = of_mask.next().unwrap_or(0);
+    let timing = execution[first].valve;
+    match of_mask.find(|k| execution[*k].valve != timing) {
+        None => Ok(timing),
+        Some(k) => {
+            let names = [first, k].map(|k| spinner.thrusters.get(k).map_or("", |it| it.name.as_str()));
+            Err(parameter(
+                "burn.group",
+                format!("a group with {} and {}, whose valves differ", names[0], names[1]),
+                "thrusters that fire together in a burn have one minOnTime, riseTime and tailOffTime",
+            ))
+        }
     }
 }
 

@@ -5,6 +5,7 @@ pub mod coast;
 pub mod crossing;
 pub mod crossing_detector;
 pub mod damper;
+pub mod execution;
 pub mod forecast;
 pub mod geometry;
 pub mod motion;

@@ -1,4 +1,6 @@
 //! Motion of the spinner between edges: anchored where torque last changed, evaluated anywhere after.
+//!
+//! Closed form and series hold about the principal axes; attitude, momentum and torque are turned into them and back.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -93,17 +95,18 @@ impl Motion {
         momentum_inertial: Vector3<f64>,
         hint_s: f64,
     ) -> Self {
+        let principal = inertia.principal_attitude(attitude);
         let path = if torque.is_zero() && inertia.is_axisymmetric() {
-            Path::Coast(Coast::new(&inertia, &damper, attitude, &momentum_inertial))
+            Path::Coast(Coast::new(&inertia, &damper, principal, &momentum_inertial))
         } else {
-            let momentum_body = attitude.body_from_inertial(&momentum_inertial);
+            let momentum_principal = principal.body_from_inertial(&momentum_inertial);
             Path::Series(TaylorSegment::new(
                 &inertia,
                 &damper,
-                &torque,
+                &torque.about_principal_axes(&inertia),
                 anchor_s,
-                attitude,
-                &momentum_body,
+                principal,
+                &momentum_principal,
                 hint_s,
             ))
         };
@@ -135,7 +138,7 @@ impl Motion {
 
     /// Whether the body turns faster than segments can follow, or its numbers are not finite or no body's.
     pub fn diverges(&self) -> bool {
-        self.check().is_err() || Inertia::new(self.inertia.principal_kg_m2()).is_err()
+        self.check().is_err() || !self.inertia.is_sound()
     }
 
     /// Whether a decoded motion can be one: finite, and its path that of its anchor.
@@ -143,7 +146,8 @@ impl Motion {
         let path = match &self.path {
             // What it is made of says all of it.
             Path::Coast(coast) => {
-                *coast == Coast::new(&self.inertia, &self.damper, self.attitude, &self.momentum_inertial)
+                let principal = self.inertia.principal_attitude(self.attitude);
+                *coast == Coast::new(&self.inertia, &self.damper, principal, &self.momentum_inertial)
             }
             Path::Series(segment) => segment.is_sound(),
         };
@@ -227,13 +231,16 @@ impl Motion {
         match &self.path {
             Path::Coast(coast) => self.conserved(coast.attitude_at(dt_s)),
             Path::Series(segment) => {
-                let attitude = segment.attitude(dt_s);
+                let principal = segment.attitude(dt_s);
                 if self.torque.is_zero() {
-                    return self.conserved(attitude);
+                    return self.conserved(principal);
                 }
-                let momentum_body = segment.momentum_body(dt_s);
-                let momentum_inertial = attitude.inertial_from_body(&momentum_body);
-                RigidBodyState { attitude, momentum_inertial, momentum_body }
+                let momentum_principal = segment.momentum_body(dt_s);
+                RigidBodyState {
+                    attitude: self.inertia.body_attitude(principal),
+                    momentum_inertial: principal.inertial_from_body(&momentum_principal),
+                    momentum_body: self.inertia.body_from_principal(&momentum_principal),
+                }
             }
         }
     }
@@ -247,8 +254,10 @@ impl Motion {
         Self::new(inertia, damper, torque, time_s, attitude, state.momentum_inertial, hint_s)
     }
 
-    fn conserved(&self, attitude: Quaternion) -> RigidBodyState {
+    /// The state in which the principal axes have this attitude and the momentum is that of the anchor.
+    fn conserved(&self, principal: Quaternion) -> RigidBodyState {
         let momentum_inertial = self.momentum_inertial;
+        let attitude = self.inertia.body_attitude(principal);
         RigidBodyState {
             attitude,
             momentum_inertial,

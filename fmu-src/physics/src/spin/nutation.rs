@@ -62,6 +62,17 @@ fn effective_width_s(nutation_rad_s: f64, width_s: f64) -> f64 {
     if half.abs() < 1e-5 { width_s * (1.0 - half * half / 6.0) } else { width_s * half.sin() / half }
 }
 
+/// Integral of u sin(lambda u) over the middle of a pulse, by its effective width, in s.
+fn first_moment_s(nutation_rad_s: f64, width_s: f64) -> f64 {
+    let half = 0.5 * nutation_rad_s * width_s;
+    let (sine, cosine) = half.sin_cos();
+    // (sin h - h cos h) / sin h / lambda, h^2/3 (1 + h^2/15) / lambda where both cancel.
+    if half.abs() < 1e-3 {
+        return width_s * half / 6.0 * (1.0 + half * half / 15.0);
+    }
+    (sine - half * cosine) / (sine * nutation_rad_s)
+}
+
 /// Eq 8: nutation after `count` equal kicks `kick_rad`, `phase_rad` of nutation apart.
 pub fn uniform_train_rad(kick_rad: f64, phase_rad: f64, count: u32) -> f64 {
     let half = (0.5 * phase_rad).sin();
@@ -101,14 +112,22 @@ pub struct LinearNutation {
 }
 
 impl LinearNutation {
-    /// Adds a pulse of torque `torque_body_n_m` (its transverse part) over [`from_s`, `to_s`].
-    pub fn pulse(&mut self, spin: &Spin, torque_body_n_m: [f64; 2], from_s: f64, to_s: f64) {
+    /// Adds a pulse whose transverse torque is `torque_n_m[0]` at `from_s` and changes by `torque_n_m[1]` a second, until
+    /// `to_s`.
+    pub fn pulse(&mut self, spin: &Spin, torque_n_m: [[f64; 2]; 2], from_s: f64, to_s: f64) {
         let nutation = spin.body_nutation_rad_s();
         let (sine, cosine) = (nutation * (to_s - self.time_s)).sin_cos();
         let [x, y] = self.across;
         let (sine_half, cosine_half) = (0.5 * nutation * (to_s - from_s)).sin_cos();
         let scale = effective_width_s(nutation, to_s - from_s) / (spin.inertia_kg_m2 * spin.rate_rad_s);
-        let [tx, ty] = torque_body_n_m;
+        let [start, slope] = torque_n_m;
+        let half_s = 0.5 * (to_s - from_s);
+        let [mut tx, mut ty] = start;
+        if slope != [0.0; 2] {
+            // T(t) = Tm + s u about the middle: to Tm w comes -i s m, m the integral of u sin(lambda u).
+            let share = first_moment_s(nutation, to_s - from_s);
+            (tx, ty) = (tx + slope[0] * half_s + slope[1] * share, ty + slope[1] * half_s - slope[0] * share);
+        }
         self.across = [
             x * cosine - y * sine + scale * (tx * cosine_half - ty * sine_half),
             x * sine + y * cosine + scale * (tx * sine_half + ty * cosine_half),

@@ -56,8 +56,14 @@ pub struct Outputs {
     pub state: RigidBodyState,
     /// Body components, in rad/s.
     pub rate_rad_s: Vector3<f64>,
-    /// In rad.
+    /// About the third principal axis, in rad/s.
+    pub spin_rate_rad_s: f64,
+    /// From the third principal axis, in rad.
     pub nutation_rad: f64,
+    /// Azimuth of the transverse momentum about that axis, from body X toward Y, in rad.
+    pub nutation_phase_rad: f64,
+    /// From body Z to the third principal axis, in rad.
+    pub coning_rad: f64,
     /// Linear theory (eq 8 generalised), in rad.
     pub predicted_nutation_rad: f64,
     /// Kinetic energy of rotation, in J.
@@ -104,8 +110,10 @@ pub struct Outputs {
     pub inertia_kg_m2: [f64; 3],
     /// I3/I_T.
     pub inertia_ratio: f64,
-    /// Thrusters on, bit by bit.
+    /// Thrusters whose valves are open, bit by bit.
     pub thrusters_on: u32,
+    /// Thrusters whose commanded pulse is too short for their valves, bit by bit.
+    pub too_short: u32,
     /// Body components, in N.
     pub force_body_n: Vector3<f64>,
     /// Body components, in N m.
@@ -127,11 +135,13 @@ impl Outputs {
         let state = plant.state();
         let inertia = plant.motion().inertia();
         let rate_rad_s = state.rate_rad_s(inertia);
-        let nutation_rad = state.nutation_rad();
+        let nutation_rad = state.nutation_rad(inertia);
+        let spin_rate_rad_s = inertia.principal_from_body(&rate_rad_s).z;
+        let spin_momentum = inertia.spin_frame_from_body(&state.momentum_body);
         let spin_axis_inertial = state.attitude.spin_axis_inertial();
         let directions = plant.directions_at(time_s);
         let sun_angle_rad = angle_to_rad(&spin_axis_inertial, &directions.sun_inertial);
-        let nominal_period_s = finite(2.0 * PI / rate_rad_s.z.abs());
+        let nominal_period_s = finite(2.0 * PI / spin_rate_rad_s.abs());
         let sun = plant.sensors().sun_crossings();
         let period_s = sun.period_s().unwrap_or(nominal_period_s);
         let (period_change_s, share) = match (sun.period_s(), sun.period_before_s()) {
@@ -141,21 +151,26 @@ impl Outputs {
         let sectors = f64::from(spinner.sun_sensor.sectors);
         // Without a Sun there is no period of its crossings.
         let sun_known = directions.sun_inertial != Vector3::zeros();
-        let variation_s =
-            if sun_known { period_variation_s(nutation_rad, rate_rad_s.z, sun_angle_rad).abs() } else { 0.0 };
-        let (mask, sequencer) = (plant.propulsion().mask(), plant.sequencer());
-        let thrust = spinner.thrust(mask);
+        let variation_s = if sun_known {
+            period_variation_s(nutation_rad, spin_rate_rad_s, sun_angle_rad).abs()
+        } else {
+            0.0
+        };
+        let (law, sequencer) = (plant.propulsion().valves().law(), plant.sequencer());
         let next_edge_s = match sequencer.map(Sequencer::phase) {
             Some(Phase::Waiting { on_s, .. }) => on_s,
             Some(Phase::Firing { off_s }) => off_s,
             _ => -1.0,
         };
-        let used_kg = plant.propulsion().used_at(spinner, time_s);
+        let used_kg = plant.propulsion().used_at(time_s);
         let left_kg = (plant.propulsion().initial_propellant_kg() - used_kg).max(0.0);
         Self {
             state,
             rate_rad_s,
+            spin_rate_rad_s,
             nutation_rad,
+            nutation_phase_rad: spin_momentum.y.atan2(spin_momentum.x),
+            coning_rad: inertia.coning_rad(),
             predicted_nutation_rad: plant.propulsion().predicted_nutation_rad(),
             energy_j: 0.5 * rate_rad_s.dot(&state.momentum_body),
             spin_axis_inertial,
@@ -186,9 +201,10 @@ impl Outputs {
             next_edge_s,
             inertia_kg_m2: inertia.principal_kg_m2(),
             inertia_ratio: inertia.ratio(),
-            thrusters_on: mask,
-            force_body_n: thrust.force_body_n,
-            torque_body_n_m: thrust.torque_body_n_m,
+            thrusters_on: plant.propulsion().mask(),
+            too_short: plant.too_short(),
+            force_body_n: law.force_at_n(time_s),
+            torque_body_n_m: law.torque_at_n_m(time_s),
             delta_v_inertial_m_s: plant.propulsion().delta_v_at(spinner, plant.motion(), time_s),
             propellant_used_kg: used_kg,
             propellant_left_kg: left_kg,
@@ -198,7 +214,7 @@ impl Outputs {
 
     /// Which of these limits are violated.
     pub fn violations(&self, bounds: &Bounds) -> Violations {
-        let off_rad_s = (self.rate_rad_s.z - bounds.spin_rate_rad_s).abs();
+        let off_rad_s = (self.spin_rate_rad_s - bounds.spin_rate_rad_s).abs();
         Violations {
             sun_angle: self.sun_angle_rad > bounds.sun_angle_rad,
             earth_angle: self.earth_angle_rad > bounds.earth_angle_rad,

@@ -60,7 +60,8 @@ impl Predictions {
         };
         if let Some(sequencer) = plant.sequencer() {
             let burn = sequencer.burn();
-            let (train, torque) = (&burn.train, burn.torque_body_n_m.xy().norm());
+            let across = plant.motion().inertia().spin_frame_from_body(&burn.torque_body_n_m).xy();
+            let (train, torque) = (&burn.train, across.norm());
             let widest_s = train.widest_s();
             let phase = spin.phase_advance_rad(train.turns_per_pulse());
             seen.manoeuvre_per_pulse_rad = spin.manoeuvre_rad(torque, widest_s);

@@ -11,6 +11,12 @@ pub struct Rates {
     pub attitude_1_s: [f64; 4],
     /// Of the angular rate, body components.
     pub rate_rad_s2: Vector3<f64>,
+    /// Of the rate about the third principal axis.
+    pub spin_rate_rad_s2: f64,
+    /// Of the thrusters' force, body components.
+    pub force_body_n_s: Vector3<f64>,
+    /// Of the thrusters' torque, body components.
+    pub torque_body_n_m_s: Vector3<f64>,
     /// Of the momentum, inertial.
     pub momentum_inertial_n_m: Vector3<f64>,
     /// Of the momentum, body components.
@@ -47,40 +53,48 @@ impl Rates {
         let time_s = plant.time_s();
         let motion = plant.motion();
         let state = plant.state();
-        let (q, h) = (state.attitude, state.momentum_body);
         let inertia = motion.inertia();
-        let rate = state.rate_rad_s(inertia);
+        let q = state.attitude;
+        // Everything about the principal axes, and from there to the body's.
+        let h = inertia.principal_from_body(&state.momentum_body);
+        let [i1, i2, i3] = inertia.principal_kg_m2();
+        let rate = Vector3::new(h.x / i1, h.y / i2, h.z / i3);
         let gain = motion.damper().gain(&h);
-        let torque = motion.torque().at(time_s);
+        let torque_body = motion.torque().at(time_s);
+        let torque = inertia.principal_from_body(&torque_body);
         // See `damper`: the body turns at J^-1 h and a little about the line of nodes.
-        let turning = rate + Vector3::new(-h.y, h.x, 0.0) * gain;
+        let turning_principal = rate + Vector3::new(-h.y, h.x, 0.0) * gain;
+        let turning = inertia.body_from_principal(&turning_principal);
         let braking = Vector3::new(-h.x * h.z, -h.y * h.z, h.x * h.x + h.y * h.y) * gain;
         let h_dot = h.cross(&rate) + torque + braking;
-        let [i1, i2, i3] = inertia.principal_kg_m2();
         let rate_dot = Vector3::new(h_dot.x / i1, h_dot.y / i2, h_dot.z / i3);
         let [x, y, z, w] = q.0;
         let v_dot = turning * w + Vector3::new(x, y, z).cross(&turning);
         let w_dot = -(x * turning.x + y * turning.y + z * turning.z);
         let axis = q.spin_axis_inertial();
         let axis_dot = q.inertial_from_body(&turning.cross(&Vector3::z()));
-        let momentum_dot = q.inertial_from_body(&torque);
+        let momentum_dot = q.inertial_from_body(&torque_body);
         let pull = state.momentum_inertial;
         let across_square = h.x * h.x + h.y * h.y;
         let across = across_square.sqrt();
         let directions = plant.directions_at(time_s);
-        let thrust = spinner.thrust(plant.propulsion().mask());
+        let law = plant.propulsion().valves().law();
+        let force_body_n = law.force_at_n(time_s);
+        let flow_kg_s = law.flow_at_kg_s(time_s);
         let mass_kg = spinner.mass_properties.dry_mass_kg
-            + (plant.propulsion().initial_propellant_kg() - plant.propulsion().used_at(spinner, time_s))
-                .max(0.0);
+            + (plant.propulsion().initial_propellant_kg() - plant.propulsion().used_at(time_s)).max(0.0);
         let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let across_dot = ratio(h.x * h_dot.x + h.y * h_dot.y, across);
         Self {
             attitude_1_s: [0.5 * v_dot.x, 0.5 * v_dot.y, 0.5 * v_dot.z, 0.5 * w_dot],
-            rate_rad_s2: rate_dot,
+            rate_rad_s2: inertia.body_from_principal(&rate_dot),
+            spin_rate_rad_s2: rate_dot.z,
+            force_body_n_s: law.force_body_n[1],
+            torque_body_n_m_s: law.torque_body_n_m[1],
             momentum_inertial_n_m: momentum_dot,
-            momentum_body_n_m: h_dot,
+            momentum_body_n_m: inertia.body_from_principal(&h_dot),
             spin_axis_1_s: axis_dot,
-            delta_v_m_s2: q.inertial_from_body(&thrust.force_body_n) / mass_kg,
+            delta_v_m_s2: q.inertial_from_body(&force_body_n) / mass_kg,
             nutation_rad_s: ratio(across_dot * h.z - across * h_dot.z, h.norm_squared()),
             nutation_phase_rad_s: ratio(h.x * h_dot.y - h.y * h_dot.x, across_square),
             sun_angle_rad_s: angle_rate(&axis, &axis_dot, &directions.sun_inertial),
@@ -92,8 +106,8 @@ impl Rates {
                 ratio(axis_dot.dot(&directions.star_inertial), (1.0 - sine * sine).max(0.0).sqrt())
             },
             power_w: 0.5 * (rate_dot.dot(&h) + rate.dot(&h_dot)),
-            flow_kg_s: thrust.flow_kg_s,
-            mass_kg_s: -thrust.flow_kg_s,
+            flow_kg_s,
+            mass_kg_s: -flow_kg_s,
         }
     }
 }

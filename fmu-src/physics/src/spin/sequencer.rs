@@ -5,6 +5,8 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::attitude::Inertia;
+
 use super::{
     burn::Burn,
     crossing::{Crossing, Pole},
@@ -170,18 +172,19 @@ impl Sequencer {
         let train = &self.burn.train;
         let k = self.fired;
         let period_s = self.burn.assumed_period_s();
-        let half_width_s = 0.5 * train.width_s(k);
+        // From the opening of the valve to the centre of the thrust, and on to the closing.
+        let [before_s, after_s] = self.burn.about_centre_s(k);
         let offset_s = train.offset_turns(k) * period_s;
         let turns = |k: u32| 0.5 * f64::from(train.half_turns(k));
         // Earliest exact centre: after the burn's start, now, and three quarters of the spacing since the last.
-        let mut earliest_s = self.burn.start_s.max(now_s) + half_width_s - offset_s;
+        let mut earliest_s = self.burn.start_s.max(now_s) + before_s - offset_s;
         if k > 0 {
             earliest_s = earliest_s.max(self.last_centre_s + (turns(k) - turns(k - 1) - 0.25) * period_s);
         }
         let far = earliest_s - now_s > 2.0 * period_s && motion.segment_end_s().is_finite();
         let clocked = k > 0 && self.burn.timing == Timing::Clock;
         let centre_s = if !self.burn.points() {
-            let first_s = self.burn.start_s.max(now_s) + half_width_s;
+            let first_s = self.burn.start_s.max(now_s) + before_s;
             Some(if k > 0 { self.first_centre_s + turns(k) * period_s } else { first_s })
         } else if clocked {
             Some(self.first_centre_s + train.turns(k) * period_s - offset_s)
@@ -198,7 +201,7 @@ impl Sequencer {
             None => Phase::Idle,
             Some(centre_s) => {
                 let centre_s = centre_s + offset_s;
-                Phase::Waiting { on_s: (centre_s - half_width_s).max(now_s), off_s: centre_s + half_width_s }
+                Phase::Waiting { on_s: (centre_s - before_s).max(now_s), off_s: centre_s + after_s }
             }
         };
     }
@@ -207,7 +210,8 @@ impl Sequencer {
     pub fn note_centre(&mut self) {
         if let Phase::Waiting { off_s, .. } = self.phase {
             let k = self.fired;
-            let centre_s = off_s - 0.5 * self.burn.train.width_s(k);
+            let [_, after_s] = self.burn.about_centre_s(k);
+            let centre_s = off_s - after_s;
             if k == 0 {
                 self.first_centre_s = centre_s;
             }
@@ -241,7 +245,8 @@ impl Sequencer {
 
     fn exact_phase(&self, motion: &Motion, earliest_s: f64, work: &mut Work) -> Option<f64> {
         let (_, torque) = self.burn.actuator(self.fired);
-        let across = Vector3::new(torque.x, torque.y, 0.0);
+        let axis = motion.inertia().spin_axis_body();
+        let across = torque - axis * axis.dot(&torque);
         let crossing = Crossing { body: across, inertial: self.burn.target_inertial, pole: Pole::Momentum };
         crossing.next_s(motion, earliest_s, work)
     }
@@ -260,16 +265,33 @@ impl Sequencer {
         let (_, torque) = self.burn.actuator(self.fired);
         // Spin from the instant the Sun's azimuth about the momentum is on the sensor to that of the target on the
         // torque: both read off the present attitude, whose own phase cancels.
+        let inertia = motion.inertia();
         let azimuth = |direction: &Vector3<f64>| {
             let seen = state.attitude.body_from_inertial(&(direction - pole * pole.dot(direction)));
+            let seen = inertia.spin_frame_from_body(&seen);
             seen.y.atan2(seen.x)
         };
+        let torque = inertia.spin_frame_from_body(&torque);
         let spin = azimuth(&self.burn.target_inertial) - torque.y.atan2(torque.x) - azimuth(sun_inertial)
-            + self.sensor_azimuth_rad;
+            + self.crossing_azimuth_rad(inertia, sun_inertial.dot(&pole));
         let period_s = self.burn.assumed_period_s();
         let delay_s = spin.rem_euclid(2.0 * PI) / (2.0 * PI) * period_s;
         let first_s = crossing_s + delay_s;
         let turns = ((earliest_s - first_s) / period_s).ceil().max(0.0);
         Some(first_s + turns * period_s)
+    }
+
+    /// Azimuth about the spin axis at which a Sun whose angle from it has this cosine crosses the slit: that of the slit, and a
+    /// little off it where the slit is not parallel to the spin axis.
+    fn crossing_azimuth_rad(&self, inertia: &Inertia, cosine: f64) -> f64 {
+        let (sine_slit, cosine_slit) = self.sensor_azimuth_rad.sin_cos();
+        let normal = inertia.spin_frame_from_body(&Vector3::new(-sine_slit, cosine_slit, 0.0));
+        if normal.z == 0.0 {
+            return self.sensor_azimuth_rad;
+        }
+        // Normal and Sun are perpendicular: sin(azimuth - slit) = -n3 cot(angle) / |n12|.
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let off = (-normal.z * cosine / (normal.xy().norm() * sine)).clamp(-1.0, 1.0).asin();
+        (-normal.x).atan2(normal.y) + off
     }
 }

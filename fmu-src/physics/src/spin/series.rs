@@ -1,4 +1,5 @@
-//! Rigid-body motion under body-fixed torque as a Taylor series in time, exact to rounding within a segment.
+//! Rigid-body motion about principal axes under body-fixed torque as a Taylor series in time, exact to rounding within a
+//! segment.
 //!
 //! The equations are quadratic in momentum and attitude, so the coefficients follow from one another by Cauchy
 //! products. A segment is as long as the series converges to rounding, never as long as a communication step: results
@@ -80,6 +81,33 @@ impl BodyTorque {
         self
     }
 
+    /// The same torque plus one that is linear in time: `torque_body_n_m[0]` at `since_s` and `torque_body_n_m[1]` more in a
+    /// second.
+    #[must_use]
+    pub fn plus_linear(mut self, torque_body_n_m: &[Vector3<f64>; 2], since_s: f64) -> Self {
+        let [start, slope] = torque_body_n_m;
+        if *slope == Vector3::zeros() {
+            return self.plus(start);
+        }
+        if !self.varies() {
+            self.origin_s = since_s;
+        }
+        let at_origin = start + slope * (self.origin_s - since_s);
+        for (sum, more) in self.coefficients_n_m[1].iter_mut().zip(slope.iter()) {
+            *sum += more;
+        }
+        self.plus(&at_origin)
+    }
+
+    /// The same torque in components about a body's principal axes.
+    #[must_use]
+    pub fn about_principal_axes(mut self, inertia: &Inertia) -> Self {
+        for coefficients in &mut self.coefficients_n_m {
+            *coefficients = inertia.principal_from_body(&Vector3::from(*coefficients)).into();
+        }
+        self
+    }
+
     /// Value at a time, in N m.
     pub fn at(&self, time_s: f64) -> Vector3<f64> {
         let dt_s = time_s - self.origin_s;
@@ -124,7 +152,8 @@ pub struct TaylorSegment {
 }
 
 impl TaylorSegment {
-    /// The segment that starts at `start_s` in `attitude` with body momentum `momentum_body` (N m s).
+    /// The segment that starts at `start_s` in `attitude` with body momentum `momentum_body` (N m s), "body" being the principal
+    /// axes.
     ///
     /// `hint_s` is how far the motion will be asked for, if that is known; the segment may be shorter.
     pub fn new(

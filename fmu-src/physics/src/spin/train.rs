@@ -228,6 +228,11 @@ impl Train {
         self.shape
     }
 
+    /// Order of its taper; 0 without one.
+    pub fn order(&self) -> u32 {
+        self.order
+    }
+
     /// Number of pulses.
     pub fn count(&self) -> u32 {
         self.count

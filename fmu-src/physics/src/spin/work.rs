@@ -40,7 +40,7 @@ impl Cost {
         match index {
             0 | 1 => {
                 "segments of the motion, a few in each turn: asked for by spin.initialRate, by moments of inertia[1] and \
-                 inertia[2] that differ, by a short damper.timeConstant and by torques"
+                 inertia[2] that differ, by productsOfInertia, by a short damper.timeConstant and by torques"
             }
             2 => "crossings of Sun and star, one of each in a turn: asked for by spin.initialRate",
             3 => {

@@ -2,7 +2,7 @@
 
 use std::{
     fs::File,
-    io,
+    io, mem,
     process::{Child, Command, ExitStatus},
     sync::{Mutex, MutexGuard, PoisonError},
 };
@@ -39,11 +39,13 @@ pub fn end(child: &mut Child) -> io::Result<ExitStatus> {
     child.wait()
 }
 
-/// Ends every child with its group; the program ends next.
+/// Ends every child with its group; the program ends next, and whoever starts another one waits for that end.
 pub fn end_all() {
-    for group in groups().drain(..) {
+    let mut groups = groups();
+    for group in groups.drain(..) {
         end_group(group);
     }
+    mem::forget(groups);
 }
 
 #[cfg(unix)]

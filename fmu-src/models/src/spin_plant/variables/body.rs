@@ -8,10 +8,11 @@ use physics::spin::{plant, spinner::Spinner};
 /// Mass properties.
 #[derive(Variables)]
 pub struct MassVariables {
-    /// Where the moments of inertia come from.
+    /// Where moments and products of inertia come from.
     #[parameter(start = MassSource(plant::MassSource::Fixed))]
     pub source: Choice<MassSource>,
-    /// Principal moments of inertia now; they follow the propellant if massProperties.source says so.
+    /// Principal moments of inertia now, the third about the spin axis; they follow the propellant if massProperties.source says
+    /// so.
     #[output(unit = "kg.m2", nominal = 300.0)]
     pub inertia: RealVector<3>,
 }
@@ -37,14 +38,14 @@ pub struct PropellantVariables {
     pub left: Real,
 }
 
-/// Spin about the third axis.
+/// Spin about the spin axis: the principal axis nearest to the third axis.
 #[derive(Variables)]
 #[variables(setup = Spinner)]
 pub struct SpinRateVariables {
-    /// Rate about the third axis at the start.
+    /// Rate about the spin axis at the start.
     #[parameter(unit = "rad/s", display = "rpm", min = 1e-4, max = 1e4, start = setup.limits.spin_rate_rad_s())]
     pub initial_rate: Real,
-    /// Rate about the third axis.
+    /// Rate about the spin axis.
     #[output(unit = "rad/s", display = "rpm", nominal = 0.5)]
     pub rate: Real,
     /// Time between the last two Sun crossings; that of the present rate before there are two.
@@ -71,10 +72,10 @@ pub struct StartVariables {
     /// Attitude quaternion at the start, scalar last, from EME2000 to body.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
-    /// Angle between momentum and spin axis at the start.
+    /// Angle between momentum and spin axis (the principal axis nearest to the third) at the start.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = 1.5, start = 0.0)]
     pub nutation: Real,
-    /// Azimuth of the transverse momentum at the start, from body X toward Y.
+    /// Azimuth of the transverse momentum about the spin axis at the start, from body X toward Y.
     #[parameter(unit = "rad", display = "deg", start = 0.0)]
     pub nutation_phase: Real,
 }
@@ -103,10 +104,10 @@ pub struct AttitudeVariables {
 /// Nutation: as it is and as theory foresees it.
 #[derive(Variables)]
 pub struct NutationVariables {
-    /// Angle from the momentum to the spin axis.
+    /// Angle from the momentum to the spin axis, the principal axis nearest to the third.
     #[output(unit = "rad", display = "deg", nominal = 1e-4)]
     pub angle: Real,
-    /// Azimuth of the transverse momentum in the body, from X toward Y.
+    /// Azimuth of the transverse momentum about the spin axis, from body X toward Y.
     #[output(unit = "rad", display = "deg", nominal = 1.0)]
     pub phase: Real,
     /// Foreseen after the last pulse by the linear theory (paper 002 eq 8 with the nutation kick for Gamma/n, for any
@@ -124,6 +125,14 @@ pub struct NutationVariables {
     pub envelope: Real,
 }
 
+/// Coning: +Z goes round the spin axis where it is no principal axis.
+#[derive(Variables)]
+pub struct ConingVariables {
+    /// Angle from +Z to the spin axis, the principal axis nearest to it; 0 without products of inertia.
+    #[output(unit = "rad", display = "deg", nominal = 1e-2)]
+    pub angle: Real,
+}
+
 /// Angular momentum.
 #[derive(Variables)]
 pub struct MomentumVariables {
@@ -138,7 +147,7 @@ pub struct MomentumVariables {
     pub displacement: Real,
 }
 
-/// The spin axis +Z.
+/// The body's third axis +Z, about which it spins but for coning.
 #[derive(Variables)]
 pub struct SpinAxisVariables {
     /// Unit vector in EME2000.

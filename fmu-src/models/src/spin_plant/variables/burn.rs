@@ -31,7 +31,8 @@ pub struct BurnVariables {
     /// Name of a group or thruster of the setup to fire instead of the numbers; empty = use the numbers.
     #[parameter(start = "")]
     pub group: Text,
-    /// Width of a pulse; of the first and last for the tapered plan.
+    /// Width of a pulse at full thrust; of the first and last for the tapered plan. The valve opens for this less half of
+    /// tailOffTime - riseTime, so that the impulse is the force times this width.
     #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e6, start = 0.032)]
     pub pulse_width: Real,
     /// Turns from pulse to pulse: 0.5, 1, 1.5 and so on; half turns alternate the two thrusters.
@@ -64,7 +65,7 @@ pub struct BurnVariables {
     /// Refuse a plan that takes longer; 0 = no limit.
     #[parameter(unit = "s", display = "min", min = 0.0, start = 0.0)]
     pub max_duration: Real,
-    /// Pulses that ended; one that an empty tank cut short does not count.
+    /// Pulses whose valve closed; one that an empty tank cut short does not count.
     #[output]
     pub pulses_fired: Integer,
     /// Whether the burn runs: from the first edge of its first pulse to the last edge of its last.
@@ -116,6 +117,18 @@ pub struct PulseVariables {
 #[derive(Variables)]
 #[variables(setup = Thruster)]
 pub struct ThrusterVariables {
+    /// Shortest time for which its valve opens for a pulse; what thruster[k].onTime asks for less does not fire.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.min_on_s)]
+    pub min_on_time: Real,
+    /// Time over which the thrust rises linearly after the valve opens.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.rise_s)]
+    pub rise_time: Real,
+    /// Time over which the full thrust falls linearly to nothing after the valve closes.
+    #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.tail_off_s)]
+    pub tail_off_time: Real,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it; drawn by seed.
+    #[parameter(unit = "1", display = "%", min = 0.0, max = 1.0, start = setup.scatter)]
+    pub scatter: Real,
     /// From the start of each step to the pulse.
     #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
     pub on_delay: Real,
@@ -125,9 +138,12 @@ pub struct ThrusterVariables {
     /// Fires over the whole step.
     #[input(start = false)]
     pub fire: Boolean,
-    /// Whether it is on.
+    /// Whether its valve is open.
     #[output]
     pub active: Boolean,
+    /// Whether the last command was for less than the shortest time that its valve opens.
+    #[output]
+    pub too_short: Boolean,
     /// Moment arm across the spin axis, paper 002 Table 1.
     #[output(constant, unit = "m", start = setup.arm_across_z_m())]
     pub arm: Real,
@@ -142,15 +158,15 @@ pub struct TorqueVariables {
     /// Outside torque, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
     pub applied: RealVector<3>,
-    /// Of the thrusters that are on, body frame.
-    #[output(discrete, unit = "N.m", nominal = 1.0)]
+    /// Of the thrusters, body frame.
+    #[output(unit = "N.m", nominal = 1.0)]
     pub thruster: RealVector<3>,
 }
 
 /// Forces on the body.
 #[derive(Variables)]
 pub struct ForceVariables {
-    /// Of the thrusters that are on, body frame.
-    #[output(discrete, unit = "N", nominal = 1.0)]
+    /// Of the thrusters, body frame.
+    #[output(unit = "N", nominal = 1.0)]
     pub thruster: RealVector<3>,
 }

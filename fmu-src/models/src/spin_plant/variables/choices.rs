@@ -43,9 +43,9 @@ pub enum GeometrySource {
 }
 
 enumeration_of! {
-    /// Origin of the moments of inertia.
+    /// Origin of moments and products of inertia.
     MassSource(plant::MassSource) {
-        /// The parameter inertia, unchanged by propellant use.
+        /// The parameters inertia and productsOfInertia, unchanged by propellant use.
         fixed = 1 => Fixed,
         /// The setup's table over propellant, at the end of each pulse.
         propellant = 2 => Propellant,

@@ -8,7 +8,7 @@ mod observation;
 use fmi_export::{Integer, Real, RealVector, Variables};
 
 use body::{
-    AttitudeVariables, DamperVariables, MassVariables, MomentumVariables, NutationVariables,
+    AttitudeVariables, ConingVariables, DamperVariables, MassVariables, MomentumVariables, NutationVariables,
     PropellantVariables, SpinAxisVariables, SpinRateVariables, StartVariables,
 };
 use burn::{BurnVariables, ForceVariables, PulseVariables, ThrusterVariables, TorqueVariables};
@@ -24,10 +24,14 @@ use physics::spin::spinner::Spinner;
 #[derive(Variables)]
 #[variables(setup = Spinner)]
 pub struct SpinVariables {
-    /// Principal moments of inertia about the centre of mass; the third axis is the spin axis.
+    /// Moments of inertia about the body axes through the centre of mass, the principal ones where productsOfInertia is 0. The
+    /// principal axis nearest to the third is the spin axis.
     #[parameter(unit = "kg.m2", min = 1e-9, max = 1e12, start = initial_inertia(setup))]
     pub inertia: RealVector<3>,
-    /// I3/IT with IT = sqrt(I1 I2), paper 002 eq 11.
+    /// Products of inertia 12, 13, 23 about the body axes: elements of the inertia tensor, -integral of x_i x_j dm.
+    #[parameter(unit = "kg.m2", min = -1e12, max = 1e12, start = initial_products(setup))]
+    pub products_of_inertia: RealVector<3>,
+    /// I3/IT with IT = sqrt(I1 I2) of the principal moments, paper 002 eq 11.
     #[output(unit = "1", nominal = 1.0)]
     pub inertia_ratio: Real,
     #[group]
@@ -65,6 +69,8 @@ pub struct SpinVariables {
     #[group]
     pub nutation: NutationVariables,
     #[group]
+    pub coning: ConingVariables,
+    #[group]
     pub momentum: MomentumVariables,
     #[group]
     pub spin_axis: SpinAxisVariables,
@@ -81,7 +87,7 @@ pub struct SpinVariables {
     /// Kinetic energy of rotation.
     #[output(unit = "N.m", nominal = 50.0)]
     pub energy: Real,
-    /// Seed of all sensor noise; the same seed gives the same draws.
+    /// Seed of all sensor noise and of the scatter of pulses; the same seed gives the same draws.
     #[parameter(start = 1)]
     pub seed: Integer,
     #[group]
@@ -91,5 +97,11 @@ pub struct SpinVariables {
 /// The moments in force at the start: the setup's table at the initial propellant.
 fn initial_inertia(setup: &Spinner) -> [f64; 3] {
     let mass = &setup.mass_properties;
-    mass.inertia(mass.initial_propellant_kg).map_or([1.0; 3], |inertia| inertia.principal_kg_m2())
+    mass.moments_kg_m2(mass.initial_propellant_kg)
+}
+
+/// The products in force at the start.
+fn initial_products(setup: &Spinner) -> [f64; 3] {
+    let mass = &setup.mass_properties;
+    mass.products_kg_m2(mass.initial_propellant_kg)
 }

@@ -56,6 +56,16 @@ fn draw(bench: &Spin, random: &mut RandomNumbers) -> Tables {
         bench.put(&mut values, &format!("thruster[{k}].onTime"), if random.next() < 0.7 { 0.0 } else { 0.2 });
         bench.put(&mut values, &format!("thruster[{k}].fire"), f64::from(u8::from(random.next() < 0.2)));
     }
+    let has_ramps = random.next() < 0.5;
+    let has_products = random.next() < 0.5;
+    bench.put_vector(&mut values, "productsOfInertia", &[f64::from(u8::from(has_products)), 0.0, 0.0]);
+    for k in 1..=10 {
+        let times = if has_ramps { [0.1, 0.05, 0.04] } else { [0.0; 3] };
+        for (name, time_s) in ["minOnTime", "riseTime", "tailOffTime"].iter().zip(times) {
+            bench.put(&mut values, &format!("thruster[{k}].{name}"), time_s);
+        }
+        bench.put(&mut values, &format!("thruster[{k}].scatter"), if has_ramps { 0.02 } else { 0.0 });
+    }
     redraw(bench, random, &mut values);
     values
 }
@@ -74,6 +84,19 @@ fn redraw(bench: &Spin, random: &mut RandomNumbers, values: &mut Tables) {
     bench.put_vector(values, "star.direction", star.as_slice());
     bench.put(values, "start.nutationPhase", random.between(0.0, 6.0));
     bench.put_vector(values, "inertia", &[220.0, 240.0 + 10.0 * random.next(), 360.0]);
+    if bench.real(values, "productsOfInertia[1]") != 0.0 {
+        let products = [0; 3].map(|_| random.between(-8.0, 8.0));
+        bench.put_vector(values, "productsOfInertia", &products);
+    }
+    if bench.real(values, "thruster[1].riseTime") != 0.0 {
+        // Alike for all: those of a group fire together. The shortest time is about that of the pulses from outside.
+        let times = [random.between(0.17, 0.23), random.between(0.02, 0.05), random.between(0.02, 0.05)];
+        for k in 1..=10 {
+            for (name, time_s) in ["minOnTime", "riseTime", "tailOffTime"].iter().zip(times) {
+                bench.put(values, &format!("thruster[{k}].{name}"), time_s);
+            }
+        }
+    }
     bench.put(values, "spin.initialRate", random.between(0.4, 0.7));
     bench.put(values, "propellant.loaded", random.between(30.0, 150.0));
     for name in ["geometry.longitude", "geometry.inPlanePhase", "geometry.outOfPlanePhase"] {

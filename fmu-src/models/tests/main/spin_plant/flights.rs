@@ -15,6 +15,11 @@ fn the_description_is_valid_and_names_the_contract() {
     let names: Vec<&str> = description.variables.iter().map(|v| v.name.as_str()).collect();
     for name in [
         "inertia[3]",
+        "productsOfInertia[3]",
+        "thruster[10].minOnTime",
+        "thruster[10].riseTime",
+        "thruster[10].tailOffTime",
+        "thruster[10].scatter",
         "spin.initialRate",
         "start.q[4]",
         "start.nutation",
@@ -141,6 +146,63 @@ fn a_state_saved_in_the_middle_of_a_pulse_continues_to_the_bit() {
     assert_eq!(fly_on(&mut other), expected);
 }
 
+/// Slow valves, scatter, products of inertia, and pulses from outside beside the burn's.
+#[test]
+fn a_state_saved_in_a_ramp_of_the_thrust_continues_to_the_bit() {
+    let configured = || {
+        let mut spinner = Spinner::new()
+            .set("burn.pulseWidth", 1.0)
+            .set("productsOfInertia[2]", 3.0)
+            .set_integer("burn.count", 6)
+            .set_integer("burn.timing", 3);
+        for k in 1..=10 {
+            spinner.put(&format!("thruster[{k}].riseTime"), 0.4);
+            spinner.put(&format!("thruster[{k}].tailOffTime"), 0.6);
+            spinner.put(&format!("thruster[{k}].minOnTime"), 0.02);
+            spinner.put(&format!("thruster[{k}].scatter"), 0.1);
+        }
+        spinner
+    };
+    let fly_on = |spinner: &mut Spinner, points: &[f64]| {
+        for point in points {
+            spinner.to(*point);
+        }
+        spinner.outputs()
+    };
+    let whole = fly_on(&mut configured().start(), &[100.0]);
+    let edge_s = configured().start().real("burn.nextEdge");
+    // In the midst of the rise, of the full thrust and of the tail-off.
+    for (into_s, share) in [(0.1, 0.25), (0.6, 1.0), (1.2, 0.5)] {
+        let mut spinner = configured().start();
+        spinner.to(edge_s + into_s);
+        let force = (1..=3).map(|i| spinner.real(&format!("force.thruster[{i}]")).powi(2)).sum::<f64>();
+        let scattered = force.sqrt() / (4.448 * share);
+        assert!((scattered - 1.0).abs() < 0.4 && scattered != 1.0, "{into_s}: {scattered}");
+        let (saved_s, saved) = (spinner.time_s, spinner.outputs());
+        let (status, bytes) = spinner.fmu.state_bytes();
+        assert_eq!(status, Status::Ok);
+        assert_eq!(fly_on(&mut spinner, &[40.0, 41.0, 66.6, 100.0]), whole, "{into_s}");
+        let mut other = configured().start();
+        let (status, state) = other.fmu.deserialize(&bytes);
+        assert_eq!(status, Status::Ok);
+        assert_eq!(other.fmu.set_state(&state), Status::Ok);
+        other.time_s = saved_s;
+        assert_eq!(other.outputs(), saved, "{into_s}");
+        assert_eq!(fly_on(&mut other, &[100.0]), whole, "{into_s}");
+    }
+}
+
+#[test]
+fn a_pulse_shorter_than_its_valve_opens_is_flagged() {
+    let mut spinner = Spinner::new().set_integer("burn.plan", 4).set("thruster[8].minOnTime", 0.1).start();
+    spinner.put("thruster[8].onTime", 0.096);
+    spinner.to(1.0);
+    assert!(spinner.boolean("thruster[8].tooShort") && spinner.real("propellant.used") == 0.0);
+    spinner.put("thruster[8].onTime", 0.128);
+    spinner.to(2.0);
+    assert!(!spinner.boolean("thruster[8].tooShort") && spinner.real("propellant.used") > 0.0);
+}
+
 #[test]
 fn held_thrusters_and_pulses_within_steps_have_the_same_edges() {
     let fly = |drive: &dyn Fn(&mut Spinner)| {
@@ -209,11 +271,20 @@ fn an_outside_torque_with_a_slope_is_integrated() {
 
 #[test]
 fn output_derivatives_are_the_slopes_of_the_outputs() {
+    slopes_agree(0.0, 0.0);
+    // In a long rise of the thrust, about principal axes that are not the body's.
+    slopes_agree(20.0, 5.0);
+}
+
+fn slopes_agree(rise_s: f64, product_kg_m2: f64) {
     let mut spinner = Spinner::new()
         .set_integer("burn.plan", 4)
         .set("start.nutation", 0.05)
         .set("inertia[1]", 225.0)
         .set("damper.timeConstant", 300.0)
+        .set("thruster[2].riseTime", rise_s)
+        .set("productsOfInertia[1]", product_kg_m2)
+        .set("productsOfInertia[3]", -product_kg_m2)
         .start();
     spinner.fire(2, true);
     spinner.put("torque.applied[1]", 0.3);
@@ -241,6 +312,8 @@ fn output_derivatives_are_the_slopes_of_the_outputs() {
         "propellant.used",
         "propellant.left",
         "mass",
+        "force.thruster[1]",
+        "torque.thruster[3]",
     ];
     let references: Vec<u32> = names.iter().map(|name| spinner.at(name)).collect();
     let mut slopes = vec![0.0; names.len()];

@@ -182,8 +182,10 @@ fn directions() -> Directions {
 fn flight(spinner: &spinner::Spinner, triaxial: bool) -> Start {
     Start {
         inertia_kg_m2: [if triaxial { 230.0 } else { 238.58 }, 238.58, 353.82],
+        products_kg_m2: [0.0; 3],
         mass_source: MassSource::Fixed,
         propellant_kg: 97.5,
+        execution: Default::default(),
         spin_rate_rad_s: std::f64::consts::PI / 6.0,
         attitude: [0.0, 0.0, 0.0, 1.0],
         nutation_rad: 1e-3,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::propulsion::PulseCommand;
 use crate::spacecraft::MOST_THRUSTERS;
-use crate::spin::series::BodyTorque;
+use crate::spin::{execution::PulseExecution, series::BodyTorque};
 
 /// What the master commands for a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,6 +16,8 @@ pub struct Commands {
     pub pulses: [PulseCommand; MOST_THRUSTERS],
     /// Whether any of them is on.
     pub any_pulse: bool,
+    /// Thrusters whose pulse is shorter than their valves open at least, bit by bit: it is left out.
+    pub too_short: u32,
     /// Outside torque, body components.
     pub torque: BodyTorque,
 }
@@ -27,8 +29,22 @@ impl Commands {
             fire: 0,
             pulses: [PulseCommand::default(); MOST_THRUSTERS],
             any_pulse: false,
+            too_short: 0,
             torque: BodyTorque::constant(Vector3::zeros()),
         }
+    }
+
+    /// The same commands without the pulses that are too short for their valves.
+    pub(super) fn executable(mut self, execution: &[PulseExecution; MOST_THRUSTERS]) -> Self {
+        self.too_short = 0;
+        for (k, (pulse, of_one)) in self.pulses.iter_mut().zip(execution).enumerate() {
+            if of_one.is_too_short(pulse.on_s) {
+                self.too_short |= 1 << k;
+                pulse.on_s = 0.0;
+            }
+        }
+        self.any_pulse = self.any_pulse && self.pulses.iter().any(|pulse| pulse.on_s > 0.0);
+        self
     }
 
     /// The first thruster, from 0, whose pulse does not end within a step, by more than the rounding of times.

@@ -7,11 +7,14 @@ mod sensors;
 mod sound;
 mod start;
 mod state;
+mod valves;
 
 pub use crate::propulsion::PulseCommand;
+pub use crate::spin::execution::PulseExecution;
 pub use commands::Commands;
 pub use directions::Directions;
 pub use propulsion::{MassSource, Propulsion};
 pub use sensors::{Sampling, Sensors, StarSample};
 pub use start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
 pub use state::{Plant, SpinPlantError};
+pub use valves::{ThrustLaw, Valves};

@@ -4,10 +4,14 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::sound::are_moderate;
+use super::valves::{ThrustLaw, Valves};
 use crate::attitude::Inertia;
+use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
+    execution::PulseExecution,
     motion::Motion,
     nutation::{LinearNutation, Spin},
+    series::BodyTorque,
     spinner::Spinner,
     work::{Cost, Work, WorkExceeded},
 };
@@ -47,10 +51,7 @@ pub enum MassSource {
 pub struct Propulsion {
     mass_source: MassSource,
     initial_propellant_kg: f64,
-    /// Thrusters on.
-    mask: u32,
-    /// Since when, in s.
-    mask_since_s: f64,
+    valves: Valves,
     used_kg: f64,
     delta_v_inertial_m_s: Vector3<f64>,
     /// Up to when delta-v is summed, in s.
@@ -60,12 +61,17 @@ pub struct Propulsion {
 
 impl Propulsion {
     /// No thruster on, and nothing used.
-    pub(super) fn new(mass_source: MassSource, propellant_kg: f64, start_s: f64) -> Self {
+    pub(super) fn new(
+        mass_source: MassSource,
+        propellant_kg: f64,
+        execution: [PulseExecution; MOST_THRUSTERS],
+        seed: u64,
+        start_s: f64,
+    ) -> Self {
         Self {
             mass_source,
             initial_propellant_kg: propellant_kg,
-            mask: 0,
-            mask_since_s: start_s,
+            valves: Valves::new(execution, seed, start_s),
             used_kg: 0.0,
             delta_v_inertial_m_s: Vector3::zeros(),
             delta_v_until_s: start_s,
@@ -73,9 +79,14 @@ impl Propulsion {
         }
     }
 
-    /// Thrusters on, bit by bit.
+    /// Thrusters whose valves are open, bit by bit.
     pub fn mask(&self) -> u32 {
-        self.mask
+        self.valves.open_mask()
+    }
+
+    /// Valves, and what the thrusters exert.
+    pub fn valves(&self) -> &Valves {
+        &self.valves
     }
 
     /// Nutation by the linear theory after the last pulse, in rad.
@@ -93,41 +104,51 @@ impl Propulsion {
         self.used_kg >= self.initial_propellant_kg
     }
 
-    /// Puts thrusters on; those before are settled.
-    pub(super) fn fire(&mut self, mask: u32, now_s: f64) {
-        self.mask = mask;
-        self.mask_since_s = now_s;
+    /// Opens the valves of `mask` and closes the others; what was exerted before is settled.
+    pub(super) fn fire(&mut self, spinner: &Spinner, mask: u32, now_s: f64) {
+        self.valves.open(spinner, mask, now_s);
     }
 
-    /// Books what the thrusters that were on used and did, and puts them off; whether any was on.
+    /// An outside torque with that of the thrusters.
+    pub(super) fn with_thrusters(&self, applied: &BodyTorque) -> BodyTorque {
+        let law = self.valves.law();
+        if law.is_none() { *applied } else { applied.plus_linear(&law.torque_body_n_m, law.since_s) }
+    }
+
+    /// Books what the thrusters used and did since they were last booked; whether they did anything.
     pub(super) fn settle(&mut self, spinner: &Spinner, motion: &Motion, theory: &Spin, now_s: f64) -> bool {
-        if self.mask == 0 {
+        if self.valves.law().is_none() {
             return false;
         }
         self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, now_s);
-        let thrust = spinner.thrust(self.mask);
-        let across = [thrust.torque_body_n_m.x, thrust.torque_body_n_m.y];
-        self.predicted.pulse(theory, across, self.mask_since_s, now_s);
-        self.used_kg = self.used_at(spinner, now_s);
-        self.mask = 0;
+        let ThrustLaw { since_s, torque_body_n_m, .. } = self.valves.law();
+        let inertia = motion.inertia();
+        let across = torque_body_n_m.map(|it| inertia.spin_frame_from_body(&it).xy().into());
+        self.predicted.pulse(theory, across, *since_s, now_s);
+        self.used_kg = self.used_at(now_s);
         true
     }
 
-    /// Nothing is left in the tank.
-    pub(super) fn empty(&mut self) {
+    /// Nothing is left in the tank at `now_s`; what came out was settled.
+    pub(super) fn empty(&mut self, now_s: f64) {
         self.used_kg = self.initial_propellant_kg;
+        self.valves.shut(now_s);
     }
 
     /// When the thrusters that are on empty the tank, in s; infinite while none is.
-    pub(super) fn dry_s(&self, spinner: &Spinner) -> f64 {
-        if self.mask == 0 {
+    pub(super) fn dry_s(&self) -> f64 {
+        let law = self.valves.law();
+        if law.is_none() {
             return f64::INFINITY;
         }
-        let flow_kg_s = spinner.thrust(self.mask).flow_kg_s;
-        let left_s = (self.initial_propellant_kg - self.used_kg) / flow_kg_s;
+        let left_s = law.lasts_s(self.initial_propellant_kg - self.used_kg);
         // Edges are known to rounding: a pulse that takes the last drop ends by its own.
-        let late_s = self.mask_since_s.abs() + self.initial_propellant_kg / flow_kg_s;
-        self.mask_since_s + left_s + EDGE_ROUNDING * late_s
+        let late_s = law.since_s.abs() + law.lasts_s(self.initial_propellant_kg);
+        if left_s.is_finite() && late_s.is_finite() {
+            law.since_s + left_s + EDGE_ROUNDING * late_s
+        } else {
+            law.since_s + left_s
+        }
     }
 
     /// Inertia with the propellant left, of the body in `motion`.
@@ -141,23 +162,23 @@ impl Propulsion {
     }
 
     /// Propellant used until `time_s`, in kg.
-    pub fn used_at(&self, spinner: &Spinner, time_s: f64) -> f64 {
-        if self.mask == 0 {
+    pub fn used_at(&self, time_s: f64) -> f64 {
+        let law = self.valves.law();
+        if law.is_none() {
             return self.used_kg;
         }
-        let more_kg = spinner.thrust(self.mask).flow_kg_s * (time_s - self.mask_since_s);
-        (self.used_kg + more_kg).min(self.initial_propellant_kg)
+        (self.used_kg + law.burnt_kg(time_s)).min(self.initial_propellant_kg)
     }
 
     /// Mass at `time_s`, in kg.
     fn mass_at_kg(&self, spinner: &Spinner, time_s: f64) -> f64 {
-        let left_kg = self.initial_propellant_kg - self.used_at(spinner, time_s);
+        let left_kg = self.initial_propellant_kg - self.used_at(time_s);
         spinner.mass_properties.dry_mass_kg + left_kg.max(0.0)
     }
 
     /// Sums delta-v to the end of the motion's present segment.
     pub(super) fn leave_segment(&mut self, spinner: &Spinner, motion: &Motion, work: &mut Work) {
-        if self.mask != 0 {
+        if !self.valves.law().is_none() {
             work.spend(Cost::Impulse);
             let end_s = motion.segment_end_s();
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, end_s);
@@ -176,13 +197,14 @@ impl Propulsion {
         time_s: f64,
         work: &mut Work,
     ) -> Result<(), WorkExceeded> {
-        if self.mask == 0 || !motion.segment_end_s().is_infinite() {
+        let law = *self.valves.law();
+        if law.is_none() || !motion.segment_end_s().is_infinite() {
             return Ok(());
         }
         // Thrusters without torque: whole panels of the closed form, counted from when they went on.
         let rate = motion.at(motion.anchor_s()).rate_rad_s(motion.inertia()).norm();
         loop {
-            let panel_end_s = self.delta_v_until_s.max(self.mask_since_s) + IMPULSE_PANEL_RAD / rate;
+            let panel_end_s = self.delta_v_until_s.max(law.since_s) + IMPULSE_PANEL_RAD / rate;
             if panel_end_s.is_nan() || panel_end_s > time_s {
                 return Ok(());
             }
@@ -195,11 +217,11 @@ impl Propulsion {
 
     /// Delta-v until `time_s` in the present segment, inertial, in m/s: the turning force over the mass left at each instant.
     pub fn delta_v_at(&self, spinner: &Spinner, motion: &Motion, time_s: f64) -> Vector3<f64> {
-        if self.mask == 0 {
+        let law = self.valves.law();
+        if law.is_none() {
             return self.delta_v_inertial_m_s;
         }
-        let from_s = self.delta_v_until_s.max(self.mask_since_s);
-        let thrust = spinner.thrust(self.mask);
+        let from_s = self.delta_v_until_s.max(law.since_s);
         let mass_kg = self.mass_at_kg(spinner, from_s);
         let fall = (mass_kg / self.mass_at_kg(spinner, time_s)).ln();
         // Panels in which the mass falls by one factor, so that its reciprocal is smooth in each.
@@ -207,13 +229,18 @@ impl Propulsion {
         let mut delta_v = self.delta_v_inertial_m_s;
         let mut start_s = from_s;
         for panel in 1..=panels as u32 {
-            let burnt_kg = -mass_kg * (-fall * f64::from(panel) / panels).exp_m1();
-            let is_last = f64::from(panel) >= panels;
-            let end_s = if is_last { time_s } else { from_s + burnt_kg / thrust.flow_kg_s };
+            let share = f64::from(panel) / panels;
+            let end_s = if share >= 1.0 {
+                time_s
+            } else if law.flow_kg_s[1] == 0.0 {
+                from_s - mass_kg * (-fall * share).exp_m1() / law.flow_kg_s[0]
+            } else {
+                from_s + (time_s - from_s) * share
+            };
             let half_s = 0.5 * (end_s - start_s);
             for (node, weight) in NODES {
                 let at_s = start_s + half_s * (1.0 + node);
-                let force_n = motion.at(at_s).attitude.inertial_from_body(&thrust.force_body_n);
+                let force_n = motion.at(at_s).attitude.inertial_from_body(&law.force_at_n(at_s));
                 delta_v += force_n * (weight * half_s / self.mass_at_kg(spinner, at_s));
             }
             start_s = end_s;
@@ -223,11 +250,12 @@ impl Propulsion {
 
     /// Whether decoded thrusters and tank can be some by `latest_s`.
     pub(super) fn is_sound(&self, spinner: &Spinner, latest_s: f64) -> bool {
-        let since_s = [self.mask_since_s, self.delta_v_until_s];
         // A tank that is never empty and has nothing left would be emptied without end.
         (0.0..=spinner.mass_properties.most_propellant_kg()).contains(&self.initial_propellant_kg)
             && (0.0..=self.initial_propellant_kg).contains(&self.used_kg)
-            && since_s.iter().all(|at_s| at_s.is_finite() && *at_s <= latest_s)
+            && self.delta_v_until_s.is_finite()
+            && self.delta_v_until_s <= latest_s
+            && self.valves.is_sound(spinner, latest_s)
             && are_moderate(&self.delta_v_inertial_m_s)
             && self.predicted.is_sound()
     }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::directions::Directions;
 use super::sound::{are_moderate, is_moderate, is_unit};
-use crate::attitude::{RigidBodyState, angle_between_rad};
+use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
     crossing::{Crossing, Pole},
@@ -229,7 +229,8 @@ impl Sensors {
         // Pickets count from the Sun pulse: without a Sun there are none.
         let sun_known = directions.sun_inertial != Vector3::zeros();
         let seen = turn.is_none_or(|turn| {
-            sun_known && searched(star_picket(spinner, directions, &state), turn, tracker.every)
+            sun_known
+                && searched(star_picket(spinner, directions, motion.inertia(), &state), turn, tracker.every)
         });
         if !(visible && seen) {
             return;
@@ -260,12 +261,13 @@ impl Sensors {
 }
 
 /// Picket of the star: its azimuth about the momentum after the Sun's.
-fn star_picket(spinner: &Spinner, directions: &Directions, state: &RigidBodyState) -> u32 {
+fn star_picket(spinner: &Spinner, directions: &Directions, inertia: &Inertia, state: &RigidBodyState) -> u32 {
     let pole = state.momentum_inertial;
     let ahead = |direction: &Vector3<f64>| {
         let seen = state
             .attitude
             .body_from_inertial(&(direction - pole * (pole.dot(direction) / pole.norm_squared())));
+        let seen = inertia.spin_frame_from_body(&seen);
         seen.y.atan2(seen.x)
     };
     // Half a picket of margin keeps a star that starts on a border off it.

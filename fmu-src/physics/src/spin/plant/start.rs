@@ -8,9 +8,11 @@ use super::propulsion::MassSource;
 use super::sensors::Sampling;
 use super::sound::{are_moderate, is_moderate, is_unit};
 use crate::attitude::{InertiaError, Quaternion, angle_between_rad};
+use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
     burn::{BurnError, BurnRequest},
     damper::SHORTEST_TIME_CONSTANT_S,
+    execution::PulseExecution,
     forecast::Timing,
     geometry::L1Ephemeris,
     nutation::Spin,
@@ -27,19 +29,23 @@ pub const MOST_WORK: u32 = 1_000_000_000;
 /// How a flight starts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// Principal moments, in kg m2; used with [`MassSource::Fixed`].
+    /// Moments about the body axes, in kg m2; used with [`MassSource::Fixed`].
     pub inertia_kg_m2: [f64; 3],
+    /// Products of inertia 12, 13, 23, in kg m2: elements of the tensor; used with [`MassSource::Fixed`].
+    pub products_kg_m2: [f64; 3],
     /// What the inertia follows.
     pub mass_source: MassSource,
     /// On board, in kg.
     pub propellant_kg: f64,
-    /// Rate about the third axis, in rad/s.
+    /// How thrusters execute their pulses.
+    pub execution: [PulseExecution; MOST_THRUSTERS],
+    /// Rate about the third principal axis, in rad/s.
     pub spin_rate_rad_s: f64,
     /// EME2000 to body, scalar last.
     pub attitude: [f64; 4],
-    /// Angle between momentum and spin axis, in rad.
+    /// Angle between momentum and third principal axis, in rad.
     pub nutation_rad: f64,
-    /// Azimuth of the transverse momentum in the body, in rad.
+    /// Azimuth of the transverse momentum in the body about that axis, in rad.
     pub nutation_phase_rad: f64,
     /// 1/e time of the nutation angle, in s; 0 without a damper.
     pub damper_time_constant_s: f64,
@@ -118,6 +124,20 @@ impl Start {
         let nutation = self.nutation_rad;
         if !(0.0..1.5).contains(&nutation) || !self.nutation_phase_rad.is_finite() {
             return refuse("start.nutation", format!("{nutation} rad"), "allowed is 0 to below 1.5 rad");
+        }
+        if let Some(k) = self.execution.iter().position(|it| !it.is_sound()) {
+            let PulseExecution { valve, scatter } = self.execution[k];
+            return refuse(
+                "thruster[k].minOnTime, riseTime, tailOffTime, scatter",
+                format!(
+                    "{}, {}, {} s, {scatter} with k = {}",
+                    valve.min_on_s,
+                    valve.rise_s,
+                    valve.tail_off_s,
+                    k + 1
+                ),
+                "allowed are times of 0 s and more, and a scatter from 0 to 1",
+            );
         }
         let tau = self.damper_time_constant_s;
         if !(tau == 0.0 || (tau.is_finite() && tau >= SHORTEST_TIME_CONSTANT_S)) {

@@ -23,6 +23,9 @@ use crate::spin::{
 /// A communication point this close to an edge, as a share of the step's later or earlier end, counts as the edge.
 const SAME_TIME: f64 = 1e-13;
 
+/// A motion is followed at least this far through a ramp of thrust at once, in s.
+const SHORTEST_RAMP_HINT_S: f64 = 2e-5;
+
 /// By which share of a turn times of one flight may be out of order.
 const OUT_OF_ORDER: f64 = 1e-3;
 
@@ -67,15 +70,15 @@ impl Plant {
         start_s: f64,
     ) -> Result<Self, StartError> {
         let inertia = match start.mass_source {
-            MassSource::Fixed => Inertia::new(start.inertia_kg_m2)?,
+            MassSource::Fixed => Inertia::with_products(start.inertia_kg_m2, start.products_kg_m2)?,
             MassSource::Propellant => spinner.mass_properties.inertia(start.propellant_kg)?,
         };
         let attitude = start.check(spinner)?;
         let spin_n_m_s = inertia.spin_kg_m2() * start.spin_rate_rad_s;
         let across = spin_n_m_s * start.nutation_rad.tan();
         let (sine, cosine) = start.nutation_phase_rad.sin_cos();
-        let momentum_inertial =
-            attitude.inertial_from_body(&Vector3::new(across * cosine, across * sine, spin_n_m_s));
+        let momentum = Vector3::new(across * cosine, across * sine, spin_n_m_s);
+        let momentum_inertial = attitude.inertial_from_body(&inertia.body_from_spin_frame(&momentum));
         let theory = Spin {
             rate_rad_s: start.spin_rate_rad_s,
             ratio: inertia.inertial_nutation_ratio().unwrap_or(inertia.ratio()),
@@ -86,8 +89,10 @@ impl Plant {
             Some(request) => {
                 let initial = BurnInitialConditions {
                     spin: theory,
+                    inertia,
                     momentum_inertial,
                     propellant_kg: start.propellant_kg,
+                    execution: &start.execution,
                 };
                 let burn = Burn::new(spinner, request, &initial)?;
                 Some(Sequencer::new(burn, spinner.sun_sensor.azimuth_deg.to_radians()))
@@ -109,7 +114,13 @@ impl Plant {
             commands: Commands::none(),
             commanded: true,
             directions: DirectionSource::new(directions, start.l1, start_s),
-            propulsion: Propulsion::new(start.mass_source, start.propellant_kg, start_s),
+            propulsion: Propulsion::new(
+                start.mass_source,
+                start.propellant_kg,
+                start.execution,
+                start.seed,
+                start_s,
+            ),
             sensors: Sensors::new(spinner, start.sampling, start.nominal_rate_rad_s, start.seed, start_s),
             work_limit: start.work_limit,
         };
@@ -159,6 +170,11 @@ impl Plant {
         &self.sensors
     }
 
+    /// Thrusters whose commanded pulse is too short for their valves, bit by bit.
+    pub fn too_short(&self) -> u32 {
+        self.commands.too_short
+    }
+
     /// Directions that the sensors look for now.
     pub fn directions(&self) -> &Directions {
         self.directions.present()
@@ -182,7 +198,7 @@ impl Plant {
         if now.star_inertial != before.star_inertial {
             self.sensors.forget_star(self.time_s);
         }
-        self.commands = commands;
+        self.commands = commands.executable(self.propulsion.valves().execution());
         self.commanded = true;
     }
 
@@ -206,8 +222,9 @@ impl Plant {
             work.check(reached_s)?;
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
             let command_s = self.commands.edge_after_s(from_s, now_s);
-            let dry_s = self.propulsion.dry_s(spinner).max(now_s);
-            let edge_s = plan_s.min(command_s).min(self.directions.refresh_s()).min(dry_s);
+            let dry_s = self.propulsion.dry_s().max(now_s);
+            let ramp_s = self.propulsion.valves().ramp_end_s().max(now_s);
+            let edge_s = plan_s.min(command_s).min(self.directions.refresh_s()).min(dry_s).min(ramp_s);
             let (until_s, segment_end_s) = (edge_s.min(end_s), self.motion.segment_end_s());
             // What is seen may move the plan's edge.
             if let Some(seen_s) = self.observe(spinner, until_s.min(segment_end_s), work)? {
@@ -264,18 +281,18 @@ impl Plant {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
         let asked = plan | self.commands.mask_after(from_s, now_s);
         let mask = if self.propulsion.is_dry() { 0 } else { asked };
-        let mut torque = self.commands.torque;
-        if mask != 0 {
-            torque = torque.plus(&spinner.thrust(mask).torque_body_n_m);
-        }
-        if mask != self.propulsion.mask() || torque != *self.motion.torque() {
+        let turns_valves = mask != self.propulsion.mask() || self.propulsion.valves().ramp_end_s() <= now_s;
+        let applied = self.commands.torque;
+        if turns_valves || self.propulsion.with_thrusters(&applied) != *self.motion.torque() {
             self.reach(spinner, now_s, work)?;
             self.settle_pulse(spinner, now_s);
             let inertia = self.propulsion.inertia(spinner, &self.motion);
             work.spend_segment(self.motion.damper());
-            self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s);
+            self.propulsion.fire(spinner, mask, now_s);
+            let torque = self.propulsion.with_thrusters(&applied);
+            let ramp_s = (self.propulsion.valves().ramp_end_s() - now_s).max(SHORTEST_RAMP_HINT_S);
+            self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s.min(1.001 * ramp_s));
             self.motion.check()?;
-            self.propulsion.fire(mask, now_s);
             self.sensors.forget_motion(now_s);
             if self.sequencer.as_ref().is_some_and(Sequencer::follows_motion) {
                 self.schedule(now_s, work);
@@ -295,7 +312,7 @@ impl Plant {
     fn run_dry(&mut self, spinner: &Spinner, now_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
         self.reach(spinner, now_s, work)?;
         self.settle_pulse(spinner, now_s);
-        self.propulsion.empty();
+        self.propulsion.empty(now_s);
         if let Some(sequencer) = &mut self.sequencer {
             sequencer.stop();
         }
@@ -355,7 +372,9 @@ impl Plant {
         if self.propulsion.is_dry() {
             return;
         }
-        if let Some(sequencer) = &mut self.sequencer {
+        // What a rising or falling thrust does to the motion is known where it ends.
+        let is_ramping = self.propulsion.valves().ramp_end_s().is_finite();
+        if let Some(sequencer) = self.sequencer.as_mut().filter(|it| !(is_ramping && it.follows_motion())) {
             sequencer.schedule(&self.motion, now_s, &self.directions.present().sun_inertial, work);
         }
     }

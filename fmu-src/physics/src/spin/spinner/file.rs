@@ -140,6 +140,10 @@ struct ThrusterEntry {
     force_n: f64,
     position_m: [f64; 3],
     direction: [f64; 3],
+    min_on_time_s: Option<f64>,
+    rise_time_s: Option<f64>,
+    tail_off_time_s: Option<f64>,
+    scatter: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -209,6 +213,16 @@ impl Builder<'_> {
                 self.check.report_across(at, &list, format_args!("a list of {}", values.len()), allowed);
             }
         }
+        if let Some(products) = &mass.products_of_inertia_kg_m2 {
+            let list = at.key("products_of_inertia_kg_m2");
+            for (i, product) in products.iter().enumerate() {
+                self.check.vector(&list.item(i), *product);
+            }
+            if products.len() != count {
+                let allowed = format!("{count} of them, one for each of propellant_kg");
+                self.check.report_across(at, &list, format_args!("a list of {}", products.len()), allowed);
+            }
+        }
         self.check.positive(&at.key("dry_mass_kg"), mass.dry_mass_kg);
         self.check.positive(&at.key("transverse_quotient"), mass.transverse_quotient);
         let most_kg = mass.propellant_kg.last().copied().unwrap_or(0.0);
@@ -221,7 +235,13 @@ impl Builder<'_> {
                 allowed,
             );
         }
-        let shares = ["propellant_kg", "spin_inertia_kg_m2", "inertia_ratio", "transverse_quotient"];
+        let shares = [
+            "propellant_kg",
+            "spin_inertia_kg_m2",
+            "inertia_ratio",
+            "transverse_quotient",
+            "products_of_inertia_kg_m2",
+        ];
         if shares.iter().any(|key| self.check.has_reported(&at.key(key))) {
             return;
         }
@@ -249,6 +269,15 @@ impl Builder<'_> {
             self.check.unit_vector(&at.key("direction"), entry.direction);
             // Not the unit vector: scaled once, the force has the bits that GUIDs were made of.
             let direction = Vector3::from(entry.direction);
+            let mut not_negative = |key: &str, value: Option<f64>| {
+                value.map_or(0.0, |value| self.check.not_negative(&at.key(key), value))
+            };
+            let valve = ValveTiming {
+                min_on_s: not_negative("min_on_time_s", entry.min_on_time_s),
+                rise_s: not_negative("rise_time_s", entry.rise_time_s),
+                tail_off_s: not_negative("tail_off_time_s", entry.tail_off_time_s),
+            };
+            let scatter = self.check.fraction(&at.key("scatter"), entry.scatter.unwrap_or(0.0));
             let force_body_n = direction * (entry.force_n / direction.norm());
             thrusters.push(Thruster {
                 name: entry.name,
@@ -256,8 +285,8 @@ impl Builder<'_> {
                 position_body_m: position_m,
                 torque_body_n_m: position_m.cross(&force_body_n),
                 flow_kg_s: entry.force_n / exhaust_m_s,
-                valve: ValveTiming::default(),
-                scatter: 0.0,
+                valve,
+                scatter,
                 set: None,
                 tank: 0,
                 at_pressure_pa: None,

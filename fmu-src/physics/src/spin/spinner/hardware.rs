@@ -20,15 +20,43 @@ pub struct MassTable {
     pub initial_propellant_kg: f64,
     /// I1/I2.
     pub transverse_quotient: f64,
+    /// Products of inertia 12, 13, 23 at each point, in kg m2: elements of the tensor. 0 where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub products_of_inertia_kg_m2: Option<Vec<[f64; 3]>>,
 }
 
 impl MassTable {
     /// Inertia with `propellant_kg` on board; held constant outside the table.
     pub fn inertia(&self, propellant_kg: f64) -> Result<Inertia, InertiaError> {
+        Inertia::with_products(self.moments_kg_m2(propellant_kg), self.products_kg_m2(propellant_kg))
+    }
+
+    /// Moments about the body axes with `propellant_kg` on board, in kg m2.
+    pub fn moments_kg_m2(&self, propellant_kg: f64) -> [f64; 3] {
         let spin = self.interpolate(&self.spin_inertia_kg_m2, propellant_kg);
         let transverse = spin / self.interpolate(&self.inertia_ratio, propellant_kg);
         let root = self.transverse_quotient.sqrt();
-        Inertia::new([transverse * root, transverse / root, spin])
+        [transverse * root, transverse / root, spin]
+    }
+
+    /// Products of inertia 12, 13, 23 with `propellant_kg` on board, in kg m2.
+    pub fn products_kg_m2(&self, propellant_kg: f64) -> [f64; 3] {
+        let Some(products) = &self.products_of_inertia_kg_m2 else { return [0.0; 3] };
+        let (k, share) = self.interval(propellant_kg);
+        let first = products.get(k).or(products.first()).copied().unwrap_or([0.0; 3]);
+        let next = products.get(k.saturating_add(1)).copied().unwrap_or(first);
+        core::array::from_fn(|i| first[i] + share * (next[i] - first[i]))
+    }
+
+    /// The point at or before `propellant_kg`, and how far on the way to the next it is, 0 to 1.
+    fn interval(&self, propellant_kg: f64) -> (usize, f64) {
+        let points = &self.propellant_kg;
+        let after = points.iter().skip(1).position(|point| propellant_kg < *point);
+        let k = after.unwrap_or(points.len().saturating_sub(2));
+        match (points.get(k), points.get(k.saturating_add(1))) {
+            (Some(from), Some(to)) => (k, ((propellant_kg - from) / (to - from)).clamp(0.0, 1.0)),
+            _ => (0, 0.0),
+        }
     }
 
     /// Propellant at the last point of the table, in kg.

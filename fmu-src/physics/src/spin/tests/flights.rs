@@ -5,12 +5,13 @@ use nalgebra::Vector3;
 
 use super::{ace, directions, paper_start, request};
 use crate::attitude::angle_between_rad;
+use crate::spacecraft::ValveTiming;
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
     nutation::{Spin, uniform_train_rad},
     outputs::Outputs,
-    plant::{Commands, MassSource, Plant, PulseCommand, Start},
+    plant::{Commands, MassSource, Plant, PulseCommand, PulseExecution, Start},
     predictions::Predictions,
     spinner::Spinner,
     train::Shape,
@@ -46,7 +47,7 @@ fn nutation_follows_eq_8_with_the_nutation_kick_pulse_by_pulse() {
                     plant
                         .advance(&spinner, first + (f64::from(k - 1) + 0.4) * turns * period + width_s)
                         .unwrap();
-                    let seen = plant.motion().at(plant.time_s()).nutation_rad();
+                    let seen = plant.state().nutation_rad(plant.motion().inertia());
                     // Eq 8 sums transverse over axial momentum: the tangent. Up to 0.01 rad angle and tangent are one.
                     let sum = uniform_train_rad(kick, spin.phase_advance_rad(turns), k);
                     let expected = if sum < 0.01 { sum } else { sum.atan() };
@@ -147,13 +148,21 @@ fn a_split_train_leaves_no_nutation_when_the_ratio_is_known() {
 #[test]
 fn any_grid_gives_the_same_bits() {
     let spinner = ace();
-    for (quotient, tau, timing) in [
-        (1.0, 34_200.0, Timing::Clock),
-        (1.0, 34_200.0, Timing::SunCrossing),
-        (1.02, 34_200.0, Timing::TruePhase),
-        (1.0, 0.0, Timing::TruePhase),
+    // A valve that is as slow as this is in a ramp at many of the steps' ends.
+    let slow = ValveTiming { min_on_s: 0.1, rise_s: 0.3, tail_off_s: 0.5 };
+    let slow = PulseExecution { valve: slow, scatter: 0.1 };
+    for (quotient, tau, timing, execution, product) in [
+        (1.0, 34_200.0, Timing::Clock, PulseExecution::default(), 0.0),
+        (1.0, 34_200.0, Timing::SunCrossing, PulseExecution::default(), 0.0),
+        (1.02, 34_200.0, Timing::TruePhase, PulseExecution::default(), 0.0),
+        (1.0, 0.0, Timing::TruePhase, PulseExecution::default(), 0.0),
+        (1.0, 34_200.0, Timing::Clock, slow, 0.0),
+        (1.02, 34_200.0, Timing::SunCrossing, slow, 3.0),
+        (1.0, 0.0, Timing::TruePhase, slow, 3.0),
     ] {
         let mut start = paper_start(1.483);
+        start.execution = [execution; 24];
+        start.products_kg_m2 = [product, -product, 2.0 * product];
         start.inertia_kg_m2[0] *= quotient;
         start.damper_time_constant_s = tau;
         start.nutation_rad = 1e-3;

@@ -4,12 +4,14 @@ mod flights;
 mod late;
 mod motion;
 mod observation;
+mod products;
 mod refusals;
 mod rocket;
 mod split;
 mod steering;
 mod tank;
 mod theory;
+mod valves;
 mod work;
 
 use nalgebra::Vector3;
@@ -70,8 +72,10 @@ fn paper_start(ratio: f64) -> Start {
     let spin = 353.82;
     Start {
         inertia_kg_m2: [spin / ratio, spin / ratio, spin],
+        products_kg_m2: [0.0; 3],
         mass_source: MassSource::Fixed,
         propellant_kg: 97.5,
+        execution: Default::default(),
         spin_rate_rad_s: std::f64::consts::PI / 6.0,
         attitude: [0.0, 0.0, 0.0, 1.0],
         nutation_rad: 0.0,

@@ -28,7 +28,7 @@ fn flown(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
     plant.advance(&spinner, planned.duration_s + 60.0).unwrap();
     let outputs = Outputs::of(&plant, &spinner);
     assert!(!outputs.burn_active);
-    (planned.manoeuvre_rad, outputs.momentum_displacement_rad, outputs.state.nutation_rad())
+    (planned.manoeuvre_rad, outputs.momentum_displacement_rad, outputs.nutation_rad)
 }
 
 #[test]

@@ -1,0 +1,36 @@
+//! How a spinner's thrusters execute their pulses: valve and scatter.
+
+use serde::{Deserialize, Serialize};
+
+use super::spinner::Spinner;
+use crate::spacecraft::{MOST_THRUSTERS, Thruster, ValveTiming};
+
+/// How a thruster executes its pulses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PulseExecution {
+    /// How its valve opens and closes.
+    pub valve: ValveTiming,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it.
+    pub scatter: f64,
+}
+
+impl PulseExecution {
+    /// As the spinner's file says, thruster by thruster.
+    pub fn of(spinner: &Spinner) -> [Self; MOST_THRUSTERS] {
+        let mut execution = [Self::default(); MOST_THRUSTERS];
+        for (of_one, Thruster { valve, scatter, .. }) in execution.iter_mut().zip(&spinner.thrusters) {
+            *of_one = Self { valve: *valve, scatter: *scatter };
+        }
+        execution
+    }
+
+    /// Whether a pulse of this length is too short for the valve, by more than the rounding of times.
+    pub fn is_too_short(&self, on_s: f64) -> bool {
+        on_s > 0.0 && on_s < self.valve.min_on_s * (1.0 - 1e-12)
+    }
+
+    /// Whether its numbers can be some.
+    pub fn is_sound(&self) -> bool {
+        self.valve.is_sound() && (0.0..=1.0).contains(&self.scatter)
+    }
+}
