@@ -14,13 +14,13 @@ const AU_M: f64 = 149_597_870_700.0;
 type Row = HashMap<String, f64>;
 
 /// Packs DisturbanceTorque of a file; maps can take its library too.
-fn packed(spacecraft: &str, more: &[&str]) -> Option<(TempDir, PathBuf)> {
+fn packed(spacecraft: &str) -> Option<(TempDir, PathBuf)> {
     let library = library()?;
     let scratch = tempfile::tempdir().unwrap();
     let fmu = scratch.path().join("torque.fmu");
     let pack =
         ["pack", "--library", shown(&library), "--model", "DisturbanceTorque", "--spacecraft", spacecraft];
-    run(&[&pack[..], &["--output", shown(&fmu)], more].concat(), 0);
+    run(&[&pack[..], &["--output", shown(&fmu)]].concat(), 0);
     Some((scratch, fmu))
 }
 
@@ -110,7 +110,7 @@ fn messenger_angle_rad(azimuth_deg: f64, elevation_deg: f64, offset_rad: f64) ->
 
 #[test]
 fn every_direction_is_what_the_fmu_says() {
-    let Some((_room, fmu_path)) = packed(MESSENGER, &[]) else { return };
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let fmu = Fmu::open(&fmu_path).unwrap();
     let csv = mapped(&[
         MESSENGER,
@@ -159,7 +159,7 @@ fn every_direction_is_what_the_fmu_says() {
 
 #[test]
 fn lines_and_balances_are_where_the_torque_vanishes() {
-    let Some((_room, fmu_path)) = packed(MESSENGER, &[]) else { return };
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let fmu = Fmu::open(&fmu_path).unwrap();
     for center_m in [[0.0; 3], [0.01, 0.02, -0.05]] {
         let set = format!("spacecraft.centerOfMass={}m,{}m,{}m", center_m[0], center_m[1], center_m[2]);
@@ -205,7 +205,7 @@ fn lines_and_balances_are_where_the_torque_vanishes() {
 
 #[test]
 fn a_degree_is_worth_what_differences_say() {
-    let Some((_room, fmu_path)) = packed(MESSENGER, &[]) else { return };
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let fmu = Fmu::open(&fmu_path).unwrap();
     let printed = mapped(&[
         MESSENGER,
@@ -255,7 +255,7 @@ fn a_degree_is_worth_what_differences_say() {
 
 #[test]
 fn torque_goes_with_the_inverse_square_and_follows_the_options() {
-    let Some((_room, fmu_path)) = packed(MESSENGER, &[]) else { return };
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let csv = |more: &[&str]| {
         let all = [
             &[
@@ -310,7 +310,7 @@ fn torque_goes_with_the_inverse_square_and_follows_the_options() {
 
 #[test]
 fn the_picture_shows_lines_and_a_mission() {
-    let Some((room, fmu_path)) = packed(MESSENGER, &[]) else { return };
+    let Some((room, fmu_path)) = packed(MESSENGER) else { return };
     let flown = room.path().join("flown.csv");
     let mut recorded = "time,torque.total[1],torque.total[2],torque.total[3]\n".to_owned();
     for hour in 0..=240 {
@@ -346,7 +346,6 @@ fn the_picture_shows_lines_and_a_mission() {
     let classed =
         |class: &str| document.descendants().filter(|node| node.attribute("class") == Some(class)).count();
     assert!(classed("zero") > 6 && classed("attainable") == 1 && classed("mission") == 1, "{drawn}");
-    assert!(document.descendants().any(|node| node.text() == Some("About Z, keep-in zone")));
 }
 
 #[test]
@@ -366,7 +365,7 @@ fn what_cannot_be_mapped_is_refused_by_name() {
         let printed = run(&[&["map", MESSENGER][..], arguments].concat(), 2);
         assert!(printed.contains(expected), "{arguments:?}: {printed}");
     }
-    let Some((room, fmu_path)) = packed(MESSENGER, &[]) else { return };
+    let Some((room, fmu_path)) = packed(MESSENGER) else { return };
     let wrong = room.path().join("wrong.csv");
     fs::write(&wrong, "time,mass\n0,1\n600,1\n").unwrap();
     let template = ["--template", shown(&fmu_path), "--step", "10deg", "--no-picture"];
