@@ -93,13 +93,12 @@ impl Craft {
         };
         for set in &arguments.set {
             let (torque, flown) = (describe(MODEL, &text)?, describe(FLOWN, &text)?);
-            text = match with_start_values(&text, MODEL, &torque, std::slice::from_ref(set)) {
-                Ok(text) => text,
-                // The flown spacecraft alone may have it; if it has not either, DisturbanceTorque's reason counts.
-                Err(reason) => {
-                    with_start_values(&text, FLOWN, &flown, std::slice::from_ref(set)).or(Err(reason))?
-                }
-            };
+            // A name that neither has is told as one of DisturbanceTorque.
+            let name = set.split_once('=').map_or(set.as_str(), |(name, _)| name);
+            let is_known = |description| loader::select(description, name).is_ok();
+            let (model, description) =
+                if !is_known(&torque) && is_known(&flown) { (FLOWN, &flown) } else { (MODEL, &torque) };
+            text = with_start_values(&text, model, description, std::slice::from_ref(set))?;
         }
         let described = binary.describe(MODEL, Some(&file), Some(&text))?;
         let flown = describe(FLOWN, &text)?;
@@ -124,10 +123,13 @@ impl Craft {
         let file_zone_rad =
             azimuth_rad.zip(elevation_rad).map(|(azimuth_rad, elevation_rad)| [azimuth_rad, elevation_rad]);
         // Everywhere is what the plant makes of a file without a zone.
-        let file_zone_rad = file_zone_rad.filter(|zone_rad| {
-            zone_rad[0] > 0.0 && zone_rad[1] > 0.0 && zone_rad[1] < core::f64::consts::FRAC_PI_2
-        });
+        let everywhere_rad = [core::f64::consts::PI, core::f64::consts::FRAC_PI_2];
+        let file_zone_rad = file_zone_rad.filter(|zone_rad| *zone_rad != everywhere_rad);
         let zone_rad = arguments.zone.or(file_zone_rad);
+        if zone_rad.is_some_and(|zone_rad| zone_rad.contains(&0.0)) {
+            let what = "keepIn.azimuth, keepIn.elevation: found 0 deg, allowed: more";
+            return Err(format!("{file}: {what}: see --set and --zone").into());
+        }
         Ok(Self {
             name: spacecraft.name,
             fmu,
