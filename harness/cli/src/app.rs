@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command, SchemaKind},
-    check, completions, draw, ephemeris, info, interrupt,
+    check, completions, draw, ephemeris, info, interrupt, map,
     outcome::Outcome,
     pack, plan, run as simulation, study, wire,
 };
@@ -34,6 +34,7 @@ pub fn run() -> Outcome {
         Command::Wire(arguments) => wire::run(&arguments),
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
         Command::Draw(arguments) => draw::run(&arguments),
+        Command::Map(arguments) => map::run(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema(arguments) => {
             let schema = match arguments.kind {

@@ -52,6 +52,9 @@ pub enum Command {
     Wire(Wire),
     /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
     Draw(crate::draw::options::Draw),
+    /// Map the torque of sunlight over the Sun's azimuth and elevation: where it vanishes, what a degree is worth, what
+    /// downlinks can undo
+    Map(crate::map::options::Map),
     /// Make an FMU of your own spacecraft; nothing is compiled
     #[command(after_help = PACK_EXAMPLE)]
     Pack(Pack),

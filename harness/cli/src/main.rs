@@ -14,6 +14,7 @@ mod ephemeris;
 mod epoch;
 mod info;
 mod interrupt;
+mod map;
 mod outcome;
 mod output;
 mod pack;

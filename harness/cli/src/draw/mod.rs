@@ -4,7 +4,7 @@ mod camera;
 mod labels;
 pub mod options;
 mod pane;
-mod pen;
+pub mod pen;
 mod scene;
 mod sheet;
 pub mod surface;

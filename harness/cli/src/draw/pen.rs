@@ -59,6 +59,20 @@ impl Pen {
         }
     }
 
+    /// The area between closed lines, each by its corners: what an odd number of them encloses.
+    pub fn area<'a>(&mut self, lines: impl IntoIterator<Item = &'a [Pixel]>, fill: &str) {
+        let mut path = String::new();
+        for line in lines {
+            for (index, (x, y)) in line.iter().enumerate() {
+                let _ = write!(path, "{}{x:.1},{y:.1}", if index == 0 { 'M' } else { 'L' });
+            }
+            path.push('z');
+        }
+        if !path.is_empty() {
+            let _ = writeln!(self.0, "<path d=\"{path}\" fill=\"{fill}\" fill-rule=\"evenodd\"/>");
+        }
+    }
+
     /// A circle with these attributes.
     pub fn circle(&mut self, (x, y): Pixel, radius: f64, attributes: &str) {
         let _ = writeln!(self.0, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {attributes}/>");

@@ -8,7 +8,7 @@ mod per_plate;
 mod picture;
 mod schedule;
 pub mod source;
-mod start;
+pub mod start;
 
 use std::{
     path::{Path, PathBuf},

@@ -8,6 +8,7 @@ mod files;
 mod hostile;
 #[cfg(feature = "spk")]
 mod kernels;
+mod maps;
 mod packs;
 mod plans;
 mod runs;

@@ -166,7 +166,7 @@ fn every_shell_takes_the_commands_of_the_readme() {
 #[test]
 fn every_command_and_flag_has_help() {
     let all = run(&["--help"], 0);
-    for command in ["info", "check", "run", "wire", "draw", "pack", "schema", "study", "completions"] {
+    for command in ["info", "check", "run", "wire", "draw", "map", "pack", "schema", "study", "completions"] {
         assert!(all.contains(command), "{command}");
         let help = run(&[command, "--help"], 0);
         let flags: Vec<&str> = help.lines().filter(|line| line.trim_start().starts_with('-')).collect();

@@ -1,0 +1,111 @@
+//! Bands of a signed quantity: their edges at round values, and their colours from blue over white to red.
+
+/// Bands on each side of zero, about.
+const BANDS: f64 = 7.0;
+/// From the most negative to the most positive, equally apart.
+const SCALE: [[f64; 3]; 9] = [
+    [33.0, 74.0, 141.0],
+    [67.0, 127.0, 186.0],
+    [128.0, 176.0, 214.0],
+    [200.0, 220.0, 236.0],
+    [248.0, 248.0, 246.0],
+    [248.0, 214.0, 196.0],
+    [236.0, 150.0, 120.0],
+    [206.0, 83.0, 70.0],
+    [150.0, 22.0, 40.0],
+];
+
+/// The least round number (1, 2 or 5 times a power of ten) that is not below a value above 0.
+pub fn round_up(value: f64) -> f64 {
+    let power = 10_f64.powf(value.log10().floor());
+    [1.0, 2.0, 5.0]
+        .map(|digit| digit * power)
+        .into_iter()
+        .find(|round| *round >= value * (1.0 - 1e-9))
+        .unwrap_or(10.0 * power)
+}
+
+/// Multiples of a step from the one end to the other.
+pub fn ticks(low: f64, high: f64, step: f64) -> Vec<f64> {
+    let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// The text of a multiple of a step.
+pub fn tick_text(value: f64, step: f64) -> String {
+    let digits = usize::try_from(-(step.log10() + 1e-9).floor() as i64).unwrap_or(0);
+    let text = format!("{value:.digits$}");
+    if text.trim_start_matches('-').chars().all(|digit| matches!(digit, '0' | '.')) {
+        "0".to_owned()
+    } else {
+        text
+    }
+}
+
+/// Bands for values up to a greatest size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bands {
+    pub step: f64,
+    /// On each side of zero.
+    pub count: i32,
+}
+
+impl Bands {
+    /// For values within plus and minus `greatest`; one band on each side where it is 0.
+    pub fn new(greatest: f64) -> Self {
+        if greatest <= 0.0 || !greatest.is_finite() {
+            return Self { step: 1.0, count: 1 };
+        }
+        let step = round_up(greatest / BANDS);
+        Self { step, count: ((greatest / step) * (1.0 - 1e-9)).ceil().max(1.0) as i32 }
+    }
+
+    /// Numbers of the bands, upward; a band begins at its number of steps.
+    pub fn numbers(&self) -> std::ops::Range<i32> {
+        -self.count..self.count
+    }
+
+    /// The colour of a band.
+    pub fn colour(&self, number: i32) -> String {
+        let place = (f64::from(number) + 0.5) / f64::from(self.count);
+        let at = (0.5 * (place + 1.0)).clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
+        let below = (at.floor() as usize).min(SCALE.len() - 2);
+        let part = at - below as f64;
+        let [red, green, blue] = [0, 1, 2]
+            .map(|k| (SCALE[below][k] + part * (SCALE[below + 1][k] - SCALE[below][k])).round() as u8);
+        format!("#{red:02x}{green:02x}{blue:02x}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Bands cover the values with round steps; colours are opposite on both sides.
+    use super::*;
+
+    #[test]
+    fn bands_cover_the_values_with_round_edges() {
+        for greatest in [0.37, 1.0, 6.9, 7.0, 7.1, 123.0, 3e-8] {
+            let bands = Bands::new(greatest);
+            let reach = bands.step * f64::from(bands.count);
+            assert!(
+                reach >= greatest * (1.0 - 1e-9) && reach - bands.step < greatest,
+                "{greatest}: {bands:?}"
+            );
+            assert!((3..=8).contains(&bands.count), "{greatest}: {bands:?}");
+        }
+        assert_eq!((round_up(0.013), round_up(2.0), round_up(51.0)), (0.02, 2.0, 100.0));
+        let bands = Bands::new(7.0);
+        assert!(
+            bands.colour(-bands.count).starts_with("#2") && bands.colour(bands.count - 1).starts_with("#a")
+        );
+    }
+
+    #[test]
+    fn ticks_have_the_digits_of_their_step() {
+        assert_eq!(ticks(-1.0, 1.0, 0.5), [-1.0, -0.5, 0.0, 0.5, 1.0]);
+        assert_eq!(
+            (tick_text(0.30000000000000004, 0.1), tick_text(-0.0, 5.0), tick_text(20.0, 20.0)),
+            ("0.3".to_owned(), "0".to_owned(), "20".to_owned())
+        );
+    }
+}

@@ -1,0 +1,269 @@
+//! What is mapped: the FMU of a file, how its panels follow the Sun, zone, downlinks and thresholds.
+
+use std::{fs, path::Path};
+
+use files::Scratch;
+use loader::{Binary, Fmu};
+use model_description::{Description, VariableKind, value};
+use nalgebra::Vector3;
+use physics::{
+    bodies::Body,
+    constants::{ASTRONOMICAL_UNIT_M as AU_M, DEG_RAD},
+    spacecraft::{Panel, PanelControl, Spacecraft},
+};
+
+use super::{
+    options::Map,
+    panels::{Rule, Turned},
+};
+use crate::pack::{source, start::with_start_values};
+
+/// Why something could not be done.
+type Failure = Box<dyn std::error::Error>;
+
+/// The model whose torque is mapped.
+const MODEL: &str = "DisturbanceTorque";
+/// The model whose parameters say how it is flown.
+const FLOWN: &str = "MomentumPlant";
+/// Paper 000's Sun keep-in zone, azimuth and elevation.
+const PAPER_ZONE_RAD: [f64; 2] = [15.0 * DEG_RAD, 13.0 * DEG_RAD];
+
+/// How downlinks share the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Downlink {
+    /// Hours of a downlink.
+    pub length_h: f64,
+    /// Hours from one downlink to the next.
+    pub every_h: f64,
+}
+
+impl Downlink {
+    /// Its part of the time.
+    pub fn share(&self) -> f64 {
+        if self.every_h > 0.0 { (self.length_h / self.every_h).clamp(0.0, 1.0) } else { 0.0 }
+    }
+}
+
+/// A spacecraft ready to be mapped.
+pub struct Craft {
+    pub name: String,
+    pub fmu: Fmu,
+    pub panels: Vec<Turned>,
+    pub distance_m: f64,
+    /// Greatest azimuth and elevation.
+    pub zone_rad: [f64; 2],
+    /// Whether the zone is the paper's, as the file names none.
+    pub is_paper_zone: bool,
+    pub downlink: Downlink,
+    /// Panels that MomentumPlant leaves out, which DisturbanceTorque cannot.
+    pub panels_left_out: bool,
+    pub threshold_n_m_s: [f64; 3],
+    // The FMU's folder, as long as it is in use.
+    _folder: Scratch,
+}
+
+/// A file's text, the name that problems are told by, and the FMU whose library reads it.
+fn given(arguments: &Map) -> Result<(String, String, Fmu), Failure> {
+    let file = arguments.craft.display().to_string();
+    let is_toml = arguments.craft.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
+    if is_toml {
+        let text = files::read_text(&arguments.craft)?;
+        return Ok((file, text, source::open_template(&arguments.template())?));
+    }
+    if arguments.template.is_some() {
+        return Err(format!("{file}: found no TOML file, allowed: one: see --template").into());
+    }
+    let fmu = Fmu::open(&arguments.craft)?;
+    let model = source::model_of(&fmu, fmu.binary()?.as_ref())?;
+    let setup = fmu.binary()?.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
+    let setup = setup.ok_or_else(|| format!("{file}: {model} holds no spacecraft"))?;
+    let path = fmu.folder().join("resources").join(&setup);
+    let text = files::read_text(&path)?;
+    Ok((format!("{file}: {setup}"), text, fmu))
+}
+
+impl Craft {
+    /// Reads the file and makes an FMU of it in a temporary folder.
+    pub fn open(arguments: &Map) -> Result<Self, Failure> {
+        let (file, mut text, template) = given(arguments)?;
+        let binary = template.binary()?;
+        let describe = |model: &str, text: &str| -> Result<Description, Failure> {
+            let described = binary.describe(model, Some(&file), Some(text))?;
+            Ok(model_description::parse(described.xml.as_bytes())?.description)
+        };
+        for set in &arguments.set {
+            let (torque, flown) = (describe(MODEL, &text)?, describe(FLOWN, &text)?);
+            // A name that neither has is told as one of DisturbanceTorque.
+            let name = set.split_once('=').map_or(set.as_str(), |(name, _)| name);
+            let is_known = |description| loader::select(description, name).is_ok();
+            let (model, description) =
+                if !is_known(&torque) && is_known(&flown) { (FLOWN, &flown) } else { (MODEL, &torque) };
+            text = with_start_values(&text, model, description, std::slice::from_ref(set))?;
+        }
+        let described = binary.describe(MODEL, Some(&file), Some(&text))?;
+        let flown = describe(FLOWN, &text)?;
+        let folder = Scratch::new("heliotorque-")?;
+        write_fmu(folder.path(), &template, &described, &text)?;
+        let fmu = Fmu::open(folder.path())?;
+        let spacecraft = Spacecraft::from_toml(&file, &text).map_err(|error| error.to_string())?;
+        let panels = turned(spacecraft.panels, &fmu, &flown, arguments.panel_offset);
+        if arguments.panel_offset.is_some()
+            && !panels.iter().any(|it| matches!(it.rule, Rule::SunOffset { .. }))
+        {
+            return Err(format!("--panel-offset: {file} has no panel held by Sun offset").into());
+        }
+        let [default, default_flown] =
+            [default_description(&binary, MODEL)?, default_description(&binary, FLOWN)?];
+        let distance_m = match arguments.distance {
+            Some(distance_au) => distance_au * AU_M,
+            None => distance_m(fmu.description(), &flown, [&default, &default_flown]),
+        };
+        let [azimuth_rad, elevation_rad] =
+            ["keepIn.azimuth", "keepIn.elevation"].map(|name| real(&flown, name));
+        let file_zone_rad =
+            azimuth_rad.zip(elevation_rad).map(|(azimuth_rad, elevation_rad)| [azimuth_rad, elevation_rad]);
+        // Everywhere is what the plant makes of a file without a zone.
+        let everywhere_rad = [core::f64::consts::PI, core::f64::consts::FRAC_PI_2];
+        let file_zone_rad = file_zone_rad.filter(|zone_rad| *zone_rad != everywhere_rad);
+        let zone_rad = arguments.zone.or(file_zone_rad);
+        if zone_rad.is_some_and(|zone_rad| zone_rad.contains(&0.0)) {
+            let what = "keepIn.azimuth, keepIn.elevation: found 0 deg, allowed: more";
+            return Err(format!("{file}: {what}: see --set and --zone").into());
+        }
+        Ok(Self {
+            name: spacecraft.name,
+            fmu,
+            panels,
+            distance_m,
+            zone_rad: zone_rad.unwrap_or(PAPER_ZONE_RAD),
+            is_paper_zone: zone_rad.is_none(),
+            downlink: downlink(&default_flown, &flown),
+            panels_left_out: panels_left_out(&flown),
+            threshold_n_m_s: [1, 2, 3]
+                .map(|axis| real(&flown, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
+            _folder: folder,
+        })
+    }
+}
+
+/// The unpacked FMU of a model: description, library, file.
+fn write_fmu(
+    folder: &Path,
+    template: &Fmu,
+    described: &loader::Described,
+    text: &str,
+) -> Result<(), Failure> {
+    fs::write(folder.join("modelDescription.xml"), &described.xml)?;
+    let resources = folder.join("resources");
+    fs::create_dir(&resources)?;
+    if let Some(name) = &described.setup_file {
+        fs::write(resources.join(name), text)?;
+    }
+    let platform = loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
+    let binaries = folder.join("binaries").join(platform);
+    fs::create_dir_all(&binaries)?;
+    let library = binaries.join(format!("{MODEL}{}", std::env::consts::DLL_SUFFIX));
+    fs::copy(template.binary_path()?, library)?;
+    Ok(())
+}
+
+fn default_description(binary: &Binary, model: &str) -> Result<Description, Failure> {
+    let described = binary.describe(model, None, None)?;
+    Ok(model_description::parse(described.xml.as_bytes())?.description)
+}
+
+/// The panels with the angles that MomentumPlant would give them.
+fn turned(panels: Vec<Panel>, fmu: &Fmu, flown: &Description, offset_rad: Option<f64>) -> Vec<Turned> {
+    let rule = |number: usize, panel: &Panel| {
+        let name = |last: &str| format!("panel[{number}].{last}");
+        let is_offset = match item(flown, &name("control")) {
+            Some(item) => item == "sunOffset",
+            None => panel.control == PanelControl::SunOffset,
+        };
+        if !is_offset {
+            return Rule::Angle(real(fmu.description(), &name("angle")).unwrap_or(panel.angle_rad));
+        }
+        let tilt_sign = match item(flown, &name("tilt")) {
+            Some("positive") => 1.0,
+            Some("negative") => -1.0,
+            _ => panel.tilt_sign,
+        };
+        let own_rad = real(flown, &name("sunOffset")).unwrap_or(panel.sun_offset_rad);
+        Rule::SunOffset { offset_rad: offset_rad.unwrap_or(own_rad), tilt_sign }
+    };
+    let numbered = panels.into_iter().enumerate();
+    numbered.map(|(index, panel)| Turned { rule: rule(index + 1, &panel), panel }).collect()
+}
+
+fn panels_left_out(flown: &Description) -> bool {
+    let enabled = |number: usize| start_of(flown, &format!("panel[{number}].enabled"));
+    (1..).map_while(enabled).any(|enabled| enabled == value::Value::Boolean(false))
+}
+
+/// Where the file puts the Sun, otherwise the mean distance of the body it flies around.
+fn distance_m(described: &Description, flown: &Description, default: [&Description; 2]) -> f64 {
+    let sun_m = |description: &Description| {
+        Vector3::from(
+            [1, 2, 3].map(|axis| real(description, &format!("sun.positionBody[{axis}]")).unwrap_or(0.0)),
+        )
+    };
+    let given_m = sun_m(described);
+    let [default, default_flown] = default;
+    if given_m != sun_m(default) && given_m.norm() > 0.0 {
+        return given_m.norm();
+    }
+    match center(flown) {
+        Body::Sun => semi_major_axis_m(default_flown, flown),
+        planet => planet.data().orbit_semi_major_axis_m,
+    }
+}
+
+/// Of the orbit; left at its default it follows the centre, as MomentumPlant says of orbit.semiMajorAxis.
+fn semi_major_axis_m(default: &Description, flown: &Description) -> f64 {
+    let [axis_m, default_m] = [flown, default].map(|it| real(it, "orbit.semiMajorAxis").unwrap_or(0.0));
+    match center(flown) {
+        Body::Sun if axis_m == default_m => AU_M,
+        Body::Mercury => axis_m,
+        planet if axis_m == default_m => 3.0 * planet.data().radius_m,
+        _ => axis_m,
+    }
+}
+
+fn center(flown: &Description) -> Body {
+    let named = item(flown, "orbit.center").unwrap_or("mercury");
+    let is_named = |body: &&Body| format!("{body:?}").eq_ignore_ascii_case(named);
+    Body::ALL.iter().find(is_named).copied().unwrap_or(Body::Mercury)
+}
+
+fn downlink(default: &Description, flown: &Description) -> Downlink {
+    let [start_s, end_s] =
+        ["guided.downlinkStart", "guided.downlinkEnd"].map(|name| real(flown, name).unwrap_or(0.0));
+    let every = start_of(flown, "guided.downlinkEvery").map_or(0.0, |value| value.to_f64());
+    let axis_m = semi_major_axis_m(default, flown);
+    let period_s = core::f64::consts::TAU * (axis_m.powi(3) / center(flown).data().gm_m3_s2).sqrt();
+    Downlink { length_h: (end_s - start_s).max(0.0) / 3600.0, every_h: every * period_s / 3600.0 }
+}
+
+/// The start value of a variable.
+fn start_of(description: &Description, name: &str) -> Option<value::Value> {
+    let variable = description.variables.iter().find(|it| it.name == name)?;
+    match &variable.kind {
+        VariableKind::Real { start, .. } => start.map(value::Value::Real),
+        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => {
+            start.map(value::Value::Integer)
+        }
+        VariableKind::Boolean { start, .. } => start.map(value::Value::Boolean),
+        VariableKind::String { start, .. } => start.clone().map(value::Value::Text),
+    }
+}
+
+fn real(description: &Description, name: &str) -> Option<f64> {
+    start_of(description, name).map(|value| value.to_f64())
+}
+
+/// The name of an option's start value.
+fn item<'a>(description: &'a Description, name: &str) -> Option<&'a str> {
+    let variable = description.variables.iter().find(|it| it.name == name)?;
+    let value::Value::Integer(number) = start_of(description, name)? else { return None };
+    value::items(description, variable).iter().find(|it| it.value == number).map(|it| it.name.as_str())
+}

@@ -1,0 +1,317 @@
+//! A recorded mission: the momentum that its disturbance gathers, and until when downlinks can hold it without a dump.
+
+use std::path::Path;
+
+use super::region::{Point, Region};
+
+const DAY_S: f64 = 86_400.0;
+/// X and Z among the axes.
+const HELD: [usize; 2] = [0, 2];
+/// Columns that are read.
+const TORQUE: [&str; 3] = ["torque.total[1]", "torque.total[2]", "torque.total[3]"];
+const MOMENTUM: [&str; 3] = ["momentum.body[1]", "momentum.body[2]", "momentum.body[3]"];
+const DUMPS: &str = "dump.count";
+const DISTANCE: &str = "sun.distance";
+
+/// What a recording says.
+pub struct Mission {
+    /// The columns the disturbance is from.
+    pub from: &'static str,
+    times_s: Vec<f64>,
+    /// Gathered by the disturbance since the first row, with the momentum there, body components.
+    gathered_n_m_s: Vec<[f64; 3]>,
+    /// From the Sun, in m, if it was recorded.
+    distances_m: Option<Vec<f64>>,
+    /// Dumps that were flown, if they were recorded.
+    pub dumps: Option<f64>,
+}
+
+/// Days after the first row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// No choice of downlinks keeps X and Z within the thresholds from here on; `None` if one does to the end.
+    pub managed_d: Option<f64>,
+    /// X or Z leaves them without managed downlinks.
+    pub unmanaged_d: Option<f64>,
+    /// Y leaves its own, which downlinks do not manage.
+    pub y_d: Option<f64>,
+}
+
+struct Table {
+    file: String,
+    names: Vec<String>,
+    /// By column.
+    values: Vec<Vec<f64>>,
+}
+
+impl Table {
+    fn read(path: &Path) -> Result<Self, String> {
+        let file = path.display().to_string();
+        let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --mission");
+        let text = files::read_text(path).map_err(|error| failed(&error))?;
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let names: Vec<String> = reader
+            .headers()
+            .map_err(|error| failed(&error))?
+            .iter()
+            .map(|name| name.trim().to_owned())
+            .collect();
+        let is_read = |name: &String| {
+            name == "time"
+                || name == DUMPS
+                || name == DISTANCE
+                || TORQUE.contains(&name.as_str())
+                || MOMENTUM.contains(&name.as_str())
+        };
+        let mut values = vec![Vec::new(); names.len()];
+        for (row, record) in reader.records().enumerate() {
+            let record = record.map_err(|error| failed(&error))?;
+            for (column, cell) in record.iter().enumerate().filter(|(column, _)| is_read(&names[*column])) {
+                let value = cell.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+                values[column].push(value.ok_or_else(|| {
+                    format!(
+                        "{file}:{}: {}: found {cell:?}, allowed: a finite number: see --mission",
+                        row + 2,
+                        names[column]
+                    )
+                })?);
+            }
+        }
+        Ok(Self { file, names, values })
+    }
+
+    fn column(&self, name: &str) -> Option<&Vec<f64>> {
+        self.names.iter().position(|candidate| candidate == name).map(|index| &self.values[index])
+    }
+
+    fn vector(&self, names: [&str; 3]) -> Option<[&Vec<f64>; 3]> {
+        let [x, y, z] = names.map(|name| self.column(name));
+        Some([x?, y?, z?])
+    }
+
+    fn misses(&self, what: &str) -> String {
+        format!("{}: found no {what}: see --mission", self.file)
+    }
+}
+
+impl Mission {
+    /// Reads a recording.
+    ///
+    /// # Errors
+    /// Missing columns, cells that are no numbers, times that do not rise, distances not above 0.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let table = Table::read(path)?;
+        let times_s =
+            table.column("time").ok_or_else(|| table.misses("column time, allowed: a recording of `run`"))?;
+        if times_s.len() < 2
+            || times_s.windows(2).any(|pair| pair[1] < pair[0])
+            || times_s.first() == times_s.last()
+        {
+            return Err(table.misses("two rows whose times rise, allowed: a recording of `run`"));
+        }
+        let dumps = table.column(DUMPS);
+        let momentum = table.vector(MOMENTUM);
+        let start_n_m_s = momentum.map_or([0.0; 3], |columns| columns.map(|column| column[0]));
+        let (from, gathered_n_m_s) = match (table.vector(TORQUE), momentum, dumps) {
+            (Some(torque), _, _) => ("torque.total", summed(times_s, torque, start_n_m_s)),
+            (None, Some(momentum), Some(dumps)) => {
+                ("momentum.body and dump.count", without_dumps(momentum, dumps))
+            }
+            _ => {
+                return Err(table.misses(
+                    "torque.total[1] to [3], nor momentum.body[1] to [3] with dump.count, allowed: a recording with the one \
+                     or the other",
+                ));
+            }
+        };
+        let distances_m = table.column(DISTANCE).cloned();
+        if distances_m.iter().flatten().any(|distance_m| *distance_m <= 0.0) {
+            return Err(table.misses("sun.distance above 0 in every row"));
+        }
+        let dumps = dumps.map(|dumps| dumps[dumps.len() - 1] - dumps[0]);
+        Ok(Self { from, times_s: times_s.clone(), gathered_n_m_s, distances_m, dumps })
+    }
+
+    /// Its length in days.
+    pub fn length_d(&self) -> f64 {
+        (self.times_s[self.times_s.len() - 1] - self.times_s[0]) / DAY_S
+    }
+
+    /// Mean torque of the disturbance, X and Z, in N m.
+    pub fn mean_torque_n_m(&self) -> Point {
+        let (first, last) = (&self.gathered_n_m_s[0], &self.gathered_n_m_s[self.gathered_n_m_s.len() - 1]);
+        HELD.map(|axis| (last[axis] - first[axis]) / (self.length_d() * DAY_S))
+    }
+
+    /// Mean of the factor by which sunlight differs from that at a distance; 1 where no distance was recorded.
+    pub fn mean_light(&self, at_m: f64) -> f64 {
+        if self.distances_m.is_none() {
+            return 1.0;
+        }
+        let steps = 1..self.times_s.len();
+        steps.map(|k| self.light(k, at_m) * (self.times_s[k] - self.times_s[k - 1])).sum::<f64>()
+            / (self.length_d() * DAY_S)
+    }
+
+    /// That factor over the step that ends with a row.
+    fn light(&self, row: usize, at_m: f64) -> f64 {
+        self.distances_m.as_ref().map_or(1.0, |distances_m| {
+            [distances_m[row - 1], distances_m[row]]
+                .map(|distance_m| 0.5 * (at_m / distance_m).powi(2))
+                .iter()
+                .sum()
+        })
+    }
+
+    /// How long momentum stays within thresholds. `added_n_m` is what downlinks can add to the mean torque about X and Z at the
+    /// distance `at_m`.
+    ///
+    /// Momenta that downlinks can bring about without a dump are a convex set R: from row to row
+    /// R' = (R + gained momentum + dt added) within the thresholds. The first day on which it is empty is the answer.
+    pub fn held(&self, added_n_m: &Region, at_m: f64, threshold_n_m_s: [f64; 3]) -> Held {
+        let limits = HELD.map(|axis| threshold_n_m_s[axis]);
+        let day = |row: usize| (self.times_s[row] - self.times_s[0]) / DAY_S;
+        let leaves = |axis: usize| {
+            let out = |gathered: &[f64; 3]| gathered[axis].abs() > threshold_n_m_s[axis];
+            self.gathered_n_m_s.iter().position(out)
+        };
+        let unmanaged = HELD.into_iter().filter_map(leaves).min();
+        let mut reached = Region::hull([HELD.map(|axis| self.gathered_n_m_s[0][axis])]).within(limits);
+        let mut managed_d = reached.corners.is_empty().then_some(0.0);
+        for row in 1..self.times_s.len() {
+            if managed_d.is_some() {
+                break;
+            }
+            let (before, now) = (&self.gathered_n_m_s[row - 1], &self.gathered_n_m_s[row]);
+            let gained = HELD.map(|axis| now[axis] - before[axis]);
+            let step_s = self.times_s[row] - self.times_s[row - 1];
+            let added = added_n_m.scaled(self.light(row, at_m) * step_s, gained);
+            reached = reached.plus(&added).within(limits);
+            if reached.corners.is_empty() {
+                managed_d = Some(day(row));
+            }
+        }
+        Held { managed_d, unmanaged_d: unmanaged.map(day), y_d: leaves(1).map(day) }
+    }
+}
+
+/// Torque over time by the trapezoid rule.
+fn summed(times_s: &[f64], torque_n_m: [&Vec<f64>; 3], start_n_m_s: [f64; 3]) -> Vec<[f64; 3]> {
+    let mut at = start_n_m_s;
+    let mut gathered = vec![at];
+    for row in 1..times_s.len() {
+        let step_s = times_s[row] - times_s[row - 1];
+        for (at, torque_n_m) in at.iter_mut().zip(torque_n_m) {
+            *at += 0.5 * (torque_n_m[row - 1] + torque_n_m[row]) * step_s;
+        }
+        gathered.push(at);
+    }
+    gathered
+}
+
+/// Momentum with the change of a row with a dump replaced by the mean of its neighbours' without one.
+fn without_dumps(momentum_n_m_s: [&Vec<f64>; 3], dumps: &[f64]) -> Vec<[f64; 3]> {
+    let has_dump = |row: usize| dumps[row] != dumps[row - 1];
+    let change = |row: usize| momentum_n_m_s.map(|column| column[row] - column[row - 1]);
+    let rows = dumps.len();
+    let mut at = momentum_n_m_s.map(|column| column[0]);
+    let mut gathered = vec![at];
+    for row in 1..rows {
+        let gained = if has_dump(row) {
+            let before = (1..row).rev().find(|row| !has_dump(*row)).map(change);
+            let after = (row + 1..rows).find(|row| !has_dump(*row)).map(change);
+            let (before, after) =
+                (before.or(after).unwrap_or([0.0; 3]), after.or(before).unwrap_or([0.0; 3]));
+            [0, 1, 2].map(|axis| 0.5 * (before[axis] + after[axis]))
+        } else {
+            change(row)
+        };
+        at = [0, 1, 2].map(|axis| at[axis] + gained[axis]);
+        gathered.push(at);
+    }
+    gathered
+}
+
+#[cfg(test)]
+mod tests {
+    //! Days follow in closed form from constant torques; what is no recording is refused.
+    use super::*;
+
+    fn mission(text: &str) -> Result<Mission, String> {
+        let scratch = tempfile::tempdir().unwrap();
+        let path = scratch.path().join("flown.csv");
+        std::fs::write(&path, text).unwrap();
+        Mission::read(&path)
+    }
+
+    /// Constant torque over days, a row each hour.
+    fn constant(torque_n_m: [f64; 3], days: usize) -> Mission {
+        let mut text = "time,torque.total[1],torque.total[2],torque.total[3]\n".to_owned();
+        for hour in 0..=24 * days {
+            let [x, y, z] = torque_n_m;
+            text += &format!("{},{x},{y},{z}\n", hour * 3600);
+        }
+        mission(&text).unwrap()
+    }
+
+    #[test]
+    fn a_constant_torque_is_held_as_long_as_its_excess_takes() {
+        let square = Region::hull([[-1e-6, -1e-6], [1e-6, -1e-6], [1e-6, 1e-6], [-1e-6, 1e-6]]);
+        // 0.5e-6 N m too much from the one edge of the band to the other; all of it from 0.
+        let flown = constant([1.5e-6, 0.2e-6, 0.9e-6], 200);
+        let held = flown.held(&square, 1.0, [2.0, 2.0, 3.0]);
+        let managed_d = 2.0 / 0.5e-6 / DAY_S;
+        assert!((held.managed_d.unwrap() - managed_d).abs() < 1.0 / 24.0 + 1e-9, "{held:?}");
+        assert!((held.unmanaged_d.unwrap() - 2.0 / 1.5e-6 / DAY_S).abs() < 1.0 / 24.0 + 1e-9);
+        assert!((held.y_d.unwrap() - 2.0 / 0.2e-6 / DAY_S).abs() < 1.0 / 24.0 + 1e-9);
+        // Twice the light holds it.
+        assert_eq!(flown.held(&square.scaled(2.0, [0.0; 2]), 1.0, [2.0, 2.0, 3.0]).managed_d, None);
+        assert!((flown.mean_torque_n_m()[0] - 1.5e-6).abs() < 1e-18);
+    }
+
+    #[test]
+    fn a_torque_that_swings_is_held_where_its_peak_less_what_downlinks_give_is() {
+        // 20 days at +2e-6, 20 days at -2e-6: alone up to 3.456 N m s, with 1e-6 undone up to 1.728.
+        let mut text = "time,torque.total[1],torque.total[2],torque.total[3]\n".to_owned();
+        for hour in 0..=24 * 40 {
+            let x = if hour < 480 { 2e-6 } else { -2e-6 };
+            text += &format!("{},{x},0,0\n", hour * 3600);
+        }
+        let flown = mission(&text).unwrap();
+        let segment = Region::hull([[-1e-6, 0.0], [1e-6, 0.0]]);
+        assert_eq!(flown.held(&segment, 1.0, [1.74, 9.0, 9.0]).managed_d, None);
+        assert!(flown.held(&segment, 1.0, [1.70, 9.0, 9.0]).managed_d.unwrap() > 19.0);
+    }
+
+    #[test]
+    fn dumps_are_taken_out_of_momentum() {
+        let mut text = "time,momentum.body[1],momentum.body[2],momentum.body[3],dump.count\n".to_owned();
+        for row in 0..100 {
+            let (gathered, dumps) = (f64::from(row) * 0.1, row / 30);
+            text += &format!("{},{},0,0,{dumps}\n", row * 600, gathered - 3.05 * f64::from(dumps));
+        }
+        let flown = mission(&text).unwrap();
+        assert!((flown.gathered_n_m_s[99][0] - 9.9).abs() < 1e-12);
+        assert_eq!(flown.dumps, Some(3.0));
+    }
+
+    #[test]
+    fn what_is_no_recording_is_refused_by_name() {
+        let head = "time,torque.total[1],torque.total[2],torque.total[3]";
+        for (text, expected) in [
+            ("time,x\n0,1\n1,2\n".to_owned(), "torque.total[1] to [3]"),
+            (
+                "time,momentum.body[1],momentum.body[2],momentum.body[3]\n0,1,1,1\n1,1,1,1\n".to_owned(),
+                "dump.count",
+            ),
+            (format!("{head}\n0,1,2,3\n"), "two rows"),
+            (format!("{head}\n1,1,2,3\n0,1,2,3\n"), "times rise"),
+            (format!("{head}\n0,1,2,3\n1,1,nan,3\n"), "flown.csv:3: torque.total[2]: found \"nan\""),
+            (format!("{head},sun.distance\n0,1,2,3,1\n1,1,2,3,0\n"), "sun.distance above 0"),
+            ("x\n1\n2\n".to_owned(), "column time"),
+        ] {
+            let refused = mission(&text).err().unwrap();
+            assert!(refused.contains(expected) && refused.contains("--mission"), "{text}: {refused}");
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! `heliotorque map`: torque of sunlight over the Sun's azimuth and elevation, as picture, table and CSV.
+
+mod balance;
+mod colours;
+mod contour;
+mod craft;
+mod found;
+mod frame;
+mod grid;
+mod mission;
+pub mod options;
+mod outputs;
+mod panels;
+mod picture;
+mod region;
+mod sunlight;
+mod table;
+mod verdict;
+mod worth;
+mod zero_lines;
+
+use std::process::ExitCode;
+
+use crate::outcome::Outcome;
+use craft::Craft;
+use found::Found;
+use mission::Mission;
+use options::Map;
+use outputs::Outputs;
+
+/// Maps a spacecraft.
+pub fn run(arguments: &Map) -> Outcome {
+    let outputs = Outputs::open(arguments)?;
+    let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;
+    let craft = Craft::open(arguments)?;
+    let found = Found::new(&craft, (arguments.source, arguments.step), mission)?;
+    let written = outputs.write(&craft, &found)?;
+    if !arguments.quiet {
+        let text = table::text(&craft, &found, arguments.source);
+        if written.takes_stdout {
+            terminal::note(&text);
+        } else {
+            terminal::print(&text)?;
+        }
+        for file in written.files {
+            terminal::note(&format!("wrote {file}"));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,169 @@
+//! Options of `heliotorque map`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use crate::{draw::options::angle, values::DEFAULT_TEMPLATE};
+
+/// Shown with the help.
+const EXAMPLE: &str = "\
+Torque about the centre of mass and force are in the body frame. Azimuth counts from -Y toward +X, elevation from the XY
+plane toward -Z. Panels held by Sun offset turn with the Sun, as in MomentumPlant; the others keep their angle.
+
+With --mission, the disturbance is what the recording gathers in body components: torque.total over time, otherwise
+momentum.body with the dumps of dump.count taken out (run with momentum.convention=bodyIntegral). Downlinks take the share of
+time of guided.downlinkStart|End|Every, and may hold the Sun anywhere in the zone instead of on -Y. \"Holdable without a dump
+until day N\" means: up to day N some choice of these directions keeps X and Z within +-dump.threshold, from day N on none does.
+
+Example:
+  heliotorque map my.toml                                    writes my-map.svg and prints the table
+  heliotorque map my.toml --distance 0.3 --panel-offset 70deg --csv torque.csv --lines zero.csv
+  heliotorque run dist/MomentumPlant.fmu --stop 90d --record torque.total,sun.distance --output flown.csv
+  heliotorque map fmu-src/resources/messenger.toml --mission flown.csv";
+
+/// `heliotorque map`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Map {
+    /// The spacecraft, a TOML file as for `pack`, or an FMU that was packed with one
+    pub craft: PathBuf,
+    /// For a TOML file only: the FMU whose library reads it, as for `pack`; otherwise dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
+    /// Distance from the Sun, in AU; otherwise that of the file's sun.positionBody, without one the mean distance of the body
+    /// that orbit.center names. Torque goes with the inverse square
+    #[arg(long, value_name = "AU", value_parser = distance, allow_hyphen_values = true)]
+    pub distance: Option<f64>,
+    /// Angle between cells and Sun for every panel held by Sun offset, in deg or rad: 70deg; otherwise the file's
+    #[arg(long, value_name = "ANGLE", value_parser = offset, allow_hyphen_values = true)]
+    pub panel_offset: Option<f64>,
+    /// Greatest azimuth and elevation of the Sun keep-in zone, in deg or rad: 15deg,13deg; otherwise the file's, without one
+    /// 15deg,13deg
+    #[arg(long, value_name = "AZIMUTH,ELEVATION", value_parser = zone, allow_hyphen_values = true)]
+    pub zone: Option<[f64; 2]>,
+    /// Spacing of the directions, in deg or rad, a whole part of 90 deg, at least 0.1 deg
+    #[arg(long, value_name = "ANGLE", value_parser = steps, allow_hyphen_values = true, default_value = "1deg")]
+    pub step: Steps,
+    /// What is mapped: solar, the sunlight alone; or total, with the recoil of the heat that sunlight brings
+    #[arg(long, value_enum, default_value = "solar", hide_possible_values = true)]
+    pub source: SourceKind,
+    /// Set a parameter or input of DisturbanceTorque, or of MomentumPlant where that has it alone (keepIn.*, guided.*,
+    /// dump.threshold, panel[k].sunOffset); repeatable, written as for `run`: 'spacecraft.centerOfMass[3]=-2.54cm'
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// A flown mission, recorded by `run`: torque.total, or momentum.body with dump.count; with sun.distance, what downlinks
+    /// give follows the distance
+    #[arg(long, value_name = "CSV")]
+    pub mission: Option<PathBuf>,
+    /// The SVG to write; otherwise the file's name with -map.svg, in this folder; - is the standard output
+    #[arg(long, short, value_name = "SVG", conflicts_with = "no_picture")]
+    pub output: Option<PathBuf>,
+    /// Write torque (N.m), force (N) and panel angles (deg) for every direction (deg) as CSV; - is the standard output
+    #[arg(long, value_name = "CSV")]
+    pub csv: Option<PathBuf>,
+    /// Write the lines of zero torque as CSV: region (all, zone), axis (x, y, z, or xz where X and Z vanish together), number,
+    /// azimuth and elevation in deg; what vanishes does to 1e-12 of its greatest; - is the standard output
+    #[arg(long, value_name = "CSV")]
+    pub lines: Option<PathBuf>,
+    /// Write no picture
+    #[arg(long)]
+    pub no_picture: bool,
+    /// Print no table
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+impl Map {
+    /// The FMU whose library reads a TOML file.
+    pub fn template(&self) -> PathBuf {
+        self.template.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_TEMPLATE))
+    }
+}
+
+/// `--source`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SourceKind {
+    /// Sunlight
+    Solar,
+    /// Sunlight and recoil
+    Total,
+}
+
+impl SourceKind {
+    /// The last part of the variables' names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solar => "solar",
+            Self::Total => "total",
+        }
+    }
+}
+
+/// How many steps make 90 deg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Steps(pub u32);
+
+fn distance(text: &str) -> Result<f64, String> {
+    let number = text.trim();
+    let number = number.strip_suffix("AU").unwrap_or(number).trim_end();
+    match number.parse::<f64>() {
+        Ok(distance_au) if (0.01..=1000.0).contains(&distance_au) => Ok(distance_au),
+        _ => Err("allowed is a number of AU from 0.01 to 1000: 0.3".to_owned()),
+    }
+}
+
+fn offset(text: &str) -> Result<f64, String> {
+    match angle(text)? {
+        offset_rad if (0.0..=core::f64::consts::PI).contains(&offset_rad) => Ok(offset_rad),
+        _ => Err("allowed is 0 to 180 deg".to_owned()),
+    }
+}
+
+fn zone(text: &str) -> Result<[f64; 2], String> {
+    const ALLOWED: &str = "allowed are two angles, azimuth above 0 up to 180 deg and elevation above 0 up to 90 deg: \
+                           15deg,13deg";
+    let (azimuth, elevation) = text.split_once(',').ok_or(ALLOWED)?;
+    let limits_rad = [angle(azimuth)?, angle(elevation)?];
+    let is_allowed = |angle_rad: f64, most_deg: f64| angle_rad > 0.0 && angle_rad <= most_deg.to_radians();
+    if is_allowed(limits_rad[0], 180.0) && is_allowed(limits_rad[1], 90.0) {
+        return Ok(limits_rad);
+    }
+    Err(ALLOWED.to_owned())
+}
+
+fn steps(text: &str) -> Result<Steps, String> {
+    let count = 90.0 / angle(text)?.to_degrees();
+    if (1.0..=900.0 + 1e-6).contains(&count) && (count - count.round()).abs() < 1e-6 {
+        return Ok(Steps(count.round() as u32));
+    }
+    Err("allowed is a whole part of 90 deg from 0.1 deg on: 0.5deg, 1deg, 5deg".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    //! Ranges are as the help says.
+    use super::*;
+
+    #[test]
+    fn values_out_of_range_are_refused() {
+        assert_eq!(distance("0.3"), Ok(0.3));
+        assert_eq!(distance("0.3 AU"), Ok(0.3));
+        for bad in ["nan", "NaN", "0", "-1", "inf", "near", ""] {
+            assert!(distance(bad).is_err(), "{bad}");
+        }
+        assert_eq!(zone("180deg,90deg"), Ok([core::f64::consts::PI, core::f64::consts::FRAC_PI_2]));
+        for bad in ["0deg,13deg", "15deg", "15deg,0deg", "15deg,91deg", "15,13", "nandeg,1deg", "-1deg,1deg"]
+        {
+            assert!(zone(bad).is_err(), "{bad}");
+        }
+        assert_eq!(steps("1deg"), Ok(Steps(90)));
+        assert_eq!(steps("0.1deg"), Ok(Steps(900)));
+        for bad in ["0deg", "7deg", "-1deg", "nandeg", "0.01deg", "180deg", "1"] {
+            assert!(steps(bad).is_err(), "{bad}");
+        }
+        for bad in ["-1deg", "181deg", "65"] {
+            assert!(offset(bad).is_err(), "{bad}");
+        }
+    }
+}

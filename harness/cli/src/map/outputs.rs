@@ -1,0 +1,135 @@
+//! The files of a map: picture, torque by direction, lines of zero torque.
+
+use std::path::{Path, PathBuf};
+
+use files::Destination;
+
+use super::{
+    craft::Craft,
+    found::Found,
+    grid::{Angles, direction},
+    options::Map,
+    picture,
+};
+use crate::output::check_svg_path;
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Where everything goes.
+pub struct Outputs {
+    picture: Option<(PathBuf, Destination)>,
+    torque: Option<(PathBuf, Destination)>,
+    lines: Option<(PathBuf, Destination)>,
+}
+
+/// What was written.
+pub struct Written {
+    pub takes_stdout: bool,
+    pub files: Vec<String>,
+}
+
+impl Outputs {
+    /// Looks at every file before anything is computed.
+    pub fn open(arguments: &Map) -> Result<Self, String> {
+        let inputs: Vec<&Path> =
+            [arguments.craft.as_path()].into_iter().chain(arguments.mission.as_deref()).collect();
+        let open = |path: Option<PathBuf>, option: &'static str| match path {
+            Some(path) => Destination::open(&path, option, &inputs).map(|file| Some((path, file))),
+            None => Ok(None),
+        };
+        let picture = (!arguments.no_picture).then(|| picture_path(arguments));
+        if let Some(path) = &picture {
+            check_svg_path(path, "--output")?;
+        }
+        let outputs = Self {
+            picture: open(picture, "--output")?,
+            torque: open(arguments.csv.clone(), "--csv")?,
+            lines: open(arguments.lines.clone(), "--lines")?,
+        };
+        let named = [(&outputs.picture, "--output"), (&outputs.torque, "--csv"), (&outputs.lines, "--lines")];
+        for (k, (one, option)) in named.iter().enumerate() {
+            for (other, other_option) in &named[k + 1..] {
+                if let (Some((_, one)), Some((_, other))) = (one, other)
+                    && one.is_same(other)
+                {
+                    return Err(format!("one file cannot take both: see {option} and {other_option}"));
+                }
+            }
+        }
+        Ok(outputs)
+    }
+
+    /// Writes all of them.
+    pub fn write(self, craft: &Craft, found: &Found) -> Result<Written, String> {
+        let mut written = Written { takes_stdout: false, files: Vec::new() };
+        let mut fill = |to: Option<(PathBuf, Destination)>, text: &dyn Fn() -> String| {
+            let Some((path, file)) = to else { return Ok(()) };
+            match file.is_stdout() {
+                true => written.takes_stdout = true,
+                false => written.files.push(path.display().to_string()),
+            }
+            file.fill(|file| file.write_all(text().as_bytes()))
+        };
+        fill(self.picture, &|| picture::svg(craft, found))?;
+        fill(self.torque, &|| torque(craft, found))?;
+        fill(self.lines, &|| lines(found))?;
+        Ok(written)
+    }
+}
+
+fn picture_path(arguments: &Map) -> PathBuf {
+    arguments.output.clone().unwrap_or_else(|| {
+        let stem = arguments.craft.file_stem().unwrap_or_default().to_string_lossy();
+        PathBuf::from(format!("{stem}-map.svg"))
+    })
+}
+
+/// A row for each direction; 180 deg of azimuth is -180 deg.
+fn torque(craft: &Craft, found: &Found) -> String {
+    let mut text = "sun_azimuth_deg,sun_elevation_deg".to_owned();
+    for what in ["torque", "force"] {
+        let unit = if what == "torque" { "n_m" } else { "n" };
+        text.extend(AXES.map(|axis| format!(",{what}_{axis}_{unit}")));
+    }
+    text.extend((1..=craft.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
+    text.push('\n');
+    for (place_deg, load) in found.sphere.grid.nodes().filter(|(place_deg, _)| place_deg[0] < 180.0) {
+        let sun = direction(place_deg);
+        let loads = load.torque_n_m.iter().chain(load.force_n.iter()).copied();
+        let angles_deg = craft.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
+        let cells: Vec<String> = place_deg.into_iter().chain(loads).chain(angles_deg).map(number).collect();
+        text.push_str(&cells.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+/// A row for each place of each line and for each balance, of all directions and of the zone.
+fn lines(found: &Found) -> String {
+    let mut text = "region,axis,line,sun_azimuth_deg,sun_elevation_deg\n".to_owned();
+    let mut row = |region: &str, axis: &str, line: usize, [azimuth_deg, elevation_deg]: Angles| {
+        let (azimuth, elevation) = (number(azimuth_deg), number(elevation_deg));
+        text.push_str(&format!("{region},{axis},{line},{azimuth},{elevation}\n"));
+    };
+    for (region, mapped) in [("all", &found.sphere), ("zone", &found.zone)] {
+        for (lines, axis) in mapped.lines.iter().zip(AXES) {
+            for (index, line) in lines.iter().enumerate() {
+                line.places_deg.iter().for_each(|place_deg| row(region, axis, index + 1, *place_deg));
+            }
+        }
+        for (index, balance) in mapped.balances.iter().enumerate() {
+            row(region, "xz", index + 1, balance.place_deg);
+        }
+    }
+    text
+}
+
+/// The shortest text that reads back to the same bits.
+fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 || (1e-5..1e16).contains(&magnitude) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}

@@ -1,0 +1,181 @@
+//! The picture: torque by axis over all directions and over the keep-in zone, and what downlinks can undo.
+
+use physics::constants::ASTRONOMICAL_UNIT_M as AU_M;
+
+use super::{
+    colours::{Bands, round_up},
+    craft::Craft,
+    found::{Found, Mapped},
+    frame::{Axes, Frame},
+    verdict,
+};
+use crate::draw::pen::{GREY, INK, Pen};
+
+const WIDTH: f64 = 1150.0;
+const HEAD: f64 = 96.0;
+/// Of an axis with title, numbers and label.
+const ROW: f64 = 344.0;
+const HEIGHT_OF_PLOT: f64 = 264.0;
+const LEFT: f64 = 76.0;
+const ZONE_LEFT: f64 = 766.0;
+const ZONE_WIDTH: f64 = 310.0;
+const LAST_ROW: f64 = 352.0;
+const MICRO: f64 = 1e6;
+const NAMES: [&str; 3] = ["X", "Y", "Z"];
+const LINE: &str = "#111418";
+const NONE: &str = "#c9ccd1";
+const MARK: &str = "#0b6e4f";
+
+/// The sheet.
+pub fn svg(craft: &Craft, found: &Found) -> String {
+    let title = format!(
+        "{}: torque of sunlight at {} AU",
+        craft.name,
+        terminal::short((craft.distance_m / AU_M * 1e4).round() / 1e4)
+    );
+    let mut pen = Pen::new(WIDTH, HEAD + 3.0 * ROW + LAST_ROW, &title);
+    pen.text((LEFT, 36.0), 20.0, "start", &format!("fill=\"{INK}\" font-weight=\"bold\""), &title);
+    legend(&mut pen);
+    for (axis, name) in NAMES.into_iter().enumerate() {
+        let top = HEAD + ROW * axis as f64;
+        let heading = format!("fill=\"{INK}\" font-weight=\"bold\"");
+        pen.text(
+            (LEFT, top - 7.0),
+            14.0,
+            "start",
+            &heading,
+            &format!("About {name}, all directions of the Sun"),
+        );
+        pen.text((ZONE_LEFT, top - 7.0), 14.0, "start", &heading, &format!("About {name}, keep-in zone"));
+        let sphere = frame(&found.sphere, LEFT, top, 2.0 * HEIGHT_OF_PLOT);
+        torque(&mut pen, &found.sphere, sphere, axis, [60.0, 30.0]);
+        outline(&mut pen, sphere, craft);
+        let zone = frame(&found.zone, ZONE_LEFT, top, ZONE_WIDTH);
+        let steps = found.zone.grid.limits_deg.map(|limit_deg| round_up(limit_deg / 3.5));
+        torque(&mut pen, &found.zone, zone, axis, steps);
+        least(&mut pen, zone, found);
+    }
+    downlinks(&mut pen, craft, found);
+    pen.finish()
+}
+
+/// A plot as wide as allowed and as high as its angles ask.
+fn frame(mapped: &Mapped, left: f64, top: f64, width: f64) -> Frame {
+    let [azimuth_deg, elevation_deg] = mapped.grid.limits_deg;
+    let scale = (width / azimuth_deg).min(HEIGHT_OF_PLOT / elevation_deg);
+    let (width, height) = (scale * azimuth_deg, scale * elevation_deg);
+    Frame { left, top, width, height, x: [-azimuth_deg, azimuth_deg], y: [-elevation_deg, elevation_deg] }
+}
+
+/// Bands, lines of zero, balances, axes.
+fn torque(pen: &mut Pen, mapped: &Mapped, frame: Frame, axis: usize, steps: [f64; 2]) {
+    let grid = &mapped.grid;
+    let bands = Bands::new(MICRO * grid.greatest_n_m(axis));
+    let value_n_m = grid.component_n_m(axis);
+    frame.bands(pen, grid.steps, &|column, row| MICRO * value_n_m(column, row), bands);
+    let is_flat = grid.is_flat(axis);
+    frame.area(pen, grid.steps, &is_flat, NONE);
+    for line in &mapped.lines[axis] {
+        frame.line(pen, &line.places_deg, &zero_line());
+    }
+    for balance in &mapped.balances {
+        pen.circle(frame.at(balance.place_deg), 5.0, &ring());
+    }
+    frame.axes(pen, &Axes { labels: ["Sun azimuth [deg]", "Sun elevation [deg]"], steps });
+    frame.scale(pen, bands, "uN.m");
+}
+
+fn zero_line() -> String {
+    format!("stroke=\"{LINE}\" stroke-width=\"1.6\" class=\"zero\"")
+}
+
+fn ring() -> String {
+    format!("fill=\"#ffffff\" fill-opacity=\"0.6\" stroke=\"{MARK}\" stroke-width=\"2.2\"")
+}
+
+fn dashes() -> String {
+    format!("stroke=\"{INK}\" stroke-width=\"1.1\" stroke-dasharray=\"4 3\"")
+}
+
+/// The zone's border among all directions.
+fn outline(pen: &mut Pen, frame: Frame, craft: &Craft) {
+    let [a, e] = craft.zone_rad.map(f64::to_degrees);
+    frame.line(pen, &[[-a, -e], [a, -e], [a, e], [-a, e], [-a, -e]], &dashes());
+}
+
+/// A cross where the whole torque is least.
+fn least(pen: &mut Pen, frame: Frame, found: &Found) {
+    let (x, y) = frame.at(found.least.0);
+    cross(pen, x, y);
+}
+
+fn cross(pen: &mut Pen, x: f64, y: f64) {
+    let strokes = [[(x - 5.0, y - 5.0), (x + 5.0, y + 5.0)], [(x - 5.0, y + 5.0), (x + 5.0, y - 5.0)]];
+    pen.lines(strokes.iter().map(|stroke| &stroke[..]), &format!("stroke=\"{MARK}\" stroke-width=\"2.4\""));
+}
+
+fn legend(pen: &mut Pen) {
+    let y = 60.0;
+    let fill = format!("fill=\"{GREY}\"");
+    pen.lines([&[(LEFT, y), (LEFT + 26.0, y)][..]], &zero_line());
+    pen.text((LEFT + 33.0, y + 4.0), 12.0, "start", &fill, "component is zero");
+    pen.circle((LEFT + 166.0, y), 5.0, &ring());
+    pen.text((LEFT + 178.0, y + 4.0), 12.0, "start", &fill, "X and Z are zero");
+    cross(pen, LEFT + 308.0, y);
+    pen.text((LEFT + 321.0, y + 4.0), 12.0, "start", &fill, "whole torque is least in the zone");
+    pen.lines([&[(LEFT + 540.0, y), (LEFT + 566.0, y)][..]], &dashes());
+    pen.text((LEFT + 573.0, y + 4.0), 12.0, "start", &fill, "Sun keep-in zone");
+    let none =
+        [(LEFT + 706.0, y - 5.0), (LEFT + 726.0, y - 5.0), (LEFT + 726.0, y + 5.0), (LEFT + 706.0, y + 5.0)];
+    pen.polygon(&none, &format!("fill=\"{NONE}\""));
+    pen.text((LEFT + 733.0, y + 4.0), 12.0, "start", &fill, "no torque about the axis");
+}
+
+/// Disturbances that downlinks can undo, the mission's mean among them.
+fn downlinks(pen: &mut Pen, craft: &Craft, found: &Found) {
+    let top = HEAD + 3.0 * ROW;
+    let attainable = &found.attainable;
+    // A disturbance is undone by its opposite.
+    let undone = attainable.mean_added_n_m.scaled(-MICRO, [0.0; 2]);
+    let mean = attainable.mission.as_ref().map(|(mission, _)| mission.mean_torque_n_m().map(|x| MICRO * x));
+    let heading = format!("fill=\"{INK}\" font-weight=\"bold\"");
+    pen.text((LEFT, top - 7.0), 14.0, "start", &heading, "Mean disturbance that downlinks can undo");
+    let range = |axis: usize| {
+        let [low, high] = undone.extent(axis);
+        let (low, high) = mean.map_or((low, high), |mean| (low.min(mean[axis]), high.max(mean[axis])));
+        let (low, high) = (low.min(0.0), high.max(0.0));
+        let rim = 0.1 * (high - low);
+        if rim > 0.0 { [low - rim, high + rim] } else { [-1.0, 1.0] }
+    };
+    let (x, y) = (range(0), range(1));
+    let frame = Frame { left: LEFT, top, width: 1.6 * HEIGHT_OF_PLOT, height: 1.1 * HEIGHT_OF_PLOT, x, y };
+    let corners: Vec<_> = undone.corners.iter().map(|corner| frame.at(*corner)).collect();
+    pen.polygon(&corners, "fill=\"#cfe3d8\" stroke=\"#0b6e4f\" stroke-width=\"1.4\" class=\"attainable\"");
+    for middle in [[[x[0], 0.0], [x[1], 0.0]], [[0.0, y[0]], [0.0, y[1]]]] {
+        frame.line(pen, &middle, &format!("stroke=\"{GREY}\" stroke-width=\"0.8\" stroke-dasharray=\"2 3\""));
+    }
+    let steps = [x, y].map(|[low, high]| round_up((high - low) / 7.0));
+    frame.axes(pen, &Axes { labels: ["mean torque about X [uN.m]", "mean torque about Z [uN.m]"], steps });
+    if let Some(mean) = mean.filter(|mean| frame.holds(*mean)) {
+        pen.circle(
+            frame.at(mean),
+            5.0,
+            "fill=\"#b2182b\" stroke=\"#ffffff\" stroke-width=\"1.2\" class=\"mission\"",
+        );
+    }
+    let left = LEFT + frame.width + 40.0;
+    let mut lines =
+        vec![verdict::share(craft), "with the Sun anywhere in the zone instead of on -Y".to_owned()];
+    if mean.is_some() {
+        pen.circle((left + 5.0, top + 78.0), 5.0, "fill=\"#b2182b\" stroke=\"#ffffff\" stroke-width=\"1.2\"");
+        lines.push(String::new());
+        lines.push("    the mission's mean disturbance; inside the area it can be held for ever".to_owned());
+        lines.push(String::new());
+        lines.extend(verdict::on_mission(craft, attainable));
+    }
+    for (k, line) in lines.iter().enumerate() {
+        let indent = if line.starts_with(' ') { 16.0 } else { 0.0 };
+        let at = (left + indent, top + 22.0 + 20.0 * k as f64);
+        pen.text(at, 13.0, "start", &format!("fill=\"{INK}\""), line.trim_start());
+    }
+}

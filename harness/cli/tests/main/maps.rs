@@ -1,0 +1,399 @@
+//! `map`: what it says of a craft is what the FMU itself says, direction by direction; refusals name what is wrong.
+
+use std::{collections::HashMap, fs, path::PathBuf};
+
+use loader::{Fmu, Instance, InstanceOptions, Value};
+use resvg::usvg::roxmltree::Document;
+use tempfile::TempDir;
+
+use crate::{heliotorque, library, run, shown, text};
+
+const MESSENGER: &str = "../../fmu-src/resources/messenger.toml";
+const AU_M: f64 = 149_597_870_700.0;
+
+type Row = HashMap<String, f64>;
+
+/// Packs DisturbanceTorque of a file; maps can take its library too.
+fn packed(spacecraft: &str) -> Option<(TempDir, PathBuf)> {
+    let library = library()?;
+    let scratch = tempfile::tempdir().unwrap();
+    let fmu = scratch.path().join("torque.fmu");
+    let pack =
+        ["pack", "--library", shown(&library), "--model", "DisturbanceTorque", "--spacecraft", spacecraft];
+    run(&[&pack[..], &["--output", shown(&fmu)]].concat(), 0);
+    Some((scratch, fmu))
+}
+
+/// Runs `map` with one of its files on the standard output.
+fn mapped(arguments: &[&str]) -> String {
+    let output = heliotorque(&[&["map"], arguments].concat()).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn rows(csv: &str) -> Vec<Row> {
+    let mut lines = csv.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    lines
+        .map(|line| {
+            let cells = names.iter().zip(line.split(','));
+            cells.map(|(name, cell)| ((*name).to_owned(), cell.parse().unwrap_or(f64::NAN))).collect()
+        })
+        .collect()
+}
+
+/// The FMU without a planet, stepped direction by direction.
+struct Torque {
+    instance: Instance,
+    panels: usize,
+    time_s: f64,
+}
+
+impl Torque {
+    fn of(fmu: &Fmu) -> Self {
+        let mut instance = Instance::new(fmu, "test", &InstanceOptions::default()).unwrap();
+        instance.set("planet.present", &Value::Boolean(false)).unwrap();
+        instance.setup_experiment(None, 0.0, None).unwrap();
+        instance.enter_initialization_mode().unwrap();
+        instance.exit_initialization_mode().unwrap();
+        let panels = (1..).take_while(|k| fmu.find(&format!("panel[{k}].angle")).is_some()).count();
+        Self { instance, panels, time_s: 0.0 }
+    }
+
+    /// Torque and force of sunlight with panels at these angles.
+    fn at(&mut self, azimuth_deg: f64, elevation_deg: f64, distance_m: f64, angles_rad: &[f64]) -> [f64; 6] {
+        let ((sin_a, cos_a), (sin_e, cos_e)) =
+            (azimuth_deg.to_radians().sin_cos(), elevation_deg.to_radians().sin_cos());
+        for (k, part) in [cos_e * sin_a, -cos_e * cos_a, -sin_e].into_iter().enumerate() {
+            self.instance.set_real(&format!("sun.positionBody[{}]", k + 1), part * distance_m).unwrap();
+        }
+        assert_eq!(angles_rad.len(), self.panels);
+        for (k, angle_rad) in angles_rad.iter().enumerate() {
+            self.instance.set_real(&format!("panel[{}].angle", k + 1), *angle_rad).unwrap();
+        }
+        self.instance.do_step(self.time_s, 1.0, true).unwrap();
+        self.time_s += 1.0;
+        let names = [
+            "torque.solar[1]",
+            "torque.solar[2]",
+            "torque.solar[3]",
+            "force.solar[1]",
+            "force.solar[2]",
+            "force.solar[3]",
+        ];
+        names.map(|name| self.instance.get_real(name).unwrap())
+    }
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Cells of MESSENGER's panels, whose axes are X, 65 deg off the Sun: angles about the axis from the cells' normal -Y.
+///
+/// Cells with a normal n = [0, -cos a, -sin a] see the Sun s at n.s = -s_y cos a - s_z sin a; bisected from facing it on.
+fn messenger_angle_rad(azimuth_deg: f64, elevation_deg: f64, offset_rad: f64) -> f64 {
+    let (a, e) = (azimuth_deg.to_radians(), elevation_deg.to_radians());
+    let (toward, across) = (e.cos() * a.cos(), e.sin());
+    let cosine = |angle: f64| toward * angle.cos() + across * angle.sin();
+    let facing = across.atan2(toward);
+    let (mut low, mut high) = (facing, facing + core::f64::consts::PI);
+    if cosine(low) < offset_rad.cos() {
+        return facing;
+    }
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if cosine(middle) > offset_rad.cos() { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+#[test]
+fn every_direction_is_what_the_fmu_says() {
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
+    let fmu = Fmu::open(&fmu_path).unwrap();
+    let csv = mapped(&[
+        MESSENGER,
+        "--template",
+        shown(&fmu_path),
+        "--distance",
+        "0.3",
+        "--step",
+        "1deg",
+        "--csv",
+        "-",
+        "--no-picture",
+        "--quiet",
+    ]);
+    let rows = rows(&csv);
+    assert_eq!(rows.len(), 360 * 181);
+    let mut torque = Torque::of(&fmu);
+    let greatest = rows
+        .iter()
+        .map(|row| ["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"].map(|name| row[name]))
+        .map(|it| norm(&it))
+        .fold(0.0, f64::max);
+    let greatest_force = rows
+        .iter()
+        .map(|row| ["force_x_n", "force_y_n", "force_z_n"].map(|name| row[name]))
+        .map(|it| norm(&it))
+        .fold(0.0, f64::max);
+    for row in &rows {
+        let (azimuth, elevation) = (row["sun_azimuth_deg"], row["sun_elevation_deg"]);
+        let angles = [row["panel_1_angle_deg"], row["panel_2_angle_deg"]].map(f64::to_radians);
+        // On the axis any angle does.
+        if elevation != 0.0 || azimuth.abs() != 90.0 {
+            let expected = messenger_angle_rad(azimuth, elevation, 65_f64.to_radians());
+            let apart = (angles[0] - expected).sin().abs();
+            assert!(apart < 1e-7 && (angles[0] - expected).cos() > 0.0, "{row:?}: {expected}");
+        }
+        let found = torque.at(azimuth, elevation, 0.3 * AU_M, &angles);
+        for (name, value) in ["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"].into_iter().zip(&found[..3]) {
+            assert!((row[name] - value).abs() <= 1e-14 * greatest, "{row:?}: {name} {value}");
+        }
+        for (name, value) in ["force_x_n", "force_y_n", "force_z_n"].into_iter().zip(&found[3..]) {
+            assert!((row[name] - value).abs() <= 1e-14 * greatest_force, "{row:?}: {name} {value}");
+        }
+    }
+}
+
+#[test]
+fn lines_and_balances_are_where_the_torque_vanishes() {
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
+    let fmu = Fmu::open(&fmu_path).unwrap();
+    for center_m in [[0.0; 3], [0.01, 0.02, -0.05]] {
+        let set = format!("spacecraft.centerOfMass={}m,{}m,{}m", center_m[0], center_m[1], center_m[2]);
+        let csv = |option: &str| {
+            let craft = [MESSENGER, "--template", shown(&fmu_path), "--distance", "0.4", "--set", &set];
+            mapped(&[&craft[..], &["--step", "2deg", "--no-picture", "--quiet", option, "-"]].concat())
+        };
+        let mut torque = Torque::of(&fmu);
+        for (axis, value) in center_m.into_iter().enumerate() {
+            torque.instance.set_real(&format!("spacecraft.centerOfMass[{}]", axis + 1), value).unwrap();
+        }
+        let sphere = rows(&csv("--csv"));
+        let most = ["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"]
+            .map(|name| sphere.iter().map(|row| row[name].abs()).fold(0.0, f64::max));
+        let lines = csv("--lines");
+        let mut counts = HashMap::new();
+        for (line, row) in lines.lines().skip(1).zip(rows(&lines)) {
+            let [azimuth, elevation] = ["sun_azimuth_deg", "sun_elevation_deg"].map(|name| row[name]);
+            let is_in_zone = azimuth.abs() <= 15.0 + 1e-9 && elevation.abs() <= 13.0 + 1e-9;
+            assert!(line.starts_with("all") || is_in_zone, "{line}");
+            let angle_rad = messenger_angle_rad(azimuth, elevation, 65_f64.to_radians());
+            let found = torque.at(azimuth, elevation, 0.4 * AU_M, &[angle_rad; 2]);
+            let axes = line.split(',').nth(1).unwrap();
+            for axis in axes.chars().map(|letter| "xyz".find(letter).unwrap()) {
+                assert!(
+                    found[axis].abs() <= 1e-12 * most[axis],
+                    "{line}: {:e} of {:e}",
+                    found[axis],
+                    most[axis]
+                );
+            }
+            *counts.entry((line.split(',').next().unwrap().to_owned(), axes.to_owned())).or_insert(0) += 1;
+        }
+        for axis in ["x", "z"] {
+            assert!(
+                ["all", "zone"].iter().all(|at| counts[&((*at).to_owned(), axis.to_owned())] > 50),
+                "{counts:?}"
+            );
+        }
+        assert_eq!(counts[&("zone".to_owned(), "xz".to_owned())], 1, "{counts:?}");
+    }
+}
+
+#[test]
+fn a_degree_is_worth_what_differences_say() {
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
+    let fmu = Fmu::open(&fmu_path).unwrap();
+    let printed = mapped(&[
+        MESSENGER,
+        "--template",
+        shown(&fmu_path),
+        "--distance",
+        "0.3",
+        "--step",
+        "10deg",
+        "--no-picture",
+        "--set",
+        "spacecraft.centerOfMass=1cm,2cm,-3cm",
+    ]);
+    let told = |what: &str| -> Vec<f64> {
+        let line = printed
+            .lines()
+            .find(|line| line.trim_start().starts_with(what))
+            .unwrap_or_else(|| panic!("{what}: {printed}"));
+        line.trim_start()[what.len()..].split_whitespace().map(|cell| cell.parse().unwrap()).collect()
+    };
+    let mut torque = Torque::of(&fmu);
+    for (axis, value) in [0.01, 0.02, -0.03].into_iter().enumerate() {
+        torque.instance.set_real(&format!("spacecraft.centerOfMass[{}]", axis + 1), value).unwrap();
+    }
+    let mut at = |azimuth: f64, elevation: f64, offsets_deg: [f64; 2]| {
+        let angles = offsets_deg.map(|offset| messenger_angle_rad(azimuth, elevation, offset.to_radians()));
+        torque.at(azimuth, elevation, 0.3 * AU_M, &angles)
+    };
+    const H: f64 = 0.05;
+    let own = [65.0; 2];
+    for (what, plus, minus) in [
+        ("Sun azimuth", at(H, 0.0, own), at(-H, 0.0, own)),
+        ("Sun elevation", at(0.0, H, own), at(0.0, -H, own)),
+        ("Sun offset of the panels", at(0.0, 0.0, [65.0 + H; 2]), at(0.0, 0.0, [65.0 - H; 2])),
+        ("Sun offset of panel +X", at(0.0, 0.0, [65.0 + H, 65.0]), at(0.0, 0.0, [65.0 - H, 65.0])),
+    ] {
+        let told = told(what);
+        for axis in 0..3 {
+            let slope = (plus[axis] - minus[axis]) / (2.0 * H);
+            // To the printed digits and the third derivative over a twentieth of a degree.
+            assert!((told[axis] - slope * 1e6).abs() < 1e-4, "{what} {axis}: {told:?}, {slope:e}");
+            assert!((told[3 + axis] - slope * 86_400.0).abs() < 1e-5, "{what} {axis}: {told:?}, {slope:e}");
+        }
+        assert!(told.iter().any(|value| *value != 0.0), "{what}");
+    }
+}
+
+#[test]
+fn torque_goes_with_the_inverse_square_and_follows_the_options() {
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
+    let csv = |more: &[&str]| {
+        let all = [
+            &[
+                MESSENGER,
+                "--template",
+                shown(&fmu_path),
+                "--step",
+                "10deg",
+                "--csv",
+                "-",
+                "--no-picture",
+                "--quiet",
+            ],
+            more,
+        ];
+        rows(&mapped(&all.concat()))
+    };
+    let (near, far) = (csv(&["--distance", "0.3"]), csv(&["--distance", "0.6 AU"]));
+    assert_eq!(near.len(), 36 * 19);
+    let greatest = near.iter().map(|row| row["torque_x_n_m"].abs()).fold(0.0, f64::max);
+    for (near, far) in near.iter().zip(&far) {
+        assert!(
+            (near["torque_x_n_m"] - 4.0 * far["torque_x_n_m"]).abs() < 1e-13 * greatest,
+            "{near:?} {far:?}"
+        );
+    }
+    let ahead = |rows: &[Row]| {
+        rows.iter().find(|row| row["sun_azimuth_deg"] == 0.0 && row["sun_elevation_deg"] == 0.0).unwrap()["panel_1_angle_deg"]
+    };
+    assert!((ahead(&near) - 65.0).abs() < 1e-9);
+    for set in [["--panel-offset", "50deg"], ["--set", "panel[1].sunOffset=50deg"]] {
+        assert!((ahead(&csv(&set)) - 50.0).abs() < 1e-9, "{set:?}");
+    }
+    assert!((ahead(&csv(&["--set", "panel[1].tilt=negative"])) + 65.0).abs() < 1e-9);
+    let still = csv(&["--set", "panel[1].control=angle", "--set", "panel[1].angle=12deg"]);
+    assert!(still.iter().all(|row| (row["panel_1_angle_deg"] - 12.0).abs() < 1e-9));
+    // The packed FMU is the same spacecraft.
+    let of_fmu = mapped(&[
+        shown(&fmu_path),
+        "--distance",
+        "0.3",
+        "--step",
+        "10deg",
+        "--csv",
+        "-",
+        "--no-picture",
+        "--quiet",
+    ]);
+    assert_eq!(rows(&of_fmu).len(), near.len());
+    assert!(rows(&of_fmu).iter().zip(&near).all(|(one, other)| one["torque_z_n_m"] == other["torque_z_n_m"]));
+}
+
+#[test]
+fn the_picture_shows_lines_and_a_mission() {
+    let Some((room, fmu_path)) = packed(MESSENGER) else { return };
+    let flown = room.path().join("flown.csv");
+    let mut recorded = "time,torque.total[1],torque.total[2],torque.total[3]\n".to_owned();
+    for hour in 0..=240 {
+        recorded += &format!("{},2e-5,0,0\n", hour * 3600);
+    }
+    fs::write(&flown, recorded).unwrap();
+    let svg = room.path().join("my.svg");
+    let all = [
+        MESSENGER,
+        "--template",
+        shown(&fmu_path),
+        "--distance",
+        "0.387",
+        "--mission",
+        shown(&flown),
+        "--output",
+        shown(&svg),
+    ];
+    let printed = mapped(&all);
+    // 5.5 N m s at 2e-5 N m less what downlinks add about X, printed to 1e-10 N m.
+    let line = printed.lines().find(|line| line.trim_start().starts_with("mean torque about X")).unwrap();
+    let least_n_m: f64 = line.split_whitespace().nth(4).unwrap().parse::<f64>().unwrap() * 1e-6;
+    let day = |text: &str| -> f64 {
+        let line = printed.lines().find(|line| line.starts_with(text)).unwrap_or_else(|| panic!("{printed}"));
+        line[text.len()..].split_whitespace().next().unwrap().parse().unwrap()
+    };
+    let expected_d = 5.5 / (2e-5 + least_n_m) / 86_400.0;
+    assert!((day("holdable without a dump until day") - expected_d).abs() < 0.1, "{printed} {expected_d}");
+    assert!((day("without targets in downlinks until day") - 5.5 / 2e-5 / 86_400.0).abs() < 0.1, "{printed}");
+    assert!(printed.contains("more than downlinks can undo"), "{printed}");
+    let drawn = fs::read_to_string(&svg).unwrap();
+    let document = Document::parse(&drawn).unwrap();
+    let classed =
+        |class: &str| document.descendants().filter(|node| node.attribute("class") == Some(class)).count();
+    assert!(classed("zero") > 6 && classed("attainable") == 1 && classed("mission") == 1, "{drawn}");
+}
+
+#[test]
+fn what_cannot_be_mapped_is_refused_by_name() {
+    for (arguments, expected) in [
+        (&["--distance", "nan"][..], "--distance"),
+        (&["--distance", "0"], "--distance"),
+        (&["--zone", "0deg,13deg"], "--zone"),
+        (&["--zone", "15deg"], "--zone"),
+        (&["--step", "7deg"], "--step"),
+        (&["--step", "0deg"], "--step"),
+        (&["--panel-offset", "200deg"], "--panel-offset"),
+        (&["--no-picture", "--output", "x.svg"], "--output"),
+        (&["--source", "moon"], "--source"),
+    ] {
+        let printed = run(&[&["map", MESSENGER][..], arguments].concat(), 2);
+        assert!(printed.contains(expected), "{arguments:?}: {printed}");
+    }
+    let Some((room, fmu_path)) = packed(MESSENGER) else { return };
+    let wrong = room.path().join("wrong.csv");
+    fs::write(&wrong, "time,mass\n0,1\n600,1\n").unwrap();
+    let template = ["--template", shown(&fmu_path), "--step", "10deg", "--no-picture"];
+    for (craft, arguments, expected) in [
+        (MESSENGER, &["--set", "spacecraft.center=1"][..], "spacecraft.center"),
+        (MESSENGER, &["--set", "keepIn.azimuth=0deg"], "keepIn.azimuth"),
+        (MESSENGER, &["--mission", shown(&wrong)], "torque.total[1] to [3], nor momentum.body"),
+        (MESSENGER, &["--set", "keepIn.azimuth=-1deg"], "found -1deg"),
+        (MESSENGER, &["--mission", "no/such.csv"], "no/such.csv"),
+        (MESSENGER, &["--csv", "-", "--lines", "-"], "one file cannot take both: see --csv and --lines"),
+        ("no/such.toml", &[], "no/such.toml"),
+        ("../../fmu-src/resources/ace.toml", &[], "ace.toml"),
+    ] {
+        let printed = run(&[&["map", craft][..], &template, arguments].concat(), 1);
+        assert!(printed.contains(expected), "{craft} {arguments:?}: {printed}");
+    }
+    assert!(
+        run(&["map", MESSENGER, "--template", shown(&fmu_path), "--output", "x.png"], 1).contains("--output")
+    );
+    assert!(run(&["map", shown(&fmu_path), "--template", shown(&fmu_path)], 1).contains("--template"));
+    // Neither shade nor panels: what remains is mapped, an offset has nothing to hold.
+    let bare = room.path().join("bare.toml");
+    let plate = "name = \"A\"\n[mass_properties]\nmass_kg = 100.0\ncenter_of_mass_m = [0.0, 0.0, 0.0]\n\
+                 inertia_kg_m2 = [[9.0, 0.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, 9.0]]\n[optics.foil]\nspecular = 0.2\n\
+                 diffuse = 0.3\n[[plates]]\nname = \"P\"\narea_m2 = 1.0\ncenter_m = [0.0, -1.0, 0.1]\nnormal = [0.0, -1.0, 0.0]\n\
+                 optics = \"foil\"\n";
+    fs::write(&bare, plate).unwrap();
+    let told = run(&[&["map", shown(&bare)][..], &template].concat(), 0);
+    assert!(told.contains("15 deg of azimuth, 13 deg of elevation either way, paper 000's"), "{told}");
+    let refused = run(&[&["map", shown(&bare)][..], &template, &["--panel-offset", "50deg"]].concat(), 1);
+    assert!(refused.contains("--panel-offset") && refused.contains("no panel"), "{refused}");
+}
