@@ -72,16 +72,30 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "momentum/table2",
         paper: "000",
-        title: "number of thruster dumps in 90 days, with a picture like Figure 4",
+        title: "number of thruster dumps in 90 days by strategy, cylinder, with a picture like Figure 4",
         takes: &[],
         run: momentum::table2,
     },
     Study {
         name: "momentum/table3",
         paper: "000",
-        title: "time between thruster dumps",
+        title: "time between thruster dumps by strategy, cylinder",
         takes: &[],
         run: momentum::table3,
+    },
+    Study {
+        name: "momentum/table4",
+        paper: "000",
+        title: "number of thruster dumps by strategy, plates and panels, centre of mass off in X, Y and Z",
+        takes: &[],
+        run: momentum::table4,
+    },
+    Study {
+        name: "momentum/table5",
+        paper: "000",
+        title: "time between those dumps",
+        takes: &[],
+        run: momentum::table5,
     },
     Study {
         name: "momentum/figure4",
@@ -89,6 +103,13 @@ pub const STUDIES: &[Study] = &[
         title: "X momentum over 90 days with thruster dumps only",
         takes: &[],
         run: momentum::figure4,
+    },
+    Study {
+        name: "momentum/figure5",
+        paper: "000",
+        title: "X momentum over 90 days with reactive and predictive targets",
+        takes: &[],
+        run: momentum::figure5,
     },
     Study {
         name: "momentum/assumptions",
