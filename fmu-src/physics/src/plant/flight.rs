@@ -17,6 +17,9 @@ use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
 use super::sun_choice::SunPlanner;
 
+/// A window computed in epochs begins this near its number in flight time, in s.
+const EPOCH_ROUNDING_S: f64 = 1e-6;
+
 /// Where the body flies: everything that its loads follow from.
 pub struct Flight<'f> {
     /// The spacecraft.
@@ -49,7 +52,8 @@ impl Flight<'_> {
     }
 
     /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
-    /// where it is over, the next one may choose.
+    /// where it is over, the next one may choose. At the `first` time of a flight nothing is forecast, and a downlink that has
+    /// begun before keeps its default attitude.
     ///
     /// # Errors
     /// What ends a flight.
@@ -58,6 +62,7 @@ impl Flight<'_> {
         time_s: f64,
         totals: &Totals,
         momentum: StartMomentum,
+        first: bool,
         work_limit: u32,
     ) -> Result<(), PlantError> {
         let Some(law) = self.configuration.attitude.guided().copied().filter(|law| law.managed) else {
@@ -77,7 +82,9 @@ impl Flight<'_> {
         }
         choice.chosen_s = Some(time_s);
         let until_s = guided.window.until_s - self.configuration.epoch_minus_time_s;
-        let chosen = if until_s.is_finite() && until_s > time_s {
+        let since_s = guided.window.since_s - self.configuration.epoch_minus_time_s;
+        let is_under_way = first && since_s < time_s - EPOCH_ROUNDING_S;
+        let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {
             let planner = self.planner;
             let mut plant = self.as_configured(work_limit);
             let instant = plant.instant(time_s);
@@ -86,6 +93,7 @@ impl Flight<'_> {
                 flight: self,
                 law,
                 totals: *totals,
+                forecasts: !first,
                 work_limit,
                 time_s,
                 span_s: until_s - time_s,

@@ -57,7 +57,7 @@ impl IdealFlight<'_, '_> {
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let given = StartMomentum::Body(momentum_body_n_m_s);
-        self.flight.choose_sun_place(time_s, &totals, given, self.work_limit)?;
+        self.flight.choose_sun_place(time_s, &totals, given, true, self.work_limit)?;
         let mut plant = self.flight.as_configured(self.work_limit);
         plant.prepare(time_s, time_s)?;
         Ok(plant.evaluate(time_s))
@@ -103,7 +103,7 @@ impl IdealFlight<'_, '_> {
     fn choose(&mut self, time_s: f64) -> Result<(), PlantError> {
         let totals = self.integrator.totals(time_s);
         let momentum = StartMomentum::of(&totals, self.flight.configuration.momentum.convention);
-        self.flight.choose_sun_place(time_s, &totals, momentum, self.work_limit)
+        self.flight.choose_sun_place(time_s, &totals, momentum, false, self.work_limit)
     }
 
     /// Propellant, push and mass properties after a dump.

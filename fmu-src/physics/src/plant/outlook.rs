@@ -55,6 +55,7 @@ pub struct Outlook<'o, 'f> {
     pub(super) flight: &'o mut Flight<'f>,
     pub(super) law: Guided,
     pub(super) totals: Totals,
+    pub(super) forecasts: bool,
     pub(super) work_limit: u32,
     /// When, in s.
     pub time_s: f64,
@@ -85,10 +86,14 @@ impl Outlook<'_, '_> {
         configuration.mass_properties(panels, &-Vector3::y()).center_of_mass_body_m
     }
 
-    /// Length of a cycle of science and downlink, in s; infinite where none follows.
+    /// Length of a cycle of science and downlink, in s; infinite where none follows, and where nothing may be forecast.
     pub fn cycle_s(&self) -> f64 {
         let schedule = &self.law.schedule;
-        if schedule.once { f64::INFINITY } else { f64::from(schedule.every) * schedule.period_s }
+        if schedule.once || !self.forecasts {
+            f64::INFINITY
+        } else {
+            f64::from(schedule.every) * schedule.period_s
+        }
     }
 
     /// Momentum from here to `until_s`, every `step_s`.

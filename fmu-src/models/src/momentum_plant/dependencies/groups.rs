@@ -4,6 +4,8 @@ use fmi_export::{Knowns, knowns};
 
 use super::super::setup::PlantSetup;
 use super::super::variables::PlantVariables;
+use super::super::variables::body::PanelVariables;
+use crate::common::spacecraft::has_both_shapes;
 
 /// Inputs by what they act on. A command or an orbit given by inputs starts anew when any of its inputs changes, so all
 /// of them act together; and the flight begins when orbit and Sun are no longer zero.
@@ -32,12 +34,17 @@ impl Inputs {
         let sensors = knowns![v.star_tracker.failed, v.gyro.failed];
         let failed = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
         let dump = knowns![v.dump.request, v.dump.target];
-        let panels = v.panel.iter().map(|panel| panel.angle).collect::<Knowns>();
+        let panels = v.panel.iter().map(turned_by).collect::<Knowns>();
         let weighed_panels = panels.clone().only_if(panels_weigh(setup));
         let weight = knowns![&attitude, &weighed_panels].only_if(panels_weigh(setup));
         let controller = knowns![&attitude, &sensors, failed, dump, &weighed_panels].only_if(can_control(v));
         Self { places, attitude, panels, weight, weighed_panels, sensors, controller }
     }
+}
+
+/// The inputs that turn a panel.
+pub fn turned_by(panel: &PanelVariables) -> Knowns {
+    knowns![panel.angle, panel.sun_offset_command]
 }
 
 /// Whether the wheels' axes, which are parameters, can be such that they span all directions.
@@ -67,6 +74,8 @@ pub struct Start {
     /// The same along Z of EME2000.
     pub sun_z: Knowns,
     pub attitude: Knowns,
+    /// What the orbit phase's own guidance follows.
+    pub guidance: Knowns,
     /// What the attitude's rate follows, but for command.rate.
     pub rate: Knowns,
     /// The orbit phase's own guidance, where it sets the start of a controlled flight.
@@ -101,20 +110,48 @@ impl Start {
         let ephemeris = knowns![v.start.epoch, &ephemeris.ellipse.knowns()];
         let sun_z = knowns![&begun, &elements, &ephemeris];
         let sun = knowns![&sun_z, &turned_about_z];
-        let schedule =
-            knowns![guided.downlink_start, guided.downlink_end, guided.downlink_every, guided.slew_rate];
-        let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation];
-        let guidance = knowns![&sun, law, schedule, v.planet.gravitational_parameter, v.earth.position];
-        // A command of zero is none.
-        let sources = knowns![v.attitude.source, command.source];
-        let rate = knowns![&guidance, &sources, command.kind, command.q, command.error];
-        let guided = knowns![guidance, sources, v.start.q].only_if(can_control(v));
-        let attitude = knowns![&rate, v.start.q];
         let panels = v
             .panel
             .iter()
-            .map(|panel| knowns![panel.control, panel.sun_offset, panel.tilt, panel.enabled, panel.angle])
+            .map(|panel| {
+                let set = knowns![panel.control, panel.sun_offset, panel.tilt, panel.enabled];
+                knowns![set, turned_by(panel)]
+            })
             .collect::<Vec<_>>();
+        let schedule = knowns![
+            guided.downlink_reference,
+            guided.downlink_start,
+            guided.downlink_end,
+            guided.downlink_every,
+            guided.slew_rate
+        ];
+        let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation];
+        let guidance = knowns![&sun, law, schedule, v.planet.gravitational_parameter, v.earth.position];
+        // A downlink that begins at the start has the Sun where its torque brings the momentum to the target.
+        let management = &v.momentum.management;
+        let aimed = knowns![
+            management.strategy,
+            management.target_axes,
+            management.targeting,
+            management.target,
+            v.start.momentum,
+            v.keep_in.azimuth,
+        ];
+        let light = knowns![
+            v.solar.flux,
+            v.solar.fixed_pressure,
+            v.solar.pressure,
+            v.spacecraft.center_of_mass,
+            panels.iter().collect::<Knowns>(),
+        ];
+        let shade = knowns![v.sunshade.shape].only_if(has_both_shapes(&setup.spacecraft));
+        let mass = knowns![v.spacecraft.mass].only_if(panels_weigh(setup));
+        let guidance = knowns![guidance, aimed, light, shade, mass];
+        // A command of zero is none.
+        let sources = knowns![v.attitude.source, command.source];
+        let rate = knowns![&guidance, &sources, command.kind, command.q, command.error];
+        let guided = knowns![&guidance, &sources, v.start.q].only_if(can_control(v));
+        let attitude = knowns![&rate, v.start.q];
         let dump = &v.dump;
         let momentum =
             knowns![v.start.momentum, dump.threshold, dump.reinit_to, dump.reinit_fraction, dump.target];
@@ -141,6 +178,7 @@ impl Start {
             turned_about_z,
             ephemeris,
             sun,
+            guidance: knowns![guidance, sources],
             sun_z,
             attitude,
             rate,

@@ -4,7 +4,7 @@ use fmi_export::{Dependencies, Knowns, knowns};
 
 use super::super::setup::PlantSetup;
 use super::super::variables::PlantVariables;
-use super::groups::{Inputs, Start, can_control};
+use super::groups::{Inputs, Start, can_control, turned_by};
 
 /// Thrusters fire on command, for a dump, and in place of wheels; a dump at once takes propellant.
 pub fn thrusters(
@@ -71,7 +71,7 @@ pub fn thrusters(
         table.output(thruster.thrust, &pulse, at_start);
         table.output(thruster.pulses, &pulse, at_start);
         table.output(thruster.too_short, &pulse, knowns![]);
-        let panels = v.panel.iter().map(|panel| panel.angle).collect::<Knowns>();
+        let panels = v.panel.iter().map(turned_by).collect::<Knowns>();
         table.output(
             thruster.plume,
             knowns![&pulse, panels],

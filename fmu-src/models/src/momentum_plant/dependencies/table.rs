@@ -6,7 +6,7 @@ use super::super::setup::PlantSetup;
 use super::super::variables::PlantVariables;
 use super::dynamics::{momentum, sensors, wheels_and_control};
 use super::flexibility::swinging;
-use super::groups::{Inputs, Start, panels_weigh};
+use super::groups::{Inputs, Start, panels_weigh, turned_by};
 use super::propulsion::thrusters;
 use crate::common::spacecraft::{
     across, can_shadow, has_both_shapes, inertia_about_others, shape_recoils_along, stores_heat_in_shadow,
@@ -130,7 +130,7 @@ fn light_and_loads(
     let storage = &knowns![v.thermal.storage].only_if(stores_heat_in_shadow(spacecraft));
     for axis in 0..3 {
         let turning = |k: &usize| turns_out_of(spacecraft, *k, axis);
-        let angles = (0..v.panel.len()).filter(turning).map(|k| v.panel[k].angle).collect::<Knowns>();
+        let angles = (0..v.panel.len()).filter(turning).map(|k| turned_by(&v.panel[k])).collect::<Knowns>();
         let turned = (0..v.panel.len()).filter(turning).map(|k| &start.panels[k]).collect::<Knowns>();
         let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(spacecraft, axis));
         table.output(
@@ -139,8 +139,10 @@ fn light_and_loads(
             knowns![recoil, shape, &turned],
         );
         // Tilted the other way a panel takes as much light.
-        let lit_alike =
-            v.panel.iter().map(|panel| knowns![panel.control, panel.sun_offset, panel.enabled, panel.angle]);
+        let lit_alike = v
+            .panel
+            .iter()
+            .map(|panel| knowns![panel.control, panel.sun_offset, panel.enabled, turned_by(panel)]);
         let at_start = knowns![solar, lit_alike.collect::<Knowns>(), turned];
         table.output(force.by_source.solar.element(axis), lit, at_start);
     }
@@ -176,7 +178,7 @@ fn light_and_loads(
     table.output(v.delta_v, knowns![], knowns![]);
 
     for (plate, face) in v.plate.iter().zip(&setup.reported_faces) {
-        let angles = face.lit_past.iter().filter_map(|&k| v.panel.get(k)).map(|panel| panel.angle);
+        let angles = face.lit_past.iter().filter_map(|&k| v.panel.get(k)).map(turned_by);
         let lit = &knowns![&inputs.attitude, angles.collect::<Knowns>()];
         let panels = face.lit_past.iter().filter_map(|&k| start.panels.get(k)).collect::<Knowns>();
         let shadows = knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(face.shadowed);
@@ -199,7 +201,7 @@ fn craft(table: &mut Dependencies, setup: &PlantSetup, v: &PlantVariables, input
         table.output(v.center_of_mass.element(axis), &inputs.weight, at_start);
     }
     for (panel, set) in v.panel.iter().zip(&start.panels) {
-        let at_step = knowns![&inputs.attitude, panel.angle];
+        let at_step = knowns![&inputs.attitude, turned_by(panel)];
         table.output(panel.angle_actual, at_step, knowns![&start.attitude, set]);
     }
     let shaded = setup.spacecraft.sunshade.is_some();

@@ -1,6 +1,6 @@
 //! The plant's variables at its public face.
 
-mod body;
+pub mod body;
 pub mod choices;
 mod control;
 pub mod defaults;

@@ -18,7 +18,11 @@ const OPTIONS: &[(&str, i32, i32)] = &[
     ("command.kind", 0, 3),
     ("guided.scienceRule", 1, 3),
     ("guided.downlinkEvery", 0, 2),
-    ("orbit.source", 1, 2),
+    ("guided.downlinkReference", 1, 2),
+    ("orbit.source", 1, 3),
+    ("momentum.strategy", 1, 3),
+    ("momentum.targetAxes", 1, 3),
+    ("momentum.targeting", 1, 2),
     ("orbit.dynamics", 1, 2),
     ("orbit.sunTide", 0, 1),
     ("orbit.radiationFeedback", 0, 1),
@@ -75,6 +79,7 @@ const CARRIERS: &[(&str, &str)] = &[
     ("momentum.body", "attitude.q"),
     ("dump.", "attitude.q"),
     ("dump.", "momentum.inertial"),
+    ("momentum.targetClamped", "attitude.q"),
     // What is commanded for good at the start turns the body under all light.
     ("torque.", "attitude.q"),
     // A dump begins where the momentum exceeds a threshold.
@@ -178,7 +183,7 @@ fn draw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, shapes: boo
     }
     for k in 1..9 {
         if bench.has(&format!("panel[{k}].control")) {
-            bench.put(&mut values, &format!("panel[{k}].control"), random.whole(1, 2));
+            bench.put(&mut values, &format!("panel[{k}].control"), random.whole(1, 3));
             bench.put(&mut values, &format!("panel[{k}].tilt"), random.whole(1, 2));
             bench.put(&mut values, &format!("panel[{k}].enabled"), f64::from(u8::from(random.next() < 0.9)));
         }
@@ -250,10 +255,21 @@ fn redraw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, values: &
         bench.put(values, "orbit.trueAnomaly", random.between(0.3, 2.0));
         bench.put(values, "guided.downlinkStart", random.between(0.0, 1000.0));
     }
+    if bench.real(values, "guided.downlinkReference") == 2.0 {
+        // A downlink that begins at the start; else one under way there.
+        bench.put(values, "guided.downlinkStart", if random.next() < 0.8 { 0.0 } else { 100.0 });
+        let sizes = if random.next() < 0.6 { 0.1 } else { 1.0 };
+        bench.put_vector(values, "momentum.target", &random.direction().map(|x| sizes * x));
+        if random.next() < 0.6 {
+            bench.put_vector(values, "start.momentum", &random.direction().map(|x| sizes * x));
+            bench.put(values, "keepIn.elevation", 0.23);
+        }
+    }
     for k in 1..9 {
         if bench.has(&format!("panel[{k}].control")) {
             bench.put(values, &format!("panel[{k}].sunOffset"), random.between(0.1, 1.2));
             bench.put(values, &format!("panel[{k}].angle"), random.between(-3.0, 3.0));
+            bench.put(values, &format!("panel[{k}].sunOffsetCommand"), random.between(0.1, 1.2));
         }
         if bench.has(&format!("wheel[{k}].capacity")) {
             bench.put(values, &format!("wheel[{k}].capacity"), random.between(0.1, 3.0));
