@@ -25,6 +25,30 @@ pub struct TorqueBySource {
     pub gravity_gradient: RealVector<3>,
 }
 
+/// What each source did to the momentum since the last dump, body frame by momentum.convention. All of them add up to what the
+/// momentum changed by since, but for thrusters in use and rotors out of balance.
+#[derive(Variables)]
+pub struct MomentumBySource {
+    /// Direct sunlight.
+    #[output(unit = "N.m.s", nominal = 1e-1)]
+    pub solar: RealVector<3>,
+    /// Sunlight reflected by the planet.
+    #[output(unit = "N.m.s", nominal = 1e-2)]
+    pub albedo: RealVector<3>,
+    /// Infrared light of the planet.
+    #[output(unit = "N.m.s", nominal = 1e-2)]
+    pub infrared: RealVector<3>,
+    /// Recoil of the heat the spacecraft radiates.
+    #[output(unit = "N.m.s", nominal = 1e-2)]
+    pub thermal: RealVector<3>,
+    /// Gravity gradient of the planet.
+    #[output(unit = "N.m.s", nominal = 1e-1)]
+    pub gravity_gradient: RealVector<3>,
+    /// What was applied from outside.
+    #[output(unit = "N.m.s", nominal = 1e-1)]
+    pub applied: RealVector<3>,
+}
+
 /// Force by source, body frame.
 #[derive(Variables)]
 pub struct ForceBySource {
@@ -70,6 +94,20 @@ impl TorqueBySource {
             Effect::GravityGradient => Some(self.gravity_gradient),
             Effect::Applied | Effect::Thrusters => None,
         }
+    }
+}
+
+impl MomentumBySource {
+    /// The outputs with their effects.
+    pub fn all(&self) -> [(Effect, RealVector<3>); 6] {
+        [
+            (Effect::Solar, self.solar),
+            (Effect::Albedo, self.albedo),
+            (Effect::Infrared, self.infrared),
+            (Effect::Thermal, self.thermal),
+            (Effect::GravityGradient, self.gravity_gradient),
+            (Effect::Applied, self.applied),
+        ]
     }
 }
 

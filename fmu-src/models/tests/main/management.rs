@@ -265,3 +265,80 @@ fn a_held_place_is_the_inputs_own() {
     let waiting = named.fly(0.0, &with(&still(60.0), &[("orbit.position[1]", 0.0)])).unwrap();
     assert_eq!(waiting.vector("sun.direction"), Vector3::zeros());
 }
+
+/// The sum of all sources less a change of the momentum, body frame, relative to the greatest source.
+fn unexplained(flight: &Plant<'_>, change: &Vector3<f64>) -> f64 {
+    let names = ["solar", "albedo", "infrared", "thermal", "gravityGradient", "applied"];
+    let parts = names.map(|name| flight.vector(&format!("momentum.{name}")));
+    let greatest = parts.iter().map(|part| part.amax()).fold(0.0, f64::max);
+    assert!(greatest > 1e-6, "{parts:?}");
+    (parts.iter().sum::<Vector3<f64>>() - change).amax() / greatest
+}
+
+const EFFECTS: [(&str, f64); 5] = [
+    ("planetLight.enabled", 1.0),
+    ("thermal.enabled", 1.0),
+    ("gravityGradient.enabled", 1.0),
+    ("torque.applied[1]", 2e-6),
+    ("torque.applied[3]", -1e-6),
+];
+
+#[test]
+fn sources_add_up_to_the_momentum_since_the_last_dump() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    for convention in [1.0, 2.0] {
+        let sets =
+            with(&mission(1.0), &[("momentum.convention", convention), ("gravityGradient.enabled", 1.0)]);
+        let mut flight = named.fly(0.0, &[&sets[..], &EFFECTS[..2], &EFFECTS[3..]].concat()).unwrap();
+        let (mut since, mut dumps, mut checked) = (Vector3::zeros(), 0, 0);
+        for day in 1..=60 {
+            flight.step_to(86_400.0 * f64::from(day)).unwrap();
+            let count = flight.integer("dump.count");
+            let (body, inertial) = (flight.vector("momentum.body"), flight.vector("momentum.inertial"));
+            let now = if convention == 1.0 { inertial } else { body };
+            if count == dumps {
+                let q: [f64; 4] = core::array::from_fn(|i| flight.real(&format!("attitude.q[{}]", i + 1)));
+                let turn = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(
+                    q[3], q[0], q[1], q[2],
+                ));
+                let change = now - since;
+                let change = if convention == 1.0 { turn.inverse() * change } else { change };
+                let off = unexplained(&flight, &change);
+                assert!(off < 1e-12 * f64::from(day).max(10.0), "day {day}: {off:e}");
+                checked += 1;
+            } else {
+                // The dump's own end is not an output: from here on count what follows.
+                dumps = count;
+                let names = ["solar", "albedo", "infrared", "thermal", "gravityGradient", "applied"];
+                let sum: Vector3<f64> =
+                    names.iter().map(|name| flight.vector(&format!("momentum.{name}"))).sum();
+                let q: [f64; 4] = core::array::from_fn(|i| flight.real(&format!("attitude.q[{}]", i + 1)));
+                let turn = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(
+                    q[3], q[0], q[1], q[2],
+                ));
+                since = now - if convention == 1.0 { turn * sum } else { sum };
+            }
+        }
+        assert!(dumps > 2 && checked > 20, "{dumps} {checked}");
+    }
+}
+
+#[test]
+fn sources_add_up_in_controlled_flight() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let sets =
+        [&[("attitude.source", 3.0), ("command.source", 2.0), ("wheel[1].startMomentum", 1.0)][..], &EFFECTS]
+            .concat();
+    let mut flight = named.fly(0.0, &sets).unwrap();
+    let start = flight.vector("momentum.inertial");
+    for end_s in [0.7, 100.0, 7300.0] {
+        flight.step_to(end_s).unwrap();
+        let q: [f64; 4] = core::array::from_fn(|i| flight.real(&format!("attitude.q[{}]", i + 1)));
+        let turn =
+            nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q[3], q[0], q[1], q[2]));
+        let change = turn.inverse() * (flight.vector("momentum.inertial") - start);
+        let off = unexplained(&flight, &change);
+        // The start is a momentum of 1 N m s, of which the change is a small difference.
+        assert!(off * change.norm() < 1e-12, "{end_s}: {off:e}");
+    }
+}

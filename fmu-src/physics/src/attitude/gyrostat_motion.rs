@@ -247,6 +247,25 @@ impl GyrostatMotion {
         }
     }
 
+    /// Change of the total momentum since the start of the segment by each of these torques, body frame in N m with slopes in
+    /// N m/s, that act from there on: EME2000, in N m s. Those of the whole load add up to the change of all.
+    pub fn impulses_inertial_n_m_s<const N: usize>(
+        &self,
+        torques: &[[Vector3<f64>; 2]; N],
+        time_s: f64,
+    ) -> [Vector3<f64>; N] {
+        let elapsed_s = time_s - self.start_s;
+        let mut sums = [Vector3::zeros(); N];
+        for (node, weight) in GAUSS {
+            let at_s = node * elapsed_s;
+            let attitude = self.attitude_after(at_s);
+            for (sum, [start, slope]) in sums.iter_mut().zip(torques) {
+                *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * elapsed_s);
+            }
+        }
+        sums
+    }
+
     /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
     pub fn rotor_n_m_s(&self, gyrostat: &Gyrostat, k: usize, time_s: f64, motion: &BodyMotion) -> f64 {
         let (wheel, it) = (&gyrostat.wheels()[k], &self.rotors[k]);

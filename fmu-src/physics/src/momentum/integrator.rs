@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::numerics::intervals::next_multiple_s;
 
+use super::by_source::SourceMomenta;
 use super::dump::{DumpEvent, Dumps};
 use super::segment::{MomentumSegment, Settings};
 use super::torque_model::{Effort, Sample, TorqueModel};
@@ -34,7 +35,8 @@ pub enum Stop {
 impl MomentumIntegrator {
     /// Begins at `time_s` with `totals`.
     pub fn new(time_s: f64, totals: Totals) -> Self {
-        Self { segment: MomentumSegment::point(time_s, totals), dumps: Dumps::default() }
+        let segment = MomentumSegment::point(time_s, totals, SourceMomenta::default());
+        Self { segment, dumps: Dumps::default() }
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
@@ -52,6 +54,11 @@ impl MomentumIntegrator {
         self.segment.totals(time_s)
     }
 
+    /// What each effect did to the momentum since the last dump, at a time inside the current segment.
+    pub fn by_source(&self, time_s: f64) -> SourceMomenta {
+        self.segment.by_source(time_s)
+    }
+
     /// Whether [`MomentumIntegrator::advance`] has reached `time_s`, and its totals are known there.
     pub fn covers(&self, time_s: f64) -> bool {
         let edge_tolerance_s = edge_tolerance_s(time_s);
@@ -61,7 +68,9 @@ impl MomentumIntegrator {
     /// Forgets what was computed ahead of `time_s`: the flight changes there.
     pub fn cut(&mut self, time_s: f64) {
         let longest_s = self.segment.next_longest_s();
-        self.segment = MomentumSegment::point(time_s, self.segment.totals(time_s)).expecting(longest_s);
+        let by_source = self.segment.by_source(time_s);
+        self.segment =
+            MomentumSegment::point(time_s, self.segment.totals(time_s), by_source).expecting(longest_s);
     }
 
     /// Dumps at `time_s` on request: momentum goes to `target_body_n_m_s` in the watched convention.
@@ -113,7 +122,7 @@ impl MomentumIntegrator {
                 return Ok(Stop::Choice { at_s: start_s });
             }
             let longest_s = self.segment.next_longest_s();
-            let totals = self.segment.totals(start_s);
+            let (totals, by_source) = (self.segment.totals(start_s), self.segment.by_source(start_s));
             let horizon_s = flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
             let first = flight.sample(start_s);
             let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
@@ -126,8 +135,15 @@ impl MomentumIntegrator {
                 self.dumps.check()?;
                 return Ok(Stop::Dump(event));
             }
-            self.segment =
-                MomentumSegment::build(flight, settings, start_s, horizon_s, totals, &first, longest_s)?;
+            self.segment = MomentumSegment::build(
+                flight,
+                settings,
+                start_s,
+                horizon_s,
+                (totals, by_source),
+                &first,
+                longest_s,
+            )?;
         }
         Ok(Stop::Reached)
     }
@@ -137,7 +153,8 @@ impl MomentumIntegrator {
         let (time_s, longest_s) = (self.segment.end_s(), self.segment.next_longest_s());
         let mut totals = self.segment.totals(time_s);
         totals.delta_v_inertial_m_s += delta_v_inertial_m_s;
-        self.segment = MomentumSegment::point(time_s, totals).expecting(longest_s);
+        let by_source = self.segment.by_source(time_s);
+        self.segment = MomentumSegment::point(time_s, totals, by_source).expecting(longest_s);
     }
 
     fn dump(
@@ -152,7 +169,7 @@ impl MomentumIntegrator {
         let event = DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: after(&before_body_n_m_s) };
         totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
         totals.momentum_inertial_n_m_s += sample.inertial_from_body * event.impulse_body_n_m_s();
-        self.segment = MomentumSegment::point(time_s, totals);
+        self.segment = MomentumSegment::point(time_s, totals, SourceMomenta::default());
         self.dumps = self.dumps.with(event);
         event
     }
@@ -189,6 +206,11 @@ mod tests {
             Sample {
                 inertial_from_body: Rotation3::from_axis_angle(&Vector3::x_axis(), 1e-3 * time_s),
                 torque_body_n_m: Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 1e-6),
+                by_source_body_n_m: core::array::from_fn(|source| match source {
+                    0 => Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 0.0),
+                    3 => Vector3::new(0.0, 0.0, 1e-6),
+                    _ => Vector3::zeros(),
+                }),
                 acceleration_inertial_m_s2: Vector3::new(if time_s < 1000.0 { 1e-7 } else { 2e-7 }, 0.0, 0.0),
                 events: self.events(time_s),
             }

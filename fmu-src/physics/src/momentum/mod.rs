@@ -5,6 +5,7 @@
 //! polynomial in time, so any communication point merely evaluates it, and how a master cuts its steps cannot
 //! change a bit.
 
+mod by_source;
 mod dump;
 mod integrator;
 mod segment;
@@ -12,6 +13,7 @@ mod torque_model;
 mod totals;
 mod wheels;
 
+pub use by_source::{SOURCES, SourceMomenta, SourceTorques, torques_body_n_m};
 pub use dump::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, Reinitialise, TooManyDumps};
 pub use integrator::{MomentumIntegrator, Stop};
 pub use segment::Settings;

@@ -7,6 +7,7 @@ use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 use crate::numerics::events::first_event;
 
+use super::by_source::{SourceMomenta, SourceSegment, rates};
 use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
 use super::torque_model::{Effort, Sample, TorqueModel, after_event_s};
 use super::totals::{Convention, RATES, Totals, pack};
@@ -41,12 +42,23 @@ pub struct MomentumSegment {
     next_longest_s: f64,
     /// Absent for a segment without length.
     totals: Option<Segment<RATES, { NODES + 1 }>>,
+    by_source_at_start: SourceMomenta,
+    /// Absent for a segment without length.
+    by_source: Option<SourceSegment<{ NODES + 1 }>>,
 }
 
 impl MomentumSegment {
     /// A segment without length at `time_s`.
-    pub fn point(time_s: f64, totals: Totals) -> Self {
-        Self { start_s: time_s, end_s: time_s, at_start: totals, next_longest_s: f64::INFINITY, totals: None }
+    pub fn point(time_s: f64, totals: Totals, by_source: SourceMomenta) -> Self {
+        Self {
+            start_s: time_s,
+            end_s: time_s,
+            at_start: totals,
+            next_longest_s: f64::INFINITY,
+            totals: None,
+            by_source_at_start: by_source,
+            by_source: None,
+        }
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
@@ -56,6 +68,8 @@ impl MomentumSegment {
         numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
             && self.next_longest_s > 0.0
             && self.totals.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
+            && self.by_source_at_start.is_sound()
+            && self.by_source.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
     }
 
     /// The same, expecting that the tolerance allows the next segment this length, in s.
@@ -77,11 +91,12 @@ impl MomentumSegment {
         settings: &Settings,
         start_s: f64,
         horizon_s: f64,
-        at_start: Totals,
+        at_start: (Totals, SourceMomenta),
         first: &Sample,
         longest_s: f64,
     ) -> Result<Self, F::Failure> {
         flight.spend(Effort::Segment, start_s)?;
+        let (at_start, by_source_at_start) = at_start;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
         let mut samples = [*first; NODES];
@@ -119,7 +134,13 @@ impl MomentumSegment {
             flight.spend(Effort::Refinement, start_s)?;
         };
         let end_s = interval.end_s();
-        let mut segment = Self { start_s, end_s, at_start, next_longest_s, totals: Some(totals) };
+        let by_source =
+            samples.map(|s| rates(settings.convention, &s.inertial_from_body, &s.by_source_body_n_m));
+        let by_source = SourceSegment::<NODES>::from_samples(start_s, end_s, &by_source)
+            .integral(by_source_at_start.to_vector());
+        let (totals, by_source) = (Some(totals), Some(by_source));
+        let mut segment =
+            Self { start_s, end_s, at_start, next_longest_s, totals, by_source_at_start, by_source };
         if let Some(dump_s) = segment.first_excess_s(settings, &nodes, &samples) {
             segment.end_s = dump_s;
         }
@@ -146,6 +167,14 @@ impl MomentumSegment {
         match &self.totals {
             Some(totals) if time_s > self.start_s => Totals::from_vector(&totals.value(time_s)),
             _ => self.at_start,
+        }
+    }
+
+    /// What each effect did since the last dump, at a time inside the segment.
+    pub fn by_source(&self, time_s: f64) -> SourceMomenta {
+        match &self.by_source {
+            Some(momenta) if time_s > self.start_s => SourceMomenta::from_vector(&momenta.value(time_s)),
+            _ => self.by_source_at_start,
         }
     }
 

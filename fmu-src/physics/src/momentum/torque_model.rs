@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation3, SVector, Vector3};
 
+use super::by_source::SourceTorques;
 use super::dump::TooManyDumps;
 use crate::numerics::spacing::spacing;
 
@@ -20,6 +21,8 @@ pub struct Sample {
     pub inertial_from_body: Rotation3<f64>,
     /// Total external torque about the centre of mass, body frame, in N m.
     pub torque_body_n_m: Vector3<f64>,
+    /// The same by effect.
+    pub by_source_body_n_m: SourceTorques,
     /// Acceleration by non-gravitational forces, inertial frame, in m/s2.
     pub acceleration_inertial_m_s2: Vector3<f64>,
     /// Event functions: between two of their roots the sample is a smooth function of time. Infinite where there is nothing

@@ -12,7 +12,7 @@ use crate::attitude::control::{
     AccelerometerState, ControlTarget, ControllerState, Estimate, EstimatorState, sensed_sun,
 };
 use crate::attitude::{Appendages, Attitude, BodyLoad, BodyMotion, GyrostatMotion, Quaternion};
-use crate::momentum::{DumpEvent, DumpSpacing, Dumps, Totals};
+use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SOURCES, SourceMomenta, Totals};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
@@ -21,7 +21,7 @@ use crate::radiation::{Effect, ForceTorque};
 use crate::spacecraft::MassProperties;
 
 use super::configuration::Command;
-use super::disturbance_interval::DisturbanceInterval;
+use super::disturbance_interval::{DisturbanceInterval, Linear};
 use super::dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, Tracked};
 use super::error::PlantError;
 use super::evaluation::{Evaluation, ExternalLoad};
@@ -76,6 +76,10 @@ pub struct AttitudeDynamics {
     dump: Option<ConstantDump>,
     dumps: Dumps,
     spacing: DumpSpacing,
+    /// What each effect did to the momentum from the last dump up to the present segment.
+    by_source: SourceMomenta,
+    /// Torque by effect from the start of that segment on.
+    source_torques: [Linear; SOURCES.len()],
 }
 
 impl AttitudeDynamics {
@@ -113,6 +117,8 @@ impl AttitudeDynamics {
             dump: None,
             dumps: Dumps::default(),
             spacing: DumpSpacing::default(),
+            by_source: SourceMomenta::default(),
+            source_torques: [[Vector3::zeros(); 2]; SOURCES.len()],
         }
     }
 
@@ -133,6 +139,8 @@ impl AttitudeDynamics {
             && mass(&self.mass)
             && self.left.as_ref().is_none_or(mass)
             && self.disturbance.is_sound()
+            && self.by_source.is_sound()
+            && self.source_torques.iter().flatten().all(vector)
             && [self.next_sample.1, self.sampled_s, self.next_guidance_s].iter().all(sound)
             && self.next_sample.0.unsigned_abs() < 1 << 60
             && (norm - 1.0).abs() < 1e-9
@@ -211,6 +219,7 @@ impl AttitudeDynamics {
                 limit_s = limit_s.min(dump.until_s);
             }
             let load = self.load(inputs, time_s);
+            self.source_torques = self.torques_by_source(inputs, time_s);
             self.motion.advance(&settings.gyrostat, self.wheels.motors(), &load, limit_s);
         }
         Ok(())
@@ -233,6 +242,11 @@ impl AttitudeDynamics {
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let due_s = time_s + tolerance_s(time_s);
+        self.by_source.add(&self.motion.impulses_inertial_n_m_s(&self.source_torques, time_s));
+        self.source_torques = [[Vector3::zeros(); 2]; SOURCES.len()];
+        if self.is_dumping(time_s) {
+            self.by_source = SourceMomenta::default();
+        }
         self.thrusters.settle(&self.motion, flight.propellant, time_s);
         self.thrusters.take_edges(&settings.thrusters, flight.propellant, time_s);
         if self.dump.is_some_and(|dump| dump.until_s <= due_s) {
@@ -489,6 +503,7 @@ impl AttitudeDynamics {
         let time_s = event.time_s;
         self.dumps = self.dumps.with(event);
         self.spacing.dumped(&event);
+        self.by_source = SourceMomenta::default();
         let impulse_body_n_m_s = event.impulse_body_n_m_s();
         if settings.thrusters.thrusters.is_empty() {
             let duration_s = impulse_body_n_m_s.amax() / settings.thrusters.dump_torque_n_m;
@@ -523,6 +538,21 @@ impl AttitudeDynamics {
             mass_kg: thrusters.mass_kg,
             flow_kg_s: thrusters.flow_kg_s,
         }
+    }
+
+    /// Torque by effect from `time_s` on.
+    fn torques_by_source(&self, inputs: &DynamicsInputs<'_>, time_s: f64) -> [Linear; SOURCES.len()] {
+        SOURCES.map(|effect| match effect {
+            Effect::Applied => (inputs.external)(time_s).map(|load| load.torque_body_n_m),
+            effect => self.disturbance.torque_at(effect, time_s),
+        })
+    }
+
+    /// What each effect did to the momentum since the end of the last dump, at `time_s`.
+    pub fn by_source(&self, time_s: f64) -> SourceMomenta {
+        let mut momenta = self.by_source;
+        momenta.add(&self.motion.impulses_inertial_n_m_s(&self.source_torques, time_s));
+        momenta
     }
 
     /// The body at `time_s`.

@@ -25,7 +25,7 @@ const NODES: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 const ROWS: usize = 2 * Effect::DISTURBANCES.len();
 
 /// A vector that changes linearly: at the start, and per second.
-type Linear = [Vector3<f64>; 2];
+pub type Linear = [Vector3<f64>; 2];
 
 /// What acts on the body and where the Sun stands, over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -120,6 +120,14 @@ impl DisturbanceInterval {
             loads[effect] = ForceTorque { force_body_n, torque_body_n_m };
         }
         loads
+    }
+
+    /// Torque of an effect of the surroundings at `time_s` and its slope, in N m and N m/s.
+    pub fn torque_at(&self, effect: Effect, time_s: f64) -> Linear {
+        match self.loads.get(2 * effect as usize + 1) {
+            Some([start, slope]) => [start + slope * (time_s - self.start_s), *slope],
+            None => [Vector3::zeros(); 2],
+        }
     }
 
     /// Sum over the effects at `time_s`: force in N and its slope in N/s, torque in N m and its slope in N m/s.

@@ -12,7 +12,7 @@ use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
 use crate::guidance::GuidedAttitude;
-use crate::momentum::{Effort, EventValues, Sample, TorqueModel};
+use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
 use crate::spacecraft::{MassProperties, Panel};
@@ -294,6 +294,7 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
         Sample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
+            by_source_body_n_m: torques_body_n_m(&evaluation.loads),
             acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),
             events: evaluation.instant.events,
         }

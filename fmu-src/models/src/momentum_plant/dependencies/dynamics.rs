@@ -49,6 +49,9 @@ pub fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, s
     let turning = &knowns![&start.turning, v.spacecraft.inertia];
     table.output(momentum.inertial, to_target, knowns![&start.attitude, &start.momentum, turning]);
     let exceeded = &knowns![&start.begun, v.start.momentum, dump.threshold, turning];
+    for (_, output) in momentum.by_source.all() {
+        table.output(output, dumped, knowns![]);
+    }
     table.output(momentum.target_clamped, knowns![], &start.guidance);
     table.output(dump.count, to_target, exceeded);
     table.output(dump.last_time, dumped, exceeded);

@@ -4,7 +4,7 @@ use fmi_export::{Failure, InputsOverTime, Step, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::guidance::system::CommandKind as Kind;
-use physics::momentum::{DumpEvent, Totals};
+use physics::momentum::{Convention, DumpEvent, Totals};
 use physics::plant::{
     AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, ExternalLoad, Flight, Motion,
     PropagatorState, SunPlanner, Tracked,
@@ -227,6 +227,8 @@ fn show(
     flyable(&evaluation, &totals, time_s)?;
     outputs::write_plates(context, values, state, configuration, time_s)?;
     outputs::write(context, values, state, configuration, &evaluation, &totals, time_s);
+    let rotation = &evaluation.instant.frame.inertial_from_body;
+    outputs::write_by_source(context, values, &flown.by_source(time_s), Convention::Inertial, rotation);
     outputs::write_dumps(context, values, flown.dumps(), flown.spacing(), flown.is_dumping(time_s));
     if let Some([impulse, delta_v]) = flown.dumped_at(time_s) {
         values.set_vector(context.variables.dump.impulse, impulse.into());

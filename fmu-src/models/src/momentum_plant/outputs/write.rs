@@ -1,11 +1,11 @@
 //! From an evaluation to the output variables.
 
 use fmi_export::{Failure, Real, Values};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use physics::attitude::control::{sample_number, sensed_sun};
 use physics::attitude::{Attitude, BodyMotion, SunAngles, wheel_speed_rad_s};
 use physics::environment::time;
-use physics::momentum::{DumpEvent, DumpSpacing, Dumps, Totals, WheelArray};
+use physics::momentum::{Convention, DumpEvent, DumpSpacing, Dumps, SourceMomenta, Totals, WheelArray};
 use physics::plant::{
     AttitudeDynamics, Configuration, Cost, DynamicsSettings, Evaluation, ExternalLoad, Instant, PanelSetting,
     Plant, PlantError,
@@ -53,6 +53,8 @@ pub fn write(
     values.set_vector(variables.acceleration, acceleration_m_s2.into());
     values.set_vector(variables.delta_v, totals.delta_v_inertial_m_s.into());
 
+    let momenta = state.integrator.by_source(time_s);
+    write_by_source(context, values, &momenta, configuration.momentum.convention, rotation);
     values.set_boolean(variables.momentum.target_clamped, state.propagator.sun_choice.is_clamped());
 
     let sun = SunAngles::of(&instant.sun_body);
@@ -305,6 +307,15 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
             .map(|handle| Vector3::from(values.vector(handle)));
         return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
     }
+    let by_source = variables.momentum.by_source.all().into_iter();
+    let found =
+        by_source.filter_map(|(effect, handle)| Some((effect, handle, handle.index_of(output)?))).next();
+    if let Some((effect, handle, axis)) = found {
+        let torque = variables.torque.by_source.of(effect).unwrap_or(variables.torque.applied);
+        let [momentum_body, torque_body, rate_body] =
+            [handle, torque, variables.attitude.rate].map(|handle| Vector3::from(values.vector(handle)));
+        return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
+    }
     if let Some(axis) = variables.momentum.inertial.index_of(output) {
         let attitude = Attitude::from_quaternion(values.vector(variables.attitude.q)).ok()?;
         return Some(attitude.to_inertial(&torque_body)[axis]);
@@ -319,6 +330,20 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
     ];
     let found = moving.iter().find_map(|(place, rate)| place.index_of(output).map(|axis| (rate, axis)));
     found.map(|(rate, axis)| values.vector(*rate)[axis])
+}
+
+/// Writes what each effect did to the momentum since the last dump, the body standing like this.
+pub fn write_by_source(
+    context: &Plan<'_>,
+    values: &mut Values,
+    momenta: &SourceMomenta,
+    convention: Convention,
+    inertial_from_body: &Rotation3<f64>,
+) {
+    for (effect, output) in context.variables.momentum.by_source.all() {
+        let momentum = momenta.body_n_m_s(effect, convention, inertial_from_body).unwrap_or_default();
+        values.set_vector(output, momentum.into());
+    }
 }
 
 /// Why a flight ends, with the variables to look at.

@@ -7,7 +7,7 @@ use physics::momentum::Convention;
 use super::super::setup::PlantSetup;
 use super::choices::{DumpReinitTo, MomentumConvention};
 use super::defaults;
-use crate::common::loads::{ForceBySource, TorqueBySource};
+use crate::common::loads::{ForceBySource, MomentumBySource, TorqueBySource};
 use crate::common::management::ManagementVariables;
 use crate::common::variables::WorkLimit;
 
@@ -136,6 +136,8 @@ pub struct MomentumVariables {
     /// System momentum in EME2000: always the physical total.
     #[output(unit = "N.m.s", nominal = 1.0)]
     pub inertial: RealVector<3>,
+    #[group(name = "")]
+    pub by_source: MomentumBySource,
     /// Whether the Sun's place that brings the momentum to the target of the present downlink is not admissible, so that it
     /// comes as near as one that is can bring it.
     #[output]

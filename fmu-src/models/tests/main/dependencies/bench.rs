@@ -546,6 +546,14 @@ impl<M: Model> Bench<M> {
     }
 
     /// Whether nothing declared is left to be seen.
+    pub fn progress(&self) {
+        let structure = &self.description.structure;
+        let mut text = String::new();
+        self.tell(&mut text, "steps", self.never(&structure.outputs, &self.left_in_steps).iter());
+        self.tell(&mut text, "start", self.never(&structure.initial_unknowns, &self.left_at_start).iter());
+        eprintln!("{} {} {}\n{text}", self.taken, self.look, self.refused);
+    }
+
     pub fn is_done(&self) -> bool {
         let structure = &self.description.structure;
         self.never(&structure.outputs, &self.left_in_steps).is_empty()
