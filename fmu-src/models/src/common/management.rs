@@ -57,8 +57,8 @@ pub struct ManagementVariables {
     /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub target: RealVector<3>,
-    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none). Without a cycle to
-    /// come they are momentum.target.
+    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none); with
+    /// momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are momentum.target.
     #[parameter(min = 1, max = 100, start = 4)]
     pub horizon: Integer,
 }

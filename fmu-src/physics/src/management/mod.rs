@@ -6,8 +6,10 @@ mod linear;
 mod profile;
 mod strategy;
 mod targeting;
+mod turning;
 
 pub use linear::LinearTorque;
 pub use profile::{Reach, Swing, best_target};
 pub use strategy::{Manager, Strategy};
 pub use targeting::{Aim, TargetAxes, Targeted, Targeting, TargetingMethod};
+pub use turning::{Turned, best_turned};

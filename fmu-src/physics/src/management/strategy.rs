@@ -1,14 +1,17 @@
 //! Strategies of paper 000: dumps alone, reactive targets, predictive targets.
 //!
 //! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the momentum from which the coming
-//! cycles, forecast in their default attitudes, keep its components smallest ([`super::profile`]); without a cycle to come it
-//! is reactive.
+//! cycles, forecast in their default attitudes, keep its components smallest; without a cycle to come it is reactive. Components
+//! that are integrated on their own are looked at one by one over the whole horizon ([`super::profile`]); the physical
+//! momentum, under which the body turns, over the next science ([`super::turning`]).
 
 use nalgebra::Vector3;
 
 use super::linear::LinearTorque;
 use super::profile::{Reach, Swing, best_target};
 use super::targeting::{Aim, Targeted, Targeting};
+use super::turning::{Turned, best_turned};
+use crate::momentum::Convention;
 use crate::plant::{ChosenPlace, Outlook, PlantError, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
@@ -48,7 +51,10 @@ impl SunPlanner for Manager<'_> {
         let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
-        let swings = if self.strategy == Strategy::Predictive { self.swings(outlook)? } else { Vec::new() };
+        let is_predictive = self.strategy == Strategy::Predictive;
+        let turns = outlook.convention() == Convention::Inertial;
+        let swings = if is_predictive && !turns { self.swings(outlook)? } else { Vec::new() };
+        let science = if is_predictive && turns { science_ahead(outlook)? } else { None };
         let linear = self.linear(outlook);
         let threshold = outlook.threshold_body_n_m_s();
         let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
@@ -60,7 +66,11 @@ impl SunPlanner for Manager<'_> {
             torque_body_n_m: &torque,
             linear: linear.map(|formula| (formula, outlook.pressure_pa)),
         };
-        let target = self.predicted(&aim, &swings, &threshold).unwrap_or(self.target_body_n_m_s);
+        let target = match &science {
+            Some(science) => self.turned(&aim, science, &threshold),
+            None => self.predicted(&aim, &swings, &threshold),
+        };
+        let target = target.unwrap_or(self.target_body_n_m_s);
         let targeted = self.targeting.sun_place(&aim, &target);
         Ok(targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped }))
     }
@@ -119,4 +129,50 @@ impl Manager<'_> {
         };
         Some(Vector3::new(best(0, along_x), 0.0, best(2, along_z)))
     }
+
+    /// The target that keeps the momentum of the next science smallest.
+    fn turned(&self, aim: &Aim<'_>, science: &ScienceAhead, threshold: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let now = self.targeting.default_momentum(aim)?;
+        let reach = self.targeting.reach(aim)?;
+        let end = science.end_body_n_m_s;
+        let range = |axis: usize, reach: Reach, asked: bool| {
+            if asked { reach.map(|change| now[axis] + change) } else { [end[axis]; 2] }
+        };
+        let [by_x, by_z] = self.targeting.axes.asked();
+        let ranges = [range(0, reach[0], by_x), range(2, reach[1], by_z)];
+        Some(best_turned(&science.along, ranges, end.y, threshold))
+    }
+}
+
+/// The science after a downlink in its default attitude.
+struct ScienceAhead {
+    /// Momentum at the downlink's end, body frame, in N m s.
+    end_body_n_m_s: Vector3<f64>,
+    along: Vec<Turned>,
+}
+
+/// The next science; `None` where none follows.
+fn science_ahead(outlook: &mut Outlook<'_, '_>) -> Result<Option<ScienceAhead>, PlantError> {
+    let cycle_s = outlook.cycle_s();
+    if !cycle_s.is_finite() || cycle_s <= 0.0 {
+        return Ok(None);
+    }
+    let until_s = outlook.time_s + cycle_s;
+    let (mut left, mut has_ended) = (None, false);
+    let mut along = Vec::new();
+    outlook.forecast(until_s, cycle_s / SAMPLES, |at| {
+        if at.downlink {
+            has_ended |= !along.is_empty();
+            if !has_ended {
+                left = Some(at);
+            }
+        } else if let Some(left) = left.filter(|_| !has_ended) {
+            let turn = at.body_from_inertial * left.body_from_inertial.inverse();
+            let added = at.momentum_inertial_n_m_s - left.momentum_inertial_n_m_s;
+            let added_body_n_m_s = at.body_from_inertial * added;
+            along.push(Turned { turn: turn.into_inner(), added_body_n_m_s });
+        }
+    })?;
+    let left = left.filter(|_| !along.is_empty());
+    Ok(left.map(|left| ScienceAhead { end_body_n_m_s: left.momentum_body_n_m_s, along }))
 }
