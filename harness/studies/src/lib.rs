@@ -119,6 +119,20 @@ pub const STUDIES: &[Study] = &[
         run: momentum::assumptions,
     },
     Study {
+        name: "momentum/wheels",
+        paper: "000",
+        title: "storage and mass of the wheels against dumps, by strategy",
+        takes: &[],
+        run: momentum::wheels,
+    },
+    Study {
+        name: "momentum/sensitivity",
+        paper: "000",
+        title: "dumps and momentum a day with misaligned, unequal and slowly turning parts, the paper's open questions",
+        takes: &[],
+        run: momentum::sensitivity,
+    },
+    Study {
         name: "momentum/off-sun",
         paper: "000, 003",
         title: "sunlight on the whole MESSENGER over the sphere, and its momentum against shade and panels alone",

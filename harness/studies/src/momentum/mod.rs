@@ -5,11 +5,16 @@ mod figures;
 mod lists;
 mod off_sun;
 mod paper;
+mod sensitivity;
 mod spacing;
 mod sphere;
 mod tables;
 mod trends;
+mod variant;
+mod wheels;
 
 pub use figures::{figure4, figure5};
 pub use off_sun::off_sun;
+pub use sensitivity::sensitivity;
 pub use tables::{assumptions, table2, table3, table4, table5};
+pub use wheels::wheels;
