@@ -119,6 +119,13 @@ pub const STUDIES: &[Study] = &[
         run: momentum::assumptions,
     },
     Study {
+        name: "momentum/dump-targets",
+        paper: "000",
+        title: "dumps to zero and to one side of X, and the plates alone, by strategy",
+        takes: &[],
+        run: momentum::dump_targets,
+    },
+    Study {
         name: "momentum/wheels",
         paper: "000",
         title: "storage and mass of the wheels against dumps, by strategy",

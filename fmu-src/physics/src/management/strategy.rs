@@ -131,7 +131,12 @@ impl Manager<'_> {
     }
 
     /// The target that keeps the momentum of the next science smallest.
-    fn turned(&self, aim: &Aim<'_>, science: &ScienceAhead, threshold: &Vector3<f64>) -> Option<Vector3<f64>> {
+    fn turned(
+        &self,
+        aim: &Aim<'_>,
+        science: &ScienceAhead,
+        threshold: &Vector3<f64>,
+    ) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
         let reach = self.targeting.reach(aim)?;
         let end = science.end_body_n_m_s;

@@ -56,7 +56,8 @@ mod tests {
 
     #[test]
     fn a_drift_without_a_turn_is_met_half_way() {
-        let at = |x: f64, z: f64| Turned { turn: Matrix3::identity(), added_body_n_m_s: Vector3::new(x, 0.0, z) };
+        let at =
+            |x: f64, z: f64| Turned { turn: Matrix3::identity(), added_body_n_m_s: Vector3::new(x, 0.0, z) };
         // Both components start a drift at zero; equal parts of the thresholds weigh the same.
         let along = [at(0.0, 0.0), at(2.0, -1.0)];
         let best = best_turned(&along, [[-5.0, 5.0]; 2], 0.0, &Vector3::new(4.0, 1.0, 2.0));

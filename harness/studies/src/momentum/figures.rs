@@ -32,12 +32,7 @@ pub fn figure5(options: &Options) -> Result<Report, StudyError> {
     figure("momentum/figure5", options, &FIGURE_5, "X momentum over 90 days (paper 000, Figure 5)")
 }
 
-fn figure(
-    study: &'static str,
-    options: &Options,
-    figure: &Figure,
-    text: &str,
-) -> Result<Report, StudyError> {
+fn figure(study: &'static str, options: &Options, figure: &Figure, text: &str) -> Result<Report, StudyError> {
     let simulated = simulate_all(study, options, lists::figure(figure.strategies))?;
     let mut report = Report::default();
     draw(&mut report, options, &simulated, figure)?;

@@ -8,43 +8,45 @@ pub const ALONG_Z: [[i8; 3]; 3] = [[0, 0, 0], [0, 0, -1], [0, 0, -2]];
 pub const ALL_OFFSETS: [[i8; 3]; 7] =
     [[0, 0, 0], [0, 0, -1], [0, 0, -2], [0, 0, 1], [0, 0, 2], [1, 1, 1], [-1, -1, -1]];
 
-/// Tables 2 and 3: the paper's own dumps first, then the FMU's default ones and those to zero; then what the paper does not
-/// have: the plates, the physical momentum, and for small wheels dumps to one side of X.
+const RULES: [(DumpsTo, Convention); 3] = [
+    (DumpsTo::PAPER, Convention::BodyIntegral),
+    (DumpsTo::OWN, Convention::BodyIntegral),
+    (DumpsTo::OWN, Convention::Inertial),
+];
+
+/// Table 2: the paper's own dumps first, then the FMU's default ones, then these under the physical momentum.
 pub fn cylinder() -> Vec<Case> {
-    use Convention::{BodyIntegral, Inertial};
-    let groups = [
-        (DumpsTo::PAPER, Shade::Cylinder, BodyIntegral),
-        (DumpsTo::OWN, Shade::Cylinder, BodyIntegral),
-        (DumpsTo::ZERO, Shade::Cylinder, BodyIntegral),
-        (DumpsTo::OWN, Shade::Plates, BodyIntegral),
-        (DumpsTo::OWN, Shade::Cylinder, Inertial),
-    ];
-    let mut cases = with_every_strategy(&groups, &[4.0, 7.0], &ALONG_Z);
-    let biased = [0.9, -0.9].map(|share| (DumpsTo::AlongX(share), Shade::Cylinder, BodyIntegral));
-    cases.extend(with_every_strategy(&biased, &[4.0], &ALONG_Z));
+    let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::Cylinder, convention));
+    with_every_strategy(&groups, &[4.0, 7.0], &ALONG_Z)
+}
+
+/// Table 4, in the same order.
+pub fn panels() -> Vec<Case> {
+    let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::PlatesAndPanels, convention));
+    with_every_strategy(&groups, &[5.5], &ALL_OFFSETS)
+}
+
+/// Tables 3 and 5: what the paper's momentum gives of Tables 2 and 4.
+pub fn in_papers_convention(mut cases: Vec<Case>) -> Vec<Case> {
+    cases.retain(|case| case.convention == Convention::BodyIntegral);
     cases
 }
 
-/// Tables 4 and 5.
-pub fn panels() -> Vec<Case> {
-    use Convention::{BodyIntegral, Inertial};
-    let shade = Shade::PlatesAndPanels;
-    let groups = [
-        (DumpsTo::PAPER, shade, BodyIntegral),
-        (DumpsTo::OWN, shade, BodyIntegral),
-        (DumpsTo::ZERO, shade, BodyIntegral),
-        (DumpsTo::OWN, shade, Inertial),
-    ];
-    with_every_strategy(&groups, &[5.5], &ALL_OFFSETS)
+/// Dumps that the paper's tables do not have: the plates alone, dumps to zero, and for small wheels dumps to one side of X.
+pub fn other_dumps() -> Vec<Case> {
+    let (cylinder, plates) = (Shade::Cylinder, Shade::Plates);
+    let both = [(DumpsTo::OWN, plates), (DumpsTo::ZERO, cylinder)];
+    let small = [(DumpsTo::AlongX(0.9), cylinder), (DumpsTo::AlongX(-0.9), cylinder)];
+    let group = |(dumps_to, shade)| (dumps_to, shade, Convention::BodyIntegral);
+    let mut cases = with_every_strategy(&both.map(group), &[4.0, 7.0], &ALONG_Z);
+    cases.extend(with_every_strategy(&small.map(group), &[4.0], &ALONG_Z));
+    cases
 }
 
 /// Figures 4 and 5: small wheels.
 pub fn figure(strategies: &[Strategy]) -> Vec<Case> {
-    let mut cases = with_every_strategy(
-        &[(DumpsTo::PAPER, Shade::Cylinder, Convention::BodyIntegral)],
-        &[4.0],
-        &ALONG_Z,
-    );
+    let mut cases =
+        with_every_strategy(&[(DumpsTo::PAPER, Shade::Cylinder, Convention::BodyIntegral)], &[4.0], &ALONG_Z);
     cases.retain(|case| strategies.contains(&case.strategy));
     cases
 }

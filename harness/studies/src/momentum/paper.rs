@@ -57,14 +57,7 @@ const fn cylinder(
     typical_d: Option<(f64, f64)>,
 ) -> PaperRow {
     let spacing = Spacing::stated(dumps as usize, extremes_d, typical_d);
-    PaperRow {
-        shade: Shade::Cylinder,
-        strategy,
-        threshold_n_m_s,
-        offset_in: [0, 0, z_in],
-        dumps,
-        spacing,
-    }
+    PaperRow { shade: Shade::Cylinder, strategy, threshold_n_m_s, offset_in: [0, 0, z_in], dumps, spacing }
 }
 
 /// A cell of Tables 4 and 5.

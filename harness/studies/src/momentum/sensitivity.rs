@@ -57,11 +57,7 @@ const CHANGES: &[Change] = &[
         edits: &[Edit { to: "rotation_deg = [0.0, 0.0, 1.0]", ..SHADE }],
         sets: &[],
     },
-    Change {
-        what: "axis of +X panel 1 deg toward Z",
-        edits: &[Edit { to: AXIS_UP, ..AXIS }],
-        sets: &[],
-    },
+    Change { what: "axis of +X panel 1 deg toward Z", edits: &[Edit { to: AXIS_UP, ..AXIS }], sets: &[] },
     Change {
         what: "axis of +X panel 1 deg toward -Y",
         edits: &[Edit { to: AXIS_AHEAD, ..AXIS }, Edit { to: NORMAL_AHEAD, ..NORMAL }],
@@ -124,13 +120,8 @@ pub fn sensitivity(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    let header = [
-        "change",
-        "dumps, paper's",
-        "paper's a day [N.m.s]",
-        "dumps, inertial",
-        "inertial a day [N.m.s]",
-    ];
+    let header =
+        ["change", "dumps, paper's", "paper's a day [N.m.s]", "dumps, inertial", "inertial a day [N.m.s]"];
     report.table(&header, &rows);
     report.line(REMARK);
     report.csv(options, "sensitivity.csv", &header, rows)?;
@@ -146,11 +137,13 @@ fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;
     let simulate = |case: &Case, names: &[String]| {
-        let settings = change.sets.iter().fold(case.settings(), |case, (name, value)| case.real(name, *value));
+        let settings =
+            change.sets.iter().fold(case.settings(), |case, (name, value)| case.real(name, *value));
         settings.simulate(&variant.fmu, names)
     };
     let mut found = Found { what: change.what, dumps: [[0; 3]; 2], daily_n_m_s: [f64::NAN; 2] };
-    let conventions = [(Convention::BodyIntegral, "momentum.body"), (Convention::Inertial, "momentum.inertial")];
+    let conventions =
+        [(Convention::BodyIntegral, "momentum.body"), (Convention::Inertial, "momentum.inertial")];
     for (number, (convention, name)) in conventions.into_iter().enumerate() {
         let group = [(DumpsTo::OWN, Shade::PlatesAndPanels, convention)];
         let cases = with_every_strategy(&group, &[THRESHOLD_N_M_S], &[[0, 0, -1]]);
@@ -162,7 +155,8 @@ fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
         let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, &names)?;
         let at = |k: usize| -> Vector { std::array::from_fn(|axis| undumped.columns[axis][k]) };
         let a_day = (undumped.times_s.len() - 1) / SPAN_D as usize;
-        let days = (0..SPAN_D as usize).map(|day| norm(&difference(&at((day + 1) * a_day), &at(day * a_day))));
+        let days =
+            (0..SPAN_D as usize).map(|day| norm(&difference(&at((day + 1) * a_day), &at(day * a_day))));
         found.daily_n_m_s[number] = days.sum::<f64>() / SPAN_D;
     }
     Ok(found)

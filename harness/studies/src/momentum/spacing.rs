@@ -18,11 +18,7 @@ pub struct Spacing {
 
 impl Spacing {
     /// As somebody states it: the closest and the farthest, unless there is no gap, and what is typical where it is stated.
-    pub const fn stated(
-        dumps: usize,
-        extremes_d: Option<(f64, f64)>,
-        typical_d: Option<(f64, f64)>,
-    ) -> Self {
+    pub const fn stated(dumps: usize, extremes_d: Option<(f64, f64)>, typical_d: Option<(f64, f64)>) -> Self {
         let (closest_d, farthest_d, closer_than_five_days) = match extremes_d {
             Some((closest_d, farthest_d)) => (Some(closest_d), Some(farthest_d), closest_d < 5.0),
             None => (None, None, false),
@@ -126,10 +122,7 @@ mod tests {
         assert_eq!(Spacing::of(&[3.0, 59.0]).against(&stated), "gap within 25 %");
         assert_eq!(Spacing::of(&[3.0, 33.0]).against(&stated), "off");
         // Three dumps have a closest and a typical gap of their own.
-        assert_eq!(
-            Spacing::of(&[3.0, 59.0, 119.0]).against(&stated),
-            "closest within 25 %"
-        );
+        assert_eq!(Spacing::of(&[3.0, 59.0, 119.0]).against(&stated), "closest within 25 %");
     }
 
     #[test]

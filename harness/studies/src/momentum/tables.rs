@@ -11,27 +11,38 @@ use crate::{Options, Report, StudyError};
 /// Table 2: number of dumps, cylinder.
 pub fn table2(options: &Options) -> Result<Report, StudyError> {
     let simulated = simulate_all("momentum/table2", options, lists::cylinder())?;
-    let mut report = counts(options, "table2.csv", &simulated, "Table 2")?;
+    let mut report = counts(options, "table2.csv", &simulated, "paper 000, Table 2")?;
     draw(&mut report, options, &simulated, &FIGURE_4)?;
     Ok(report)
 }
 
 /// Table 3: time between dumps, cylinder.
 pub fn table3(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table3", options, lists::cylinder())?;
+    let simulated = simulate_all("momentum/table3", options, lists::in_papers_convention(lists::cylinder()))?;
     gaps(options, "table3.csv", &simulated, "Table 3")
 }
 
 /// Table 4: number of dumps, plates and panels.
 pub fn table4(options: &Options) -> Result<Report, StudyError> {
     let simulated = simulate_all("momentum/table4", options, lists::panels())?;
-    counts(options, "table4.csv", &simulated, "Table 4")
+    counts(options, "table4.csv", &simulated, "paper 000, Table 4")
 }
 
 /// Table 5: time between dumps, plates and panels.
 pub fn table5(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table5", options, lists::panels())?;
+    let simulated = simulate_all("momentum/table5", options, lists::in_papers_convention(lists::panels()))?;
     gaps(options, "table5.csv", &simulated, "Table 5")
+}
+
+/// What other targets of thruster dumps do.
+pub fn dump_targets(options: &Options) -> Result<Report, StudyError> {
+    let simulated = simulate_all("momentum/dump-targets", options, lists::other_dumps())?;
+    counts(
+        options,
+        "dump-targets.csv",
+        &simulated,
+        "plates alone, and dumps that paper 000's tables do not have",
+    )
 }
 
 /// How the counts of Table 2 move with what the paper leaves open.
@@ -65,14 +76,9 @@ pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
     Ok(report)
 }
 
-fn counts(
-    options: &Options,
-    file: &str,
-    simulated: &[Simulated],
-    table: &str,
-) -> Result<Report, StudyError> {
+fn counts(options: &Options, file: &str, simulated: &[Simulated], what: &str) -> Result<Report, StudyError> {
     let mut report = Report::default();
-    report.line(&format!("Thruster dumps in 90 days (paper 000, {table})\n"));
+    report.line(&format!("Thruster dumps in 90 days ({what})\n"));
     let rows: Vec<Vec<String>> = by_setting(simulated)
         .map(|simulations| {
             let mut row = setting_cells(&simulations[0].case);
@@ -104,12 +110,7 @@ fn counts(
     Ok(report)
 }
 
-fn gaps(
-    options: &Options,
-    file: &str,
-    simulated: &[Simulated],
-    table: &str,
-) -> Result<Report, StudyError> {
+fn gaps(options: &Options, file: &str, simulated: &[Simulated], table: &str) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line(&format!("Time between thruster dumps (paper 000, {table})\n"));
     let rows: Vec<Vec<String>> = simulated.iter().map(gap_row).collect();
@@ -150,9 +151,8 @@ fn setting_cells(case: &Case) -> Vec<String> {
 
 /// Offsets, the paper's counts, ours and the verdict of all together.
 fn across(simulations: &[Simulated]) -> [String; 4] {
-    let join = |cell: &dyn Fn(&Simulated) -> String| {
-        simulations.iter().map(cell).collect::<Vec<_>>().join(" / ")
-    };
+    let join =
+        |cell: &dyn Fn(&Simulated) -> String| simulations.iter().map(cell).collect::<Vec<_>>().join(" / ");
     let paper = |simulation: &Simulated| Published::of(&simulation.case);
     let has_paper = simulations.iter().any(|simulation| paper(simulation).is_some());
     [

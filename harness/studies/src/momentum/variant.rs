@@ -27,7 +27,8 @@ pub fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
             let from = at + edit.after.len();
             Some(from + text.get(from..)?.find(edit.from)?)
         });
-        let at = place.ok_or_else(|| format!("spacecraft.toml has no `{}` after `{}`", edit.from, edit.after))?;
+        let at =
+            place.ok_or_else(|| format!("spacecraft.toml has no `{}` after `{}`", edit.from, edit.after))?;
         let (before, rest) = text.split_at(at);
         Ok([before, edit.to, rest.strip_prefix(edit.from).unwrap_or(rest)].concat())
     })

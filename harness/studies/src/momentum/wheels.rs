@@ -1,7 +1,7 @@
 //! Paper 000's trade: storage and mass of the wheels against dumps.
 
 use super::cases::{Convention, DumpsTo, Shade, Simulated, Strategy, simulate_all};
-use super::lists::{ALONG_Z, with_every_strategy};
+use super::lists::with_every_strategy;
 use super::spacing::Spacing;
 use crate::case::Case;
 use crate::chart::{Chart, Panel, Series};
@@ -11,7 +11,9 @@ use crate::{Options, Report, StudyError};
 /// 12 and 20 kg", of which 17 kg "will allow 8 Nms"; the thresholds are those of small, intermediate and large wheels.
 const PRINTED: [[f64; 3]; 3] = [[4.0, 12.0, 4.0], [8.0, 17.0, 5.5], [12.0, 20.0, 7.0]];
 /// Storage of a wheel, in N m s.
-const CAPACITIES_N_M_S: [f64; 9] = [4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0];
+const CAPACITIES_N_M_S: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 12.0];
+/// Centre of mass, in inches.
+const OFFSETS_IN: [[i8; 3]; 2] = [[0, 0, -1], [0, 0, -2]];
 
 /// Mass of four wheels and threshold of dumps, on straight lines between what is printed.
 fn between_printed(capacity_n_m_s: f64) -> [f64; 2] {
@@ -30,7 +32,7 @@ pub fn wheels(options: &Options) -> Result<Report, StudyError> {
     });
     let groups = [Convention::BodyIntegral, Convention::Inertial]
         .map(|convention| (DumpsTo::OWN, Shade::PlatesAndPanels, convention));
-    let cases = with_every_strategy(&groups, &wheels.map(|(.., threshold)| threshold), &ALONG_Z);
+    let cases = with_every_strategy(&groups, &wheels.map(|(.., threshold)| threshold), &OFFSETS_IN);
     let simulated = simulate_all("momentum/wheels", options, cases)?;
     let guaranteed = guaranteed_thresholds(options)?;
     let mut report = Report::default();
@@ -78,7 +80,7 @@ pub fn wheels(options: &Options) -> Result<Report, StudyError> {
 }
 
 const REMARK: &str = "\
-Centre of mass at Z = 0 / -2.54 / -5.08 cm; a star where two dumps are less than the mission's five days apart. Dumps go to
+Centre of mass at Z = -2.54 / -5.08 cm; a star where two dumps are less than the mission's five days apart. Dumps go to
 0.9 of the opposite threshold. Printed: 4, 8 and 12 N.m.s; 12, 17 and 20 kg; thresholds 4, 5.5 and 7 N.m.s; straight lines
 between. The paper does not print the wheels' axes: up to which threshold no wheel saturates holds for messenger.toml's
 pyramid.";
@@ -121,9 +123,9 @@ fn draw(
         });
         Series::line(strategy.label(), points.collect())
     };
-    let panels = [Convention::BodyIntegral, Convention::Inertial].into_iter().flat_map(|convention| {
-        ALONG_Z.into_iter().filter(|offset_in| offset_in[2] != 0).map(move |offset_in| (convention, offset_in))
-    });
+    let panels = [Convention::BodyIntegral, Convention::Inertial]
+        .into_iter()
+        .flat_map(|convention| OFFSETS_IN.into_iter().map(move |offset_in| (convention, offset_in)));
     let panels: Vec<Panel> = panels
         .map(|(convention, offset_in)| {
             let mut series = Strategy::ALL.map(|strategy| line(strategy, offset_in, convention)).to_vec();
