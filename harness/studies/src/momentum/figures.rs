@@ -18,7 +18,7 @@ pub const FIGURE_4: Figure =
 /// Dumps and targets.
 pub const FIGURE_5: Figure = Figure {
     name: "figure5",
-    title: "thruster dumps and targets by sunlight",
+    title: "targets by sunlight",
     strategies: &[Strategy::Reactive, Strategy::Predictive],
 };
 

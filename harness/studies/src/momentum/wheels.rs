@@ -133,7 +133,7 @@ fn draw(
             let most = series.iter().flat_map(|it| &it.points).map(|(_, count)| *count).fold(1.0, f64::max);
             let centimetres = 2.54 * f64::from(offset_in[2]);
             Panel {
-                y_label: format!("dumps, {}, Z {centimetres:.2} cm", convention.label()),
+                y_label: format!("{}, Z {centimetres:.2} cm", convention.label()),
                 series,
                 y_range: Some((-0.5, 1.15 * most)),
                 marks: Vec::new(),
@@ -145,7 +145,7 @@ fn draw(
         return Ok(());
     }
     let chart = Chart {
-        title: "Thruster dumps in 90 days over the mass of four wheels".to_owned(),
+        title: "Thruster dumps in 90 days over the mass of four wheels, by momentum and offset".to_owned(),
         x_label: "mass of four wheels [kg]: 12 kg store 4 N.m.s a wheel, 17 kg 8, 20 kg 12".to_owned(),
         panels,
     };
