@@ -5,14 +5,14 @@
 //! that are integrated on their own are looked at one by one over the whole horizon ([`super::profile`]); the physical
 //! momentum, under which the body turns, over the next science ([`super::turning`]).
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use super::linear::LinearTorque;
 use super::profile::{Reach, Swing, best_target};
 use super::targeting::{Aim, Targeted, Targeting};
 use super::turning::{Turned, best_turned};
 use crate::momentum::Convention;
-use crate::plant::{ChosenPlace, Outlook, PlantError, SunPlanner};
+use crate::plant::{ChosenPlace, Outlook, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
 
@@ -58,7 +58,7 @@ impl SunPlanner for Manager<'_> {
         let linear = self.linear(outlook);
         let threshold = outlook.threshold_body_n_m_s();
         let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
-        let aim = Aim {
+        let mut aim = Aim {
             to_sun: outlook.to_sun,
             to_earth,
             momentum: outlook.momentum,
@@ -66,9 +66,16 @@ impl SunPlanner for Manager<'_> {
             torque_body_n_m: &torque,
             linear: linear.map(|formula| (formula, outlook.pressure_pa)),
         };
-        let target = match &science {
-            Some(science) => self.turned(&aim, science, &threshold),
-            None => self.predicted(&aim, &swings, &threshold),
+        let target = match (&science, aim.momentum) {
+            (Some(science), StartMomentum::Inertial(momentum)) => {
+                // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
+                self.turned(&aim, science, &threshold).map(|end_body| {
+                    let end = science.inertial_from_body * end_body;
+                    aim.momentum = StartMomentum::Inertial(momentum - end);
+                    Vector3::zeros()
+                })
+            }
+            _ => self.predicted(&aim, &swings, &threshold),
         };
         let target = target.unwrap_or(self.target_body_n_m_s);
         let targeted = self.targeting.sun_place(&aim, &target);
@@ -141,7 +148,9 @@ impl Manager<'_> {
         let reach = self.targeting.reach(aim)?;
         let end = science.end_body_n_m_s;
         let range = |axis: usize, reach: Reach, asked: bool| {
-            if asked { reach.map(|change| now[axis] + change) } else { [end[axis]; 2] }
+            // Under the other antenna the body stands half a turn about the Sun line away.
+            let [least, most] = [reach[0].min(-reach[1]), reach[1].max(-reach[0])];
+            if asked { [now[axis] + least, now[axis] + most] } else { [end[axis]; 2] }
         };
         let [by_x, by_z] = self.targeting.axes.asked();
         let ranges = [range(0, reach[0], by_x), range(2, reach[1], by_z)];
@@ -153,6 +162,7 @@ impl Manager<'_> {
 struct ScienceAhead {
     /// Momentum at the downlink's end, body frame, in N m s.
     end_body_n_m_s: Vector3<f64>,
+    inertial_from_body: Rotation3<f64>,
     along: Vec<Turned>,
 }
 
@@ -179,5 +189,9 @@ fn science_ahead(outlook: &mut Outlook<'_, '_>) -> Result<Option<ScienceAhead>, 
         }
     })?;
     let left = left.filter(|_| !along.is_empty());
-    Ok(left.map(|left| ScienceAhead { end_body_n_m_s: left.momentum_body_n_m_s, along }))
+    Ok(left.map(|left| ScienceAhead {
+        end_body_n_m_s: left.momentum_body_n_m_s,
+        inertial_from_body: left.body_from_inertial.inverse(),
+        along,
+    }))
 }
