@@ -10,7 +10,8 @@ from studies import study, table
 
 NAMES = [
     "control/slew", "control/safe-mode", "control/transition", "control/dump", "control/jitter",
-    "momentum/table2", "momentum/table3", "momentum/figure4", "momentum/assumptions", "momentum/off-sun",
+    "momentum/table2", "momentum/table3", "momentum/table4", "momentum/table5", "momentum/figure4", "momentum/figure5",
+    "momentum/assumptions", "momentum/dump-targets", "momentum/wheels", "momentum/sensitivity", "momentum/off-sun",
     "pointing/limb", "pointing/mosaic", "pointing/transition", "pointing/burn",
     "spin/figure2", "spin/figure3", "spin/figure4", "spin/figure6", "spin/figure7", "spin/numbers",
     "thermal/table7", "thermal/table8", "thermal/figure12", "thermal/figure13",

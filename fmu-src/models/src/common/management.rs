@@ -81,8 +81,8 @@ pub struct ManagementVariables {
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
     pub aim: TargetingVariables,
-    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none). Without a cycle to
-    /// come they are momentum.target.
+    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none); with
+    /// momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are momentum.target.
     #[parameter(min = 1, max = 100, start = 4)]
     pub horizon: Integer,
 }

@@ -8,6 +8,7 @@ mod profile;
 mod sampled;
 mod strategy;
 mod targeting;
+mod turning;
 
 pub use dump_request::DumpRequests;
 pub use linear::LinearTorque;
@@ -15,3 +16,4 @@ pub use profile::{Reach, Swing, best_target};
 pub use sampled::SampledManager;
 pub use strategy::{Manager, Strategy};
 pub use targeting::{Aim, TargetAxes, Targeted, Targeting, TargetingMethod};
+pub use turning::{Turned, best_turned};

@@ -1,16 +1,19 @@
 //! Strategies of paper 000: dumps alone, reactive targets, predictive targets.
 //!
 //! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the momentum from which the coming
-//! cycles, forecast in their default attitudes, keep its components smallest ([`super::profile`]); without a cycle to come it
-//! is reactive.
+//! cycles, forecast in their default attitudes, keep its components smallest; without a cycle to come it is reactive. Components
+//! that are integrated on their own are looked at one by one over the whole horizon ([`super::profile`]); the physical
+//! momentum, under which the body turns, over the next science ([`super::turning`]).
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use super::linear::LinearTorque;
 use super::profile::{Reach, Swing, best_target};
 use super::targeting::{Aim, Targeted, Targeting};
+use super::turning::{Turned, best_turned};
 use crate::guidance::ChosenPlace;
-use crate::plant::{Outlook, PlantError, SunPlanner};
+use crate::momentum::Convention;
+use crate::plant::{Outlook, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
 
@@ -49,11 +52,14 @@ impl SunPlanner for Manager<'_> {
         let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
-        let swings = if self.strategy == Strategy::Predictive { self.swings(outlook)? } else { Vec::new() };
+        let is_predictive = self.strategy == Strategy::Predictive;
+        let turns = outlook.convention() == Convention::Inertial;
+        let swings = if is_predictive && !turns { self.swings(outlook)? } else { Vec::new() };
+        let science = if is_predictive && turns { science_ahead(outlook)? } else { None };
         let linear = self.linear(&outlook.center_of_mass_body_m());
         let threshold = outlook.threshold_body_n_m_s();
         let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
-        let aim = Aim {
+        let mut aim = Aim {
             to_sun: outlook.to_sun,
             to_earth,
             momentum: outlook.momentum,
@@ -61,7 +67,18 @@ impl SunPlanner for Manager<'_> {
             torque_body_n_m: &torque,
             linear: linear.map(|formula| (formula, outlook.pressure_pa)),
         };
-        Ok(self.place(&aim, self.predicted(&aim, &swings, &threshold)))
+        let target = match (&science, aim.momentum) {
+            (Some(science), StartMomentum::Inertial(momentum)) => {
+                // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
+                self.turned(&aim, science, &threshold).map(|end_body| {
+                    let end = science.inertial_from_body * end_body;
+                    aim.momentum = StartMomentum::Inertial(momentum - end);
+                    Vector3::zeros()
+                })
+            }
+            _ => self.predicted(&aim, &swings, &threshold),
+        };
+        Ok(self.place(&aim, target))
     }
 }
 
@@ -124,4 +141,62 @@ impl Manager<'_> {
         };
         Some(Vector3::new(best(0, along_x), 0.0, best(2, along_z)))
     }
+
+    /// The target that keeps the momentum of the next science smallest.
+    fn turned(
+        &self,
+        aim: &Aim<'_>,
+        science: &ScienceAhead,
+        threshold: &Vector3<f64>,
+    ) -> Option<Vector3<f64>> {
+        let now = self.targeting.default_momentum(aim)?;
+        let reach = self.targeting.reach(aim)?;
+        let end = science.end_body_n_m_s;
+        let range = |axis: usize, reach: Reach, asked: bool| {
+            // Under the other antenna the body stands half a turn about the Sun line away.
+            let [least, most] = [reach[0].min(-reach[1]), reach[1].max(-reach[0])];
+            if asked { [now[axis] + least, now[axis] + most] } else { [end[axis]; 2] }
+        };
+        let [by_x, by_z] = self.targeting.axes.asked();
+        let ranges = [range(0, reach[0], by_x), range(2, reach[1], by_z)];
+        Some(best_turned(&science.along, ranges, end.y, threshold))
+    }
+}
+
+/// The science after a downlink in its default attitude.
+struct ScienceAhead {
+    /// Momentum at the downlink's end, body frame, in N m s.
+    end_body_n_m_s: Vector3<f64>,
+    inertial_from_body: Rotation3<f64>,
+    along: Vec<Turned>,
+}
+
+/// The next science; `None` where none follows.
+fn science_ahead(outlook: &mut Outlook<'_>) -> Result<Option<ScienceAhead>, PlantError> {
+    let cycle_s = outlook.cycle_s();
+    if !cycle_s.is_finite() || cycle_s <= 0.0 {
+        return Ok(None);
+    }
+    let until_s = outlook.time_s + cycle_s;
+    let (mut left, mut has_ended) = (None, false);
+    let mut along = Vec::new();
+    outlook.forecast(until_s, cycle_s / SAMPLES, |at| {
+        if at.downlink {
+            has_ended |= !along.is_empty();
+            if !has_ended {
+                left = Some(at);
+            }
+        } else if let Some(left) = left.filter(|_| !has_ended) {
+            let turn = at.body_from_inertial * left.body_from_inertial.inverse();
+            let added = at.momentum_inertial_n_m_s - left.momentum_inertial_n_m_s;
+            let added_body_n_m_s = at.body_from_inertial * added;
+            along.push(Turned { turn: turn.into_inner(), added_body_n_m_s });
+        }
+    })?;
+    let left = left.filter(|_| !along.is_empty());
+    Ok(left.map(|left| ScienceAhead {
+        end_body_n_m_s: left.momentum_body_n_m_s,
+        inertial_from_body: left.body_from_inertial.inverse(),
+        along,
+    }))
 }

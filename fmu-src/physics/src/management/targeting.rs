@@ -309,7 +309,7 @@ fn newton(start: SunAngles, left: impl Fn(f64, f64) -> Vector2<f64>, tolerance: 
 }
 
 /// Where a function of one lowest value has it in [`low`, `high`], and that value; the ends count.
-fn golden(low: f64, high: f64, mut function: impl FnMut(f64) -> f64) -> (f64, f64) {
+pub(super) fn golden(low: f64, high: f64, mut function: impl FnMut(f64) -> f64) -> (f64, f64) {
     const SHARE: f64 = 0.618_033_988_749_894_9;
     let (mut from, mut to) = (low, high);
     let (mut a, mut b) = (to - SHARE * (to - from), from + SHARE * (to - from));

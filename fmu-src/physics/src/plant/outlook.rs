@@ -3,7 +3,7 @@
 //! A forecast flies the same spacecraft on a copy of its state, guided ideally in the default downlink attitudes, without dumps,
 //! what is applied from outside being held: nothing of the flight itself changes.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use super::configuration::{AttitudeSource, Configuration};
 use super::error::PlantError;
@@ -49,6 +49,10 @@ pub struct ForecastMomentum {
     pub downlink: bool,
     /// By the flight's convention, body frame, in N m s.
     pub momentum_body_n_m_s: Vector3<f64>,
+    /// The whole, EME2000, in N m s.
+    pub momentum_inertial_n_m_s: Vector3<f64>,
+    /// Components in the body frame of a vector in EME2000.
+    pub body_from_inertial: Rotation3<f64>,
 }
 
 /// Who chooses the Sun's place; asked once a downlink, and again after a dump at its very beginning.
@@ -148,12 +152,13 @@ impl Outlook<'_> {
                 break;
             }
             let instant = plant.instant(at_s);
+            let (totals, inertial_from_body) = (integrator.totals(at_s), instant.frame.inertial_from_body);
             visit(ForecastMomentum {
                 time_s: at_s,
                 downlink: instant.regime.downlink,
-                momentum_body_n_m_s: integrator
-                    .totals(at_s)
-                    .momentum_body_n_m_s(settings.convention, &instant.frame.inertial_from_body),
+                momentum_body_n_m_s: totals.momentum_body_n_m_s(settings.convention, &inertial_from_body),
+                momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
+                body_from_inertial: inertial_from_body.inverse(),
             });
         }
         configuration.attitude = attitude;

@@ -139,7 +139,7 @@ pub fn surfaces(spacecraft: &Spacecraft, angle_rad: impl Fn(usize) -> f64) -> Ve
 pub fn angle_of_file_rad(panel: &Panel) -> f64 {
     match panel.control {
         physics::spacecraft::PanelControl::Angle => panel.angle_rad,
-        physics::spacecraft::PanelControl::SunOffset => {
+        physics::spacecraft::PanelControl::SunOffset | physics::spacecraft::PanelControl::Command => {
             panel.angle_for_sun_offset(&TO_SUN.into(), panel.sun_offset_rad, panel.tilt_sign)
         }
     }

@@ -10,12 +10,10 @@ const STEP_S: f64 = 600.0;
 /// 2009-04-06, in s past J2000 TDB: the FMU's default `start.epoch`.
 const START_S: f64 = 292_248_000.0;
 
-/// Where the paper's dumps leave a component: at the opposite threshold.
-pub const PAPER_REINIT: f64 = 1.0;
-/// Where the FMU's do by default.
-pub const OWN_REINIT: f64 = 0.9;
-
-const OFFSETS_M: [f64; 3] = [0.0, -0.0254, -0.0508];
+/// How long the paper simulates.
+pub const SPAN_D: f64 = 90.0;
+/// The paper's offsets, an inch apart.
+pub const INCH_M: f64 = 0.0254;
 
 /// What the Sun pushes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +22,7 @@ pub enum Shade {
     Cylinder,
     /// The eight plates of the later design.
     Plates,
-    /// Those, and both panels 65 deg off the Sun, as the paper's next series had them.
+    /// Those, and both panels 65 deg off the Sun, as Tables 4 and 5 have them.
     PlatesAndPanels,
 }
 
@@ -54,6 +52,75 @@ impl Convention {
         match self {
             Self::BodyIntegral => "paper's",
             Self::Inertial => "inertial",
+        }
+    }
+}
+
+/// What sunlight is used for during downlinks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strategy {
+    /// Nothing.
+    DumpsOnly,
+    /// To bring the momentum to zero.
+    Reactive,
+    /// To bring it where the coming cycles keep it smallest.
+    Predictive,
+}
+
+impl Strategy {
+    /// From the one that saves no dump to the one that saves most.
+    pub const ALL: [Self; 3] = [Self::DumpsOnly, Self::Reactive, Self::Predictive];
+
+    /// For tables.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::DumpsOnly => "dumps only",
+            Self::Reactive => "reactive",
+            Self::Predictive => "predictive",
+        }
+    }
+
+    /// Of `momentum.strategy`.
+    fn number(self) -> i32 {
+        match self {
+            Self::DumpsOnly => 1,
+            Self::Reactive => 2,
+            Self::Predictive => 3,
+        }
+    }
+}
+
+/// Where a thruster dump leaves a component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DumpsTo {
+    /// At this share of the threshold with the opposite sign: 1 is the paper's, 0.9 the FMU's default, 0 is zero.
+    Opposite(f64),
+    /// At this share of the threshold along +X, whichever side it was on; the other components at zero.
+    AlongX(f64),
+}
+
+impl DumpsTo {
+    /// The paper's.
+    pub const PAPER: Self = Self::Opposite(1.0);
+    /// The FMU's default.
+    pub const OWN: Self = Self::Opposite(0.9);
+    /// All momentum taken out.
+    pub const ZERO: Self = Self::Opposite(0.0);
+
+    /// For tables.
+    pub fn label(self) -> String {
+        match self {
+            Self::Opposite(fraction) => format!("{fraction:.1}"),
+            Self::AlongX(fraction) => format!("X {fraction:+.1}"),
+        }
+    }
+
+    fn set(self, case: case::Case, threshold_n_m_s: f64) -> case::Case {
+        match self {
+            Self::Opposite(fraction) => case.real("dump.reinitFraction", fraction),
+            Self::AlongX(fraction) => {
+                case.integer("dump.reinitTo", 2).real("dump.target[1]", fraction * threshold_n_m_s)
+            }
         }
     }
 }
@@ -105,16 +172,18 @@ impl Choice {
 /// One simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
+    /// What sunlight is used for.
+    pub strategy: Strategy,
     /// Dump threshold of all axes, in N m s.
     pub threshold_n_m_s: f64,
+    /// Where dumps leave a component.
+    pub dumps_to: DumpsTo,
     /// Sunshade.
     pub shade: Shade,
     /// Momentum.
     pub convention: Convention,
-    /// Z component of the centre of mass, in m.
-    pub offset_m: f64,
-    /// Share of the threshold, of opposite sign, at which a dump leaves a component.
-    pub reinit: f64,
+    /// Centre of mass, in inches as the paper steps it.
+    pub offset_in: [i8; 3],
     /// What else differs.
     pub choice: Choice,
 }
@@ -123,29 +192,38 @@ impl Case {
     /// What it is called in files and filters.
     pub fn label(&self) -> String {
         format!(
-            "dumps only, {} N.m.s, to {}, {}, {} momentum{}, Z {}",
+            "{}, {} N.m.s, to {}, {}, {} momentum{}, {}{}",
+            self.strategy.label(),
             self.threshold_n_m_s,
-            self.reinit_label(),
+            self.dumps_to.label(),
             self.shade.label(),
             self.convention.label(),
             if self.choice == Choice::Study { String::new() } else { format!(", {}", self.choice.label()) },
+            if self.is_along_z() { "Z " } else { "" },
             self.offset_label()
         )
     }
 
-    /// Where dumps leave a component, as a share of the opposite threshold.
-    pub fn reinit_label(&self) -> String {
-        format!("{:.1}", self.reinit)
+    /// Whether only Z is offset.
+    pub fn is_along_z(&self) -> bool {
+        matches!(self.offset_in, [0, 0, _])
     }
 
-    /// The offset as the paper writes it.
+    /// The offset as the paper writes it: of Z alone, or of all axes.
     pub fn offset_label(&self) -> String {
-        if self.offset_m == 0.0 { "0 cm".to_owned() } else { format!("{:.2} cm", self.offset_m * 100.0) }
+        let cm = |inches: i8| 100.0 * INCH_M * f64::from(inches);
+        match self.offset_in {
+            [0, 0, 0] => "0 cm".to_owned(),
+            [0, 0, z @ ..=-1] => format!("{:.2} cm", cm(z)),
+            [0, 0, z] => format!("+{:.2} cm", cm(z)),
+            [x, y, z] => format!("{:+.2}, {:+.2}, {:+.2} cm", cm(x), cm(y), cm(z)),
+        }
     }
 
-    fn simulate(&self, fmu: &Fmu) -> Result<Simulated, StudyError> {
+    /// The case with all that it sets.
+    pub fn settings(&self) -> case::Case {
         let has_panels = self.shade == Shade::PlatesAndPanels;
-        let mut case = case::Case::new(self.label(), 90.0 * DAY_S, STEP_S)
+        let mut case = case::Case::new(self.label(), SPAN_D * DAY_S, STEP_S)
             .boolean("solar.fixedPressure", true)
             .boolean("gravityGradient.enabled", false)
             .integer("eclipse.method", 4)
@@ -153,22 +231,27 @@ impl Case {
             .boolean("panel[2].enabled", has_panels)
             .integer("sunshade.shape", if self.shade == Shade::Cylinder { 2 } else { 1 })
             .integer("momentum.convention", if self.convention == Convention::BodyIntegral { 2 } else { 1 })
-            .real("spacecraft.centerOfMass[3]", self.offset_m)
-            .real("dump.reinitFraction", self.reinit);
-        for axis in 1..=3 {
-            case = case.real(&format!("dump.threshold[{axis}]"), self.threshold_n_m_s);
+            .integer("momentum.strategy", self.strategy.number());
+        for axis in 0..3 {
+            let number = axis + 1;
+            let offset_m = INCH_M * f64::from(self.offset_in[axis]);
+            case = case
+                .real(&format!("spacecraft.centerOfMass[{number}]"), offset_m)
+                .real(&format!("dump.threshold[{number}]"), self.threshold_n_m_s);
         }
+        self.choice.set(self.dumps_to.set(case, self.threshold_n_m_s))
+    }
+
+    fn simulate(&self, fmu: &Fmu) -> Result<Simulated, StudyError> {
         let names = ["momentum.body[1]", "dump.count", "dump.lastTime"];
-        let recorded = self.choice.set(case).simulate(fmu, &names)?;
-        let mut dumps_d: Vec<f64> = recorded.columns[2]
-            .iter()
-            .filter(|&&time_s| time_s >= 0.0)
-            .map(|time_s| time_s / DAY_S)
-            .collect();
+        let recorded = self.settings().simulate(fmu, &names)?;
+        let days = |times_s: &[f64]| times_s.iter().map(|time_s| time_s / DAY_S).collect::<Vec<f64>>();
+        let mut dumps_d = days(&recorded.columns[2]);
+        dumps_d.retain(|&time_d| time_d >= 0.0);
         dumps_d.dedup();
         Ok(Simulated {
             case: *self,
-            times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
+            times_d: days(&recorded.times_s),
             count: recorded.last(1) as i64,
             momentum_x_n_m_s: recorded.columns[0].clone(),
             dumps_d,
@@ -189,64 +272,6 @@ pub struct Simulated {
     pub count: i64,
     /// Time of each dump, in days; of several within one communication step the last.
     pub dumps_d: Vec<f64>,
-}
-
-/// Tables 2 and 3: the paper's own dumps first, then the FMU's default ones.
-pub fn all() -> Vec<Case> {
-    let own_rule = [Convention::BodyIntegral, Convention::Inertial];
-    let alone: &[Shade] = &[Shade::Cylinder, Shade::Plates];
-    let with_panels: &[Shade] = &[Shade::PlatesAndPanels];
-    let mut cases = Vec::new();
-    for (reinit, conventions, shades_alone) in
-        [(PAPER_REINIT, &own_rule[..1], &alone[..1]), (OWN_REINIT, &own_rule[..], alone)]
-    {
-        for (threshold_n_m_s, shades) in [(4.0, shades_alone), (7.0, shades_alone), (5.5, with_panels)] {
-            for &convention in conventions {
-                for &shade in shades {
-                    cases.extend(OFFSETS_M.map(|offset_m| Case {
-                        threshold_n_m_s,
-                        shade,
-                        convention,
-                        offset_m,
-                        reinit,
-                        choice: Choice::Study,
-                    }));
-                }
-            }
-        }
-    }
-    cases
-}
-
-/// Simulations over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
-pub fn open() -> Vec<Case> {
-    let mut cases = Vec::new();
-    let mut extend = |reinit, threshold_n_m_s, shade, choices: &[Choice]| {
-        for &choice in choices {
-            cases.extend(OFFSETS_M.map(|offset_m| Case {
-                threshold_n_m_s,
-                shade,
-                convention: Convention::BodyIntegral,
-                offset_m,
-                reinit,
-                choice,
-            }));
-        }
-    };
-    for reinit in [PAPER_REINIT, OWN_REINIT] {
-        for threshold_n_m_s in [4.0, 7.0] {
-            let choices = [Choice::Study, Choice::Later, Choice::OrbitPlane, Choice::Ecliptic];
-            extend(reinit, threshold_n_m_s, Shade::Cylinder, &choices);
-        }
-        let tilts = [(true, true), (false, false), (true, false), (false, true)];
-        extend(
-            reinit,
-            5.5,
-            Shade::PlatesAndPanels,
-            &tilts.map(|(plus_x, minus_x)| Choice::Tilts(plus_x, minus_x)),
-        );
-    }
-    cases
 }
 
 /// Simulates those of `cases` that `options` leaves.

@@ -1,39 +1,81 @@
-//! What the paper prints.
+//! What paper 000 prints: its Tables 2 to 5.
 
-use super::cases::{Case, Convention, Shade};
+use super::cases::{Case, Convention, DumpsTo, Shade, Strategy};
 use super::spacing::Spacing;
 
 /// Counts may differ from the paper's by this much: its pointing rules, epoch and windows are unpublished.
 const COUNT_TOLERANCE: i64 = 2;
 
-/// One cell of Tables 2 and 3, strategy "thruster dumps only".
+/// One cell of Tables 2 and 3, or of 4 and 5.
 pub struct PaperRow {
+    shade: Shade,
+    strategy: Strategy,
     threshold_n_m_s: f64,
-    offset_m: f64,
-    /// Table 2.
+    offset_in: [i8; 3],
+    /// Tables 2 and 4.
     dumps: i64,
-    /// Table 3.
+    /// Tables 3 and 5.
     spacing: Spacing,
 }
 
+use Strategy::{DumpsOnly, Predictive, Reactive};
+
 const ROWS: &[PaperRow] = &[
-    row(4.0, 0.0, 4, [7.0, 45.0, 7.0, 10.0]),
-    row(4.0, -0.0254, 9, [5.0, 15.5, 5.0, 11.0]),
-    row(4.0, -0.0508, 14, [4.0, 21.0, 4.0, 6.0]),
-    row(7.0, 0.0, 2, [55.0; 4]),
-    row(7.0, -0.0254, 6, [3.5, 25.5, 10.0, 20.0]),
-    row(7.0, -0.0508, 8, [7.0, 25.0, 7.0, 12.0]),
+    cylinder(DumpsOnly, 4.0, 0, 4, Some((7.0, 45.0)), Some((7.0, 10.0))),
+    cylinder(DumpsOnly, 4.0, -1, 9, Some((5.0, 15.5)), Some((5.0, 11.0))),
+    cylinder(DumpsOnly, 4.0, -2, 14, Some((4.0, 21.0)), Some((4.0, 6.0))),
+    cylinder(Reactive, 4.0, 0, 1, None, None),
+    cylinder(Reactive, 4.0, -1, 2, Some((11.0, 11.0)), None),
+    cylinder(Reactive, 4.0, -2, 8, Some((4.5, 39.0)), Some((4.0, 11.0))),
+    cylinder(Predictive, 4.0, 0, 0, None, None),
+    cylinder(Predictive, 4.0, -1, 1, None, None),
+    cylinder(Predictive, 4.0, -2, 5, Some((5.0, 50.0)), None),
+    cylinder(DumpsOnly, 7.0, 0, 2, Some((55.0, 55.0)), None),
+    cylinder(DumpsOnly, 7.0, -1, 6, Some((3.5, 25.5)), Some((10.0, 20.0))),
+    cylinder(DumpsOnly, 7.0, -2, 8, Some((7.0, 25.0)), Some((7.0, 12.0))),
+    cylinder(Reactive, 7.0, 0, 0, None, None),
+    cylinder(Reactive, 7.0, -1, 1, None, None),
+    cylinder(Reactive, 7.0, -2, 4, Some((7.0, 53.0)), Some((10.0, 17.0))),
+    cylinder(Predictive, 7.0, 0, 0, None, None),
+    cylinder(Predictive, 7.0, -1, 0, None, None),
+    cylinder(Predictive, 7.0, -2, 2, Some((11.0, 11.0)), None),
+    panels([0, 0, -1], 2, (11.0, 11.0), None),
+    panels([0, 0, -2], 9, (4.0, 30.0), Some((4.0, 9.0))),
+    panels([0, 0, 1], 2, (4.5, 4.5), None),
+    panels([0, 0, 2], 8, (3.0, 12.0), Some((4.0, 11.0))),
+    panels([1, 1, 1], 5, (9.0, 20.0), None),
+    panels([-1, -1, -1], 5, (5.0, 38.0), None),
 ];
 
-/// Gaps in days: closest, farthest, and the typical range.
-const fn row(
+/// A cell of Tables 2 and 3: the closest and the farthest gap, and the typical range, in days.
+const fn cylinder(
+    strategy: Strategy,
     threshold_n_m_s: f64,
-    offset_m: f64,
+    z_in: i8,
     dumps: i64,
-    [closest_d, farthest_d, low_d, high_d]: [f64; 4],
+    extremes_d: Option<(f64, f64)>,
+    typical_d: Option<(f64, f64)>,
 ) -> PaperRow {
-    let spacing = Spacing::stated(dumps as usize, closest_d, farthest_d, (low_d, high_d));
-    PaperRow { threshold_n_m_s, offset_m, dumps, spacing }
+    let spacing = Spacing::stated(dumps as usize, extremes_d, typical_d);
+    PaperRow { shade: Shade::Cylinder, strategy, threshold_n_m_s, offset_in: [0, 0, z_in], dumps, spacing }
+}
+
+/// A cell of Tables 4 and 5.
+const fn panels(
+    offset_in: [i8; 3],
+    dumps: i64,
+    extremes_d: (f64, f64),
+    typical_d: Option<(f64, f64)>,
+) -> PaperRow {
+    let spacing = Spacing::stated(dumps as usize, Some(extremes_d), typical_d);
+    PaperRow {
+        shade: Shade::PlatesAndPanels,
+        strategy: Reactive,
+        threshold_n_m_s: 5.5,
+        offset_in,
+        dumps,
+        spacing,
+    }
 }
 
 /// What the paper prints of a case.
@@ -50,22 +92,25 @@ pub enum Published {
 }
 
 impl Published {
-    /// Of a case; the paper prints nothing for plates alone, nor for the physical momentum.
+    /// Of a case; the paper prints nothing for plates alone, for the physical momentum, nor for dumps to anything but what its
+    /// text says. Dumps to 0.9 of the threshold are compared all the same, as the nearest that is well conditioned.
     pub fn of(case: &Case) -> Option<Self> {
-        if case.convention != Convention::BodyIntegral {
+        let is_papers = matches!(case.dumps_to, DumpsTo::PAPER | DumpsTo::OWN);
+        if case.convention != Convention::BodyIntegral || !is_papers {
             return None;
         }
-        let mut at_offset = ROWS.iter().filter(|row| row.offset_m == case.offset_m);
-        match case.shade {
-            Shade::Cylinder => {
-                at_offset.find(|row| row.threshold_n_m_s == case.threshold_n_m_s).map(Self::Row)
-            }
-            Shade::Plates => None,
-            Shade::PlatesAndPanels => {
-                let counts: Vec<i64> = at_offset.map(|row| row.dumps).collect();
-                Some(Self::Comparable { fewest: *counts.iter().min()?, most: *counts.iter().max()? })
-            }
+        let with = |shade: Shade| {
+            let same = move |row: &&PaperRow| {
+                row.shade == shade && row.strategy == case.strategy && row.offset_in == case.offset_in
+            };
+            ROWS.iter().filter(same)
+        };
+        let own = with(case.shade).find(|row| row.threshold_n_m_s == case.threshold_n_m_s);
+        if own.is_some() || case.shade != Shade::PlatesAndPanels {
+            return own.map(Self::Row);
         }
+        let counts: Vec<i64> = with(Shade::Cylinder).map(|row| row.dumps).collect();
+        Some(Self::Comparable { fewest: *counts.iter().min()?, most: *counts.iter().max()? })
     }
 
     /// For tables.

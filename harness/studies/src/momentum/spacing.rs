@@ -17,22 +17,25 @@ pub struct Spacing {
 }
 
 impl Spacing {
-    /// As somebody states it.
-    pub const fn stated(dumps: usize, closest_d: f64, farthest_d: f64, typical_d: (f64, f64)) -> Self {
-        Self {
-            closest_d: Some(closest_d),
-            farthest_d: Some(farthest_d),
-            typical_d: Some(typical_d),
-            closer_than_five_days: closest_d < 5.0,
-            dumps,
-        }
+    /// As somebody states it: the closest and the farthest, unless there is no gap, and what is typical where it is stated.
+    pub const fn stated(dumps: usize, extremes_d: Option<(f64, f64)>, typical_d: Option<(f64, f64)>) -> Self {
+        let (closest_d, farthest_d, closer_than_five_days) = match extremes_d {
+            Some((closest_d, farthest_d)) => (Some(closest_d), Some(farthest_d), closest_d < 5.0),
+            None => (None, None, false),
+        };
+        Self { closest_d, farthest_d, typical_d, closer_than_five_days, dumps }
+    }
+
+    /// Whether the mission's five days are kept, for tables.
+    pub fn five_days(&self) -> &'static str {
+        if self.closer_than_five_days { "broken" } else { "kept" }
     }
 
     /// How this compares with what a paper states, whose "typical" is not defined.
     pub fn against(&self, stated: &Self) -> &'static str {
-        let (Some((low, high)), Some((stated_low, stated_high))) = (self.typical_d, stated.typical_d) else {
-            return "off";
-        };
+        if self.closest_d.is_none() && stated.closest_d.is_none() {
+            return "no gap, as in the paper";
+        }
         let near = |ours: Option<f64>, theirs: Option<f64>| {
             ours.zip(theirs).is_some_and(|(ours, theirs)| (ours / theirs - 1.0).abs() <= 0.25)
         };
@@ -40,6 +43,10 @@ impl Spacing {
         if self.has_one_gap() && stated.has_one_gap() {
             return if closest_is_near { "gap within 25 %" } else { "off" };
         }
+        let Some((stated_low, stated_high)) = stated.typical_d else {
+            return if closest_is_near { "closest within 25 %" } else { "closest off" };
+        };
+        let Some((low, high)) = self.typical_d else { return "off" };
         match (low <= stated_high && stated_low <= high, closest_is_near) {
             (true, true) => "typical gaps overlap, closest within 25 %",
             (true, false) => "typical gaps overlap, closest off",
@@ -78,7 +85,10 @@ impl fmt::Display for Spacing {
             (Some(closest), Some(farthest), Some((low, high))) if self.dumps > 2 => {
                 write!(f, "closest {closest:.1} d, farthest {farthest:.1} d, typical {low:.0}-{high:.0} d")
             }
-            (Some(closest), ..) => write!(f, "2, {closest:.0} d apart"),
+            (Some(closest), Some(farthest), None) if self.dumps > 2 => {
+                write!(f, "closest {closest:.1} d, farthest {farthest:.1} d")
+            }
+            (Some(closest), ..) => write!(f, "2, {closest:.1} d apart"),
             _ => write!(f, "{} in 90 d", self.dumps),
         }
     }
@@ -97,7 +107,7 @@ mod tests {
         assert_eq!(spacing.typical_d, Some((4.0, 10.0)));
         assert!(spacing.closer_than_five_days);
         assert_eq!(spacing.to_string(), "closest 2.0 d, farthest 20.0 d, typical 4-10 d");
-        let stated = |closest_d, typical_d| Spacing::stated(9, closest_d, 30.0, typical_d);
+        let stated = |closest_d, typical_d| Spacing::stated(9, Some((closest_d, 30.0)), Some(typical_d));
         let overlapping = "typical gaps overlap, closest within 25 %";
         assert_eq!(spacing.against(&stated(2.5, (9.0, 30.0))), overlapping);
         assert_eq!(spacing.against(&stated(2.7, (9.0, 30.0))), "typical gaps overlap, closest off");
@@ -108,20 +118,22 @@ mod tests {
 
     #[test]
     fn a_single_gap_is_compared_with_a_single_gap() {
-        let stated = Spacing::stated(2, 55.0, 55.0, (55.0, 55.0));
+        let stated = Spacing::stated(2, Some((55.0, 55.0)), None);
         assert_eq!(Spacing::of(&[3.0, 59.0]).against(&stated), "gap within 25 %");
         assert_eq!(Spacing::of(&[3.0, 33.0]).against(&stated), "off");
         // Three dumps have a closest and a typical gap of their own.
-        assert_eq!(
-            Spacing::of(&[3.0, 59.0, 119.0]).against(&stated),
-            "typical gaps off, closest within 25 %"
-        );
+        assert_eq!(Spacing::of(&[3.0, 59.0, 119.0]).against(&stated), "closest within 25 %");
     }
 
     #[test]
     fn one_or_no_dump_has_no_gap() {
         assert_eq!(Spacing::of(&[]).to_string(), "0 in 90 d");
         assert_eq!(Spacing::of(&[3.0]).to_string(), "1 in 90 d");
-        assert_eq!(Spacing::of(&[3.0, 58.0]).to_string(), "2, 55 d apart");
+        assert_eq!(Spacing::of(&[3.0, 58.0]).to_string(), "2, 55.0 d apart");
+        let none = Spacing::stated(1, None, None);
+        assert_eq!(Spacing::of(&[3.0]).against(&none), "no gap, as in the paper");
+        assert_eq!(Spacing::of(&[3.0, 58.0]).against(&none), "off");
+        assert_eq!(Spacing::of(&[3.0, 58.0, 62.0]).against(&none), "off");
+        assert_eq!(none.five_days(), "kept");
     }
 }

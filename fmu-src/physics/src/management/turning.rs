@@ -1,0 +1,99 @@
+//! Which momentum to leave a downlink with where the spacecraft turns under it: predictive targets for the physical momentum.
+//!
+//! Through the science to come the momentum h left with shows as R_k h + d_k in the body frame, R_k the turn since the downlink
+//! and d_k what torques have added until then. The mean square of its X and Z components, in parts of their thresholds, is convex in h;
+//! its least over the X and Z that the downlink can reach is found by golden section, Z within X. The greatest component would
+//! leave open where the other one goes; what goes anywhere adds up from cycle to cycle where reach is short. The next downlink is
+//! the end of it, since every component can be brought to a target again there. Y is left out: light hardly turns it.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::profile::Reach;
+use super::targeting::golden;
+
+/// Momentum in the body frame at one time of the science to come: R h + d.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turned {
+    /// R.
+    pub turn: Matrix3<f64>,
+    /// d, in N m s.
+    pub added_body_n_m_s: Vector3<f64>,
+}
+
+/// The momentum to leave a downlink with, body frame, in N m s: X and Z within these ranges, Y as given.
+pub fn best_turned(along: &[Turned], [x, z]: [Reach; 2], y: f64, threshold: &Vector3<f64>) -> Vector3<f64> {
+    let squares = |x: f64, z: f64| {
+        let momentum = Vector3::new(x, y, z);
+        let parts = along.iter().map(|at| {
+            let body = at.turn * momentum + at.added_body_n_m_s;
+            (body.x / threshold.x).powi(2) + (body.z / threshold.z).powi(2)
+        });
+        parts.sum::<f64>()
+    };
+    let along_z = |x_n_m_s: f64| golden(z[0], z[1], |z_n_m_s| squares(x_n_m_s, z_n_m_s));
+    let (best_x, _) = golden(x[0], x[1], |x_n_m_s| along_z(x_n_m_s).1);
+    Vector3::new(best_x, y, along_z(best_x).0)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Against a grid of targets, and where symmetry says what is best.
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::Rotation3;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_turn_about_the_sun_line_alone_asks_for_none() {
+        let along: Vec<Turned> = (0..36)
+            .map(|k| Turned {
+                turn: *Rotation3::from_axis_angle(&Vector3::y_axis(), f64::from(k) * 0.175).matrix(),
+                added_body_n_m_s: Vector3::zeros(),
+            })
+            .collect();
+        let best = best_turned(&along, [[-2.0, 3.0], [-1.0, 4.0]], 0.7, &Vector3::repeat(4.0));
+        assert_relative_eq!(best, Vector3::new(0.0, 0.7, 0.0), epsilon = 1e-7);
+    }
+
+    #[test]
+    fn a_drift_without_a_turn_is_met_half_way() {
+        let at =
+            |x: f64, z: f64| Turned { turn: Matrix3::identity(), added_body_n_m_s: Vector3::new(x, 0.0, z) };
+        // Both components start a drift at zero; equal parts of the thresholds weigh the same.
+        let along = [at(0.0, 0.0), at(2.0, -1.0)];
+        let best = best_turned(&along, [[-5.0, 5.0]; 2], 0.0, &Vector3::new(4.0, 1.0, 2.0));
+        assert_relative_eq!(best.x, -1.0, epsilon = 1e-6);
+        assert_relative_eq!(best.z, 0.5, epsilon = 1e-6);
+        let short = best_turned(&along, [[-0.25, 5.0], [-5.0, 5.0]], 0.0, &Vector3::new(4.0, 1.0, 2.0));
+        assert_eq!(short.x, -0.25);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+        #[test]
+        fn no_other_target_has_less(
+            path in proptest::collection::vec((-3.0..3.0_f64, -2.0..2.0_f64, -2.0..2.0_f64), 1..20),
+            y in -2.0..2.0_f64,
+            width in 0.1..4.0_f64,
+        ) {
+            let along: Vec<Turned> = path
+                .iter()
+                .map(|(angle, x, z)| Turned {
+                    turn: Rotation3::from_euler_angles(0.1 * x, *angle, 0.1 * z).into_inner(),
+                    added_body_n_m_s: Vector3::new(*x, 0.5, *z),
+                })
+                .collect();
+            let threshold = Vector3::new(4.0, 1.0, 3.0);
+            let all = |h: Vector3<f64>| -> f64 {
+                let bodies = along.iter().map(|at| (at.turn * h + at.added_body_n_m_s).component_div(&threshold));
+                bodies.map(|body| body.xz().norm_squared()).sum()
+            };
+            let reach = [-width, 0.6 * width];
+            let found = all(best_turned(&along, [reach; 2], y, &threshold));
+            let at = |k: u32| reach[0] + (reach[1] - reach[0]) * f64::from(k) / 60.0;
+            for (i, j) in (0..=60).flat_map(|i| (0..=60).map(move |j| (i, j))) {
+                prop_assert!(all(Vector3::new(at(i), y, at(j))) > found - 1e-6);
+            }
+        }
+    }
+}

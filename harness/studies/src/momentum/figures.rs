@@ -1,0 +1,102 @@
+//! Paper 000, Figures 4 and 5: X momentum over 90 days.
+
+use super::cases::{Case, Convention, Simulated, Strategy, simulate_all};
+use super::lists;
+use crate::chart::{Chart, Panel, Series};
+use crate::{Options, Report, StudyError};
+
+/// A figure: one panel an offset, one line a strategy.
+pub struct Figure {
+    name: &'static str,
+    title: &'static str,
+    strategies: &'static [Strategy],
+}
+
+/// Thruster dumps alone.
+pub const FIGURE_4: Figure =
+    Figure { name: "figure4", title: "thruster dumps only", strategies: &[Strategy::DumpsOnly] };
+/// Dumps and targets.
+pub const FIGURE_5: Figure = Figure {
+    name: "figure5",
+    title: "targets by sunlight",
+    strategies: &[Strategy::Reactive, Strategy::Predictive],
+};
+
+/// Figure 4.
+pub fn figure4(options: &Options) -> Result<Report, StudyError> {
+    figure("momentum/figure4", options, &FIGURE_4, "X momentum over 90 days (paper 000, Figure 4)")
+}
+
+/// Figure 5.
+pub fn figure5(options: &Options) -> Result<Report, StudyError> {
+    figure("momentum/figure5", options, &FIGURE_5, "X momentum over 90 days (paper 000, Figure 5)")
+}
+
+fn figure(study: &'static str, options: &Options, figure: &Figure, text: &str) -> Result<Report, StudyError> {
+    let simulated = simulate_all(study, options, lists::figure(figure.strategies))?;
+    let mut report = Report::default();
+    draw(&mut report, options, &simulated, figure)?;
+    report.line(text);
+    Ok(report)
+}
+
+/// The figure's strategies, one panel an offset as in the paper: the cylinder with the paper's dumps at the lowest threshold
+/// simulated.
+pub fn draw(
+    report: &mut Report,
+    options: &Options,
+    simulated: &[Simulated],
+    figure: &Figure,
+) -> Result<(), StudyError> {
+    let in_figure = |case: &Case| {
+        case.convention == Convention::BodyIntegral && figure.strategies.contains(&case.strategy)
+    };
+    let Some(first) = simulated.iter().find(|simulation| in_figure(&simulation.case)) else { return Ok(()) };
+    let selected = |case: &Case| {
+        let same = Case { strategy: case.strategy, offset_in: case.offset_in, ..first.case };
+        in_figure(case) && *case == same
+    };
+    let chosen: Vec<&Simulated> = simulated.iter().filter(|simulation| selected(&simulation.case)).collect();
+    let mut offsets: Vec<[i8; 3]> = Vec::new();
+    for simulation in &chosen {
+        if !offsets.contains(&simulation.case.offset_in) {
+            offsets.push(simulation.case.offset_in);
+        }
+    }
+    let line = |simulation: &&&Simulated| {
+        let case = &simulation.case;
+        let strategy =
+            if figure.strategies.len() > 1 { format!("{}, ", case.strategy.label()) } else { String::new() };
+        let offset = case.offset_label();
+        Series::line(
+            format!("{strategy}centre of mass at Z = {offset}, {} dumps", simulation.count),
+            simulation.times_d.iter().copied().zip(simulation.momentum_x_n_m_s.iter().copied()).collect(),
+        )
+    };
+    let threshold_n_m_s = first.case.threshold_n_m_s;
+    let limit = threshold_n_m_s * 1.25;
+    let panel = |offset_in: &[i8; 3]| Panel {
+        y_label: "H_x [N.m.s]".to_owned(),
+        series: chosen.iter().filter(|it| it.case.offset_in == *offset_in).map(|it| line(&it)).collect(),
+        y_range: Some((-limit, limit)),
+        marks: vec![-threshold_n_m_s, threshold_n_m_s],
+    };
+    let chart = Chart {
+        title: format!(
+            "X momentum with {}: {} shade, {threshold_n_m_s} N.m.s, dumps to {} of it",
+            figure.title,
+            first.case.shade.label(),
+            first.case.dumps_to.label()
+        ),
+        x_label: "time [d]".to_owned(),
+        panels: offsets.iter().map(panel).collect(),
+    };
+    report.picture(options, &format!("{}.svg", figure.name), &chart)?;
+    let rows = chosen.iter().flat_map(|simulation| {
+        let label = simulation.case.label();
+        simulation.times_d.iter().zip(&simulation.momentum_x_n_m_s).step_by(6).map(
+            move |(time_d, momentum)| vec![label.clone(), format!("{time_d:.6}"), format!("{momentum:.9}")],
+        )
+    });
+    report.csv(options, &format!("{}.csv", figure.name), &["case", "time_d", "momentum_x_n_m_s"], rows)
+}

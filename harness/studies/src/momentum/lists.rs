@@ -1,0 +1,105 @@
+//! Which simulations each of paper 000's tables has.
+
+use super::cases::{Case, Choice, Convention, DumpsTo, Shade, Strategy};
+
+/// Tables 2 and 3: nothing, one and two inches along -Z.
+pub const ALONG_Z: [[i8; 3]; 3] = [[0, 0, 0], [0, 0, -1], [0, 0, -2]];
+/// Tables 4 and 5: those, both along +Z, and an inch along all axes.
+pub const ALL_OFFSETS: [[i8; 3]; 7] =
+    [[0, 0, 0], [0, 0, -1], [0, 0, -2], [0, 0, 1], [0, 0, 2], [1, 1, 1], [-1, -1, -1]];
+
+const RULES: [(DumpsTo, Convention); 3] = [
+    (DumpsTo::PAPER, Convention::BodyIntegral),
+    (DumpsTo::OWN, Convention::BodyIntegral),
+    (DumpsTo::OWN, Convention::Inertial),
+];
+
+/// Table 2: the paper's own dumps first, then the FMU's default ones, then these under the physical momentum.
+pub fn cylinder() -> Vec<Case> {
+    let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::Cylinder, convention));
+    with_every_strategy(&groups, &[4.0, 7.0], &ALONG_Z)
+}
+
+/// Table 4, in the same order.
+pub fn panels() -> Vec<Case> {
+    let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::PlatesAndPanels, convention));
+    with_every_strategy(&groups, &[5.5], &ALL_OFFSETS)
+}
+
+/// Tables 3 and 5: what the paper's momentum gives of Tables 2 and 4.
+pub fn in_papers_convention(mut cases: Vec<Case>) -> Vec<Case> {
+    cases.retain(|case| case.convention == Convention::BodyIntegral);
+    cases
+}
+
+/// Dumps that the paper's tables do not have: the plates alone, dumps to zero, and for small wheels dumps to one side of X.
+pub fn other_dumps() -> Vec<Case> {
+    let (cylinder, plates) = (Shade::Cylinder, Shade::Plates);
+    let both = [(DumpsTo::OWN, plates), (DumpsTo::ZERO, cylinder)];
+    let small = [(DumpsTo::AlongX(0.9), cylinder), (DumpsTo::AlongX(-0.9), cylinder)];
+    let group = |(dumps_to, shade)| (dumps_to, shade, Convention::BodyIntegral);
+    let mut cases = with_every_strategy(&both.map(group), &[4.0, 7.0], &ALONG_Z);
+    cases.extend(with_every_strategy(&small.map(group), &[4.0], &ALONG_Z));
+    cases
+}
+
+/// Figures 4 and 5: small wheels.
+pub fn figure(strategies: &[Strategy]) -> Vec<Case> {
+    let mut cases =
+        with_every_strategy(&[(DumpsTo::PAPER, Shade::Cylinder, Convention::BodyIntegral)], &[4.0], &ALONG_Z);
+    cases.retain(|case| strategies.contains(&case.strategy));
+    cases
+}
+
+/// Simulations over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
+pub fn open() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for dumps_to in [DumpsTo::PAPER, DumpsTo::OWN] {
+        let mut extend = |threshold_n_m_s, shade, choice| {
+            let convention = Convention::BodyIntegral;
+            cases.extend(ALONG_Z.map(|offset_in| Case {
+                strategy: Strategy::DumpsOnly,
+                threshold_n_m_s,
+                dumps_to,
+                shade,
+                convention,
+                offset_in,
+                choice,
+            }));
+        };
+        for threshold_n_m_s in [4.0, 7.0] {
+            for choice in [Choice::Study, Choice::Later, Choice::OrbitPlane, Choice::Ecliptic] {
+                extend(threshold_n_m_s, Shade::Cylinder, choice);
+            }
+        }
+        for (plus_x, minus_x) in [(true, true), (false, false), (true, false), (false, true)] {
+            extend(5.5, Shade::PlatesAndPanels, Choice::Tilts(plus_x, minus_x));
+        }
+    }
+    cases
+}
+
+/// Every group with every threshold, strategy and offset, in this order.
+pub fn with_every_strategy(
+    groups: &[(DumpsTo, Shade, Convention)],
+    thresholds_n_m_s: &[f64],
+    offsets_in: &[[i8; 3]],
+) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for &(dumps_to, shade, convention) in groups {
+        for &threshold_n_m_s in thresholds_n_m_s {
+            for strategy in Strategy::ALL {
+                cases.extend(offsets_in.iter().map(|&offset_in| Case {
+                    strategy,
+                    threshold_n_m_s,
+                    dumps_to,
+                    shade,
+                    convention,
+                    offset_in,
+                    choice: Choice::Study,
+                }));
+            }
+        }
+    }
+    cases
+}

@@ -1,0 +1,163 @@
+//! Paper 000's open questions: dumps and momentum rate with what is misaligned, unequal, or takes its time to turn.
+
+use loader::Fmu;
+
+use super::cases::{Case, Convention, DumpsTo, SPAN_D, Shade, Strategy};
+use super::lists::with_every_strategy;
+use super::variant::{Edit, Variant};
+use crate::case::{chosen, run_all};
+use crate::vector::{Vector, difference, norm};
+use crate::{Options, Report, StudyError};
+
+const THRESHOLD_N_M_S: f64 = 5.5;
+/// Above all that gathers.
+const NO_DUMP_N_M_S: f64 = 1e6;
+const DEG: f64 = std::f64::consts::PI / 180.0;
+
+/// A change of file and parameters.
+struct Change {
+    what: &'static str,
+    edits: &'static [Edit],
+    sets: &'static [(&'static str, f64)],
+}
+
+const SHADE: Edit = Edit { after: "[sunshade]", from: "rotation_deg = [0.0, 0.0, 0.0]", to: "" };
+const AXIS: Edit = Edit { after: "name = \"+X\"", from: "axis = [1.0, 0.0, 0.0]", to: "" };
+const NORMAL: Edit = Edit { after: "name = \"+X\"", from: "zero_normal = [0.0, -1.0, 0.0]", to: "" };
+const OTHER_AXIS: Edit = Edit { after: "name = \"-X\"", ..AXIS };
+const OTHER_NORMAL: Edit = Edit { after: "name = \"-X\"", ..NORMAL };
+const AGED: Edit = Edit {
+    after: "",
+    from: "[optics.solar-cells]",
+    to: "[optics.aged]\nspecular = 0.10\ndiffuse = 0.35\n\n[optics.solar-cells]",
+};
+const AGED_SIDE: Edit =
+    Edit { after: "name = \"side +X\"", from: "optics = \"shade-cloth\"", to: "optics = \"aged\"" };
+const AGED_FRONT: Edit = Edit { after: "name = \"front\"", ..AGED_SIDE };
+const AGED_TOP: Edit = Edit { after: "name = \"top front\"", ..AGED_SIDE };
+
+const AXIS_UP: &str = "axis = [0.99984770, 0.0, 0.01745241]";
+const AXIS_AHEAD: &str = "axis = [0.99984770, -0.01745241, 0.0]";
+const NORMAL_AHEAD: &str = "zero_normal = [-0.01745241, -0.99984770, 0.0]";
+
+const CHANGES: &[Change] = &[
+    Change { what: "nothing", edits: &[], sets: &[] },
+    Change {
+        what: "shade turned 1 deg about X",
+        edits: &[Edit { to: "rotation_deg = [1.0, 0.0, 0.0]", ..SHADE }],
+        sets: &[],
+    },
+    Change {
+        what: "shade turned 1 deg about Y",
+        edits: &[Edit { to: "rotation_deg = [0.0, 1.0, 0.0]", ..SHADE }],
+        sets: &[],
+    },
+    Change {
+        what: "shade turned 1 deg about Z",
+        edits: &[Edit { to: "rotation_deg = [0.0, 0.0, 1.0]", ..SHADE }],
+        sets: &[],
+    },
+    Change { what: "axis of +X panel 1 deg toward Z", edits: &[Edit { to: AXIS_UP, ..AXIS }], sets: &[] },
+    Change {
+        what: "axis of +X panel 1 deg toward -Y",
+        edits: &[Edit { to: AXIS_AHEAD, ..AXIS }, Edit { to: NORMAL_AHEAD, ..NORMAL }],
+        sets: &[],
+    },
+    Change {
+        what: "axes of both panels 1 deg toward -Y",
+        edits: &[
+            Edit { to: AXIS_AHEAD, ..AXIS },
+            Edit { to: NORMAL_AHEAD, ..NORMAL },
+            Edit { to: AXIS_AHEAD, ..OTHER_AXIS },
+            Edit { to: NORMAL_AHEAD, ..OTHER_NORMAL },
+        ],
+        sets: &[],
+    },
+    Change { what: "+X panel at 66 deg", edits: &[], sets: &[("panel[1].sunOffset", 66.0 * DEG)] },
+    Change {
+        what: "panels at 66 and 64 deg",
+        edits: &[],
+        sets: &[("panel[1].sunOffset", 66.0 * DEG), ("panel[2].sunOffset", 64.0 * DEG)],
+    },
+    Change {
+        what: "panels at 66 and 66 deg",
+        edits: &[],
+        sets: &[("panel[1].sunOffset", 66.0 * DEG), ("panel[2].sunOffset", 66.0 * DEG)],
+    },
+    Change { what: "side +X at specular 0.10", edits: &[AGED, AGED_SIDE], sets: &[] },
+    Change { what: "front at specular 0.10", edits: &[AGED, AGED_FRONT], sets: &[] },
+    Change { what: "top front at specular 0.10", edits: &[AGED, AGED_TOP], sets: &[] },
+    Change { what: "turns at 0.1 deg/s", edits: &[], sets: &[("guided.slewRate", 0.1 * DEG)] },
+    Change { what: "turns at 0.01 deg/s", edits: &[], sets: &[("guided.slewRate", 0.01 * DEG)] },
+];
+
+/// What one change does.
+struct Found {
+    what: &'static str,
+    /// Dumps by convention, then by strategy.
+    dumps: [[i64; 3]; 2],
+    /// Mean magnitude of what a day without dumps and targets adds, by convention, in N m s.
+    daily_n_m_s: [f64; 2],
+}
+
+/// Study `momentum/sensitivity`.
+pub fn sensitivity(options: &Options) -> Result<Report, StudyError> {
+    let changes = chosen("momentum/sensitivity", options, CHANGES, |change| change.what.to_owned())?;
+    let template = options.fmu("MomentumPlant.fmu")?;
+    let found = run_all(options, &changes, |change| fly(change, &template))?;
+    let mut report = Report::default();
+    report.line("Small changes of the spacecraft: dumps in 90 days and momentum a day (paper 000, plates and panels)\n");
+    let join = |dumps: &[i64; 3]| dumps.map(|count| count.to_string()).join(" / ");
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .map(|it| {
+            vec![
+                it.what.to_owned(),
+                join(&it.dumps[0]),
+                format!("{:.4}", it.daily_n_m_s[0]),
+                join(&it.dumps[1]),
+                format!("{:.4}", it.daily_n_m_s[1]),
+            ]
+        })
+        .collect();
+    let header =
+        ["change", "dumps, paper's", "paper's a day [N.m.s]", "dumps, inertial", "inertial a day [N.m.s]"];
+    report.table(&header, &rows);
+    report.line(REMARK);
+    report.csv(options, "sensitivity.csv", &header, rows)?;
+    Ok(report)
+}
+
+const REMARK: &str = "\
+Dumps: with dumps only / reactive / predictive targets; 5.5 N.m.s, to 0.9 of the opposite threshold, centre of mass at
+Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds without dumps or targets. Unchanged: panels at
+65 deg, shade cloth of specular 0.15, turns at once. An axis of a panel is turned with its cell side.";
+
+fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
+    let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
+    let variant = Variant::of(template, change.edits).map_err(failed)?;
+    let simulate = |case: &Case, names: &[String]| {
+        let settings =
+            change.sets.iter().fold(case.settings(), |case, (name, value)| case.real(name, *value));
+        settings.simulate(&variant.fmu, names)
+    };
+    let mut found = Found { what: change.what, dumps: [[0; 3]; 2], daily_n_m_s: [f64::NAN; 2] };
+    let conventions =
+        [(Convention::BodyIntegral, "momentum.body"), (Convention::Inertial, "momentum.inertial")];
+    for (number, (convention, name)) in conventions.into_iter().enumerate() {
+        let group = [(DumpsTo::OWN, Shade::PlatesAndPanels, convention)];
+        let cases = with_every_strategy(&group, &[THRESHOLD_N_M_S], &[[0, 0, -1]]);
+        for (count, case) in found.dumps[number].iter_mut().zip(&cases) {
+            *count = simulate(case, &["dump.count".to_owned()])?.last(0) as i64;
+        }
+        let Some(alone) = cases.iter().find(|case| case.strategy == Strategy::DumpsOnly) else { continue };
+        let names = [1, 2, 3].map(|axis| format!("{name}[{axis}]"));
+        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, &names)?;
+        let at = |k: usize| -> Vector { std::array::from_fn(|axis| undumped.columns[axis][k]) };
+        let a_day = (undumped.times_s.len() - 1) / SPAN_D as usize;
+        let days =
+            (0..SPAN_D as usize).map(|day| norm(&difference(&at((day + 1) * a_day), &at(day * a_day))));
+        found.daily_n_m_s[number] = days.sum::<f64>() / SPAN_D;
+    }
+    Ok(found)
+}

@@ -1,0 +1,98 @@
+//! An FMU of a shipped spacecraft with a few lines of its file changed.
+
+use std::fs;
+use std::path::Path;
+
+use files::Scratch;
+use loader::Fmu;
+
+/// A change of the file's text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edit {
+    /// Text after which the change stands; empty for the beginning.
+    pub after: &'static str,
+    /// What stands there.
+    pub from: &'static str,
+    /// What is to stand there.
+    pub to: &'static str,
+}
+
+/// The text with every edit made at the first place it fits.
+///
+/// # Errors
+/// An edit that fits nowhere.
+pub fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
+    edits.iter().try_fold(text.to_owned(), |text, edit| {
+        let place = text.find(edit.after).and_then(|at| {
+            let from = at + edit.after.len();
+            Some(from + text.get(from..)?.find(edit.from)?)
+        });
+        let at =
+            place.ok_or_else(|| format!("spacecraft.toml has no `{}` after `{}`", edit.from, edit.after))?;
+        let (before, rest) = text.split_at(at);
+        Ok([before, edit.to, rest.strip_prefix(edit.from).unwrap_or(rest)].concat())
+    })
+}
+
+/// An FMU unpacked into a temporary folder.
+pub struct Variant {
+    /// The FMU.
+    pub fmu: Fmu,
+    _folder: Scratch,
+}
+
+impl Variant {
+    /// The template with its spacecraft file edited, described by its own library.
+    ///
+    /// # Errors
+    /// An edit that fits nowhere, a file that the model refuses, a folder that cannot be written.
+    pub fn of(template: &Fmu, edits: &[Edit]) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        let model = template.co_simulation()?.model_identifier.clone();
+        let file = Path::new("resources").join("spacecraft.toml");
+        let text = edited(&files::read_text(&template.folder().join(&file))?, edits)?;
+        let described = template.binary()?.describe(&model, Some("spacecraft.toml"), Some(&text))?;
+        let folder = Scratch::new("heliotorque-")?;
+        copy(&template.folder().join("binaries"), &folder.path().join("binaries"))?;
+        fs::create_dir(folder.path().join("resources"))?;
+        fs::write(folder.path().join(&file), text)?;
+        fs::write(folder.path().join("modelDescription.xml"), described.xml)?;
+        Ok(Self { fmu: Fmu::open(folder.path())?, _folder: folder })
+    }
+}
+
+fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
+    fs::create_dir(to)?;
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        let target = to.join(entry.file_name());
+        if entry.file_type()?.is_dir() {
+            copy(&entry.path(), &target)?;
+        } else {
+            fs::copy(entry.path(), &target)?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    //! Edits of a text of three lines.
+    use super::*;
+
+    const TEXT: &str = "name = \"a\"\nx = 1\nname = \"b\"\nx = 1\n";
+
+    #[test]
+    fn an_edit_stands_after_its_marker_alone() {
+        let second = Edit { after: "name = \"b\"", from: "x = 1", to: "x = 2" };
+        assert_eq!(edited(TEXT, &[second]).unwrap(), "name = \"a\"\nx = 1\nname = \"b\"\nx = 2\n");
+        let first = Edit { after: "", ..second };
+        assert_eq!(edited(TEXT, &[first, second]).unwrap(), "name = \"a\"\nx = 2\nname = \"b\"\nx = 2\n");
+    }
+
+    #[test]
+    fn an_edit_that_fits_nowhere_is_refused() {
+        let lost = Edit { after: "name = \"c\"", from: "x = 1", to: "" };
+        assert!(edited(TEXT, &[lost]).unwrap_err().contains("name = \"c\""));
+        assert!(edited(TEXT, &[Edit { after: "", from: "y", to: "" }]).is_err());
+    }
+}
