@@ -174,6 +174,18 @@ fn targets_save_dumps_and_looking_ahead_saves_more() {
 }
 
 #[test]
+fn looking_ahead_under_a_turning_body_costs_no_dumps() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let dumps = [2.0, 3.0].map(|strategy| {
+        let mut flight = named.fly(0.0, &with(&mission(strategy), &[("momentum.convention", 1.0)])).unwrap();
+        flight.fly_to(90.0 * 86_400.0, 3600.0).unwrap();
+        flight.integer("dump.count")
+    });
+    println!("physical momentum: reactive, predictive: {dumps:?}");
+    assert!(dumps[1] <= dumps[0], "{dumps:?}");
+}
+
+#[test]
 fn cutting_and_saving_change_no_bit() {
     let named = NamedModel::<MomentumPlant>::shipped();
     for strategy in [2.0, 3.0] {
