@@ -23,6 +23,7 @@ use super::quaternion::Quaternion;
 use super::series::{ORDER, TERMS, polynomial};
 use super::wheel::{Motor, ReactionWheel, Rotor};
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::numerics::quadrature::GAUSS_3;
 
 /// Terms below this share of the whole are rounding.
 const ROUNDING: f64 = 1e-17;
@@ -30,13 +31,6 @@ const ROUNDING: f64 = 1e-17;
 const PHASE_ROUNDING: f64 = 1e-14;
 /// How often each rotor may be set free or held at one time until all agree.
 const ROUNDS_A_ROTOR: usize = 3;
-/// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
-    (0.5, 0.444_444_444_444_444_4),
-    (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
-];
-
 /// What acts on the body over a segment, body frame, polynomials of the time since its start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyLoad {
@@ -256,7 +250,7 @@ impl GyrostatMotion {
     ) -> [Vector3<f64>; N] {
         let elapsed_s = time_s - self.start_s;
         let mut sums = [Vector3::zeros(); N];
-        for (node, weight) in GAUSS {
+        for (node, weight) in GAUSS_3 {
             let at_s = node * elapsed_s;
             let attitude = self.attitude_after(at_s);
             for (sum, [start, slope]) in sums.iter_mut().zip(torques) {
@@ -619,7 +613,7 @@ impl GyrostatMotion {
         let mut totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
         let is_free = self.load.is_zero() && self.imbalances.is_empty();
         if !is_free {
-            for (node, weight) in GAUSS {
+            for (node, weight) in GAUSS_3 {
                 let at_s = node * elapsed_s;
                 let attitude = self.attitude_after(at_s);
                 for (total, load) in totals.iter_mut().zip(self.loads_after(at_s)) {

@@ -1,27 +1,16 @@
-//! Principal moments and axes of an inertia tensor, by Jacobi's rotations.
-//!
-//! Each rotation about one axis makes one product of inertia 0; the others converge quadratically (Golub and Van Loan,
-//! "Matrix Computations", section 8.5). Moments of axes that nearly coincide with the body's keep their relative accuracy.
+//! Principal moments and axes of an inertia tensor.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 
 use super::quaternion::Quaternion;
-
-/// Sweeps over the three products; five are enough for any tensor.
-const SWEEPS: usize = 12;
+use super::rotation::Attitude;
 
 /// Moments about the principal axes, in kg m2, and those axes as an attitude in the body frame.
 ///
 /// The third axis is the one nearest to the body's third, the first that of the others nearest to the body's first; both
 /// point to its side.
 pub(super) fn principal_axes(tensor_body_kg_m2: &Matrix3<f64>) -> ([f64; 3], Quaternion) {
-    let mut tensor = *tensor_body_kg_m2;
-    let mut axes = Matrix3::identity();
-    for _ in 0..SWEEPS {
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            rotate(&mut tensor, &mut axes, p, q);
-        }
-    }
+    let SymmetricEigen { eigenvalues, eigenvectors: axes } = SymmetricEigen::new(*tensor_body_kg_m2);
     let along = |body_axis: usize, k: usize| axes[(body_axis, k)].abs();
     let nearest = |body_axis: usize, one: usize, other: usize| {
         if along(body_axis, other) > along(body_axis, one) { other } else { one }
@@ -35,56 +24,9 @@ pub(super) fn principal_axes(tensor_body_kg_m2: &Matrix3<f64>) -> ([f64; 3], Qua
         if axis[body_axis] < 0.0 { -axis } else { axis }
     };
     let (x, z) = (toward(0, first), toward(2, third));
-    let moments = [first, second, third].map(|k| tensor[(k, k)]);
-    (moments, quaternion(&Matrix3::from_columns(&[x, z.cross(&x), z])))
-}
-
-/// Makes the product of axes `p` and `q` 0.
-fn rotate(tensor: &mut Matrix3<f64>, axes: &mut Matrix3<f64>, p: usize, q: usize) {
-    let product = tensor[(p, q)];
-    if product == 0.0 {
-        return;
-    }
-    // The smaller of both angles: tan(2 angle) = 2 product / (J_qq - J_pp).
-    let half_cotangent = (tensor[(q, q)] - tensor[(p, p)]) / (2.0 * product);
-    let tangent = if half_cotangent >= 0.0 { 1.0 } else { -1.0 }
-        / (half_cotangent.abs() + libm::hypot(1.0, half_cotangent));
-    let cosine = libm::hypot(1.0, tangent).recip();
-    let sine = tangent * cosine;
-    tensor[(p, p)] -= tangent * product;
-    tensor[(q, q)] += tangent * product;
-    (tensor[(p, q)], tensor[(q, p)]) = (0.0, 0.0);
-    let r = 3 - p - q;
-    let (rp, rq) = (tensor[(r, p)], tensor[(r, q)]);
-    let (new_rp, new_rq) = (cosine * rp - sine * rq, sine * rp + cosine * rq);
-    (tensor[(r, p)], tensor[(p, r)]) = (new_rp, new_rp);
-    (tensor[(r, q)], tensor[(q, r)]) = (new_rq, new_rq);
-    for i in 0..3 {
-        let (ip, iq) = (axes[(i, p)], axes[(i, q)]);
-        axes[(i, p)] = cosine * ip - sine * iq;
-        axes[(i, q)] = sine * ip + cosine * iq;
-    }
-}
-
-/// The attitude whose axes are the columns of a rotation matrix: the greatest component first, so that nothing cancels.
-fn quaternion(m: &Matrix3<f64>) -> Quaternion {
-    let trace = m.trace();
-    let diagonal = [m[(0, 0)], m[(1, 1)], m[(2, 2)]];
-    let largest = (0..3).fold(3, |best, i| {
-        let least = if best == 3 { trace } else { diagonal[best] };
-        if diagonal[i] > least { i } else { best }
-    });
-    if largest == 3 {
-        let parts = [m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)], 1.0 + trace];
-        return Quaternion(parts).normalized();
-    }
-    let (i, j, k) = (largest, (largest + 1) % 3, (largest + 2) % 3);
-    let mut parts = [0.0; 4];
-    parts[i] = 1.0 + 2.0 * diagonal[i] - trace;
-    parts[j] = m[(i, j)] + m[(j, i)];
-    parts[k] = m[(i, k)] + m[(k, i)];
-    parts[3] = m[(k, j)] - m[(j, k)];
-    Quaternion(parts).normalized()
+    let moments = [first, second, third].map(|k| eigenvalues[k]);
+    let body_axes = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
+    (moments, Attitude::from_rotation(&body_axes).unit_quaternion())
 }
 
 #[cfg(test)]

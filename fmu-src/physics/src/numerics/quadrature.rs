@@ -11,6 +11,13 @@ use core::f64::consts::PI;
 
 use nalgebra::SVector;
 
+/// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
+pub const GAUSS_3: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
+    (0.5, 0.444_444_444_444_444_4),
+    (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
+];
+
 /// An `N`-point rule on `[-1, 1]`, nodes rising.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rule<const N: usize> {
