@@ -524,8 +524,8 @@ impl AttitudeDynamics {
         let [now, slope] = (inputs.external)(time_s);
         let dump = self.dump.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m);
         let thrusters = self.thrusters.load();
-        let [thrust, thrust_slope] = thrusters.force_body_n;
-        let [turn, turn_slope] = thrusters.torque_body_n_m;
+        let [thrust, thrust_slope] = thrusters.law.force_body_n;
+        let [turn, turn_slope] = thrusters.law.torque_body_n_m;
         BodyLoad {
             torque_body_n_m: [
                 torque + now.torque_body_n_m + dump + turn,
@@ -536,7 +536,7 @@ impl AttitudeDynamics {
                 force_slope + slope.force_body_n + thrust_slope,
             ],
             mass_kg: thrusters.mass_kg,
-            flow_kg_s: thrusters.flow_kg_s,
+            flow_kg_s: thrusters.law.flow_kg_s,
         }
     }
 
@@ -580,8 +580,9 @@ impl AttitudeDynamics {
             force_body_n: external.force_body_n + force_body_n,
             torque_body_n_m: external.torque_body_n_m + torque_body_n_m,
         };
-        let [force_body_n, torque_body_n_m] = self.thrusters.load().at(time_s);
-        loads[Effect::Thrusters] = ForceTorque { force_body_n, torque_body_n_m };
+        let law = &self.thrusters.load().law;
+        loads[Effect::Thrusters] =
+            ForceTorque { force_body_n: law.force_at_n(time_s), torque_body_n_m: law.torque_at_n_m(time_s) };
         Evaluation { instant, loads, mass }
     }
 

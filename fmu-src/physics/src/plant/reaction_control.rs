@@ -10,20 +10,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::quadrature::GAUSS_3;
 use crate::numerics::spacing::spacing;
 use crate::propulsion::{PropellantState, PulseCommand, ThrusterSelection, Valve};
-use crate::spacecraft::{MassProperties, Thruster, ThrusterSet};
+use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
 
 use super::pulsed_dump::PulsedDump;
 use super::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
-
-/// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
-    (0.5, 0.444_444_444_444_444_4),
-    (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
-];
 
 /// The pulses of a valve at hand and ahead, and what became of the last command.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -96,17 +90,13 @@ impl ReactionControl {
     pub fn is_sound(&self, thrusters: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let later = |x: &f64| sound(x) || *x == f64::INFINITY;
-        let vector = |it: &Vector3<f64>| it.iter().all(sound);
-        let ThrusterLoad { since_s, force_body_n, torque_body_n_m, mass_kg, flow_kg_s } = &self.load;
         self.valves.len() == thrusters
             && self.schedule.len() == thrusters
             && self.valves.iter().all(Valve::is_sound)
             && self.schedule.iter().all(|it| later(&it.closes_s) && it.next_s.iter().all(later))
             && self.burn.is_none_or(|it| sound(&it.since_s) && later(&it.stop_s))
             && self.dump.as_ref().is_none_or(PulsedDump::is_sound)
-            && force_body_n.iter().chain(torque_body_n_m).all(vector)
-            && [since_s, mass_kg].into_iter().chain(flow_kg_s).all(sound)
-            && *mass_kg > 0.0
+            && self.load.is_sound()
             && self.totals.is_sound()
     }
 
@@ -182,7 +172,7 @@ impl ReactionControl {
             let closes_s = if valve.is_open() { pulse.closes_s } else { f64::INFINITY };
             next_s = next_s.min(pulse.next_s[0]).min(closes_s).min(valve.ramp_end_s(&thruster.valve));
         }
-        if !self.load.is_none() {
+        if !self.load.law.is_none() {
             for (k, tank) in settings.tanks.iter().enumerate() {
                 next_s = next_s.min(propellant.dry_s(k, tank));
             }
@@ -235,7 +225,7 @@ impl ReactionControl {
 
     /// Counts what thrusters did up to `time_s`, the end of the motion's present segment.
     pub fn settle(&mut self, motion: &GyrostatMotion, propellant: &mut PropellantState, time_s: f64) {
-        if !self.load.is_none() {
+        if !self.load.law.is_none() {
             self.totals = self.totals_at(motion, time_s);
             propellant.settle(time_s);
         }
@@ -258,7 +248,7 @@ impl ReactionControl {
             return;
         }
         propellant.settle(time_s);
-        let mut load = self.load;
+        let mut law = self.load.law;
         for (index, tank) in settings.tanks.iter().enumerate() {
             let fed = || thrusters().filter(|(_, thruster)| thruster.tank == index);
             let used_kg = propellant.used_kg(index, time_s);
@@ -279,16 +269,12 @@ impl ReactionControl {
                 let force_body_n = self.force_body_n(settings, k, time_s);
                 let arm_m = thruster.position_body_m - center_of_mass_body_m;
                 let torque_body_n_m = arm_m.cross(&force_body_n);
-                let flow_kg_s = share.map(|part| thruster.flow_kg_s * part);
-                propellant.add_flow(index, flow_kg_s);
-                for (order, part) in share.into_iter().enumerate() {
-                    load.force_body_n[order] += force_body_n * part;
-                    load.torque_body_n_m[order] += torque_body_n_m * part;
-                    load.flow_kg_s[order] += flow_kg_s[order];
-                }
+                propellant.add_flow(index, share.map(|part| thruster.flow_kg_s * part));
+                let flow_kg_s = thruster.flow_kg_s;
+                law.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, share);
             }
         }
-        self.load = load;
+        self.load.law = law;
     }
 
     /// Full thrust of thruster `k` as it points now.
@@ -311,14 +297,14 @@ impl ReactionControl {
     /// What they did up to `time_s` in the motion's present segment.
     pub fn totals_at(&self, motion: &GyrostatMotion, time_s: f64) -> ThrusterTotals {
         let mut totals = self.totals;
-        if self.load.is_none() {
+        if self.load.law.is_none() {
             return totals;
         }
-        let span_s = time_s - self.load.since_s;
-        for (node, weight) in GAUSS {
-            let at_s = self.load.since_s + node * span_s;
+        let span_s = time_s - self.load.law.since_s;
+        for (node, weight) in GAUSS_3 {
+            let at_s = self.load.law.since_s + node * span_s;
             let attitude = motion.attitude_at(at_s);
-            let [_, torque] = self.load.at(at_s);
+            let torque = self.load.law.torque_at_n_m(at_s);
             let acceleration = self.load.acceleration_body_m_s2(at_s);
             totals.impulse_inertial_n_m_s += attitude.inertial_from_body(&torque) * (weight * span_s);
             totals.delta_v_inertial_m_s += attitude.inertial_from_body(&acceleration) * (weight * span_s);
@@ -458,8 +444,8 @@ impl ReactionControl {
         time_s: f64,
     ) -> f64 {
         let thruster = &settings.thrusters[k];
-        let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.since_s);
-        let share = fraction + slope * (time_s - self.load.since_s).max(0.0);
+        let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.law.since_s);
+        let share = fraction + slope * (time_s - self.load.law.since_s).max(0.0);
         if share == 0.0 {
             return 0.0;
         }

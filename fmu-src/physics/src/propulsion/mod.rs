@@ -1,10 +1,12 @@
 //! Thrusters in use: valves that open and close, propellant, and which thrusters give a torque.
 
+mod flow;
 mod plume;
 mod propellant;
 mod pulse_command;
 mod selection;
 mod thrust_direction;
+mod thrust_law;
 mod valve;
 
 pub use plume::hits_a_surface;
@@ -12,4 +14,5 @@ pub use propellant::PropellantState;
 pub use pulse_command::PulseCommand;
 pub use selection::{Preference, SelectionError, ThrusterSelection};
 pub use thrust_direction::ThrustErrors;
+pub use thrust_law::ThrustLaw;
 pub use valve::Valve;

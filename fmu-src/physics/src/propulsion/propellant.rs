@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::flow::{flowed_kg, lasts_s};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::spacecraft::{MassProperties, Tank, steiner};
 
@@ -42,9 +43,7 @@ impl PropellantState {
     /// Used from tank `k` (from 0) until `time_s`, in kg.
     pub fn used_kg(&self, k: usize, time_s: f64) -> f64 {
         let elapsed_s = (time_s - self.since_s).max(0.0);
-        self.tanks.get(k).map_or(0.0, |tank| {
-            tank.used_kg + (tank.flow_kg_s[0] + 0.5 * tank.flow_kg_s[1] * elapsed_s) * elapsed_s
-        })
+        self.tanks.get(k).map_or(0.0, |tank| tank.used_kg + flowed_kg(tank.flow_kg_s, elapsed_s))
     }
 
     /// Used from all tanks until `time_s`, in kg.
@@ -79,17 +78,9 @@ impl PropellantState {
 
     /// When tank `k` runs dry at the present flow, in s.
     pub fn dry_s(&self, k: usize, tank: &Tank) -> f64 {
-        let Some(TankUse { used_kg, flow_kg_s: [flow, slope] }) = self.tanks.get(k) else {
-            return f64::INFINITY;
-        };
-        let left_kg = (tank.propellant_kg - used_kg).max(0.0);
-        let root = flow * flow + 2.0 * slope * left_kg;
-        // Of flow t + slope t^2 / 2 = left, in the form without cancellation.
-        if *flow <= 0.0 && *slope <= 0.0 || root < 0.0 {
-            return f64::INFINITY;
-        }
-        let left_s = 2.0 * left_kg / (flow + root.sqrt());
-        if left_s >= 0.0 { self.since_s + left_s } else { f64::INFINITY }
+        self.tanks.get(k).map_or(f64::INFINITY, |used| {
+            self.since_s + lasts_s(used.flow_kg_s, tank.propellant_kg - used.used_kg)
+        })
     }
 
     /// Nothing is left in tank `k`.

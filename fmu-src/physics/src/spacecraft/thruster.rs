@@ -97,6 +97,15 @@ impl Thruster {
         self.torque_body_n_m - point_body_m.cross(&self.force_body_n)
     }
 
+    /// Its full thrust, torque about the body frame's origin.
+    pub fn thrust(&self) -> Thrust {
+        Thrust {
+            force_body_n: self.force_body_n,
+            torque_body_n_m: self.torque_body_n_m,
+            flow_kg_s: self.flow_kg_s,
+        }
+    }
+
     /// One with nothing but a place, a force and a flow.
     #[cfg(test)]
     pub(crate) fn plain(position_body_m: Vector3<f64>, force_body_n: Vector3<f64>) -> Self {

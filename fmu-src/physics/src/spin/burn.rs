@@ -311,7 +311,8 @@ impl Burn {
                 }
                 let found = format!("{} s", request.pulse_width_s);
                 let allowed = format!(
-                    "a pulse of {width_s} s at full thrust opens its valve for {on_s} s: allowed is what opens it for at                      least thruster[k].minOnTime and riseTime ({least_s} s), with rise and tail-off within half a turn"
+                    "a pulse of {width_s} s at full thrust opens its valve for {on_s} s: allowed is what opens it for at \
+                     least thruster[k].minOnTime and riseTime ({least_s} s), with rise and tail-off within half a turn"
                 );
                 return Err(parameter("burn.pulseWidth", found, &allowed));
             }

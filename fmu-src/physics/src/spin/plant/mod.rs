@@ -17,4 +17,4 @@ pub use propulsion::{MassSource, Propulsion};
 pub use sensors::{Sampling, Sensors, StarSample};
 pub use start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
 pub use state::{Plant, SpinPlantError};
-pub use valves::{ThrustLaw, Valves};
+pub use valves::Valves;

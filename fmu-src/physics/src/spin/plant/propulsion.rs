@@ -4,8 +4,9 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::sound::are_moderate;
-use super::valves::{ThrustLaw, Valves};
+use super::valves::Valves;
 use crate::attitude::Inertia;
+use crate::propulsion::ThrustLaw;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
     execution::PulseExecution,

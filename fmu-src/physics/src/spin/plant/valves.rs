@@ -1,75 +1,10 @@
-//! Valves of a spinner's thrusters, and what the thrusters exert between edges: linear in time.
+//! Valves of a spinner's thrusters, and what the thrusters exert between edges.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::sound::{are_moderate, is_moderate};
-use crate::propulsion::Valve;
+use crate::propulsion::{ThrustLaw, Valve};
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{execution::PulseExecution, spinner::Spinner};
-
-/// What thrusters exert from a time on: values then, and their slopes a second.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ThrustLaw {
-    /// From when on, in s.
-    pub since_s: f64,
-    /// Body components, in N.
-    pub force_body_n: [Vector3<f64>; 2],
-    /// Body components, in N m.
-    pub torque_body_n_m: [Vector3<f64>; 2],
-    /// In kg/s.
-    pub flow_kg_s: [f64; 2],
-}
-
-impl ThrustLaw {
-    /// Nothing.
-    pub fn none(since_s: f64) -> Self {
-        let nothing = [Vector3::zeros(); 2];
-        Self { since_s, force_body_n: nothing, torque_body_n_m: nothing, flow_kg_s: [0.0; 2] }
-    }
-
-    /// Whether nothing comes out.
-    pub fn is_none(&self) -> bool {
-        self.flow_kg_s == [0.0; 2]
-    }
-
-    /// Force at `time_s`, body components, in N.
-    pub fn force_at_n(&self, time_s: f64) -> Vector3<f64> {
-        self.at(&self.force_body_n, time_s)
-    }
-
-    /// Torque at `time_s`, body components, in N m.
-    pub fn torque_at_n_m(&self, time_s: f64) -> Vector3<f64> {
-        self.at(&self.torque_body_n_m, time_s)
-    }
-
-    /// Flow at `time_s`, in kg/s.
-    pub fn flow_at_kg_s(&self, time_s: f64) -> f64 {
-        self.flow_kg_s[0] + self.flow_kg_s[1] * (time_s - self.since_s)
-    }
-
-    /// What flowed out until `time_s`, in kg.
-    pub fn burnt_kg(&self, time_s: f64) -> f64 {
-        let [flow, slope] = self.flow_kg_s;
-        let elapsed_s = time_s - self.since_s;
-        if slope == 0.0 { flow * elapsed_s } else { (flow + 0.5 * slope * elapsed_s) * elapsed_s }
-    }
-
-    /// In how many seconds from its start `left_kg` flow out; infinite where they never do.
-    pub fn lasts_s(&self, left_kg: f64) -> f64 {
-        let [flow, slope] = self.flow_kg_s;
-        if slope == 0.0 {
-            return if flow > 0.0 { left_kg / flow } else { f64::INFINITY };
-        }
-        // Of flow t + slope t^2 / 2 = left, in the form without cancellation.
-        let root = flow * flow + 2.0 * slope * left_kg.max(0.0);
-        if root < 0.0 { f64::INFINITY } else { 2.0 * left_kg.max(0.0) / (flow + root.sqrt()) }
-    }
-
-    fn at(&self, [start, slope]: &[Vector3<f64>; 2], time_s: f64) -> Vector3<f64> {
-        if *slope == Vector3::zeros() { *start } else { start + slope * (time_s - self.since_s) }
-    }
-}
 
 /// Valves of all thrusters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -139,11 +74,7 @@ impl Valves {
             if shares == [0.0; 2] {
                 continue;
             }
-            for (order, share) in shares.into_iter().enumerate() {
-                law.force_body_n[order] += thruster.force_body_n * share;
-                law.torque_body_n_m[order] += thruster.torque_body_n_m * share;
-                law.flow_kg_s[order] += thruster.flow_kg_s * share;
-            }
+            law.add(&thruster.thrust(), shares);
         }
         law
     }
@@ -153,9 +84,8 @@ impl Valves {
         let since_s = self.law.since_s;
         self.execution.iter().all(PulseExecution::is_sound)
             && self.valves.iter().all(Valve::is_sound)
-            && is_moderate(since_s)
             && since_s <= latest_s
-            && self.law.force_body_n.iter().chain(&self.law.torque_body_n_m).all(are_moderate)
+            && self.law.is_sound()
             && self.law == self.law_from(spinner, since_s)
     }
 }
