@@ -408,7 +408,8 @@ impl AttitudeDynamics {
             delta_v_inertial_m_s: body.delta_v_inertial_m_s,
         };
         let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none(), work_limit)?;
+        let mut work = flight.work(work_limit);
+        flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none(), &mut work)?;
         let guided = flight.plant(time_s, body, work_limit).guided_attitude(time_s);
         let held =
             Command { attitude: self.estimate.attitude, rate_body_rad_s: Vector3::zeros(), since_s: time_s };

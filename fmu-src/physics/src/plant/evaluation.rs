@@ -27,7 +27,7 @@ use super::radiation_segment::RadiationSegment;
 use super::radiation_solver::RadiationSolver;
 use super::sun_choice::SunChoice;
 use super::sunlit::SunlitCraft;
-use super::work::Cost;
+use super::work::{Cost, Work};
 
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
@@ -130,8 +130,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     const SAMPLE_UNITS: u32 = 3;
 
     /// `propagator` belongs to this configuration, and so does `light`, without which direct sunlight is all there is;
-    /// `external` gives the load from outside at any time. At most `work_limit` units of work are done, of about a
-    /// microsecond each.
+    /// `external` gives the load from outside at any time; `work` is what the step has cost so far.
     pub fn new(
         prepared: PreparedSpacecraft<'a>,
         configuration: &'a Configuration,
@@ -139,11 +138,19 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         ephemeris: &'a mut Ephemeris,
         light: Option<&'a mut RadiationSolver>,
         external: L,
-        work_limit: u32,
+        work: Work,
     ) -> Self {
         let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
-        let kinematics = Kinematics::new(configuration, trajectory, ephemeris, work_limit);
+        let kinematics = Kinematics::new(configuration, trajectory, ephemeris, work);
         Self { prepared, kinematics, segment, light, sun_choice: *sun_choice, external }
+    }
+
+    /// What the step has cost, the flight having come to `time_s`.
+    ///
+    /// # Errors
+    /// More than it may.
+    pub(super) fn work(&mut self, time_s: f64) -> Result<Work, PlantError> {
+        self.kinematics.work(time_s)
     }
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).

@@ -15,6 +15,7 @@ use super::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
 use super::outlook::{Outlook, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
+use super::work::Work;
 
 /// A window computed in epochs begins this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
@@ -62,12 +63,12 @@ impl Flight<'_> {
         totals: &Totals,
         momentum: StartMomentum,
         first: bool,
-        work_limit: u32,
+        work: &mut Work,
     ) -> Result<(), PlantError> {
         let Some(law) = self.configuration.attitude.guided().copied().filter(|law| law.managed) else {
             return Ok(());
         };
-        let mut plant = self.as_configured(work_limit);
+        let mut plant = self.after(*work);
         let Some(guided) = plant.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
         let choice = &mut self.propagator.sun_choice;
@@ -86,7 +87,7 @@ impl Flight<'_> {
         let is_under_way = first && since_s < time_s - EPOCH_ROUNDING_S;
         let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {
             let planner = self.planner;
-            let mut plant = self.as_configured(work_limit);
+            let mut plant = self.after(*work);
             let instant = plant.instant(time_s);
             let pressure_pa = plant.pressure_pa(&instant);
             let mut outlook = Outlook {
@@ -99,7 +100,7 @@ impl Flight<'_> {
                 law,
                 totals: *totals,
                 forecasts: !first,
-                work_limit,
+                work,
                 time_s,
                 span_s: until_s - time_s,
                 momentum,
@@ -146,8 +147,14 @@ impl Flight<'_> {
         self.as_configured(work_limit)
     }
 
-    /// The plant in the attitude of its configuration.
+    /// The plant in the attitude of its configuration, at the beginning of a step.
     pub(super) fn as_configured(&mut self, work_limit: u32) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
+        let work = self.work(work_limit);
+        self.after(work)
+    }
+
+    /// The plant in the attitude of its configuration, the step having cost this much.
+    pub(super) fn after(&mut self, work: Work) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
         Plant::new(
             self.prepared,
             self.configuration,
@@ -155,7 +162,12 @@ impl Flight<'_> {
             self.ephemeris,
             self.light.as_deref_mut(),
             self.external,
-            work_limit,
+            work,
         )
+    }
+
+    /// Nothing spent of `limit` units of about a microsecond.
+    pub(super) fn work(&self, limit: u32) -> Work {
+        Work::new(limit, self.ephemeris.evaluations())
     }
 }

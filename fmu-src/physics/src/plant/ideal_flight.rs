@@ -14,6 +14,7 @@ use super::evaluation::Evaluation;
 use super::flight::Flight;
 use super::outlook::StartMomentum;
 use super::reaction_control_settings::ReactionControlSettings;
+use super::work::Work;
 
 /// What the last dump left beside its impulse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -57,7 +58,8 @@ impl IdealFlight<'_, '_> {
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let given = StartMomentum::Body(momentum_body_n_m_s);
-        self.flight.choose_sun_place(time_s, &totals, given, true, self.work_limit)?;
+        let mut work = self.flight.work(self.work_limit);
+        self.flight.choose_sun_place(time_s, &totals, given, true, &mut work)?;
         let mut plant = self.flight.as_configured(self.work_limit);
         plant.prepare(time_s, time_s)?;
         Ok(plant.evaluate(time_s))
@@ -84,26 +86,32 @@ impl IdealFlight<'_, '_> {
     pub fn advance(&mut self, time_s: f64, mut report: impl FnMut(&DumpEvent)) -> Result<(), PlantError> {
         let settings = self.flight.configuration.momentum;
         let mut dumped_s = None;
+        let mut work = self.flight.work(self.work_limit);
         loop {
-            let mut plant = self.flight.as_configured(self.work_limit);
-            match self.integrator.advance_to_stop(&mut plant, &settings, time_s, dumped_s)? {
+            let mut plant = self.flight.after(work);
+            let stop = self.integrator.advance_to_stop(&mut plant, &settings, time_s, dumped_s)?;
+            match stop {
                 Stop::Reached => return Ok(()),
-                Stop::Choice { at_s } => self.choose(at_s)?,
+                Stop::Choice { at_s } => {
+                    work = plant.work(at_s)?;
+                    self.choose(at_s, &mut work)?;
+                }
                 Stop::Dump(event) => {
+                    work = plant.work(event.time_s)?;
                     self.book(&event);
                     report(&event);
                     dumped_s = Some(event.time_s);
-                    self.choose(event.time_s)?;
+                    self.choose(event.time_s, &mut work)?;
                 }
             }
         }
     }
 
     /// The Sun's place, where it is due.
-    fn choose(&mut self, time_s: f64) -> Result<(), PlantError> {
+    fn choose(&mut self, time_s: f64, work: &mut Work) -> Result<(), PlantError> {
         let totals = self.integrator.totals(time_s);
         let momentum = StartMomentum::of(&totals, self.flight.configuration.momentum.convention);
-        self.flight.choose_sun_place(time_s, &totals, momentum, false, self.work_limit)
+        self.flight.choose_sun_place(time_s, &totals, momentum, false, work)
     }
 
     /// Propellant, push and mass properties after a dump.

@@ -46,14 +46,13 @@ pub(super) struct Kinematics<'a> {
 }
 
 impl<'a> Kinematics<'a> {
-    /// `trajectory` belongs to this configuration; at most `work_limit` units of work are done.
+    /// `trajectory` belongs to this configuration; `work` is what the step has cost so far.
     pub fn new(
         configuration: &'a Configuration,
         trajectory: &'a mut Trajectory,
         ephemeris: &'a mut Ephemeris,
-        work_limit: u32,
+        work: Work,
     ) -> Self {
-        let work = Work::new(work_limit, ephemeris.evaluations());
         Self { configuration, trajectory, ephemeris, work, searched_units: 0 }
     }
 
@@ -62,6 +61,15 @@ impl<'a> Kinematics<'a> {
         let searched = core::mem::take(&mut self.searched_units);
         self.work.spend(Cost::Search, searched, self.ephemeris.evaluations(), time_s)?;
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
+    }
+
+    /// What the step has cost, the flight having come to `time_s`.
+    ///
+    /// # Errors
+    /// More than it may.
+    pub fn work(&mut self, time_s: f64) -> Result<Work, PlantError> {
+        self.spend_units(Cost::Search, 0, time_s)?;
+        Ok(self.work)
     }
 
     /// The event functions alone, counted as a search.

@@ -10,6 +10,7 @@ use super::error::PlantError;
 use super::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
 use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
+use super::work::Work;
 use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::{ChosenPlace, Guided};
 use crate::momentum::{Convention, MomentumIntegrator, Totals};
@@ -75,7 +76,7 @@ pub struct Outlook<'o> {
     pub(super) law: Guided,
     pub(super) totals: Totals,
     pub(super) forecasts: bool,
-    pub(super) work_limit: u32,
+    pub(super) work: &'o mut Work,
     /// When, in s.
     pub time_s: f64,
     /// How long the downlink lasts, in s.
@@ -121,7 +122,7 @@ impl Outlook<'_> {
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        let Self { configuration, law, totals, work_limit, time_s, applied, .. } = self;
+        let Self { configuration, law, totals, work, time_s, applied, .. } = self;
         let guided = Guided { managed: false, sun_place: None, ..*law };
         let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(guided));
         let (momentum, light_and_heat) = (configuration.momentum, configuration.light_and_heat);
@@ -145,11 +146,16 @@ impl Outlook<'_> {
                 self.ephemeris,
                 self.light.as_deref_mut(),
                 |_| applied,
-                *work_limit,
+                **work,
             );
-            flown = integrator.advance(&mut plant, &settings, at_s, |_| {});
-            if flown.is_err() {
-                break;
+            let cost =
+                integrator.advance(&mut plant, &settings, at_s, |_| {}).and_then(|()| plant.work(at_s));
+            match cost {
+                Ok(cost) => **work = cost,
+                Err(error) => {
+                    flown = Err(error);
+                    break;
+                }
             }
             let instant = plant.instant(at_s);
             let (totals, inertial_from_body) = (integrator.totals(at_s), instant.frame.inertial_from_body);

@@ -18,7 +18,8 @@ use physics::momentum::{
 use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, ExternalLoad, Motion, PanelSetting, Plant,
-    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, orbit_from_elements,
+    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, Work,
+    orbit_from_elements,
 };
 use physics::radiation::{Effect, SolarModel};
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -130,7 +131,8 @@ impl Rig {
         };
         let load: fn(f64) -> ExternalLoad = |_| ExternalLoad::default();
         let (propagator, ephemeris) = (&mut self.propagator, &mut self.ephemeris);
-        Plant::new(prepared, configuration, propagator, ephemeris, Some(light), load, u32::MAX)
+        let work = Work::new(u32::MAX, ephemeris.evaluations());
+        Plant::new(prepared, configuration, propagator, ephemeris, Some(light), load, work)
     }
 
     pub(crate) fn plant_with<'a, L: Fn(f64) -> ExternalLoad>(
@@ -143,7 +145,8 @@ impl Rig {
             solar: &self.solar,
             orbit_method: &self.method,
         };
-        Plant::new(prepared, configuration, &mut self.propagator, &mut self.ephemeris, None, load, u32::MAX)
+        let work = Work::new(u32::MAX, self.ephemeris.evaluations());
+        Plant::new(prepared, configuration, &mut self.propagator, &mut self.ephemeris, None, load, work)
     }
 }
 

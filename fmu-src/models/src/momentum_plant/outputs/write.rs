@@ -8,7 +8,7 @@ use physics::environment::time;
 use physics::momentum::{Convention, DumpEvent, DumpSpacing, Dumps, SourceMomenta, Totals, WheelArray};
 use physics::plant::{
     AttitudeDynamics, Configuration, Cost, DynamicsSettings, Evaluation, ExternalLoad, Instant, PanelSetting,
-    Plant, PlantError,
+    Plant, PlantError, Work,
 };
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
 
@@ -207,7 +207,8 @@ pub fn write_plates(
     let mut flown = faces.filter(|(_, face)| !face.panel.is_some_and(left_out)).map(|(plate, _)| plate);
     let prepared = context.setup.prepared_spacecraft(configuration.sunshade)?;
     let (propagator, ephemeris, light) = (&mut state.propagator, &mut state.ephemeris, state.light.as_mut());
-    Plant::new(prepared, configuration, propagator, ephemeris, light, |_| ExternalLoad::default(), u32::MAX)
+    let work = Work::new(u32::MAX, ephemeris.evaluations());
+    Plant::new(prepared, configuration, propagator, ephemeris, light, |_| ExternalLoad::default(), work)
         .faces(time_s, |temperature_k, force_body_n| {
             if let Some(plate) = flown.next() {
                 values.set_real(plate.temperature, temperature_k);
