@@ -10,7 +10,7 @@ from studies import study, table
 
 NAMES = [
     "control/slew", "control/safe-mode", "control/transition", "control/dump", "control/jitter",
-    "momentum/table2", "momentum/table3", "momentum/table4", "momentum/table5", "momentum/figure4", "momentum/figure5",
+    "momentum/tables", "momentum/table2", "momentum/table3", "momentum/table4", "momentum/table5", "momentum/figure4", "momentum/figure5",
     "momentum/assumptions", "momentum/dump-targets", "momentum/wheels", "momentum/sensitivity", "momentum/off-sun",
     "pointing/limb", "pointing/mosaic", "pointing/transition", "pointing/burn",
     "spin/figure2", "spin/figure3", "spin/figure4", "spin/figure6", "spin/figure7", "spin/numbers",

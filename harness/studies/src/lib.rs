@@ -70,6 +70,13 @@ pub const STUDIES: &[Study] = &[
         run: control::jitter,
     },
     Study {
+        name: "momentum/tables",
+        paper: "000",
+        title: "Tables 2 to 5 from one set of simulations",
+        takes: &[],
+        run: momentum::tables,
+    },
+    Study {
         name: "momentum/table2",
         paper: "000",
         title: "number of thruster dumps in 90 days by strategy, cylinder, with a picture like Figure 4",

@@ -16,5 +16,5 @@ mod wheels;
 pub use figures::{figure4, figure5};
 pub use off_sun::off_sun;
 pub use sensitivity::sensitivity;
-pub use tables::{assumptions, dump_targets, table2, table3, table4, table5};
+pub use tables::{assumptions, dump_targets, table2, table3, table4, table5, tables};
 pub use wheels::wheels;

@@ -1,6 +1,6 @@
 //! Paper 000, Tables 2 to 5: how many dumps in 90 days, and how long apart.
 
-use super::cases::{Case, Simulated, simulate_all};
+use super::cases::{Case, Convention, Shade, Simulated, simulate_all};
 use super::figures::{FIGURE_4, draw};
 use super::lists;
 use super::paper::Published;
@@ -8,41 +8,67 @@ use super::spacing::Spacing;
 use super::trends::trends;
 use crate::{Options, Report, StudyError};
 
+/// Tables 2 to 5 from one set of simulations.
+pub fn tables(options: &Options) -> Result<Report, StudyError> {
+    let cases = [lists::cylinder(), lists::panels()].concat();
+    let simulated = simulate_all("momentum/tables", options, cases)?;
+    let of = |shade: Shade, papers: bool| -> Vec<Simulated> {
+        let is_asked = |it: &&Simulated| {
+            it.case.shade == shade && (!papers || it.case.convention == Convention::BodyIntegral)
+        };
+        simulated.iter().filter(is_asked).cloned().collect()
+    };
+    let mut report = Report::default();
+    counts(&mut report, options, "table2.csv", &of(Shade::Cylinder, false), TABLE_2)?;
+    gaps(&mut report, options, "table3.csv", &of(Shade::Cylinder, true), "Table 3")?;
+    counts(&mut report, options, "table4.csv", &of(Shade::PlatesAndPanels, false), TABLE_4)?;
+    gaps(&mut report, options, "table5.csv", &of(Shade::PlatesAndPanels, true), "Table 5")?;
+    draw(&mut report, options, &simulated, &FIGURE_4)?;
+    finish(report, options, &simulated)
+}
+
 /// Table 2: number of dumps, cylinder.
 pub fn table2(options: &Options) -> Result<Report, StudyError> {
     let simulated = simulate_all("momentum/table2", options, lists::cylinder())?;
-    let mut report = counts(options, "table2.csv", &simulated, "paper 000, Table 2")?;
+    let mut report = Report::default();
+    counts(&mut report, options, "table2.csv", &simulated, TABLE_2)?;
     draw(&mut report, options, &simulated, &FIGURE_4)?;
-    Ok(report)
+    finish(report, options, &simulated)
 }
 
 /// Table 3: time between dumps, cylinder.
 pub fn table3(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table3", options, lists::in_papers_convention(lists::cylinder()))?;
-    gaps(options, "table3.csv", &simulated, "Table 3")
+    let cases = lists::in_papers_convention(lists::cylinder());
+    let simulated = simulate_all("momentum/table3", options, cases)?;
+    let mut report = Report::default();
+    gaps(&mut report, options, "table3.csv", &simulated, "Table 3")?;
+    finish(report, options, &simulated)
 }
 
 /// Table 4: number of dumps, plates and panels.
 pub fn table4(options: &Options) -> Result<Report, StudyError> {
     let simulated = simulate_all("momentum/table4", options, lists::panels())?;
-    counts(options, "table4.csv", &simulated, "paper 000, Table 4")
+    let mut report = Report::default();
+    counts(&mut report, options, "table4.csv", &simulated, TABLE_4)?;
+    finish(report, options, &simulated)
 }
 
 /// Table 5: time between dumps, plates and panels.
 pub fn table5(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table5", options, lists::in_papers_convention(lists::panels()))?;
-    gaps(options, "table5.csv", &simulated, "Table 5")
+    let cases = lists::in_papers_convention(lists::panels());
+    let simulated = simulate_all("momentum/table5", options, cases)?;
+    let mut report = Report::default();
+    gaps(&mut report, options, "table5.csv", &simulated, "Table 5")?;
+    finish(report, options, &simulated)
 }
 
 /// What other targets of thruster dumps do.
 pub fn dump_targets(options: &Options) -> Result<Report, StudyError> {
     let simulated = simulate_all("momentum/dump-targets", options, lists::other_dumps())?;
-    counts(
-        options,
-        "dump-targets.csv",
-        &simulated,
-        "plates alone, and dumps that paper 000's tables do not have",
-    )
+    let mut report = Report::default();
+    let what = "plates alone, and dumps that paper 000's tables do not have";
+    counts(&mut report, options, "dump-targets.csv", &simulated, what)?;
+    finish(report, options, &simulated)
 }
 
 /// How the counts of Table 2 move with what the paper leaves open.
@@ -76,8 +102,16 @@ pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
     Ok(report)
 }
 
-fn counts(options: &Options, file: &str, simulated: &[Simulated], what: &str) -> Result<Report, StudyError> {
-    let mut report = Report::default();
+fn counts(
+    report: &mut Report,
+    options: &Options,
+    file: &str,
+    simulated: &[Simulated],
+    what: &str,
+) -> Result<(), StudyError> {
+    if simulated.is_empty() {
+        return Ok(());
+    }
     report.line(&format!("Thruster dumps in 90 days ({what})\n"));
     let rows: Vec<Vec<String>> = by_setting(simulated)
         .map(|simulations| {
@@ -90,7 +124,6 @@ fn counts(options: &Options, file: &str, simulated: &[Simulated], what: &str) ->
         ["threshold", "dumps to", "shade", "momentum", "strategy", "offsets", "paper", "ours", "verdict"];
     report.table(&header, &rows);
     report.line(&trends(simulated).text());
-    report.line(REMARK);
     let header = [
         "threshold",
         "dumps to",
@@ -105,13 +138,19 @@ fn counts(options: &Options, file: &str, simulated: &[Simulated], what: &str) ->
         "our gaps",
         "five days",
     ];
-    report.csv(options, file, &header, simulated.iter().map(count_row))?;
-    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
-    Ok(report)
+    report.csv(options, file, &header, simulated.iter().map(count_row))
 }
 
-fn gaps(options: &Options, file: &str, simulated: &[Simulated], table: &str) -> Result<Report, StudyError> {
-    let mut report = Report::default();
+fn gaps(
+    report: &mut Report,
+    options: &Options,
+    file: &str,
+    simulated: &[Simulated],
+    table: &str,
+) -> Result<(), StudyError> {
+    if simulated.is_empty() {
+        return Ok(());
+    }
     report.line(&format!("Time between thruster dumps (paper 000, {table})\n"));
     let rows: Vec<Vec<String>> = simulated.iter().map(gap_row).collect();
     let header = [
@@ -128,8 +167,12 @@ fn gaps(options: &Options, file: &str, simulated: &[Simulated], table: &str) -> 
         "five days",
     ];
     report.table(&header, &rows);
+    report.csv(options, file, &header, rows)
+}
+
+/// What was assumed, and every dump.
+fn finish(mut report: Report, options: &Options, simulated: &[Simulated]) -> Result<Report, StudyError> {
     report.line(REMARK);
-    report.csv(options, file, &header, rows)?;
     report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
     Ok(report)
 }
@@ -202,6 +245,9 @@ fn gap_row(simulation: &Simulated) -> Vec<String> {
     ]);
     row
 }
+
+const TABLE_2: &str = "paper 000, Table 2";
+const TABLE_4: &str = "paper 000, Table 4";
 
 const ASSUMPTIONS_REMARK: &str = "\
 Dumps to: share of the opposite threshold; 1.0 is the paper's, 0.9 the FMU's default. Study's own: elements about
