@@ -99,8 +99,10 @@ def test_counts_are_as_their_verdicts_say(simulated, name):
             near = abs(int(row["ours"]) - int(number[1])) <= 2
             assert row["verdict"] == ("within 2" if near else "off"), row
     for row, days in dumps_by_row(files, rows):
-        # Under the physical momentum two dumps can fall into one step, of which the file has the last.
-        assert len(days) == int(row["ours"]) if row["momentum"] == PAPERS else len(days) <= int(row["ours"]), row
+        # Two dumps can fall into one step, of which the file has the last: under the physical momentum, and where a target
+        # leads to the threshold right after a dump to the opposite one.
+        every = row["momentum"] == PAPERS and row["strategy"] != "predictive"
+        assert len(days) == int(row["ours"]) if every else len(days) <= int(row["ours"]), row
     assert re.search(r"Trends .*: \d+ of \d+ comparisons hold", text)
 
 
@@ -159,6 +161,13 @@ def test_dumps_are_those_that_fmpy_simulates(simulated, momentum_plant, threshol
     for name in ("table2", "table3"):
         found = table(simulated[name][1], "dumps.csv")
         assert [row["dump_time_d"] for row in found if all(part in row["case"] for part in label)] == expected
+
+
+def test_tables_from_one_set_of_simulations_are_those_of_each(simulated, studied):
+    text, files = studied("momentum/tables")
+    for name in ("table2", "table3", "table4", "table5"):
+        assert files[f"{name}.csv"] == simulated[name][1][f"{name}.csv"]
+    assert files["figure4.svg"] == simulated["figure4"][1]["figure4.svg"] and text.count("Trends") == 2
 
 
 @pytest.mark.parametrize("name", ["table3", "table5"])
