@@ -317,31 +317,30 @@ impl GuidanceState {
         attitude: Attitude,
         chooser: &impl SunChooser,
     ) {
-        let windows = &settings.orbit_phase.schedule;
+        let (windows, epoch_s) = (&settings.orbit_phase.schedule, surroundings.epoch_s);
         let found = match command.scenario {
             _ if self.modes.mode != Mode::Operational => None,
             Some(scenario @ Scenario::Downlink) => {
                 let is_free = command.boresight.option != Some(BoresightOption::PhasedArray);
-                is_free.then_some((scenario, windows.downlink_end_s - windows.downlink_start_s))
+                let span_s = windows.downlink_end_s - windows.downlink_start_s;
+                is_free.then(|| (scenario, windows.begun_at(epoch_s), span_s))
             }
             Some(scenario @ Scenario::OrbitPhase) => {
-                let window = self.periapses.window(windows, surroundings);
+                let windows = self.periapses.windows(windows, surroundings);
+                let window = windows.window(epoch_s);
                 let is_downlink = window.activity == Activity::Downlink;
-                is_downlink.then_some((scenario, window.until_s - surroundings.epoch_s))
+                is_downlink.then_some((scenario, windows, window.until_s - epoch_s))
             }
             _ => None,
         };
-        let Some((scenario, span_s)) = found else {
+        let Some((scenario, schedule, span_s)) = found else {
             self.downlink_sun.end();
             return;
         };
         self.downlink_sun.last(scenario, self.entries.scenario, || {
-            let to_sun_m = value(&surroundings.to_sun());
-            let to_earth_m = value(&surroundings.to_earth());
+            let law = Guided { schedule, ..settings.orbit_phase };
             let is_span = span_s.is_finite() && span_s > 0.0;
-            is_span
-                .then(|| chooser.choose(&DownlinkStart { to_sun_m, to_earth_m, attitude, span_s }))
-                .flatten()
+            is_span.then(|| chooser.choose(&DownlinkStart { surroundings, attitude, span_s, law })).flatten()
         });
     }
 

@@ -245,13 +245,18 @@ fn draw(bench: &Guide, random: &mut RandomNumbers, subject: Subject) -> Tables {
             let scenario = if random.next() < 0.7 { 6 } else { 10 };
             item(bench, &mut values, "pointing.scenario", scenario);
             bench.put(&mut values, "boresight.option", random.whole(0, 3));
-            bench.put(&mut values, "momentum.strategy", 2.0);
+            let strategy = random.whole(2, 3);
+            bench.put(&mut values, "momentum.strategy", strategy);
+            bench.put(&mut values, "momentum.horizon", random.whole(1, 2));
             bench.put(&mut values, "momentum.targetAxes", random.whole(1, 3));
             bench.put(&mut values, "momentum.targeting", random.whole(1, 2));
             bench.put(&mut values, "momentum.convention", random.whole(1, 2));
             bench.put(&mut values, "solar.fixedPressure", chance(random, 0.3));
             bench.put(&mut values, "dump.reinitTo", random.whole(1, 2));
-            bench.put(&mut values, "guided.downlinkEvery", 1.0);
+            // Long enough a cycle for science after the downlink.
+            let every = if strategy == 3.0 { random.whole(4, 8) } else { 1.0 };
+            bench.put(&mut values, "guided.downlinkEvery", every);
+            bench.put(&mut values, "guided.slewRate", if random.next() < 0.7 { 0.0 } else { 1e-3 });
             bench.put(&mut values, "monitor.enabled", 0.0);
             bench.put(&mut values, "keepIn.enabled", chance(random, 0.3));
             bench.put(&mut values, "hotPole.enabled", chance(random, 0.3));
@@ -734,6 +739,8 @@ fn measure(text: &str, rounds: usize) {
             ("pointing.scenario", 2.0),
             ("aimpoint.option", aim),
             ("scan.frame", 5.0),
+            // The Sun may stand at the zenith, where no azimuth counts from it.
+            ("scan.reference", 1.0),
         ] {
             bench.put(&mut values, name, value);
         }
@@ -741,6 +748,26 @@ fn measure(text: &str, rounds: usize) {
         bench.put_vector(&mut values, "scan.duration", &[20.0, 30.0, 40.0]);
         bench.look_at_start(&values, 0.0);
     }
+    // Rare: a burn that begins at once, and whose time is up before its magnitude.
+    let mut values = draw(&bench, &mut random, Subject::Burn);
+    for (name, value) in [
+        ("keepIn.enabled", 0.0),
+        ("hotPole.enabled", 0.0),
+        ("monitor.enabled", 0.0),
+        ("mode.request", 0.0),
+        ("burn.acceleration", 0.01),
+        ("burn.start", -1.0),
+        ("burn.timeout", 5.0),
+    ] {
+        bench.put(&mut values, name, value);
+    }
+    bench.put_vector(&mut values, "burn.deltaV", &[0.6, -0.8, 0.3]);
+    for i in 1..=3 {
+        for j in 1..=3 {
+            bench.put(&mut values, &format!("burn.profile[{i},{j}]"), 0.0);
+        }
+    }
+    bench.look_at_start(&values, 0.0);
     assert!(flown > 20, "{flown} flown");
     bench.judge();
 }
