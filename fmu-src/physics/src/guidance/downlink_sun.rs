@@ -73,17 +73,20 @@ impl DownlinkSun {
     }
 
     /// A downlink of `scenario` lasts, by `entry` of the timeline where one names it; where it begins `choose` gives its place.
+    /// Whether it begins.
     pub fn last(
         &mut self,
         scenario: Scenario,
         entry: Option<usize>,
         choose: impl FnOnce() -> Option<ChosenPlace>,
-    ) {
+    ) -> bool {
         let is_new_entry = scenario == Scenario::Downlink && entry.is_some() && entry != self.entry;
-        if self.lasts != Some(scenario) || is_new_entry {
+        let begins = self.lasts != Some(scenario) || is_new_entry;
+        if begins {
             (self.chosen, self.lasts) = (choose(), Some(scenario));
         }
         self.entry = entry.or(self.entry);
+        begins
     }
 }
 

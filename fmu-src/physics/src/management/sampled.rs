@@ -53,7 +53,21 @@ impl SunChooser for SampledManager<'_> {
     }
 }
 
+/// Units of about a microsecond that targeting takes at most.
+const TARGETING_WORK: u32 = 5_000;
+/// Units that a cycle of a forecast takes at most.
+const CYCLE_WORK: u32 = 2_000;
+
 impl SampledManager<'_> {
+    /// Units of about a microsecond that a choice takes at most.
+    pub fn work(&self) -> u32 {
+        match self.manager.strategy {
+            Strategy::DumpsOnly => 0,
+            Strategy::Reactive => TARGETING_WORK,
+            Strategy::Predictive => TARGETING_WORK + self.manager.horizon.saturating_mul(CYCLE_WORK),
+        }
+    }
+
     /// What lies ahead; nothing where the spacecraft is on no ellipse about its planet.
     fn ahead(&self, start: &DownlinkStart<'_>, totals: Totals) -> Ahead {
         if self.manager.strategy != Strategy::Predictive {
