@@ -131,7 +131,9 @@ pub struct ScienceAhead {
 impl ScienceAhead {
     /// The next science; `None` where none follows.
     fn of<F: Forecast>(forecast: &mut F, cycle_s: f64) -> Result<Option<Self>, F::Error> {
-        let (until_s, threshold) = (forecast.begin_s() + cycle_s, forecast.threshold_body_n_m_s());
+        // Half a sample before the next downlink: rounding must not say how many samples there are.
+        let until_s = forecast.begin_s() + cycle_s * (1.0 - 0.5 / SAMPLES);
+        let threshold = forecast.threshold_body_n_m_s();
         let (mut left, mut has_begun, mut has_ended) = (None, false, false);
         let mut squares = SquareSum::default();
         forecast.fly(until_s, cycle_s / SAMPLES, |at| {

@@ -3,7 +3,7 @@
 //! Assumptions: the orbit ahead is [`OrbitAhead`]; science and downlink follow the windows of the orbit phase in its attitudes,
 //! whatever is commanded; direct sunlight without shadows is all that acts.
 //! Method: torque by Gauss-Legendre quadrature of order 6 on intervals that end where a window or a slew does.
-//! Error measure: none at run time; against a plant on which sunlight alone acts below 1e-3 of what it adds in a cycle (tested).
+//! Error measure: none at run time; where sunlight alone acts, choices differ from a plant's by less than 3e-4 rad (tested).
 
 use core::convert::Infallible;
 
