@@ -130,6 +130,58 @@ fn guidance_allocates_nothing() {
     }
 }
 
+/// Forecasts where downlinks begin, of the plant and of Guidance, by either convention.
+#[test]
+fn predictive_targets_allocate_nothing() {
+    for model in ["MomentumPlant", "Guidance"] {
+        for convention in [1, 2] {
+            let names = names(model);
+            let integer = |name: &str| names.of(BaseType::Integer, name);
+            let mut instance = silent(model);
+            let choices = [
+                integer("momentum.strategy"),
+                integer("momentum.convention"),
+                integer("guided.downlinkEvery"),
+            ];
+            ok(instance.set_integer(&choices, &[3, convention, 1]));
+            let windows = [names.real("guided.downlinkStart"), names.real("guided.downlinkEnd")];
+            ok(instance.set_real(&windows, &[100.0, 2_000.0]));
+            let center = [names.real("spacecraft.centerOfMass[3]")];
+            ok(instance.set_real(&center, &[0.05]));
+            if model == "Guidance" {
+                // On a circle whose period is about 3 h.
+                ok(instance.set_integer(&[integer("pointing.scenario")], &[10]));
+                ok(instance.set_real(&names.vector::<3>("position"), &[4e6, 0.0, 0.0]));
+                ok(instance.set_real(&names.vector::<3>("velocity"), &[0.0, 0.0, 2.3e3]));
+                ok(instance.set_real(&names.vector::<3>("momentum.body"), &[0.4, 0.0, -0.3]));
+            }
+            ok(instance.start(0.0, None));
+            let sun = [names.real("sun.elevation")];
+            let moves =
+                (model == "Guidance").then(|| ["position", "velocity"].map(|name| names.vector::<3>(name)));
+            let (mut time_s, mut last, mut chosen) = (0.0, [0.0], 0);
+            let step_s = 500.0;
+            let mut step = |instance: &mut InProcess, time_s: &mut f64| {
+                if let Some([position, velocity]) = &moves {
+                    let (sine, cosine) = (*time_s * 5.75e-4).sin_cos();
+                    ok(instance.set_real(position, &[4e6 * cosine, 0.0, 4e6 * sine]));
+                    ok(instance.set_real(velocity, &[-2.3e3 * sine, 0.0, 2.3e3 * cosine]));
+                }
+                ok(instance.do_step(*time_s, step_s));
+                *time_s += step_s;
+                let mut now = [0.0];
+                ok(instance.get_real(&sun, &mut now));
+                chosen += i32::from(now != last);
+                last = now;
+            };
+            (0..400).for_each(|_| step(&mut instance, &mut time_s));
+            let ((), count) = counted(|| (0..400).for_each(|_| step(&mut instance, &mut time_s)));
+            assert_eq!(count, Count::default(), "{model} {convention}");
+            assert!(chosen > 10, "{model} {convention}: {chosen}");
+        }
+    }
+}
+
 /// Surfaces that store heat, through eclipses; shadows of one another are left out, they may allocate.
 #[test]
 fn stored_heat_allocates_nothing() {

@@ -2,10 +2,13 @@
 
 use fmi_export::{Choice, Integer, Real, RealVector, Values, Variables};
 use nalgebra::Vector3;
-use physics::management::{Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
+use physics::management::{self, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
 use super::choices::enumeration_of;
+
+/// The greatest number of cycles that predictive targets look ahead.
+const LONGEST_HORIZON: i32 = management::LONGEST_HORIZON as i32;
 
 enumeration_of! {
     /// What sunlight is used for during downlinks.
@@ -53,6 +56,10 @@ pub struct TargetingVariables {
     /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub target: RealVector<3>,
+    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none); with
+    /// momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are momentum.target.
+    #[parameter(min = 1, max = LONGEST_HORIZON, start = 4)]
+    pub horizon: Integer,
 }
 
 impl TargetingVariables {
@@ -70,6 +77,11 @@ impl TargetingVariables {
     pub fn target_body_n_m_s(&self, values: &Values) -> Vector3<f64> {
         Vector3::from(values.vector(self.target))
     }
+
+    /// How many cycles predictive targets look ahead.
+    pub fn horizon(&self, values: &Values) -> u32 {
+        values.integer(self.horizon).unsigned_abs()
+    }
 }
 
 /// Parameters of momentum management.
@@ -81,10 +93,6 @@ pub struct ManagementVariables {
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
     pub aim: TargetingVariables,
-    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none); with
-    /// momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are momentum.target.
-    #[parameter(min = 1, max = 100, start = 4)]
-    pub horizon: Integer,
 }
 
 /// Keep-in limits of the Sun about -Y.
@@ -114,7 +122,7 @@ impl ManagementVariables {
             strategy: values.choice(self.strategy).map_or(Strategy::DumpsOnly, |it| it.0),
             targeting: self.aim.read(values, values.real(limits.azimuth), values.real(limits.elevation)),
             target_body_n_m_s: self.aim.target_body_n_m_s(values),
-            horizon: values.integer(self.horizon).unsigned_abs(),
+            horizon: self.aim.horizon(values),
             sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
         }
     }

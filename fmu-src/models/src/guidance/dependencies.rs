@@ -26,7 +26,7 @@ struct Inputs {
     instrument: Knowns,
     /// Which instrument lies along the body roll vector -Y.
     instrument_along_roll: Knowns,
-    /// The bodies' velocities, by which slews are told from windows, and a science rule.
+    /// The bodies' velocities, by which slews are told from windows, a science rule, and forecasts.
     velocities: Knowns,
     /// What a scan moves, once it has run for a while.
     scanned: Knowns,
@@ -119,10 +119,8 @@ struct Parameters {
     thrust_direction: Knowns,
     /// Its nominal acceleration.
     acceleration: Knowns,
-    /// Where a downlink puts the Sun, its length and the keep-in zone aside.
+    /// Where a downlink puts the Sun, the keep-in zone aside.
     sun_place: Knowns,
-    /// How long a downlink lasts.
-    span: Knowns,
 }
 
 impl Parameters {
@@ -160,35 +158,30 @@ impl Parameters {
             ephemeris.tolerance,
             ephemeris.persistence,
         ];
+        let law = knowns![
+            guided.science_rule,
+            guided.science_gain,
+            guided.downlink_start,
+            guided.downlink_end,
+            guided.downlink_every,
+            guided.downlink_reference,
+            guided.slew_rate,
+            planet.gravitational_parameter,
+        ];
         Self {
             mode: knowns![v.start.epoch, body, places, zones, monitor],
             device: knowns![v.mdis.minimum, v.mdis.maximum, v.subsolar.method],
-            guided: knowns![
-                guided.science_rule,
-                guided.science_gain,
-                guided.downlink_start,
-                guided.downlink_end,
-                guided.downlink_every,
-                guided.downlink_reference,
-                guided.slew_rate,
-                planet.gravitational_parameter,
-            ],
+            sun_place: knowns![sun_place(setup, v), &law],
+            guided: law,
             path: knowns![v.burn.delta_v, v.burn.profile],
             thrust_direction: knowns![v.burn.thrust_direction, thrusters(direction_differs)],
             acceleration: knowns![v.burn.acceleration, thrusters(acceleration_differs)],
-            sun_place: sun_place(setup, v),
-            span: knowns![
-                guided.downlink_start,
-                guided.downlink_end,
-                guided.downlink_every,
-                guided.downlink_reference,
-                planet.gravitational_parameter,
-            ],
         }
     }
 }
 
-/// Where a downlink puts the Sun: strategy, target, the torque that it counts on, and the momentum it begins with.
+/// Where a downlink puts the Sun, its windows aside: strategy, target, what a forecast counts on and is held against, the torque,
+/// and the momentum it begins with.
 fn sun_place(setup: &GuidanceSetup, v: &GuidanceVariables) -> Knowns {
     let momentum = &v.momentum;
     let panels = v.panel.iter().map(|panel| knowns![panel.nominal_sun_offset, panel.tilt, panel.enabled]);
@@ -199,6 +192,9 @@ fn sun_place(setup: &GuidanceSetup, v: &GuidanceVariables) -> Knowns {
         // What the Sun's place brings to a target.
         momentum.aim.target.element(0),
         momentum.aim.target.element(2),
+        momentum.aim.horizon,
+        v.dump.threshold.element(0),
+        v.dump.threshold.element(2),
         momentum.convention,
         momentum.body,
         v.start.q,
@@ -259,12 +255,11 @@ fn judgement(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Pa
     table.output(v.earth.sun_separation, &i.existence, knowns![&i.existence, &p.mode, &p.path]);
     let moved = &knowns![&i.scanned, v.limb.height_rate, &i.increment, &i.momentum];
     let aimed = &knowns![&p.path, &p.thrust_direction];
-    let in_line = &knowns![&i.attitude, &i.instrument_along_roll];
-    let span = &knowns![v.guided.downlink_start, v.guided.downlink_end];
+    let in_line = &knowns![&i.attitude, &i.instrument_along_roll, &i.velocities];
     table.output(
         v.geometry.degenerate,
         knowns![in_line, moved],
-        knowns![in_line, &p.mode, &p.device, aimed, &p.sun_place, span],
+        knowns![in_line, &p.mode, &p.device, aimed, &p.sun_place],
     );
     let attitude = &knowns![&i.attitude, &i.instrument, &i.velocities];
     let start = &knowns![attitude, &p.mode, &p.device, &p.guided, aimed, &p.sun_place];
@@ -325,8 +320,9 @@ fn burn(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Paramet
 /// What is said of targets, what thrusters are asked for, and how panels stand.
 fn momentum(table: &mut Dependencies, v: &GuidanceVariables, i: &Inputs, p: &Parameters) {
     let (momentum, dump) = (&v.momentum, &v.dump);
-    let begun = &knowns![&i.mode, v.pointing.scenario, v.boresight.option, v.velocity, &i.momentum];
-    table.output(momentum.target_clamped, begun, knowns![begun, &p.mode, &p.sun_place, &p.span]);
+    let begun =
+        &knowns![&i.mode, v.pointing.scenario, v.boresight.option, v.velocity, &i.velocities, &i.momentum];
+    table.output(momentum.target_clamped, begun, knowns![begun, &p.mode, &p.sun_place]);
     let asked = knowns![&i.momentum, dump.threshold];
     table.output(dump.request, &i.momentum, &asked);
     for axis in 0..3 {

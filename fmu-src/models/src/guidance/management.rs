@@ -9,7 +9,7 @@ use physics::plant::{PanelSetting, SunlitCraft};
 use physics::spacecraft::{MassProperties, SunshadeModel};
 
 use super::setup::Plan;
-use super::variables::choices::{DumpReinitTo, MomentumStrategy};
+use super::variables::choices::DumpReinitTo;
 use crate::common::choices::PanelTilt;
 
 /// Sets the panels as they are commanded; `panels` is memory to use again.
@@ -39,10 +39,7 @@ pub fn manager<'a>(
     let v = context.variables;
     let spacecraft = &context.setup.spacecraft;
     let sunshade = values.choice(v.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
-    let strategy = match values.choice(v.momentum.strategy) {
-        Some(MomentumStrategy::Reactive) => Strategy::Reactive,
-        Some(MomentumStrategy::DumpsOnly) | None => Strategy::DumpsOnly,
-    };
+    let strategy = values.choice(v.momentum.strategy).map_or(Strategy::DumpsOnly, |it| it.0);
     let [start_s, end_s] = [v.guided.downlink_start, v.guided.downlink_end].map(|time| values.real(time));
     if strategy != Strategy::DumpsOnly && start_s >= end_s {
         return Err(Failure::new(format!(
@@ -55,7 +52,7 @@ pub fn manager<'a>(
             strategy,
             targeting: v.momentum.aim.read(values, keep_in.azimuth_rad, keep_in.elevation_rad),
             target_body_n_m_s: v.momentum.aim.target_body_n_m_s(values),
-            horizon: 0,
+            horizon: v.momentum.aim.horizon(values),
             sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
         },
         craft: SunlitCraft {
@@ -69,6 +66,7 @@ pub fn manager<'a>(
         },
         light: v.solar.read(values),
         convention: values.choice(v.momentum.convention).map_or(Convention::Inertial, |it| it.0),
+        threshold_body_n_m_s: Vector3::from(values.vector(v.dump.threshold)),
         momentum_body_n_m_s: Vector3::from([0.0; 3]),
     })
 }

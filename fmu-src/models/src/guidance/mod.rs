@@ -14,8 +14,9 @@ use fmi_export::{
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
-use physics::guidance::system::{self, GuidanceSettings, GuidanceState, SampleInputs, TimedEntries};
+use physics::guidance::system::{GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries};
 use physics::management::{DumpRequests, SampledManager};
+use physics::numerics::work::Work;
 use serde::{Deserialize, Serialize};
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
@@ -135,9 +136,10 @@ impl Model for Guidance {
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         let limit = context.variables.solver.units(values);
-        let mut samples = 0;
+        let mut work = Work::<1>::new(limit);
         while state.system.due_before(step.end_s).is_some() {
-            if samples >= system::samples_within(limit) {
+            work.spend(0, SAMPLE_WORK);
+            if work.is_exhausted() {
                 let reached_s = state.system.next_sample_s();
                 return Err(Failure::new(format!(
                     "the step from {} to {} s reached {reached_s} s: its samples, one a second, take more than \
@@ -145,8 +147,7 @@ impl Model for Guidance {
                     step.start_s, step.end_s
                 )));
             }
-            state.sample(context, values, &fixed, &settings, step.inputs)?;
-            samples += 1;
+            work.spend(0, state.sample(context, values, &fixed, &settings, step.inputs)?);
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
@@ -183,7 +184,7 @@ impl OutputRates for Guidance {
 }
 
 impl State {
-    /// Takes the sample that is due.
+    /// Takes the sample that is due; units of work that it took beside its own.
     fn sample(
         &mut self,
         context: &Plan<'_>,
@@ -191,7 +192,7 @@ impl State {
         fixed: &Fixed,
         settings: &GuidanceSettings<'_>,
         inputs: InputsOverTime<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<u32, Failure> {
         let time_s = self.system.next_sample_s();
         let epoch_s = time::epoch_at_s(time_s, self.epoch_minus_time_s);
         let reader = Reader::new(context, values, inputs, time_s);
@@ -234,7 +235,7 @@ impl State {
         let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
-        self.system.sample(&settings, &inputs, &manager);
-        Ok(())
+        let is_asked = self.system.sample(&settings, &inputs, &manager);
+        Ok(if is_asked { manager.work() } else { 0 })
     }
 }

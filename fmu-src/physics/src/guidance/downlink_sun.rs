@@ -3,30 +3,32 @@
 //! A downlink begins where the scenario becomes downlink without an azimuth of its own, with each entry of the timeline that
 //! names it, and where a window of the orbit phase begins. In Operational alone: other modes have the Sun on -Y.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::command::Scenario;
 use super::downlink::{ChosenPlace, SunPlace};
+use super::guided::Guided;
+use super::surroundings::Surroundings;
 use crate::attitude::Attitude;
 
 /// Where a downlink begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DownlinkStart {
-    /// From the spacecraft to the Sun, EME2000, in m.
-    pub to_sun_m: Vector3<f64>,
-    /// From the spacecraft to the Earth, EME2000, in m.
-    pub to_earth_m: Vector3<f64>,
+pub struct DownlinkStart<'a> {
+    /// Where everything is.
+    pub surroundings: &'a Surroundings,
     /// The attitude as it is estimated.
     pub attitude: Attitude,
     /// How long the downlink lasts, in s.
     pub span_s: f64,
+    /// Science and downlink from here on, in s past J2000 TDB; the scenario downlink counts on the windows of the orbit phase, of
+    /// which one begins here.
+    pub law: Guided,
 }
 
 /// Who chooses the Sun's place.
 pub trait SunChooser {
     /// The place; `None` where the Sun is to stand on -Y.
-    fn choose(&self, start: &DownlinkStart) -> Option<ChosenPlace>;
+    fn choose(&self, start: &DownlinkStart<'_>) -> Option<ChosenPlace>;
 }
 
 /// Leaves the Sun on -Y.
@@ -34,7 +36,7 @@ pub trait SunChooser {
 pub struct SunOnMinusY;
 
 impl SunChooser for SunOnMinusY {
-    fn choose(&self, _start: &DownlinkStart) -> Option<ChosenPlace> {
+    fn choose(&self, _start: &DownlinkStart<'_>) -> Option<ChosenPlace> {
         None
     }
 }
@@ -71,17 +73,20 @@ impl DownlinkSun {
     }
 
     /// A downlink of `scenario` lasts, by `entry` of the timeline where one names it; where it begins `choose` gives its place.
+    /// Whether it begins.
     pub fn last(
         &mut self,
         scenario: Scenario,
         entry: Option<usize>,
         choose: impl FnOnce() -> Option<ChosenPlace>,
-    ) {
+    ) -> bool {
         let is_new_entry = scenario == Scenario::Downlink && entry.is_some() && entry != self.entry;
-        if self.lasts != Some(scenario) || is_new_entry {
+        let begins = self.lasts != Some(scenario) || is_new_entry;
+        if begins {
             (self.chosen, self.lasts) = (choose(), Some(scenario));
         }
         self.entry = entry.or(self.entry);
+        begins
     }
 }
 

@@ -1,15 +1,11 @@
 //! The orbit phase from where the spacecraft is: windows of science and downlink after the periapses of its present orbit.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::attitudes::LinesOfSight;
 use super::guided::{Guided, GuidedAttitude};
-use super::moving::{MovingVector, rate, value};
-use super::schedule::{Schedule, Window};
+use super::orbit_ahead::{ellipse_of, lines_of_sight};
+use super::schedule::Schedule;
 use super::surroundings::Surroundings;
-use crate::attitude::MovingUnit;
-use crate::environment::CartesianState;
 use crate::environment::orbit::TwoBodyOrbit;
 
 /// The periapsis from which downlinks are counted; that of the orbit on which counting began.
@@ -38,10 +34,9 @@ impl PeriapsisCount {
         })
     }
 
-    /// What is being done, and until when, in s past J2000 TDB.
-    pub fn window(&mut self, windows: &Schedule, surroundings: &Surroundings) -> Window {
-        let (_, schedule) = self.counted(windows, surroundings);
-        schedule.window(surroundings.epoch_s)
+    /// The windows after the periapses that were counted, in s past J2000 TDB.
+    pub fn windows(&mut self, windows: &Schedule, surroundings: &Surroundings) -> Schedule {
+        self.counted(windows, surroundings).1
     }
 
     /// The present orbit, if it is one whose periapses count, and its windows.
@@ -50,14 +45,7 @@ impl PeriapsisCount {
         windows: &Schedule,
         surroundings: &Surroundings,
     ) -> (Option<TwoBodyOrbit>, Schedule) {
-        let epoch_s = surroundings.epoch_s;
-        let state = CartesianState {
-            position_m: value(&surroundings.position),
-            velocity_m_s: value(&surroundings.velocity),
-        };
-        let orbit = TwoBodyOrbit::from_state(&state, surroundings.planet.gm_m3_s2, epoch_s).ok();
-        let orbit = orbit.filter(|orbit| orbit.period_s().is_finite());
-        let orbit = orbit.filter(|_| !windows.once);
+        let orbit = ellipse_of(surroundings).filter(|_| !windows.once);
         let schedule = orbit
             .map_or(Schedule { period_s: f64::INFINITY, ..*windows }, |orbit| self.schedule(windows, &orbit));
         (orbit, schedule)
@@ -69,22 +57,5 @@ impl PeriapsisCount {
         let every = f64::from(windows.every.max(1));
         let since = ((nearest_s - first_s) / period_s).round().rem_euclid(every);
         Schedule { periapsis_s: nearest_s - since * period_s, period_s, ..*windows }
-    }
-}
-
-/// Directions from the spacecraft with their rates; a body at zero distance counts as lying toward +X.
-fn lines_of_sight(surroundings: &Surroundings) -> LinesOfSight {
-    let unit = |vector: &MovingVector| {
-        MovingUnit::of(value(vector), rate(vector))
-            .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
-    };
-    LinesOfSight {
-        sun: unit(&surroundings.to_sun()),
-        planet: Some(unit(&surroundings.to_planet())),
-        earth: unit(&surroundings.to_earth()),
-        sun_from_planet: Some(CartesianState {
-            position_m: value(&surroundings.sun),
-            velocity_m_s: rate(&surroundings.sun),
-        }),
     }
 }

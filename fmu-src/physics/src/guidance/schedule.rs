@@ -3,6 +3,8 @@
 //! Windows follow the orbit, never the clock: an orbit that takes 12.07 h instead of 12 would drift through all
 //! phases of a clock schedule in 90 days.
 
+use crate::numerics::spacing::spacing;
+
 /// What the spacecraft is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
@@ -61,6 +63,18 @@ impl Schedule {
             cycle += 1.0;
         }
         Window::of(start_of(cycle), length_s, start_of(cycle + 1.0), time_s)
+    }
+
+    /// Length of a cycle of science and downlink, in s; infinite where none follows.
+    pub fn cycle_s(&self) -> f64 {
+        if self.once { f64::INFINITY } else { f64::from(self.every) * self.period_s }
+    }
+
+    /// The same windows, one of which begins at `time_s`.
+    pub fn begun_at(&self, time_s: f64) -> Self {
+        // Rounding must not put the begin after it.
+        let begin_s = time_s - 4.0 * spacing(time_s.abs().max(self.downlink_start_s));
+        Self { periapsis_s: begin_s - self.downlink_start_s, ..*self }
     }
 
     /// The same for periapses that were met instead of computed: every `every`-th one, the latest first. A window is
@@ -175,5 +189,27 @@ mod tests {
         assert!(
             (0..100).all(|hour| schedule.window(f64::from(hour) * HOUR_S).activity == Activity::Downlink)
         );
+    }
+
+    #[test]
+    fn a_window_begun_now_lasts_its_length() {
+        for (now_s, start_s) in [(0.0, 7200.0), (2.9e8, 7200.0), (10.0, 1e9), (-3.1e8, 0.1)] {
+            let windows = Schedule {
+                periapsis_s: 17.0,
+                period_s: 12.0 * HOUR_S,
+                downlink_start_s: start_s,
+                downlink_end_s: start_s + 8.0 * HOUR_S,
+                every: 2,
+                once: false,
+            };
+            let begun = windows.begun_at(now_s);
+            let window = begun.window(now_s);
+            assert_eq!(window.activity, Activity::Downlink);
+            assert!(
+                (window.since_s - now_s).abs() < 1e-6 && (window.until_s - now_s - 8.0 * HOUR_S).abs() < 1e-6
+            );
+            assert_eq!(begun.cycle_s(), 24.0 * HOUR_S);
+            assert_eq!(begun.window(now_s + 8.0 * HOUR_S + 1.0).activity, Activity::Science);
+        }
     }
 }

@@ -35,13 +35,8 @@ use crate::numerics::spacing::spacing;
 /// Time between two samples, in s.
 pub const SAMPLE_INTERVAL_S: f64 = 1.0;
 
-/// Units of about a microsecond that a sample takes at most.
-const SAMPLE_WORK: u32 = 4;
-
-/// How many samples a step may take whose work is bounded by `limit` units of about a microsecond.
-pub fn samples_within(limit: u32) -> u32 {
-    limit / SAMPLE_WORK
-}
+/// Units of about a microsecond that a sample takes at most, a choice of the Sun's place aside.
+pub const SAMPLE_WORK: u32 = 4;
 
 /// Everything that parameters say.
 #[derive(Clone, Copy, Debug)]
@@ -251,13 +246,14 @@ impl GuidanceState {
         (self.next_sample_s < end_s - tolerance_s).then_some(self.next_sample_s)
     }
 
-    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins.
+    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins. Whether it was asked.
     pub fn sample(
         &mut self,
         settings: &GuidanceSettings<'_>,
         inputs: &SampleInputs,
         chooser: &impl SunChooser,
-    ) {
+    ) -> bool {
+        let mut is_asked = false;
         let time_s = self.next_sample_s;
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
@@ -286,7 +282,7 @@ impl GuidanceState {
                 let command = self.modes.mode.admitted(&inputs.command);
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-                    self.place_sun(settings, &command, surroundings, attitude, chooser);
+                    is_asked = self.place_sun(settings, &command, surroundings, attitude, chooser);
                     self.point(&Now { settings, constraints, surroundings, time_s }, &command);
                     let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
                     if is_law && self.judgement.reachable {
@@ -306,9 +302,10 @@ impl GuidanceState {
             self.burn.end();
             self.downlink_sun.end();
         }
+        is_asked
     }
 
-    /// Puts the Sun where a downlink begins.
+    /// Puts the Sun where a downlink begins; whether one does.
     fn place_sun(
         &mut self,
         settings: &GuidanceSettings<'_>,
@@ -316,33 +313,32 @@ impl GuidanceState {
         surroundings: &Surroundings,
         attitude: Attitude,
         chooser: &impl SunChooser,
-    ) {
-        let windows = &settings.orbit_phase.schedule;
+    ) -> bool {
+        let (windows, epoch_s) = (&settings.orbit_phase.schedule, surroundings.epoch_s);
         let found = match command.scenario {
             _ if self.modes.mode != Mode::Operational => None,
             Some(scenario @ Scenario::Downlink) => {
                 let is_free = command.boresight.option != Some(BoresightOption::PhasedArray);
-                is_free.then_some((scenario, windows.downlink_end_s - windows.downlink_start_s))
+                let span_s = windows.downlink_end_s - windows.downlink_start_s;
+                is_free.then(|| (scenario, windows.begun_at(epoch_s), span_s))
             }
             Some(scenario @ Scenario::OrbitPhase) => {
-                let window = self.periapses.window(windows, surroundings);
+                let windows = self.periapses.windows(windows, surroundings);
+                let window = windows.window(epoch_s);
                 let is_downlink = window.activity == Activity::Downlink;
-                is_downlink.then_some((scenario, window.until_s - surroundings.epoch_s))
+                is_downlink.then_some((scenario, windows, window.until_s - epoch_s))
             }
             _ => None,
         };
-        let Some((scenario, span_s)) = found else {
+        let Some((scenario, schedule, span_s)) = found else {
             self.downlink_sun.end();
-            return;
+            return false;
         };
         self.downlink_sun.last(scenario, self.entries.scenario, || {
-            let to_sun_m = value(&surroundings.to_sun());
-            let to_earth_m = value(&surroundings.to_earth());
+            let law = Guided { schedule, ..settings.orbit_phase };
             let is_span = span_s.is_finite() && span_s > 0.0;
-            is_span
-                .then(|| chooser.choose(&DownlinkStart { to_sun_m, to_earth_m, attitude, span_s }))
-                .flatten()
-        });
+            is_span.then(|| chooser.choose(&DownlinkStart { surroundings, attitude, span_s, law })).flatten()
+        })
     }
 
     /// The Sun's place in the downlinks of the mode; `None`: on -Y.

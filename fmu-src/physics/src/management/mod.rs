@@ -2,18 +2,22 @@
 //! during a downlink so that its torque brings the momentum to a target, and which target that is.
 
 mod admissible;
+mod ahead;
 mod dump_request;
 mod linear;
 mod profile;
 mod sampled;
+mod sampled_forecast;
 mod strategy;
 mod targeting;
 mod turning;
 
+pub use ahead::{Ahead, Forecast, LONGEST_HORIZON, ScienceAhead, Swings};
 pub use dump_request::DumpRequests;
 pub use linear::LinearTorque;
 pub use profile::{Reach, Swing, best_target};
 pub use sampled::SampledManager;
+pub use sampled_forecast::SampledForecast;
 pub use strategy::{Manager, Strategy};
 pub use targeting::{Aim, TargetAxes, Targeted, Targeting, TargetingMethod};
-pub use turning::{Turned, best_turned};
+pub use turning::{SquareSum, Turned, best_turned};

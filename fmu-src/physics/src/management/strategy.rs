@@ -1,19 +1,19 @@
 //! Strategies of paper 000: dumps alone, reactive targets, predictive targets.
 //!
 //! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the momentum from which the coming
-//! cycles, forecast in their default attitudes, keep its components smallest; without a cycle to come it is reactive. Components
-//! that are integrated on their own are looked at one by one over the whole horizon ([`super::profile`]); the physical
-//! momentum, under which the body turns, over the next science ([`super::turning`]).
+//! cycles, forecast in their default attitudes ([`super::ahead`]), keep its components smallest; without a cycle to come it is
+//! reactive.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 
+use super::ahead::{Ahead, Forecast, ScienceAhead};
 use super::linear::LinearTorque;
-use super::profile::{Reach, Swing, best_target};
+use super::profile::{Reach, best_target};
 use super::targeting::{Aim, Targeted, Targeting};
-use super::turning::{Turned, best_turned};
+use super::turning::best_turned;
 use crate::guidance::ChosenPlace;
 use crate::momentum::Convention;
-use crate::plant::{Outlook, PlantError, StartMomentum, SunPlanner};
+use crate::plant::{ForecastMomentum, Outlook, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
 
@@ -38,28 +38,21 @@ pub struct Manager<'a> {
     pub targeting: Targeting,
     /// Momentum a reactive downlink aims at, body frame, in N m s.
     pub target_body_n_m_s: Vector3<f64>,
-    /// How many cycles ahead predictive targets look.
+    /// How many cycles ahead predictive targets look, at most [`super::LONGEST_HORIZON`].
     pub horizon: u32,
     /// The shade, for the linear formula.
     pub sunshade: Option<(&'a Sunshade, SunshadeModel)>,
 }
-
-/// Samples of a forecast a cycle.
-const SAMPLES: f64 = 96.0;
 
 impl SunPlanner for Manager<'_> {
     fn choose(&self, outlook: &mut Outlook<'_>) -> Result<Option<ChosenPlace>, PlantError> {
         let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
-        let is_predictive = self.strategy == Strategy::Predictive;
-        let turns = outlook.convention() == Convention::Inertial;
-        let swings = if is_predictive && !turns { self.swings(outlook)? } else { Vec::new() };
-        let science = if is_predictive && turns { science_ahead(outlook)? } else { None };
+        let ahead = self.ahead(outlook)?;
         let linear = self.linear(&outlook.center_of_mass_body_m());
-        let threshold = outlook.threshold_body_n_m_s();
         let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
-        let mut aim = Aim {
+        let aim = Aim {
             to_sun: outlook.to_sun,
             to_earth,
             momentum: outlook.momentum,
@@ -67,18 +60,36 @@ impl SunPlanner for Manager<'_> {
             torque_body_n_m: &torque,
             linear: linear.map(|formula| (formula, outlook.pressure_pa)),
         };
-        let target = match (&science, aim.momentum) {
-            (Some(science), StartMomentum::Inertial(momentum)) => {
-                // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
-                self.turned(&aim, science, &threshold).map(|end_body| {
-                    let end = science.inertial_from_body * end_body;
-                    aim.momentum = StartMomentum::Inertial(momentum - end);
-                    Vector3::zeros()
-                })
-            }
-            _ => self.predicted(&aim, &swings, &threshold),
-        };
-        Ok(self.place(&aim, target))
+        Ok(self.place(aim, &ahead))
+    }
+}
+
+impl Forecast for Outlook<'_> {
+    type Error = PlantError;
+
+    fn begin_s(&self) -> f64 {
+        self.time_s
+    }
+
+    fn cycle_s(&self) -> f64 {
+        Outlook::cycle_s(self)
+    }
+
+    fn convention(&self) -> Convention {
+        Outlook::convention(self)
+    }
+
+    fn threshold_body_n_m_s(&self) -> Vector3<f64> {
+        Outlook::threshold_body_n_m_s(self)
+    }
+
+    fn fly(
+        &mut self,
+        until_s: f64,
+        step_s: f64,
+        visit: impl FnMut(ForecastMomentum),
+    ) -> Result<(), PlantError> {
+        self.forecast(until_s, step_s, visit)
     }
 }
 
@@ -90,65 +101,50 @@ impl Manager<'_> {
         Some(LinearTorque::new(&polynomial, shade.dcm_body_from_shade))
     }
 
-    /// Where the Sun is to stand for a predicted target, or else the one target; `None` where no place is admissible.
-    pub(super) fn place(&self, aim: &Aim<'_>, predicted: Option<Vector3<f64>>) -> Option<ChosenPlace> {
-        let targeted = self.targeting.sun_place(aim, &predicted.unwrap_or(self.target_body_n_m_s));
+    /// What lies ahead, where targets are predicted from it.
+    ///
+    /// # Errors
+    /// What ends a forecast.
+    pub(super) fn ahead<F: Forecast>(&self, forecast: &mut F) -> Result<Ahead, F::Error> {
+        if self.strategy == Strategy::Predictive {
+            Ahead::of(forecast, self.horizon)
+        } else {
+            Ok(Ahead::default())
+        }
+    }
+
+    /// Where the Sun is to stand for the target predicted from what lies ahead, or else the one target; `None` where no place is
+    /// admissible.
+    pub(super) fn place(&self, mut aim: Aim<'_>, ahead: &Ahead) -> Option<ChosenPlace> {
+        let predicted = match (&ahead.science, aim.momentum) {
+            (Some(science), StartMomentum::Inertial(momentum)) => {
+                // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
+                self.turned(&aim, science).map(|end_body| {
+                    let end = science.inertial_from_body * end_body;
+                    aim.momentum = StartMomentum::Inertial(momentum - end);
+                    Vector3::zeros()
+                })
+            }
+            _ => self.predicted(&aim, ahead),
+        };
+        let targeted = self.targeting.sun_place(&aim, &predicted.unwrap_or(self.target_body_n_m_s));
         targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped })
     }
 
-    /// What each coming span of science does to the momentum, by component.
-    fn swings(&self, outlook: &mut Outlook<'_>) -> Result<Vec<[Swing; 3]>, PlantError> {
-        let cycle_s = outlook.cycle_s();
-        let mut swings: Vec<[Swing; 3]> = Vec::new();
-        if !cycle_s.is_finite() || cycle_s <= 0.0 {
-            return Ok(swings);
-        }
-        let until_s = outlook.time_s + f64::from(self.horizon) * cycle_s;
-        let (mut base, mut was_downlink) = (Vector3::zeros(), true);
-        outlook.forecast(until_s, cycle_s / SAMPLES, |at| {
-            if at.downlink {
-                base = at.momentum_body_n_m_s;
-            } else {
-                if was_downlink {
-                    swings.push([Swing::default(); 3]);
-                }
-                if let Some(last) = swings.last_mut() {
-                    for (axis, swing) in last.iter_mut().enumerate() {
-                        swing.note(at.momentum_body_n_m_s[axis] - base[axis]);
-                    }
-                }
-            }
-            was_downlink = at.downlink;
-        })?;
-        Ok(swings)
-    }
-
     /// The target that keeps the momentum of the coming cycles smallest; `None` without such a cycle.
-    fn predicted(
-        &self,
-        aim: &Aim<'_>,
-        swings: &[[Swing; 3]],
-        threshold: &Vector3<f64>,
-    ) -> Option<Vector3<f64>> {
-        if swings.is_empty() {
+    fn predicted(&self, aim: &Aim<'_>, ahead: &Ahead) -> Option<Vector3<f64>> {
+        let (along, threshold) = (ahead.swings.along(), &ahead.threshold_body_n_m_s);
+        if along.iter().any(|swings| swings.is_empty()) {
             return None;
         }
         let now = self.targeting.default_momentum(aim)?;
-        let [along_x, along_z] = self.targeting.reach(aim)?;
-        let best = |axis: usize, reach: Reach| {
-            let along: Vec<Swing> = swings.iter().map(|swing| swing[axis]).collect();
-            best_target(now[axis], reach, &along, threshold[axis])
-        };
-        Some(Vector3::new(best(0, along_x), 0.0, best(2, along_z)))
+        let [by_x, by_z] = self.targeting.reach(aim)?;
+        let x = best_target(now.x, by_x, along[0], threshold.x);
+        Some(Vector3::new(x, 0.0, best_target(now.z, by_z, along[1], threshold.z)))
     }
 
     /// The target that keeps the momentum of the next science smallest.
-    fn turned(
-        &self,
-        aim: &Aim<'_>,
-        science: &ScienceAhead,
-        threshold: &Vector3<f64>,
-    ) -> Option<Vector3<f64>> {
+    fn turned(&self, aim: &Aim<'_>, science: &ScienceAhead) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
         let reach = self.targeting.reach(aim)?;
         let end = science.end_body_n_m_s;
@@ -159,44 +155,6 @@ impl Manager<'_> {
         };
         let [by_x, by_z] = self.targeting.axes.asked();
         let ranges = [range(0, reach[0], by_x), range(2, reach[1], by_z)];
-        Some(best_turned(&science.along, ranges, end.y, threshold))
+        Some(best_turned(&science.squares, ranges, end.y))
     }
-}
-
-/// The science after a downlink in its default attitude.
-struct ScienceAhead {
-    /// Momentum at the downlink's end, body frame, in N m s.
-    end_body_n_m_s: Vector3<f64>,
-    inertial_from_body: Rotation3<f64>,
-    along: Vec<Turned>,
-}
-
-/// The next science; `None` where none follows.
-fn science_ahead(outlook: &mut Outlook<'_>) -> Result<Option<ScienceAhead>, PlantError> {
-    let cycle_s = outlook.cycle_s();
-    if !cycle_s.is_finite() || cycle_s <= 0.0 {
-        return Ok(None);
-    }
-    let until_s = outlook.time_s + cycle_s;
-    let (mut left, mut has_ended) = (None, false);
-    let mut along = Vec::new();
-    outlook.forecast(until_s, cycle_s / SAMPLES, |at| {
-        if at.downlink {
-            has_ended |= !along.is_empty();
-            if !has_ended {
-                left = Some(at);
-            }
-        } else if let Some(left) = left.filter(|_| !has_ended) {
-            let turn = at.body_from_inertial * left.body_from_inertial.inverse();
-            let added = at.momentum_inertial_n_m_s - left.momentum_inertial_n_m_s;
-            let added_body_n_m_s = at.body_from_inertial * added;
-            along.push(Turned { turn: turn.into_inner(), added_body_n_m_s });
-        }
-    })?;
-    let left = left.filter(|_| !along.is_empty());
-    Ok(left.map(|left| ScienceAhead {
-        end_body_n_m_s: left.momentum_body_n_m_s,
-        inertial_from_body: left.body_from_inertial.inverse(),
-        along,
-    }))
 }

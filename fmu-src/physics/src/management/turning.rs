@@ -1,10 +1,11 @@
 //! Which momentum to leave a downlink with where the spacecraft turns under it: predictive targets for the physical momentum.
 //!
 //! Through the science to come the momentum h left with shows as R_k h + d_k in the body frame, R_k the turn since the downlink
-//! and d_k what torques have added until then. The mean square of its X and Z components, in parts of their thresholds, is convex in h;
-//! its least over the X and Z that the downlink can reach is found by golden section, Z within X. The greatest component would
-//! leave open where the other one goes; what goes anywhere adds up from cycle to cycle where reach is short. The next downlink is
-//! the end of it, since every component can be brought to a target again there. Y is left out: light hardly turns it.
+//! and d_k what torques have added until then. The mean square of its X and Z components, in parts of their thresholds, is convex in h,
+//! h' A h + 2 b' h + c; its least over the X and Z that the downlink can reach is found by golden section, Z within X. The greatest
+//! component would leave open where the other one goes; what goes anywhere adds up from cycle to cycle where reach is short. The
+//! next downlink is the end of it, since every component can be brought to a target again there. Y is left out: light hardly turns
+//! it.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -20,17 +21,39 @@ pub struct Turned {
     pub added_body_n_m_s: Vector3<f64>,
 }
 
+/// Squares of X and Z in parts of their thresholds, added up over times, by the momentum h that a downlink leaves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SquareSum {
+    /// A.
+    quadratic: Matrix3<f64>,
+    /// b.
+    linear: Vector3<f64>,
+    /// c.
+    constant: f64,
+}
+
+impl SquareSum {
+    /// Adds a time.
+    pub fn add(&mut self, at: &Turned, threshold_body_n_m_s: &Vector3<f64>) {
+        for axis in [0, 2] {
+            let part = 1.0 / threshold_body_n_m_s[axis];
+            let turn = at.turn.row(axis).transpose() * part;
+            let added = at.added_body_n_m_s[axis] * part;
+            self.quadratic += turn * turn.transpose();
+            self.linear += turn * added;
+            self.constant += added * added;
+        }
+    }
+
+    /// Of this momentum left with, body frame, in N m s.
+    fn of(&self, momentum: &Vector3<f64>) -> f64 {
+        momentum.dot(&(self.quadratic * momentum + self.linear * 2.0)) + self.constant
+    }
+}
+
 /// The momentum to leave a downlink with, body frame, in N m s: X and Z within these ranges, Y as given.
-pub fn best_turned(along: &[Turned], [x, z]: [Reach; 2], y: f64, threshold: &Vector3<f64>) -> Vector3<f64> {
-    let squares = |x: f64, z: f64| {
-        let momentum = Vector3::new(x, y, z);
-        let parts = along.iter().map(|at| {
-            let body = at.turn * momentum + at.added_body_n_m_s;
-            (body.x / threshold.x).powi(2) + (body.z / threshold.z).powi(2)
-        });
-        parts.sum::<f64>()
-    };
-    let along_z = |x_n_m_s: f64| golden(z[0], z[1], |z_n_m_s| squares(x_n_m_s, z_n_m_s));
+pub fn best_turned(squares: &SquareSum, [x, z]: [Reach; 2], y: f64) -> Vector3<f64> {
+    let along_z = |x_n_m_s: f64| golden(z[0], z[1], |z_n_m_s| squares.of(&Vector3::new(x_n_m_s, y, z_n_m_s)));
     let (best_x, _) = golden(x[0], x[1], |x_n_m_s| along_z(x_n_m_s).1);
     Vector3::new(best_x, y, along_z(best_x).0)
 }
@@ -43,6 +66,12 @@ mod tests {
     use nalgebra::Rotation3;
     use proptest::prelude::*;
 
+    fn best(along: &[Turned], ranges: [Reach; 2], y: f64, threshold: &Vector3<f64>) -> Vector3<f64> {
+        let mut squares = SquareSum::default();
+        along.iter().for_each(|at| squares.add(at, threshold));
+        best_turned(&squares, ranges, y)
+    }
+
     #[test]
     fn a_turn_about_the_sun_line_alone_asks_for_none() {
         let along: Vec<Turned> = (0..36)
@@ -51,8 +80,8 @@ mod tests {
                 added_body_n_m_s: Vector3::zeros(),
             })
             .collect();
-        let best = best_turned(&along, [[-2.0, 3.0], [-1.0, 4.0]], 0.7, &Vector3::repeat(4.0));
-        assert_relative_eq!(best, Vector3::new(0.0, 0.7, 0.0), epsilon = 1e-7);
+        let found = best(&along, [[-2.0, 3.0], [-1.0, 4.0]], 0.7, &Vector3::repeat(4.0));
+        assert_relative_eq!(found, Vector3::new(0.0, 0.7, 0.0), epsilon = 1e-7);
     }
 
     #[test]
@@ -61,10 +90,10 @@ mod tests {
             |x: f64, z: f64| Turned { turn: Matrix3::identity(), added_body_n_m_s: Vector3::new(x, 0.0, z) };
         // Both components start a drift at zero; equal parts of the thresholds weigh the same.
         let along = [at(0.0, 0.0), at(2.0, -1.0)];
-        let best = best_turned(&along, [[-5.0, 5.0]; 2], 0.0, &Vector3::new(4.0, 1.0, 2.0));
-        assert_relative_eq!(best.x, -1.0, epsilon = 1e-6);
-        assert_relative_eq!(best.z, 0.5, epsilon = 1e-6);
-        let short = best_turned(&along, [[-0.25, 5.0], [-5.0, 5.0]], 0.0, &Vector3::new(4.0, 1.0, 2.0));
+        let found = best(&along, [[-5.0, 5.0]; 2], 0.0, &Vector3::new(4.0, 1.0, 2.0));
+        assert_relative_eq!(found.x, -1.0, epsilon = 1e-6);
+        assert_relative_eq!(found.z, 0.5, epsilon = 1e-6);
+        let short = best(&along, [[-0.25, 5.0], [-5.0, 5.0]], 0.0, &Vector3::new(4.0, 1.0, 2.0));
         assert_eq!(short.x, -0.25);
     }
 
@@ -89,7 +118,7 @@ mod tests {
                 bodies.map(|body| body.xz().norm_squared()).sum()
             };
             let reach = [-width, 0.6 * width];
-            let found = all(best_turned(&along, [reach; 2], y, &threshold));
+            let found = all(best(&along, [reach; 2], y, &threshold));
             let at = |k: u32| reach[0] + (reach[1] - reach[0]) * f64::from(k) / 60.0;
             for (i, j) in (0..=60).flat_map(|i| (0..=60).map(move |j| (i, j))) {
                 prop_assert!(all(Vector3::new(at(i), y, at(j))) > found - 1e-6);

@@ -104,12 +104,7 @@ impl Outlook<'_> {
 
     /// Length of a cycle of science and downlink, in s; infinite where none follows, and where nothing may be forecast.
     pub fn cycle_s(&self) -> f64 {
-        let schedule = &self.law.schedule;
-        if schedule.once || !self.forecasts {
-            f64::INFINITY
-        } else {
-            f64::from(schedule.every) * schedule.period_s
-        }
+        if self.forecasts { self.law.schedule.cycle_s() } else { f64::INFINITY }
     }
 
     /// Momentum from here to `until_s`, every `step_s`.

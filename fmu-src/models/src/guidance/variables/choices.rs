@@ -256,15 +256,6 @@ pub enum EphemerisModel {
     Coarse = 2,
 }
 
-/// What sunlight is used for during downlinks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
-pub enum MomentumStrategy {
-    /// Nothing: the Sun stands on -Y.
-    DumpsOnly = 1,
-    /// Every downlink brings the momentum toward momentum.target.
-    Reactive = 2,
-}
-
 /// Where a requested dump leaves a component that exceeded its threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum DumpReinitTo {

@@ -3,12 +3,13 @@
 use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::management::Strategy;
 use physics::momentum::Convention;
 
 use super::super::setup::GuidanceSetup;
-use super::choices::{DumpReinitTo, MomentumStrategy};
+use super::choices::DumpReinitTo;
 use crate::common::choices::{MomentumConvention, PanelTilt, SunshadeShape};
-use crate::common::management::TargetingVariables;
+use crate::common::management::{MomentumStrategy, TargetingVariables};
 
 /// Mass properties.
 #[derive(Variables)]
@@ -51,8 +52,10 @@ pub struct PanelVariables {
 pub struct MomentumVariables {
     /// What sunlight is used for during downlinks, in Operational: the Sun's place is chosen where the scenario downlink begins
     /// without an antenna's azimuth, or a window of the orbit phase does, and held. The scenario counts on a downlink of
-    /// guided.downlinkEnd - guided.downlinkStart.
-    #[parameter(start = MomentumStrategy::DumpsOnly)]
+    /// guided.downlinkEnd - guided.downlinkStart, and predictive on the orbit phase after it: a downlink every
+    /// guided.downlinkEvery orbits, science by guided.scienceRule between. Forecasts fly the present orbit in two-body motion, Sun
+    /// and Earth on theirs about the Sun, and count on direct sunlight alone.
+    #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
     pub aim: TargetingVariables,

@@ -97,6 +97,15 @@ enum Subject {
     Burn,
     /// A downlink that begins with momentum: of the scenario, or of the orbit phase.
     Momentum,
+    /// The same with science after it within reach of a forecast.
+    Predictive,
+}
+
+impl Subject {
+    /// Whether it is a downlink that begins with momentum.
+    fn is_momentum(self) -> bool {
+        matches!(self, Self::Momentum | Self::Predictive)
+    }
 }
 
 fn subjects() -> Vec<Subject> {
@@ -112,7 +121,9 @@ fn subjects() -> Vec<Subject> {
         Subject::Link,
         Subject::Burn,
         Subject::Momentum,
+        Subject::Predictive,
         Subject::Momentum,
+        Subject::Predictive,
         Subject::Generic,
         Subject::Monitor,
         Subject::Generic,
@@ -241,17 +252,22 @@ fn draw(bench: &Guide, random: &mut RandomNumbers, subject: Subject) -> Tables {
             bench.put(&mut values, "monitor.enabled", chance(random, 0.3));
             bench.put(&mut values, "burn.thrusters", random.whole(0, 3));
         }
-        Subject::Momentum => {
+        Subject::Momentum | Subject::Predictive => {
             let scenario = if random.next() < 0.7 { 6 } else { 10 };
             item(bench, &mut values, "pointing.scenario", scenario);
             bench.put(&mut values, "boresight.option", random.whole(0, 3));
-            bench.put(&mut values, "momentum.strategy", 2.0);
+            let is_predictive = subject == Subject::Predictive;
+            bench.put(&mut values, "momentum.strategy", if is_predictive { 3.0 } else { 2.0 });
+            bench.put(&mut values, "momentum.horizon", random.whole(1, 2));
             bench.put(&mut values, "momentum.targetAxes", random.whole(1, 3));
             bench.put(&mut values, "momentum.targeting", random.whole(1, 2));
             bench.put(&mut values, "momentum.convention", random.whole(1, 2));
             bench.put(&mut values, "solar.fixedPressure", chance(random, 0.3));
             bench.put(&mut values, "dump.reinitTo", random.whole(1, 2));
-            bench.put(&mut values, "guided.downlinkEvery", 1.0);
+            let every = if is_predictive { random.whole(1, 2) } else { 1.0 };
+            bench.put(&mut values, "guided.downlinkEvery", every);
+            let is_slewing = is_predictive && random.next() < 0.3;
+            bench.put(&mut values, "guided.slewRate", if is_slewing { 1e-3 } else { 0.0 });
             bench.put(&mut values, "monitor.enabled", 0.0);
             bench.put(&mut values, "keepIn.enabled", chance(random, 0.3));
             bench.put(&mut values, "hotPole.enabled", chance(random, 0.3));
@@ -412,10 +428,16 @@ fn redraw(bench: &Guide, random: &mut RandomNumbers, subject: Subject, values: &
         bench.put(values, "guided.downlinkEnd", random.between(900.0, 9000.0));
     }
     redraw_momentum(bench, random, values);
-    if subject == Subject::Momentum {
+    if subject.is_momentum() {
         bench.put(values, "ephemeris.source", 3.0);
         bench.put(values, "guided.downlinkStart", random.between(0.0, 900.0));
         bench.put(values, "guided.downlinkEnd", random.between(9000.0, 36_000.0));
+        if subject == Subject::Predictive {
+            // Shorter than an orbit, and thresholds beyond what the next science brings.
+            bench.put(values, "guided.downlinkEnd", random.between(2000.0, 4000.0));
+            let size = if random.next() < 0.7 { 10.0 } else { 1.0 };
+            bench.put_vector(values, "dump.threshold", &[0; 3].map(|_| size * random.between(0.1, 0.5)));
+        }
         if random.next() < 0.5 {
             // Not connected: the attitude held turns the momentum.
             bench.put_vector(values, "estimate.q", &[0.0, 0.0, 0.0, 1.0]);
@@ -675,7 +697,7 @@ fn measure(text: &str, rounds: usize) {
             }
         }
         let mut begun = values.clone();
-        if subject == Subject::Momentum {
+        if subject.is_momentum() {
             bench.put(&mut begun, "pointing.scenario", 3.0);
             bench.put_vector(&mut begun, "momentum.body", &[0.0; 3]);
         }
@@ -698,7 +720,7 @@ fn measure(text: &str, rounds: usize) {
             );
             flight.changed = true;
         }
-        if subject == Subject::Momentum {
+        if subject.is_momentum() {
             // The downlink begins here.
             bench.copy(&mut flight.values, &values, |name| {
                 name == "pointing.scenario" || name.starts_with("momentum.body")
@@ -722,9 +744,10 @@ fn measure(text: &str, rounds: usize) {
             break;
         }
     }
-    // Rare: a scan about the local axes of a direction or a point in space, which only another compatibility allows.
-    for aim in [1.0, 4.0, 10.0, 11.0] {
-        let mut values = draw(&bench, &mut random, Subject::Scan(5));
+    // Rare: scans with aims that only another compatibility allows.
+    let aims = [1.0, 4.0, 8.0, 10.0, 11.0];
+    for (frame, aim) in [3, 4, 5].into_iter().flat_map(|frame| aims.map(|aim| (frame, aim))) {
+        let mut values = draw(&bench, &mut random, Subject::Scan(frame));
         for (name, value) in [
             ("keepIn.enabled", 0.0),
             ("hotPole.enabled", 0.0),
@@ -733,7 +756,9 @@ fn measure(text: &str, rounds: usize) {
             ("estimate.valid", 1.0),
             ("pointing.scenario", 2.0),
             ("aimpoint.option", aim),
-            ("scan.frame", 5.0),
+            ("ephemeris.source", 3.0),
+            // The Sun may stand at the zenith, where no azimuth counts from it.
+            ("scan.reference", 1.0),
         ] {
             bench.put(&mut values, name, value);
         }
@@ -741,6 +766,26 @@ fn measure(text: &str, rounds: usize) {
         bench.put_vector(&mut values, "scan.duration", &[20.0, 30.0, 40.0]);
         bench.look_at_start(&values, 0.0);
     }
+    // Rare: a burn that begins at once, and whose time is up before its magnitude.
+    let mut values = draw(&bench, &mut random, Subject::Burn);
+    for (name, value) in [
+        ("keepIn.enabled", 0.0),
+        ("hotPole.enabled", 0.0),
+        ("monitor.enabled", 0.0),
+        ("mode.request", 0.0),
+        ("burn.acceleration", 0.01),
+        ("burn.start", -1.0),
+        ("burn.timeout", 5.0),
+    ] {
+        bench.put(&mut values, name, value);
+    }
+    bench.put_vector(&mut values, "burn.deltaV", &[0.6, -0.8, 0.3]);
+    for i in 1..=3 {
+        for j in 1..=3 {
+            bench.put(&mut values, &format!("burn.profile[{i},{j}]"), 0.0);
+        }
+    }
+    bench.look_at_start(&values, 0.0);
     assert!(flown > 20, "{flown} flown");
     bench.judge();
 }

@@ -6,6 +6,7 @@ mod ephemeris;
 mod modes;
 mod momentum;
 mod pointing;
+mod predictive;
 mod same_law;
 mod zeros;
 

@@ -223,17 +223,21 @@ fn a_request_makes_a_plant_dump_to_its_target() {
 fn zero_inputs_and_bad_ones() {
     let named = NamedModel::<Guidance>::shipped();
     let zero: Vec<_> = named.inputs().into_iter().map(|name| (name, 0.0)).collect();
-    let mut flight = named.fly(0.0, &with(&[&zero, &[("momentum.strategy", 2.0)]])).unwrap();
-    flight.step_to(60.0).unwrap();
-    assert_eq!(flight.not_finite(), None);
-    let mut flight =
-        named.fly(0.0, &with(&[PLACED, &[("pointing.scenario", 6.0), ("momentum.strategy", 2.0)]])).unwrap();
-    flight.step_to(60.0).unwrap();
-    assert_eq!(flight.not_finite(), None);
+    for strategy in [2.0, 3.0] {
+        let chosen = [("momentum.strategy", strategy)];
+        let mut flight = named.fly(0.0, &with(&[&zero, &chosen])).unwrap();
+        flight.step_to(60.0).unwrap();
+        assert_eq!(flight.not_finite(), None);
+        let mut flight = named.fly(0.0, &with(&[PLACED, &[("pointing.scenario", 6.0)], &chosen])).unwrap();
+        flight.step_to(60.0).unwrap();
+        assert_eq!(flight.not_finite(), None);
+    }
     let refused = |sets: &[(&str, f64)]| named.fly(0.0, sets).err().unwrap().to_string();
-    let never = [("momentum.strategy", 2.0), ("guided.downlinkEnd", 7200.0)];
-    let found = refused(&never);
-    assert!(found.contains("momentum.strategy") && found.contains("guided.downlinkEnd"), "{found}");
+    for strategy in [2.0, 3.0] {
+        let never = [("momentum.strategy", strategy), ("guided.downlinkEnd", 7200.0)];
+        let found = refused(&never);
+        assert!(found.contains("momentum.strategy") && found.contains("guided.downlinkEnd"), "{found}");
+    }
     // A file that describes the shade as plates alone.
     let (head, tail) = <Guidance as Model>::DEFAULT_SETUP.split_once("[sunshade.cylinder]").unwrap();
     let rest = tail.split_once("\n[").unwrap().1;

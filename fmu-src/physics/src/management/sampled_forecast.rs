@@ -1,0 +1,110 @@
+//! The forecast of a sampled guidance, which knows no more than a sample and its own windows.
+//!
+//! Assumptions: the orbit ahead is [`OrbitAhead`]; science and downlink follow the windows of the orbit phase in its attitudes,
+//! whatever is commanded; direct sunlight without shadows is all that acts.
+//! Method: torque by Gauss-Legendre quadrature of order 6 on intervals that end where a window or a slew does.
+//! Error measure: none at run time; where sunlight alone acts, choices differ from a plant's by less than 3e-4 rad (tested).
+
+use core::convert::Infallible;
+
+use nalgebra::Vector3;
+
+use super::ahead::Forecast;
+use crate::guidance::{Activity, Guided, GuidedAttitude, OrbitAhead, lines_of_sight};
+use crate::momentum::{Convention, Totals};
+use crate::numerics::quadrature::GAUSS_3;
+use crate::plant::{ForecastMomentum, SunLight, SunlitCraft};
+
+/// Momentum ahead by sunlight alone.
+#[derive(Clone, Copy, Debug)]
+pub struct SampledForecast<'a> {
+    /// Where everything will be.
+    pub orbit: OrbitAhead<'a>,
+    /// Windows and attitudes, the Sun on -Y in downlink.
+    pub law: Guided,
+    /// What the light meets.
+    pub craft: SunlitCraft<'a>,
+    /// Sunlight.
+    pub light: SunLight,
+    /// What the momentum means.
+    pub convention: Convention,
+    /// Magnitude of each component that triggers a dump, in N m s.
+    pub threshold_body_n_m_s: Vector3<f64>,
+    /// Momentum at the begin.
+    pub totals: Totals,
+    /// The begin, in s past J2000 TDB.
+    pub begin_s: f64,
+}
+
+impl SampledForecast<'_> {
+    fn attitude(&self, epoch_s: f64) -> GuidedAttitude {
+        self.law.at(epoch_s, |at_s| lines_of_sight(&self.orbit.at(at_s)))
+    }
+
+    /// Adds the torque at a time, for `span_s`.
+    fn add(&self, totals: &mut Totals, epoch_s: f64, span_s: f64) {
+        let surroundings = self.orbit.at(epoch_s);
+        let lines = |at_s: f64| match at_s == epoch_s {
+            true => lines_of_sight(&surroundings),
+            false => lines_of_sight(&self.orbit.at(at_s)),
+        };
+        let inertial_from_body = self.law.at(epoch_s, lines).frame.inertial_from_body;
+        let to_sun_m = surroundings.to_sun().map(|it| it.re);
+        let distance_m = to_sun_m.norm();
+        let sun_body = inertial_from_body.inverse() * (to_sun_m / distance_m);
+        let torque_body = self.craft.torque_body_n_m(&sun_body, self.light.pressure_pa(distance_m));
+        totals.torque_integral_body_n_m_s += torque_body * span_s;
+        totals.momentum_inertial_n_m_s += inertial_from_body * torque_body * span_s;
+    }
+}
+
+impl Forecast for SampledForecast<'_> {
+    type Error = Infallible;
+
+    fn begin_s(&self) -> f64 {
+        self.begin_s
+    }
+
+    fn cycle_s(&self) -> f64 {
+        self.law.schedule.cycle_s()
+    }
+
+    fn convention(&self) -> Convention {
+        self.convention
+    }
+
+    fn threshold_body_n_m_s(&self) -> Vector3<f64> {
+        self.threshold_body_n_m_s
+    }
+
+    fn fly(
+        &mut self,
+        until_s: f64,
+        step_s: f64,
+        mut visit: impl FnMut(ForecastMomentum),
+    ) -> Result<(), Infallible> {
+        let steps = ((until_s - self.begin_s) / step_s).ceil().max(0.0) as usize;
+        let (mut at_s, mut totals) = (self.begin_s, self.totals);
+        let mut attitude = self.attitude(at_s);
+        for step in 0..=steps {
+            let end_s = (self.begin_s + step as f64 * step_s).min(until_s);
+            while at_s < end_s {
+                let next_s = if attitude.until_s > at_s { end_s.min(attitude.until_s) } else { end_s };
+                for (node, weight) in GAUSS_3 {
+                    self.add(&mut totals, at_s + node * (next_s - at_s), weight * (next_s - at_s));
+                }
+                at_s = next_s;
+                attitude = self.attitude(at_s);
+            }
+            let inertial_from_body = attitude.frame.inertial_from_body;
+            visit(ForecastMomentum {
+                time_s: at_s,
+                downlink: attitude.window.activity == Activity::Downlink,
+                momentum_body_n_m_s: totals.momentum_body_n_m_s(self.convention, &inertial_from_body),
+                momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
+                body_from_inertial: inertial_from_body.inverse(),
+            });
+        }
+        Ok(())
+    }
+}
