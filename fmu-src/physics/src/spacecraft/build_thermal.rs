@@ -1,12 +1,16 @@
 //! From the file's shape to outlines and heat: surfaces of the spacecraft.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
 use super::checker::Checker;
-use super::description::{ConductionDescription, OpticsDescription, ThermalDescription};
+use super::describe_thermal::{ConductionDescription, ThermalDescription};
+use super::description::OpticsDescription;
 use super::optics::Optics;
 use super::place::Place;
 use super::polygon::Polygon;
+use super::spelling::nearest;
 use super::thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
 };
@@ -27,6 +31,31 @@ impl Material {
         optics: Optics::from_reflectivities(0.0, 0.0),
         thermal: FaceThermal::like_sunlight(&Optics::from_reflectivities(0.0, 0.0)),
     };
+}
+
+/// The file's materials by name.
+#[derive(Default)]
+pub(super) struct Materials(BTreeMap<String, Material>);
+
+impl Materials {
+    pub fn insert(&mut self, name: &str, material: Material) {
+        self.0.insert(name.to_owned(), material);
+    }
+
+    /// The material of this name; an unknown one is reported.
+    pub fn find(&self, check: &mut Checker<'_>, at: &Place, name: &str) -> Material {
+        if let Some(material) = self.0.get(name) {
+            return *material;
+        }
+        if check.is_stand_in(&Place::root().key("optics")) {
+            return Material::BLACK;
+        }
+        let known: Vec<&str> = self.0.keys().map(String::as_str).collect();
+        let hint = nearest(name, &known).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
+        let allowed = format!("a material under [optics]: {}", known.join(", "));
+        check.report(at, format_args!("the unknown material `{name}`{hint}"), allowed);
+        Material::BLACK
+    }
 }
 
 pub(super) fn face_thermal(

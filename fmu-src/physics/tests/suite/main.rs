@@ -8,4 +8,5 @@ mod plant_orbit;
 mod plant_shadow;
 #[cfg(feature = "schema")]
 mod schema_file;
+mod shapes;
 mod timeline_names;
