@@ -28,3 +28,5 @@ pub mod momentum;
 pub mod plant;
 
 pub mod spin;
+
+pub mod plausibility;

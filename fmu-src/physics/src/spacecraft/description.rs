@@ -146,8 +146,9 @@ pub(crate) struct PlateDescription {
     /// Unit vector out of the front face; lengths off by at most 1e-3 are renormalised. Where a polygon is given it may be
     /// left out: the vertices then run counter-clockwise seen from the front.
     pub normal: Option<[f64; 3]>,
-    /// Outline, in m, for self-shadowing: at least 3 vertices in one plane, edges that do not cross. Only surfaces with an
-    /// outline shadow others and are shadowed.
+    /// Outline, in m, for self-shadowing: at least 3 vertices in one plane, edges that do not cross. Vertices off the plane by
+    /// rounding, up to 1 mm and 0.5 % of the size, are moved onto it. Only surfaces with an outline shadow others and are
+    /// shadowed.
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon_m: Option<Vec<[f64; 3]>>,
     /// Material of the front face.

@@ -18,6 +18,7 @@ const ORDER: &[&str] = &[
     "momentum",
     "plant",
     "spin",
+    "plausibility",
 ];
 
 /// Files that may use one another in a circle: none.
