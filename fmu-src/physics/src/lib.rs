@@ -30,3 +30,5 @@ pub mod plant;
 pub mod management;
 
 pub mod spin;
+
+pub mod plausibility;

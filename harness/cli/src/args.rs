@@ -42,7 +42,7 @@ pub struct Arguments {
 pub enum Command {
     /// Show what an FMU is, what it takes and gives, and what its sunshade and wheels come to; or what a system joins
     Info(Info),
-    /// Check an FMU, a system, or a spacecraft before it is packed
+    /// Check an FMU, a system, or a spacecraft before it is packed: what is wrong, what it comes to, what looks odd
     Check(Check),
     /// Run an FMU, or a system of FMUs (SSP), from start to stop
     #[command(after_help = RUN_EXAMPLE)]

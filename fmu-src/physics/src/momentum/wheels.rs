@@ -45,6 +45,13 @@ impl WheelArray {
         let each = self.rows.iter().zip(capacities_n_m_s).map(|(row, capacity)| capacity / row.abs().sum());
         each.fold(f64::INFINITY, f64::min)
     }
+
+    /// The greatest magnitude of momentum, in N m s, that no wheel has to hold more than its capacity for, whatever its
+    /// direction.
+    pub fn guaranteed_magnitude_n_m_s(&self, capacities_n_m_s: impl Iterator<Item = f64>) -> f64 {
+        let each = self.rows.iter().zip(capacities_n_m_s).map(|(row, capacity)| capacity / row.norm());
+        each.fold(f64::INFINITY, f64::min)
+    }
 }
 
 #[cfg(test)]

@@ -6,11 +6,13 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use super::build_propulsion::{tank, tanks_fit, thruster};
+use super::build_shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
 use super::build_swinging::{mode, slosh, swinging_fits};
 use super::build_thermal::{
-    Material, checked_area, checked_center, checked_normal, checked_outline, face_thermal, thermal,
+    Material, Materials, checked_area, checked_center, checked_normal, checked_outline, face_thermal, thermal,
 };
 use super::checker::Checker;
+use super::copies::{check_apart, motions, plate_copies};
 use super::description::{
     CylinderDescription, Description, InstrumentDescription, MassDescription, OpticsDescription,
     PanelDescription, PlanetMapDescription, PlateDescription, SunSensorDescription, SunshadeDescription,
@@ -24,7 +26,6 @@ use super::optics::Optics;
 use super::panel::{Panel, PanelControl};
 use super::place::Place;
 use super::planet_map::{HOTTEST_K, MOST_BELTS, PlanetCell, PlanetMap};
-use super::spelling::nearest;
 use super::start::{StartEntry, start_entries};
 use super::sun_sensors::{HALF_FIELD_OF_VIEW_DEG, MountedSunSensor};
 use super::surface::{Cylinder, Plate, Sunshade, SunshadeModel};
@@ -106,7 +107,8 @@ impl Spacecraft {
     pub fn from_toml(file_name: &str, text: &str) -> Result<Self, SpacecraftError> {
         let document = Document::parse(file_name, text)?;
         let (description, findings) = document.read::<Description>()?;
-        let mut builder = Builder { check: Checker::new(&document, findings), materials: BTreeMap::new() };
+        let mut builder =
+            Builder { check: Checker::new(&document, findings), materials: Materials::default() };
         let spacecraft = builder.spacecraft(&description);
         builder.check.finish(spacecraft)
     }
@@ -128,7 +130,7 @@ impl Spacecraft {
 /// Gathers problems and materials on the way through the file.
 struct Builder<'d> {
     check: Checker<'d>,
-    materials: BTreeMap<String, Material>,
+    materials: Materials,
 }
 
 impl Builder<'_> {
@@ -141,15 +143,20 @@ impl Builder<'_> {
             let place = root.key("optics").key(name);
             let sunlight = self.optics(&place, optics);
             let thermal = face_thermal(&mut self.check, &place, optics, &sunlight);
-            self.materials.insert(name.clone(), Material { optics: sunlight, thermal });
+            self.materials.insert(name, Material { optics: sunlight, thermal });
         }
         let surfaces = [
             ("plates", description.plates.is_some()),
+            ("boxes", description.boxes.is_some()),
+            ("cylinders", description.cylinders.is_some()),
+            ("discs", description.discs.is_some()),
+            ("dishes", description.dishes.is_some()),
             ("sunshade", description.sunshade.is_some()),
             ("panels", description.panels.is_some()),
         ];
         if !surfaces.iter().any(|(key, is_given)| *is_given || self.check.is_stand_in(&root.key(key))) {
-            self.check.push(&root, "no surface", "at least one of `plates`, `sunshade`, `panels`");
+            let keys = surfaces.map(|(key, _)| format!("`{key}`")).join(", ");
+            self.check.push(&root, "no surface", format_args!("at least one of {keys}"));
         }
         self.distinct_names(description);
         self.panels_fit(description);
@@ -177,7 +184,7 @@ impl Builder<'_> {
         Spacecraft {
             name: description.name.clone(),
             mass_properties,
-            plates: self.list(&root.key("plates"), description.plates.as_deref(), Self::plate),
+            plates: self.body_plates(description),
             sunshade: description.sunshade.as_ref().map(|s| self.sunshade(&root.key("sunshade"), s)),
             panels: self.list(&root.key("panels"), description.panels.as_deref(), Self::panel),
             wheels: self.list(&root.key("wheels"), description.wheels.as_deref(), Self::wheel),
@@ -224,6 +231,11 @@ impl Builder<'_> {
         let root = Place::root();
         let plate = |plate: &PlateDescription| plate.name.clone();
         let mut plates = named(&root.key("plates"), description.plates.as_deref(), "plate", plate);
+        let Description { boxes, cylinders, discs, dishes, .. } = description;
+        plates.extend(named(&root.key("boxes"), boxes.as_deref(), "box", |it| it.name.clone()));
+        plates.extend(named(&root.key("cylinders"), cylinders.as_deref(), "cylinder", |it| it.name.clone()));
+        plates.extend(named(&root.key("discs"), discs.as_deref(), "disc", |it| it.name.clone()));
+        plates.extend(named(&root.key("dishes"), dishes.as_deref(), "dish", |it| it.name.clone()));
         if let Some(shade) = &description.sunshade {
             plates.extend(named(
                 &root.key("sunshade").key("plates"),
@@ -362,17 +374,40 @@ impl Builder<'_> {
     }
 
     fn material(&mut self, at: &Place, name: &str) -> Material {
-        if let Some(material) = self.materials.get(name) {
-            return *material;
-        }
-        if self.check.is_stand_in(&Place::root().key("optics")) {
-            return Material::BLACK;
-        }
-        let known: Vec<&str> = self.materials.keys().map(String::as_str).collect();
-        let hint = nearest(name, &known).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
-        let allowed = format!("a material under [optics]: {}", known.join(", "));
-        self.check.report(at, format_args!("the unknown material `{name}`{hint}"), allowed);
-        Material::BLACK
+        self.materials.find(&mut self.check, at, name)
+    }
+
+    /// The plates that the file lists, then those of its shapes.
+    fn body_plates(&mut self, description: &Description) -> Vec<Plate> {
+        let at = |key: &str| Place::root().key(key);
+        let Description { plates, boxes, cylinders, discs, dishes, .. } = description;
+        let mut found = self.list(&at("plates"), plates.as_deref(), |it, at, index, plate| {
+            (at.clone(), it.plates(at, index, plate))
+        });
+        found.extend(self.list(&at("boxes"), boxes.as_deref(), |it, at, index, shape| {
+            (at.clone(), box_plates(&mut it.check, &it.materials, at, index, shape))
+        }));
+        found.extend(self.list(&at("cylinders"), cylinders.as_deref(), |it, at, index, shape| {
+            (at.clone(), cylinder_plates(&mut it.check, &it.materials, at, index, shape))
+        }));
+        found.extend(self.list(&at("discs"), discs.as_deref(), |it, at, index, shape| {
+            (at.clone(), disc_plates(&mut it.check, &it.materials, at, index, shape))
+        }));
+        found.extend(self.list(&at("dishes"), dishes.as_deref(), |it, at, index, shape| {
+            (at.clone(), dish_plates(&mut it.check, &it.materials, at, index, shape))
+        }));
+        distinct_plates(&mut self.check, &found);
+        found.into_iter().flat_map(|(_, plates)| plates).collect()
+    }
+
+    /// A plate with its copies.
+    fn plates(&mut self, at: &Place, index: usize, description: &PlateDescription) -> Vec<Plate> {
+        let plate = self.plate(at, index, description);
+        let (mirror, repeat) = (description.mirror.as_deref(), description.repeat.as_ref());
+        let motions = motions(&mut self.check, at, mirror, repeat);
+        let plates = plate_copies(&plate, &motions);
+        check_apart(&mut self.check, at, &plates, motions.len());
+        plates
     }
 
     fn plate(&mut self, at: &Place, index: usize, description: &PlateDescription) -> Plate {
@@ -400,7 +435,7 @@ impl Builder<'_> {
                 ("rotation_deg", description.rotation_deg),
                 ("dcm_body_from_shade", description.dcm_body_from_shade),
             ),
-            plates: self.list(&at.key("plates"), description.plates.as_deref(), Self::plate),
+            plates: self.list(&at.key("plates"), description.plates.as_deref(), Self::plates).concat(),
             cylinder: description.cylinder.as_ref().map(|c| self.cylinder(&at.key("cylinder"), c)),
         };
         if !sunshade.has(description.model) {

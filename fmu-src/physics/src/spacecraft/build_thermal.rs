@@ -1,18 +1,28 @@
 //! From the file's shape to outlines and heat: surfaces of the spacecraft.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
 use super::checker::Checker;
-use super::description::{ConductionDescription, OpticsDescription, ThermalDescription};
+use super::describe_thermal::{ConductionDescription, ThermalDescription};
+use super::description::OpticsDescription;
 use super::optics::Optics;
 use super::place::Place;
 use super::polygon::Polygon;
+use super::spelling::nearest;
 use super::thermal::{
     Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
 };
 
-/// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded.
+/// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
 const OUTLINE_TOLERANCE: f64 = 1e-3;
+
+/// ... and corners stand in whole millimetres, ...
+const ROUNDING_M: f64 = 1e-3;
+
+/// ... which on the smallest polygons is no excuse for more than this.
+const GREATEST_TOLERANCE: f64 = 0.02;
 
 /// What a file says of a material.
 #[derive(Clone, Copy)]
@@ -27,6 +37,31 @@ impl Material {
         optics: Optics::from_reflectivities(0.0, 0.0),
         thermal: FaceThermal::like_sunlight(&Optics::from_reflectivities(0.0, 0.0)),
     };
+}
+
+/// The file's materials by name.
+#[derive(Default)]
+pub(super) struct Materials(BTreeMap<String, Material>);
+
+impl Materials {
+    pub fn insert(&mut self, name: &str, material: Material) {
+        self.0.insert(name.to_owned(), material);
+    }
+
+    /// The material of this name; an unknown one is reported.
+    pub fn find(&self, check: &mut Checker<'_>, at: &Place, name: &str) -> Material {
+        if let Some(material) = self.0.get(name) {
+            return *material;
+        }
+        if check.is_stand_in(&Place::root().key("optics")) {
+            return Material::BLACK;
+        }
+        let known: Vec<&str> = self.0.keys().map(String::as_str).collect();
+        let hint = nearest(name, &known).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
+        let allowed = format!("a material under [optics]: {}", known.join(", "));
+        check.report(at, format_args!("the unknown material `{name}`{hint}"), allowed);
+        Material::BLACK
+    }
 }
 
 pub(super) fn face_thermal(
@@ -131,6 +166,15 @@ fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescr
     .conduction()
 }
 
+/// How far a value may be off what the outline gives, relative to its size.
+fn tolerance(outline: &Polygon) -> f64 {
+    (ROUNDING_M / outline.area_m2().sqrt()).clamp(OUTLINE_TOLERANCE, GREATEST_TOLERANCE)
+}
+
+fn short(tolerance: f64) -> String {
+    if tolerance > OUTLINE_TOLERANCE { format!("{tolerance:.1e}") } else { "1e-3".to_owned() }
+}
+
 /// The outline with its front where the normal is, if both are given.
 pub(super) fn checked_outline(
     check: &mut Checker<'_>,
@@ -146,12 +190,17 @@ pub(super) fn checked_outline(
     match Polygon::new(vertices_m.iter().map(|v| Vector3::from(*v)).collect()) {
         Ok(polygon) => {
             let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
-            if let (Some(normal), true) = (normal, along.abs() < (1.0 - OUTLINE_TOLERANCE.powi(2) / 2.0)) {
+            let off = tolerance(&polygon);
+            if let (Some(normal), true) = (normal, along.abs() < (1.0 - off.powi(2) / 2.0)) {
                 check.report_across(
                     at,
                     &place,
                     format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
-                    format_args!("one with the normal {:?} or its opposite, within 1e-3", normal.as_slice()),
+                    format_args!(
+                        "one with the normal {:?} or its opposite, within {}",
+                        normal.as_slice(),
+                        short(off)
+                    ),
                 );
             }
             Some(if along < 0.0 { polygon.reversed() } else { polygon })
@@ -179,9 +228,9 @@ pub(super) fn checked_area(
         (given_m2, Some(outline)) => {
             let area_m2 = outline.area_m2();
             if let Some(given_m2) = given_m2
-                && (given_m2 / area_m2 - 1.0).abs() > OUTLINE_TOLERANCE
+                && (given_m2 / area_m2 - 1.0).abs() > tolerance(outline)
             {
-                let allowed = format_args!("the polygon's {area_m2} within 1e-3");
+                let allowed = format!("the polygon's {area_m2} within {}", short(tolerance(outline)));
                 check.report_across(at, &place, given_m2, allowed);
             }
             area_m2
@@ -203,10 +252,14 @@ pub(super) fn checked_center(
         (given_m, Some(outline)) => {
             let center_m = outline.centroid_m();
             if let Some(given_m) = given_m
-                && (given_m - center_m).norm() > OUTLINE_TOLERANCE * outline.area_m2().sqrt()
+                && (given_m - center_m).norm() > tolerance(outline) * outline.area_m2().sqrt()
             {
                 let found = format!("{:?}", given_m.as_slice());
-                let allowed = format!("the polygon's {:?} within 1e-3 of its size", center_m.as_slice());
+                let allowed = format!(
+                    "the polygon's {:?} within {} of its size",
+                    center_m.as_slice(),
+                    short(tolerance(outline))
+                );
                 check.report_across(at, &place, found, allowed);
             }
             center_m

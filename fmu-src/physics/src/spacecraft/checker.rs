@@ -88,6 +88,11 @@ impl<'d> Checker<'d> {
         has_inside(&self.reported, at)
     }
 
+    /// Whether nobody wrote this value or one inside of it.
+    pub fn has_stand_in(&self, at: &Place) -> bool {
+        self.is_stand_in(at) || has_inside(&self.stand_ins, at)
+    }
+
     /// A number, not NaN, infinite or beyond all measure.
     pub fn finite(&mut self, at: &Place, value: f64) -> f64 {
         self.within(at, value, -GREATEST, GREATEST, "a finite number up to 1e12 in magnitude")

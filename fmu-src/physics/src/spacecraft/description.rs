@@ -4,7 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::describe_shapes::{
+    BoxDescription, DiscDescription, DishDescription, FacetedCylinderDescription, MirrorPlane,
+    RepeatDescription,
+};
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
+use super::describe_thermal::ThermalDescription;
 use super::panel::PanelControl;
 use super::start::StartTable;
 use super::surface::SunshadeModel;
@@ -26,6 +31,18 @@ pub(crate) struct Description {
     /// Flat surfaces fixed in the body frame, other than a sunshade.
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub plates: Option<Vec<PlateDescription>>,
+    /// Boxes of plates.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub boxes: Option<Vec<BoxDescription>>,
+    /// Cylinders of plates.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub cylinders: Option<Vec<FacetedCylinderDescription>>,
+    /// Round discs, a plate each.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub discs: Option<Vec<DiscDescription>>,
+    /// Paraboloids of plates.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub dishes: Option<Vec<DishDescription>>,
     pub sunshade: Option<SunshadeDescription>,
     /// Panels that turn about one axis.
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
@@ -114,60 +131,6 @@ pub(crate) struct OpticsDescription {
     pub infrared_absorptivity: Option<f64>,
 }
 
-/// Heat flow through a thin structure: two numbers, or the honeycomb they follow from.
-#[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ConductionDescription {
-    /// Conductance from face to face, in W/m2/K.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
-    pub conductance_w_m2_k: Option<f64>,
-    /// Radiative exchange from face to face as a fraction of that between black plates.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub radiative_exchange: Option<f64>,
-    pub honeycomb: Option<HoneycombDescription>,
-}
-
-/// A honeycomb between face sheets.
-#[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct HoneycombDescription {
-    /// Conductivity of the core's material, in W/m/K.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub conductivity_w_m_k: f64,
-    /// Thickness, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub thickness_m: f64,
-    /// Cross-section of the walls over the panel's area.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub wall_area_ratio: f64,
-    /// Packing factor of the solar cells.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub packing_factor: f64,
-    /// Emissivity inside the honeycomb.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub internal_emissivity: f64,
-}
-
-/// Heat of a plate or panel.
-#[derive(Debug, Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ThermalDescription {
-    /// Heat flow between front and rear; insulated from each other unless given.
-    pub conduction: Option<ConductionDescription>,
-    /// Heat from inside that leaves through the front face, in W; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
-    pub internal_heat_w: Option<f64>,
-    /// Heat from inside that leaves through the rear face, in W; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
-    pub rear_internal_heat_w: Option<f64>,
-    /// Heat capacity of each face, in J/m2/K; used by the transient heat balance; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
-    pub heat_capacity_j_m2_k: Option<f64>,
-}
-
 /// A flat surface.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -183,8 +146,9 @@ pub(crate) struct PlateDescription {
     /// Unit vector out of the front face; lengths off by at most 1e-3 are renormalised. Where a polygon is given it may be
     /// left out: the vertices then run counter-clockwise seen from the front.
     pub normal: Option<[f64; 3]>,
-    /// Outline, in m, for self-shadowing: at least 3 vertices in one plane, edges that do not cross. Only surfaces with an
-    /// outline shadow others and are shadowed.
+    /// Outline, in m, for self-shadowing: at least 3 vertices in one plane, edges that do not cross. Vertices off the plane by
+    /// rounding, up to 1 mm and 0.5 % of the size, are moved onto it. Only surfaces with an outline shadow others and are
+    /// shadowed.
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon_m: Option<Vec<[f64; 3]>>,
     /// Material of the front face.
@@ -192,6 +156,9 @@ pub(crate) struct PlateDescription {
     /// Material of the rear face, if light can reach it.
     pub rear_optics: Option<String>,
     pub thermal: Option<ThermalDescription>,
+    /// Mirrored copies besides: in the plane x = 0, y = 0 or z = 0 of the frame, one after the other.
+    pub mirror: Option<Vec<MirrorPlane>>,
+    pub repeat: Option<RepeatDescription>,
 }
 
 /// A sunshade in its own frame: given as plates, as section of a cylinder, or both.

@@ -9,13 +9,18 @@
 
 mod build;
 mod build_propulsion;
+mod build_shapes;
 mod build_swinging;
 mod build_thermal;
 mod checker;
+mod copies;
+mod describe_shapes;
 mod describe_swinging;
+mod describe_thermal;
 mod description;
 mod document;
 mod error;
+mod facets;
 mod instruments;
 mod mass;
 mod optics;

@@ -3,8 +3,14 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// How far a vertex may lie off the plane of its polygon, relative to the polygon's size.
+/// Vertices off the plane of their polygon by up to this part of its size are in it.
 const PLANE_TOLERANCE: f64 = 1e-6;
+
+/// Vertices are moved onto the plane from up to here, in m: coordinates are often written in whole millimetres ...
+const ROUNDING_M: f64 = 1e-3;
+
+/// ... but of a small polygon no more than this part of its size.
+const ROUNDING_OF_SIZE: f64 = 0.005;
 
 /// Vertices nearer than this part of the polygon's size are one.
 const SAME_VERTEX: f64 = 1e-9;
@@ -13,6 +19,9 @@ const SAME_VERTEX: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Polygon {
     vertices_m: Vec<Vector3<f64>>,
+    /// How far a vertex was off the plane before it was moved onto it.
+    #[serde(skip)]
+    off_plane_m: f64,
 }
 
 /// Points that are no polygon. Vertices and edges count from 1; edge k starts at vertex k.
@@ -62,10 +71,11 @@ pub enum PolygonError {
 }
 
 impl Polygon {
-    /// Checks the outline; its normal follows the right-hand rule.
+    /// Checks the outline; its normal follows the right-hand rule. Vertices that are off its plane by rounding are moved onto
+    /// it: the plane through their mean across the area vector.
     ///
     /// # Errors
-    /// Fewer than three vertices, vertices that coincide, are not finite, or not in one plane (within 1e-6 of the
+    /// Fewer than three vertices, vertices that coincide, are not finite, or not in one plane (within 1 mm, and 0.5 % of the
     /// polygon's size), no area, or edges that cross.
     pub fn new(vertices_m: Vec<Vector3<f64>>) -> Result<Self, PolygonError> {
         let count = vertices_m.len();
@@ -75,7 +85,7 @@ impl Polygon {
         if let Some(vertex) = vertices_m.iter().position(|v| !v.iter().all(|x| x.is_finite())) {
             return Err(PolygonError::NotFinite { vertex: vertex + 1 });
         }
-        let polygon = Self { vertices_m };
+        let mut polygon = Self { vertices_m, off_plane_m: 0.0 };
         let size_m = polygon.size_m();
         for (i, a) in polygon.vertices_m.iter().enumerate() {
             for (j, b) in polygon.vertices_m.iter().enumerate().skip(i + 1) {
@@ -87,13 +97,21 @@ impl Polygon {
         if polygon.area_vector_m2().norm() <= SAME_VERTEX * size_m * size_m {
             return Err(PolygonError::NoArea);
         }
-        let (normal, center) = (polygon.normal(), polygon.centroid_m());
-        let allowed_m = PLANE_TOLERANCE * size_m;
+        let normal = polygon.normal();
+        let center = polygon.vertices_m.iter().sum::<Vector3<f64>>() / count as f64;
+        let allowed_m = (PLANE_TOLERANCE * size_m).max(ROUNDING_M.min(ROUNDING_OF_SIZE * size_m));
         for (i, vertex) in polygon.vertices_m.iter().enumerate() {
             let distance_m = normal.dot(&(vertex - center)).abs();
             if distance_m > allowed_m {
                 return Err(PolygonError::NotPlane { vertex: i + 1, distance_m, allowed_m });
             }
+            polygon.off_plane_m = polygon.off_plane_m.max(distance_m);
+        }
+        if polygon.off_plane_m <= PLANE_TOLERANCE * size_m {
+            polygon.off_plane_m = 0.0;
+        } else {
+            let flat = |vertex: &Vector3<f64>| vertex - normal * normal.dot(&(vertex - center));
+            polygon.vertices_m = polygon.vertices_m.iter().map(flat).collect();
         }
         polygon.check_simple(&normal)?;
         Ok(polygon)
@@ -102,6 +120,11 @@ impl Polygon {
     /// Vertices in order, in m.
     pub fn vertices_m(&self) -> &[Vector3<f64>] {
         &self.vertices_m
+    }
+
+    /// The farthest that a vertex was off the plane, in m, before it was moved onto it; 0 if none had to be.
+    pub fn off_plane_m(&self) -> f64 {
+        self.off_plane_m
     }
 
     /// Unit normal by the right-hand rule.
@@ -131,12 +154,12 @@ impl Polygon {
 
     /// The same outline seen from behind.
     pub fn reversed(&self) -> Self {
-        Self { vertices_m: self.vertices_m.iter().rev().copied().collect() }
+        Self { vertices_m: self.vertices_m.iter().rev().copied().collect(), off_plane_m: self.off_plane_m }
     }
 
     /// The outline after a motion that keeps lengths and angles.
     pub fn moved(&self, motion: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Self {
-        Self { vertices_m: self.vertices_m.iter().map(motion).collect() }
+        Self { vertices_m: self.vertices_m.iter().map(motion).collect(), off_plane_m: self.off_plane_m }
     }
 
     fn edges(&self) -> impl Iterator<Item = (Vector3<f64>, Vector3<f64>)> + '_ {
@@ -214,6 +237,42 @@ mod tests {
         let middle = (0.5 + 1.5 + 0.5) / 3.0;
         assert_relative_eq!(polygon.centroid_m(), Vector3::new(2.0, middle, middle), epsilon = 1e-14);
         assert_relative_eq!(polygon.reversed().normal(), -Vector3::x(), epsilon = 1e-15);
+    }
+
+    #[test]
+    fn corners_in_whole_millimetres_are_moved_onto_the_plane_through_them() {
+        // A pentagon in a plane askew, as exact and as rounded numbers.
+        let normal = Vector3::new(0.36, 0.48, 0.8);
+        let east = Vector3::new(0.8, -0.6, 0.0);
+        let north = normal.cross(&east);
+        let corner = |k: u32| {
+            let angle = f64::from(k) * 0.4 * core::f64::consts::PI;
+            Vector3::new(1.0, 2.0, 3.0) + east * angle.cos() * 0.7 + north * angle.sin() * 0.7
+        };
+        let exact = Polygon::new((0..5).map(corner).collect()).unwrap();
+        assert_eq!(exact.off_plane_m(), 0.0);
+        let in_mm = |v: Vector3<f64>| v.map(|x| (x * 1e3).round() / 1e3);
+        let rounded: Vec<_> = (0..5).map(corner).map(in_mm).collect();
+        let polygon = Polygon::new(rounded.clone()).unwrap();
+        let off_m = polygon.off_plane_m();
+        assert!((1e-5..0.87e-3).contains(&off_m), "{off_m}");
+        for (vertex, given) in polygon.vertices_m().iter().zip(&rounded) {
+            let moved_m = vertex - given;
+            assert!(
+                moved_m.norm() <= off_m * (1.0 + 1e-9) && moved_m.cross(&polygon.normal()).norm() < 1e-15
+            );
+            assert!(polygon.normal().dot(&(vertex - polygon.centroid_m())).abs() < 1e-15);
+        }
+        assert!(polygon.normal().angle(&exact.normal()) < 1e-3);
+        assert_relative_eq!(polygon.area_m2(), exact.area_m2(), max_relative = 2e-3);
+        // In the plane already: another reading moves nothing.
+        assert_eq!(Polygon::new(polygon.vertices_m().to_vec()).unwrap().off_plane_m(), 0.0);
+        // A millimetre and a half is no rounding, nor is half a millimetre on a chip of 2 cm.
+        let bent = |size: f64, off: f64| {
+            let corners = [[0.0, 0.0, off], [size, 0.0, -off], [size, size, off], [0.0, size, -off]];
+            self::polygon(&corners)
+        };
+        assert!(bent(1.0, 0.9e-3).is_ok() && bent(1.0, 1.5e-3).is_err() && bent(0.02, 0.5e-3).is_err());
     }
 
     #[test]

@@ -461,6 +461,28 @@ fn outlines_give_area_centre_and_normal() {
 }
 
 #[test]
+fn corners_in_whole_millimetres_fit_the_exact_values_beside_them() {
+    // A square of 0.3 m, tilted by 20 deg about X, with corners as a drawing has them.
+    let text = |area_m2: f64| {
+        let given = "area_m2 = 2.0\ncenter_m = [0.0, -1.0, 0.0]\nnormal = [0.0, -1.0, 0.0]";
+        let tilted = format!(
+            "area_m2 = {area_m2}\ncenter_m = [0.15, 0, 0]\nnormal = [0, -0.9396926, 0.3420201]\n\
+             polygon_m = [[0, -0.051, -0.141], [0.3, -0.052, -0.141], [0.3, 0.051, 0.142], [0, 0.051, 0.141]]"
+        );
+        SMALL.replace(given, &tilted)
+    };
+    let spacecraft = Spacecraft::from_toml("small.toml", &text(0.09)).unwrap();
+    let plate = &spacecraft.plates[0];
+    let outline = plate.polygon.as_ref().unwrap();
+    assert!((1e-4..1e-3).contains(&outline.off_plane_m()), "{}", outline.off_plane_m());
+    assert_eq!((plate.area_m2, plate.normal), (outline.area_m2(), outline.normal()));
+    assert_relative_eq!(plate.area_m2, 0.09, max_relative = 5e-3);
+    let far = problems(&text(0.092));
+    assert_eq!((far.len(), far[0].key.as_str()), (1, "plates[1].area_m2"), "{far:?}");
+    assert!(far[0].allowed.ends_with(" within 3.3e-3"), "{far:?}");
+}
+
+#[test]
 fn bad_outlines_and_heat_are_named() {
     let plate = "normal = [0.0, -1.0, 0.0]\noptics = \"white\"";
     let with = |more: &str| problem(plate, &format!("{plate}\n{more}"));

@@ -8,4 +8,6 @@ mod plant_orbit;
 mod plant_shadow;
 #[cfg(feature = "schema")]
 mod schema_file;
+mod shape_mistakes;
+mod shapes;
 mod timeline_names;

@@ -19,6 +19,7 @@ const ORDER: &[&str] = &[
     "plant",
     "management",
     "spin",
+    "plausibility",
 ];
 
 /// Files that may use one another in a circle: none.

@@ -4,6 +4,7 @@
 //! each in a process of its own, so that an FMU that crashes or hangs is a finding and not the end.
 
 mod child;
+mod figures;
 mod spacecraft;
 mod system;
 

@@ -8,6 +8,7 @@ use loader::Described;
 use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
 use toml::{Table, de::DeTable};
 
+use super::figures;
 use crate::{args::Check, outcome::Outcome, pack::source, values::DEFAULT_TEMPLATE};
 
 /// Has the models of the template's library read the file, the template's own first.
@@ -40,8 +41,9 @@ pub fn run(arguments: &Check) -> Outcome {
         let variables = description.variables.len();
         let model = &described.model;
         terminal::print(&format!(
-            "{file}: ok for {model}: {}; the FMU will have {variables} variables",
-            contents(&text)
+            "{file}: ok for {model}: {}; the FMU will have {variables} variables{}",
+            contents(&text),
+            Spacecraft::from_toml("", &text).map_or_else(|_| String::new(), |it| figures::report(&it))
         ))?;
         return Ok(ExitCode::SUCCESS);
     }

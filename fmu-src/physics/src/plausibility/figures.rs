@@ -1,0 +1,137 @@
+//! Figures of a spacecraft that a person can judge at a glance.
+
+use nalgebra::Vector3;
+
+use super::hull::is_outside;
+use super::surfaces::{panel_angle_rad, sun_body, surfaces};
+use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::environment::sun::SOLAR_FLUX_KOPP_LEAN_W_M2;
+use crate::momentum::WheelArray;
+use crate::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoil, Workspace};
+use crate::spacecraft::{MassProperties, Optics, Spacecraft, with_panels};
+
+/// A centre of mass counts as outside where it is beyond the hull by this part of the extents' diagonal: on the hull nothing
+/// could be proved.
+const OUTSIDE: f64 = 0.01;
+
+/// What a spacecraft's file comes to, with the Sun on -Y and the panels as the file turns them for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// Least coordinates of any surface, body frame, in m.
+    pub least_body_m: Vector3<f64>,
+    /// Greatest coordinates of any surface, body frame, in m.
+    pub greatest_body_m: Vector3<f64>,
+    /// Area of surfaces projected on the planes across +X, +Y, +Z of those that face there, one hidden by another counted
+    /// too, in m2.
+    pub area_toward_plus_m2: Vector3<f64>,
+    /// The same across -X, -Y, -Z, in m2.
+    pub area_toward_minus_m2: Vector3<f64>,
+    /// Sunlit area projected across the Sun's direction, in m2, without what surfaces with an outline hide.
+    pub sunlit_area_m2: f64,
+    /// Area of all fronts, and of all rears that light can reach, in m2.
+    pub total_area_m2: f64,
+    /// With the panels at their angles.
+    pub mass_properties: MassProperties,
+    /// How far the centre of mass is outside of the convex hull of all surfaces at least, in m; `None` inside.
+    pub center_of_mass_outside_m: Option<f64>,
+    /// Radii of gyration about the axes through the centre of mass along X, Y, Z, in m.
+    pub gyration_radii_m: Vector3<f64>,
+    /// Root mean square distance of the mass from the planes through the centre of mass across X, Y, Z, in m.
+    pub mass_spread_m: Vector3<f64>,
+    /// Torque of sunlight about the centre of mass at 1 AU, in N m.
+    pub solar_torque_body_n_m: Option<Vector3<f64>>,
+    /// Momentum that the wheels hold whatever its direction, in N m s; `None` where they do not span all directions.
+    pub wheels_hold_n_m_s: Option<f64>,
+}
+
+impl Figures {
+    /// Of a spacecraft.
+    pub fn of(spacecraft: &Spacecraft) -> Self {
+        let surfaces = surfaces(spacecraft);
+        let angles_rad: Vec<f64> = spacecraft.panels.iter().map(panel_angle_rad).collect();
+        let corners_m: Vec<_> =
+            surfaces.iter().flat_map(|surface| surface.corners_m.iter().copied()).collect();
+        let fold = |start: f64, pick: fn(f64, f64) -> f64| {
+            corners_m.iter().fold(Vector3::repeat(start), |found, corner| found.zip_map(corner, pick))
+        };
+        let (least_body_m, greatest_body_m) =
+            (fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max));
+        let mut area_toward_m2 = [Vector3::zeros(); 2];
+        let mut total_area_m2 = 0.0;
+        for surface in &surfaces {
+            let [plus, minus] = &mut area_toward_m2;
+            let projected_m2 = surface.normal * surface.area_m2;
+            let rear = f64::from(u8::from(surface.is_two_sided));
+            *plus += projected_m2.map(|area_m2| area_m2.max(0.0) + rear * (-area_m2).max(0.0));
+            *minus += projected_m2.map(|area_m2| (-area_m2).max(0.0) + rear * area_m2.max(0.0));
+            total_area_m2 += surface.area_m2 * (1.0 + rear);
+        }
+        let angle_rad = |index: usize| angles_rad.get(index).copied().unwrap_or(0.0);
+        let mass_properties = with_panels(&spacecraft.mass_properties, &spacecraft.panels, angle_rad);
+        let center_m = mass_properties.center_of_mass_body_m;
+        let tolerance_m = OUTSIDE * (greatest_body_m - least_body_m).norm();
+        let sunlit = |spacecraft: &Spacecraft| sunlight(spacecraft, &angles_rad, center_m);
+        let moments = mass_properties.inertia_body_kg_m2.diagonal() / mass_properties.mass_kg;
+        let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+        let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
+        Self {
+            least_body_m,
+            greatest_body_m,
+            area_toward_plus_m2: area_toward_m2[0],
+            area_toward_minus_m2: area_toward_m2[1],
+            sunlit_area_m2: sunlit(&black(spacecraft)).map_or(0.0, |(force_n, _)| {
+                -force_n.dot(&sun_body()) * SPEED_OF_LIGHT_M_S / SOLAR_FLUX_KOPP_LEAN_W_M2
+            }),
+            total_area_m2,
+            mass_properties,
+            center_of_mass_outside_m: is_outside(&center_m, &corners_m, tolerance_m),
+            gyration_radii_m: moments.map(f64::sqrt),
+            mass_spread_m: moments.map(|own| ((moments.sum() / 2.0 - own).max(0.0)).sqrt()),
+            solar_torque_body_n_m: sunlit(spacecraft).map(|(_, torque_n_m)| torque_n_m),
+            wheels_hold_n_m_s: WheelArray::new(&axes)
+                .map(|array| array.guaranteed_magnitude_n_m_s(capacities_n_m_s)),
+        }
+    }
+}
+
+/// Force and torque of sunlight at 1 AU.
+fn sunlight(
+    spacecraft: &Spacecraft,
+    panel_angles_rad: &[f64],
+    center_of_mass_body_m: Vector3<f64>,
+) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    let model = DisturbanceModel::new(spacecraft, &Options::default()).ok()?;
+    let geometry = Geometry {
+        sun_direction_body: sun_body(),
+        sun_sine: 0.0,
+        sun_flux_w_m2: SOLAR_FLUX_KOPP_LEAN_W_M2,
+        lit_fraction: 1.0,
+        planet: None,
+        panel_angles_rad,
+        center_of_mass_body_m,
+    };
+    let solar = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).ok()?.solar;
+    Some((solar.force_body_n, solar.torque_body_n_m))
+}
+
+/// The same surfaces, all of which absorb every light: its force along the light is that of its shadow.
+fn black(spacecraft: &Spacecraft) -> Spacecraft {
+    let black = Optics::from_reflectivities(0.0, 0.0);
+    let mut spacecraft = spacecraft.clone();
+    let shade = spacecraft.sunshade.as_mut();
+    let shade_plates = shade.map(|shade| {
+        if let Some(cylinder) = &mut shade.cylinder {
+            cylinder.optics = black;
+        }
+        &mut shade.plates
+    });
+    for plate in spacecraft.plates.iter_mut().chain(shade_plates.into_iter().flatten()) {
+        plate.optics = black;
+        plate.rear_optics = plate.rear_optics.map(|_| black);
+    }
+    for panel in &mut spacecraft.panels {
+        panel.optics = black;
+        panel.rear_optics = panel.rear_optics.map(|_| black);
+    }
+    spacecraft
+}

@@ -1,0 +1,14 @@
+//! What a spacecraft's file comes to, for a person to judge: extents, areas, gyration, torque, and what cannot belong
+//! together.
+
+mod figures;
+mod hull;
+mod surfaces;
+mod warnings;
+
+#[cfg(test)]
+mod tests;
+
+pub use figures::Figures;
+pub use hull::is_outside;
+pub use warnings::warnings;

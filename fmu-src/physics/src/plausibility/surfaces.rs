@@ -1,0 +1,121 @@
+//! The flat surfaces of a spacecraft where they are with the Sun on -Y, with corners.
+
+use core::f64::consts::FRAC_PI_4;
+
+use nalgebra::{Rotation3, Unit, Vector3};
+
+use crate::spacecraft::{Cylinder, Panel, PanelControl, Plate, Polygon, Spacecraft, SunshadeModel};
+
+/// A flat surface in the body frame.
+#[derive(Clone, Debug)]
+pub(super) struct Surface {
+    pub name: String,
+    pub area_m2: f64,
+    pub normal: Vector3<f64>,
+    /// Of its outline; without one, of a square of its area.
+    pub corners_m: Vec<Vector3<f64>>,
+    /// How far a corner was off the outline's plane as the file has it, in m.
+    pub off_plane_m: f64,
+    /// Whether light on its rear counts.
+    pub is_two_sided: bool,
+}
+
+/// Facets of a cylindrical sunshade.
+const STRIPS: u32 = 24;
+
+/// Toward the Sun.
+pub(super) fn sun_body() -> Vector3<f64> {
+    -Vector3::y()
+}
+
+/// The angle of a panel about its axis that the file asks for with the Sun on -Y, in rad.
+pub(super) fn panel_angle_rad(panel: &Panel) -> f64 {
+    match panel.control {
+        PanelControl::Angle => panel.angle_rad,
+        PanelControl::SunOffset => {
+            panel.angle_for_sun_offset(&sun_body(), panel.sun_offset_rad, panel.tilt_sign)
+        }
+    }
+}
+
+/// Plates, the sunshade in the form that the file chooses, and panels.
+pub(super) fn surfaces(spacecraft: &Spacecraft) -> Vec<Surface> {
+    let form = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
+    let mut found: Vec<Surface> = spacecraft.plates_body(form).iter().map(of_plate).collect();
+    if let (SunshadeModel::Cylinder, Some(shade)) = (form, &spacecraft.sunshade) {
+        let strips = shade.cylinder.iter().flat_map(strips);
+        found.extend(strips.map(|strip| of_plate(&strip.rotated(&shade.dcm_body_from_shade))));
+    }
+    found.extend(spacecraft.panels.iter().map(of_panel));
+    found
+}
+
+fn of_plate(plate: &Plate) -> Surface {
+    Surface {
+        name: plate.name.clone(),
+        area_m2: plate.area_m2,
+        normal: plate.normal,
+        corners_m: corners(plate.polygon.as_ref(), plate.area_m2, &plate.center_m, &plate.normal),
+        off_plane_m: plate.polygon.as_ref().map_or(0.0, Polygon::off_plane_m),
+        is_two_sided: plate.rear_optics.is_some(),
+    }
+}
+
+fn of_panel(panel: &Panel) -> Surface {
+    let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(panel.axis_body), panel_angle_rad(panel));
+    let center_m = panel.center_body_m;
+    let flat = corners(panel.polygon.as_ref(), panel.area_m2, &center_m, &panel.zero_normal_body);
+    Surface {
+        name: panel.name.clone(),
+        area_m2: panel.area_m2,
+        normal: turn * panel.zero_normal_body,
+        corners_m: flat.iter().map(|corner| center_m + turn * (corner - center_m)).collect(),
+        off_plane_m: panel.polygon.as_ref().map_or(0.0, Polygon::off_plane_m),
+        is_two_sided: panel.rear_optics.is_some(),
+    }
+}
+
+fn corners(
+    outline: Option<&Polygon>,
+    area_m2: f64,
+    center_m: &Vector3<f64>,
+    normal: &Vector3<f64>,
+) -> Vec<Vector3<f64>> {
+    if let Some(outline) = outline {
+        return outline.vertices_m().to_vec();
+    }
+    let mut across = Vector3::zeros();
+    across[normal.iamin()] = 1.0;
+    let east = (across - normal * normal.dot(&across)).normalize();
+    let north = normal.cross(&east);
+    let half_diagonal_m = (area_m2 / 2.0).sqrt();
+    let corner = |k: u8| {
+        let (sin, cos) = libm::sincos(f64::from(2 * k + 1) * FRAC_PI_4);
+        center_m + (east * cos + north * sin) * half_diagonal_m
+    };
+    (0..4).map(corner).collect()
+}
+
+/// The section of a cylinder as flat strips of its area, in the shade frame.
+fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
+    let width_rad = 2.0 * cylinder.half_angle_rad / f64::from(STRIPS);
+    (0..STRIPS).filter_map(move |k| {
+        let edge = |k: u32| {
+            let (sin, cos) = libm::sincos(-cylinder.half_angle_rad + width_rad * f64::from(k));
+            Vector3::new(sin, -cos, 0.0) * cylinder.radius_m
+        };
+        let up_m = Vector3::z() * (cylinder.height_m / 2.0);
+        let (from, to) = (edge(k), edge(k + 1));
+        let outline = Polygon::new(vec![from - up_m, to - up_m, to + up_m, from + up_m]).ok()?;
+        Some(Plate {
+            name: format!("sunshade strip {}", k + 1),
+            area_m2: cylinder.radius_m * width_rad * cylinder.height_m,
+            center_m: outline.centroid_m(),
+            normal: outline.normal(),
+            optics: cylinder.optics,
+            rear_optics: None,
+            thermal: crate::spacecraft::Thermal::insulated(&cylinder.optics, None),
+            polygon: Some(outline),
+        })
+    })
+}

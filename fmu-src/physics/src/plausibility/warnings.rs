@@ -1,0 +1,139 @@
+//! What in a spacecraft's file can be, but is hardly meant.
+
+use nalgebra::Vector3;
+
+use super::figures::Figures;
+use super::surfaces::{Surface, surfaces};
+use crate::spacecraft::Spacecraft;
+
+/// Extents of a spacecraft, in m.
+const EXTENTS_M: [f64; 2] = [0.03, 1000.0];
+
+/// Mass over the volume of the extents, in kg/m3: from a sail to solid steel.
+const DENSITY_KG_M3: [f64; 2] = [0.005, 8000.0];
+
+/// Sunlit area over mass, in m2/kg: from a sphere of lead to bare sail film.
+const AREA_TO_MASS_M2_KG: [f64; 2] = [1e-4, 200.0];
+
+/// A mass drawn together to less than this part of the extents is a slip of units.
+const LEAST_SPREAD: f64 = 0.01;
+
+/// Surfaces at distances from one another of more than this many times the size that their area has.
+const SCATTERED: f64 = 100.0;
+
+/// A centre of mass may be beyond the hull by this part of the extents' diagonal: not all that has mass is a surface.
+const OUTSIDE: f64 = 0.05;
+
+/// Corners moved by less are rounding of the double numbers themselves, in m.
+const ROUNDED_M: f64 = 1e-9;
+
+/// A part of the extents by which a corner may lie behind what all is in front of.
+const BEHIND: f64 = 1e-3;
+
+/// One sentence each; none where everything looks right.
+pub fn warnings(spacecraft: &Spacecraft, figures: &Figures) -> Vec<String> {
+    let surfaces = surfaces(spacecraft);
+    let mut found = Vec::new();
+    lengths(figures, &mut found);
+    masses(figures, &mut found);
+    center_of_mass(figures, &mut found);
+    inward(&surfaces, figures, &mut found);
+    for surface in surfaces.iter().filter(|surface| surface.off_plane_m > ROUNDED_M) {
+        found.push(format!(
+            "`{}` has a corner {:.2} mm off the plane of its outline; it was moved onto it",
+            surface.name,
+            surface.off_plane_m * 1e3
+        ));
+    }
+    found
+}
+
+fn extents_m(figures: &Figures) -> Vector3<f64> {
+    figures.greatest_body_m - figures.least_body_m
+}
+
+fn lengths(figures: &Figures, found: &mut Vec<String>) {
+    let greatest_m = extents_m(figures).max();
+    let [least, most] = EXTENTS_M;
+    if !(least..=most).contains(&greatest_m) {
+        found.push(format!("it is {greatest_m:.3} m long: lengths are in m"));
+    }
+    let size_m = figures.total_area_m2.sqrt();
+    if greatest_m > SCATTERED * size_m {
+        found.push(format!(
+            "its surfaces of {:.3} m2 together are spread over {greatest_m:.3} m: areas are in m2, lengths in m",
+            figures.total_area_m2
+        ));
+    }
+}
+
+fn masses(figures: &Figures, found: &mut Vec<String>) {
+    let extents_m = extents_m(figures);
+    let mass_kg = figures.mass_properties.mass_kg;
+    let volume_m3 = extents_m.product();
+    let density_kg_m3 = mass_kg / volume_m3;
+    let [thin, dense] = DENSITY_KG_M3;
+    // A flat one has no volume, and no density to judge.
+    if extents_m.min() > LEAST_SPREAD * extents_m.max() && !(thin..=dense).contains(&density_kg_m3) {
+        found.push(format!(
+            "{mass_kg} kg in the {volume_m3:.3} m3 of its extents are {density_kg_m3:.3} kg/m3, and spacecraft have 0.1 to 2000"
+        ));
+    }
+    let area_to_mass_m2_kg = figures.sunlit_area_m2 / mass_kg;
+    let [heavy, light] = AREA_TO_MASS_M2_KG;
+    if figures.sunlit_area_m2 > 0.0 && !(heavy..=light).contains(&area_to_mass_m2_kg) {
+        found.push(format!(
+            "{:.3} m2 toward the Sun and {mass_kg} kg are {area_to_mass_m2_kg:.2e} m2/kg, and spacecraft have 0.001 to 100",
+            figures.sunlit_area_m2
+        ));
+    }
+    let center_m = figures.mass_properties.center_of_mass_body_m;
+    for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+        let spread_m = figures.mass_spread_m[axis];
+        let above_m = figures.greatest_body_m[axis] - center_m[axis];
+        let reach_m = above_m.abs().max((center_m[axis] - figures.least_body_m[axis]).abs());
+        // The rounding of a flat spacecraft's inertia is not judged.
+        if spread_m > reach_m + LEAST_SPREAD * extents_m.max() {
+            found.push(format!(
+                "by its inertia the mass lies {spread_m:.3} m from the centre of mass along {name} (root mean square), \
+                 and no surface lies farther than {reach_m:.3} m"
+            ));
+        }
+    }
+    let spread_m = figures.mass_spread_m.norm();
+    if spread_m < LEAST_SPREAD * extents_m.max() {
+        found.push(format!(
+            "by its inertia the mass lies {spread_m:.2e} m from its centre (root mean square), and the surfaces reach over \
+             {:.3} m: inertia is in kg m2",
+            extents_m.max()
+        ));
+    }
+}
+
+fn center_of_mass(figures: &Figures, found: &mut Vec<String>) {
+    let outside_m = figures.center_of_mass_outside_m.unwrap_or(0.0);
+    if outside_m > OUTSIDE * extents_m(figures).norm() {
+        found.push(format!("the centre of mass lies {outside_m:.2} m outside of the hull of all surfaces"));
+    }
+}
+
+/// One-sided surfaces that have everything else in front of them.
+fn inward(surfaces: &[Surface], figures: &Figures, found: &mut Vec<String>) {
+    let slack_m = BEHIND * extents_m(figures).norm();
+    for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| !surface.is_two_sided) {
+        let Some(origin_m) = surface.corners_m.first() else { continue };
+        let others = surfaces.iter().enumerate().filter(|(other, _)| *other != index);
+        let heights_m = others.flat_map(|(_, other)| &other.corners_m);
+        let heights_m = heights_m.map(|corner| surface.normal.dot(&(corner - origin_m)));
+        let (lowest_m, highest_m) = heights_m
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
+                (low.min(height), high.max(height))
+            });
+        if lowest_m >= -slack_m && highest_m > slack_m {
+            found.push(format!(
+                "`{}` faces inward: everything else lies in front of it, and light reaches it from there alone",
+                surface.name
+            ));
+        }
+    }
+}

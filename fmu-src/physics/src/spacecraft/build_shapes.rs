@@ -1,0 +1,281 @@
+//! From boxes, cylinders, discs and dishes in the file to plates with outlines.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::build_thermal::{Material, Materials, thermal};
+use super::checker::Checker;
+use super::copies::{MOST_PLATES, check_apart, copy_name, motions};
+use super::describe_shapes::{
+    BoxDescription, DiscDescription, DishDescription, FacetedCylinderDescription, MirrorPlane,
+    RepeatDescription,
+};
+use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
+use super::place::Place;
+use super::polygon::Polygon;
+use super::spelling::nearest;
+use super::surface::Plate;
+use super::thermal::Thermal;
+
+/// Most facets or corners around an axis.
+const MOST_FACETS: u32 = 128;
+
+/// Most rings of a dish.
+const MOST_RINGS: u32 = 32;
+
+/// What all shapes have.
+struct Shape<'s> {
+    name: String,
+    /// From the shape's own axes to the body frame: turn, then shift.
+    turn: Matrix3<f64>,
+    shift_m: Vector3<f64>,
+    facets: Vec<Facet>,
+    rear: Option<Material>,
+    thermal: Thermal,
+    mirror: Option<&'s [MirrorPlane]>,
+    repeat: Option<&'s RepeatDescription>,
+}
+
+/// The plates of a box.
+pub(super) fn box_plates(
+    check: &mut Checker<'_>,
+    materials: &Materials,
+    at: &Place,
+    index: usize,
+    description: &BoxDescription,
+) -> Vec<Plate> {
+    let front = materials.find(check, &at.key("optics"), &description.optics);
+    let mut own = Vec::new();
+    for (face, name) in description.face_optics.iter().flatten() {
+        let place = at.key("face_optics").key(face);
+        let material = materials.find(check, &place, name);
+        let names = BOX_FACES.map(|(.., name)| name);
+        match BOX_FACES.iter().find(|(.., name)| name == face) {
+            None => {
+                let hint =
+                    nearest(face, &names).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
+                check.report(&place, format_args!("the unknown face `{face}`{hint}"), names.join(", "));
+            }
+            Some((which, ..)) if description.open_faces.iter().flatten().any(|open| open == which) => {
+                check.report(&place, "a face that is open too", "a face that the box has");
+            }
+            Some(_) => own.push((face.clone(), material)),
+        }
+    }
+    let rear = rear(check, materials, at, description.rear_optics.as_deref());
+    let size = at.key("size_m");
+    let mut axis = 0;
+    let size_m = Vector3::from(description.size_m.map(|length_m| {
+        axis += 1;
+        check.positive(&size.item(axis - 1), length_m)
+    }));
+    let shape = Shape {
+        name: name(description.name.as_deref(), "box", index),
+        turn: check.rotation(at, ("rotation_deg", description.rotation_deg), ("", None)),
+        shift_m: check.vector(&at.key("center_m"), description.center_m),
+        facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
+        rear,
+        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        mirror: description.mirror.as_deref(),
+        repeat: description.repeat.as_ref(),
+    };
+    let material = |face: &str| own.iter().find(|(name, _)| name == face).map_or(front, |(_, own)| *own);
+    shape.plates(check, at, "faces", &material)
+}
+
+/// The plates of a cylinder.
+pub(super) fn cylinder_plates(
+    check: &mut Checker<'_>,
+    materials: &Materials,
+    at: &Place,
+    index: usize,
+    description: &FacetedCylinderDescription,
+) -> Vec<Plate> {
+    let front = materials.find(check, &at.key("optics"), &description.optics);
+    let end = description.end_optics.as_ref();
+    let end = end.map_or(front, |name| materials.find(check, &at.key("end_optics"), name));
+    let rear = rear(check, materials, at, description.rear_optics.as_deref());
+    let axis = check.unit_vector(&at.key("axis"), description.axis.unwrap_or([0.0, 0.0, 1.0]));
+    let radius_m = check.positive(&at.key("radius_m"), description.radius_m);
+    let height_m = check.positive(&at.key("height_m"), description.height_m);
+    let facets = number(check, &at.key("facets"), description.facets, 16, 3, MOST_FACETS);
+    let open = description.open_ends.as_deref().unwrap_or_default();
+    let shape = Shape {
+        name: name(description.name.as_deref(), "cylinder", index),
+        turn: frame(&axis),
+        shift_m: check.vector(&at.key("center_m"), description.center_m),
+        facets: cylinder_facets(radius_m, height_m, facets, open),
+        rear,
+        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        mirror: description.mirror.as_deref(),
+        repeat: description.repeat.as_ref(),
+    };
+    let material = |facet: &str| if facet.starts_with("side") { front } else { end };
+    shape.plates(check, at, "facets", &material)
+}
+
+/// The plate of a disc.
+pub(super) fn disc_plates(
+    check: &mut Checker<'_>,
+    materials: &Materials,
+    at: &Place,
+    index: usize,
+    description: &DiscDescription,
+) -> Vec<Plate> {
+    let front = materials.find(check, &at.key("optics"), &description.optics);
+    let rear = rear(check, materials, at, description.rear_optics.as_deref());
+    let normal = check.unit_vector(&at.key("normal"), description.normal);
+    let radius_m = check.positive(&at.key("radius_m"), description.radius_m);
+    let corners = number(check, &at.key("corners"), description.corners, 24, 3, MOST_FACETS);
+    let shape = Shape {
+        name: name(description.name.as_deref(), "disc", index),
+        turn: frame(&normal),
+        shift_m: check.vector(&at.key("center_m"), description.center_m),
+        facets: disc(radius_m, corners),
+        rear,
+        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        mirror: description.mirror.as_deref(),
+        repeat: description.repeat.as_ref(),
+    };
+    shape.plates(check, at, "discs", &|_| front)
+}
+
+/// The plates of a dish.
+pub(super) fn dish_plates(
+    check: &mut Checker<'_>,
+    materials: &Materials,
+    at: &Place,
+    index: usize,
+    description: &DishDescription,
+) -> Vec<Plate> {
+    let front = materials.find(check, &at.key("optics"), &description.optics);
+    let rear = rear(check, materials, at, description.rear_optics.as_deref());
+    let axis = check.unit_vector(&at.key("axis"), description.axis);
+    let radius_m = check.positive(&at.key("radius_m"), description.radius_m);
+    let depth_m = check.positive(&at.key("depth_m"), description.depth_m);
+    let facets = number(check, &at.key("facets"), description.facets, 12, 3, MOST_FACETS);
+    let rings = number(check, &at.key("rings"), description.rings, 3, 1, MOST_RINGS);
+    let shape = Shape {
+        name: name(description.name.as_deref(), "dish", index),
+        turn: frame(&axis),
+        shift_m: check.vector(&at.key("vertex_m"), description.vertex_m),
+        facets: dish_facets(radius_m, depth_m, facets, rings),
+        rear,
+        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        mirror: description.mirror.as_deref(),
+        repeat: description.repeat.as_ref(),
+    };
+    shape.plates(check, at, "facets", &|_| front)
+}
+
+/// Two plates of one name, made by different items of the file, could not be told apart.
+pub(super) fn distinct_plates(check: &mut Checker<'_>, found: &[(Place, Vec<Plate>)]) {
+    let mut known: BTreeMap<&str, &Place> = BTreeMap::new();
+    for (at, plates) in found {
+        for plate in plates {
+            let other = *known.entry(&plate.name).or_insert(at);
+            if other != at && !check.has_reported(&at.key("name")) {
+                let found = format!("a plate `{}`, as {other} has", plate.name);
+                check.report(&at.key("name"), found, "a name whose plates have names of their own");
+            }
+        }
+    }
+}
+
+impl Shape<'_> {
+    /// Its plates and those of its copies; none where something was reported.
+    fn plates(
+        &self,
+        check: &mut Checker<'_>,
+        at: &Place,
+        parts: &str,
+        material: &dyn Fn(&str) -> Material,
+    ) -> Vec<Plate> {
+        let motions = motions(check, at, self.mirror, self.repeat);
+        if check.has_reported(at) || check.has_stand_in(at) {
+            return Vec::new();
+        }
+        let count = motions.len() * self.facets.len();
+        if count == 0 || count > MOST_PLATES {
+            check.report(at, format_args!("{count} {parts}"), format_args!("1 to {MOST_PLATES}"));
+            return Vec::new();
+        }
+        let mut plates = Vec::with_capacity(count);
+        for (index, motion) in motions.iter().enumerate() {
+            let name = copy_name(&self.name, index, motions.len());
+            for facet in &self.facets {
+                let in_body = facet.vertices_m.iter().map(|v| self.turn * v + self.shift_m).collect();
+                match Polygon::new(in_body) {
+                    Ok(outline) => {
+                        let material = material(&facet.name);
+                        plates.push(self.plate(&name, facet, motion.of_outline(&outline), material));
+                    }
+                    Err(error) => {
+                        let found = format!("lengths that make no outline of `{}` ({error})", facet.name);
+                        check.report(at, found, "lengths within a factor of 1e8 of one another");
+                        return Vec::new();
+                    }
+                }
+            }
+            self.share_heat(&mut plates[index * self.facets.len()..]);
+        }
+        check_apart(check, at, &plates, motions.len());
+        plates
+    }
+
+    fn plate(&self, name: &str, facet: &Facet, outline: Polygon, front: Material) -> Plate {
+        let mut thermal = self.thermal;
+        thermal.front = front.thermal;
+        let dot = if facet.name.is_empty() { "" } else { "." };
+        Plate {
+            name: format!("{name}{dot}{}", facet.name),
+            area_m2: outline.area_m2(),
+            center_m: outline.centroid_m(),
+            normal: outline.normal(),
+            optics: front.optics,
+            rear_optics: self.rear.map(|rear| rear.optics),
+            thermal,
+            polygon: Some(outline),
+        }
+    }
+
+    /// Heat from inside leaves through all plates alike.
+    fn share_heat(&self, plates: &mut [Plate]) {
+        let whole_m2: f64 = plates.iter().map(|plate| plate.area_m2).sum();
+        for plate in plates {
+            let share = plate.area_m2 / whole_m2;
+            plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * share);
+        }
+    }
+}
+
+fn name(name: Option<&str>, kind: &str, index: usize) -> String {
+    name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
+}
+
+fn rear(check: &mut Checker<'_>, materials: &Materials, at: &Place, name: Option<&str>) -> Option<Material> {
+    name.map(|name| materials.find(check, &at.key("rear_optics"), name))
+}
+
+fn number(
+    check: &mut Checker<'_>,
+    at: &Place,
+    given: Option<u32>,
+    otherwise: u32,
+    least: u32,
+    most: u32,
+) -> u32 {
+    let number = given.unwrap_or(otherwise);
+    let allowed = format!("a whole number from {least} to {most}");
+    check.within(at, f64::from(number), f64::from(least), f64::from(most), &allowed);
+    number.clamp(least, most)
+}
+
+/// Axes with Z along a direction, as columns: X is the body axis that is most across it, made perpendicular.
+fn frame(z: &Vector3<f64>) -> Matrix3<f64> {
+    let mut across = Vector3::zeros();
+    across[z.iamin()] = 1.0;
+    let x = (across - z * z.dot(&across)).normalize();
+    Matrix3::from_columns(&[x, z.cross(&x), *z])
+}

@@ -1,0 +1,155 @@
+//! Copies of a plate or shape: in a row, around an axis, mirrored.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::checker::Checker;
+use super::describe_shapes::{MirrorPlane, RepeatDescription};
+use super::facets::sincos_deg;
+use super::place::Place;
+use super::polygon::Polygon;
+use super::surface::Plate;
+
+/// Most copies in a row or around an axis.
+const MOST_COPIES: u32 = 100;
+
+/// Most plates that one shape and its copies may come to.
+pub(super) const MOST_PLATES: usize = 2000;
+
+/// Two plates are one if they differ by no more than this part of their size.
+const SAME_PLACE: f64 = 1e-6;
+
+/// Where a copy is: turned or mirrored by a matrix, then shifted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Motion {
+    matrix: Matrix3<f64>,
+    shift_m: Vector3<f64>,
+}
+
+impl Motion {
+    /// The point after the motion.
+    pub fn of(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
+        self.matrix * point_m + self.shift_m
+    }
+
+    /// The outline after the motion; a mirrored one runs the other way round, so that its front stays in front.
+    pub fn of_outline(&self, outline: &Polygon) -> Polygon {
+        let moved = outline.moved(|vertex| self.of(vertex));
+        if self.matrix.determinant() < 0.0 { moved.reversed() } else { moved }
+    }
+
+    fn mirrored(&self, plane: MirrorPlane) -> Self {
+        let mirror = |i: usize| if i == plane as usize { -1.0 } else { 1.0 };
+        let mirror = Vector3::from_fn(|i, _| mirror(i));
+        Self {
+            matrix: Matrix3::from_diagonal(&mirror) * self.matrix,
+            shift_m: self.shift_m.component_mul(&mirror),
+        }
+    }
+}
+
+/// Every copy, the one that is written first: those of `repeat`, then the mirror images of all before.
+pub(super) fn motions(
+    check: &mut Checker<'_>,
+    at: &Place,
+    mirror: Option<&[MirrorPlane]>,
+    repeat: Option<&RepeatDescription>,
+) -> Vec<Motion> {
+    let itself = Motion { matrix: Matrix3::identity(), shift_m: Vector3::zeros() };
+    let mut motions = match repeat {
+        None => vec![itself],
+        Some(repeat) => repeated(check, &at.key("repeat"), repeat).unwrap_or_else(|| vec![itself]),
+    };
+    let planes = mirror.unwrap_or_default();
+    if mirror.is_some_and(<[_]>::is_empty) {
+        check.report(&at.key("mirror"), "an empty list", "at least one of x, y, z, or no such key");
+    }
+    for (k, plane) in planes.iter().enumerate() {
+        if planes[..k].contains(plane) {
+            check.report(&at.key("mirror").item(k), "the same plane again", "each of x, y, z once");
+            continue;
+        }
+        let images: Vec<Motion> = motions.iter().map(|motion| motion.mirrored(*plane)).collect();
+        motions.extend(images);
+    }
+    motions
+}
+
+/// Name of a copy: its number in brackets where there are several.
+pub(super) fn copy_name(name: &str, index: usize, count: usize) -> String {
+    if count == 1 { name.to_owned() } else { format!("{name}[{}]", index + 1) }
+}
+
+/// Reports a copy that lies where an earlier one does; `count` copies have each the same number of plates.
+pub(super) fn check_apart(check: &mut Checker<'_>, at: &Place, plates: &[Plate], count: usize) {
+    for (index, later) in plates.iter().enumerate().skip(plates.len() / count.max(1)) {
+        let size_m = later.area_m2.sqrt();
+        let is_same = |plate: &&Plate| {
+            (plate.center_m - later.center_m).norm() <= SAME_PLACE * size_m
+                && plate.normal.dot(&later.normal) >= 1.0 - SAME_PLACE
+                && (plate.area_m2 / later.area_m2 - 1.0).abs() <= SAME_PLACE
+        };
+        if let Some(earlier) = plates[..index].iter().find(is_same) {
+            let found = format!("`{}` in the place of `{}`", later.name, earlier.name);
+            check.report(at, found, "copies that lie apart");
+            return;
+        }
+    }
+}
+
+/// Copies of a plate, itself among them.
+pub(super) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
+    let copy = |(index, motion): (usize, &Motion)| Plate {
+        name: copy_name(&plate.name, index, motions.len()),
+        center_m: motion.of(&plate.center_m),
+        normal: motion.matrix * plate.normal,
+        polygon: plate.polygon.as_ref().map(|outline| motion.of_outline(outline)),
+        ..plate.clone()
+    };
+    if motions.len() == 1 {
+        return vec![plate.clone()];
+    }
+    motions.iter().enumerate().map(copy).collect()
+}
+
+fn repeated(check: &mut Checker<'_>, at: &Place, repeat: &RepeatDescription) -> Option<Vec<Motion>> {
+    let count = f64::from(repeat.count);
+    let most = f64::from(MOST_COPIES);
+    check.within(&at.key("count"), count, 2.0, most, &format!("a whole number from 2 to {MOST_COPIES}"));
+    let turning = [("angle_deg", repeat.angle_deg.is_some()), ("point_m", repeat.point_m.is_some())];
+    for (key, _) in turning.into_iter().filter(|(_, is_given)| *is_given && repeat.axis.is_none()) {
+        check.report_across(at, &at.key(key), "no `axis` beside it", "with `axis` alone");
+    }
+    let numbers = 0..repeat.count.clamp(1, MOST_COPIES);
+    match (repeat.step_m, repeat.axis) {
+        (Some(step_m), None) => {
+            let step_m = check.vector(&at.key("step_m"), step_m);
+            let shifted = |k: u32| Motion { matrix: Matrix3::identity(), shift_m: step_m * f64::from(k) };
+            Some(numbers.map(shifted).collect())
+        }
+        (None, Some(axis)) => {
+            let axis = check.unit_vector(&at.key("axis"), axis);
+            let point_m = check.vector(&at.key("point_m"), repeat.point_m.unwrap_or_default());
+            let angle_deg = repeat.angle_deg.unwrap_or(360.0 / count.max(1.0));
+            check.angle(&at.key("angle_deg"), angle_deg, -360.0, 360.0);
+            let turned = |k: u32| {
+                let matrix = turn(&axis, angle_deg * f64::from(k));
+                Motion { matrix, shift_m: point_m - matrix * point_m }
+            };
+            Some(numbers.map(turned).collect())
+        }
+        (None, None) => {
+            check.report_across(at, at, "neither `step_m` nor `axis`", "one of them");
+            None
+        }
+        (Some(_), Some(_)) => {
+            check.report_across(at, at, "both `step_m` and `axis`", "one of them");
+            None
+        }
+    }
+}
+
+/// Rodrigues' formula: right-handed about a unit vector.
+fn turn(axis: &Vector3<f64>, angle_deg: f64) -> Matrix3<f64> {
+    let (sin, cos) = sincos_deg(angle_deg);
+    Matrix3::identity() * cos + axis.cross_matrix() * sin + axis * axis.transpose() * (1.0 - cos)
+}
