@@ -122,7 +122,7 @@ pub struct Check {
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of which kind of file: spacecraft; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
@@ -141,6 +141,8 @@ pub enum SchemaKind {
     /// A spacecraft.
     #[default]
     Spacecraft,
+    /// A spin-stabilised spacecraft.
+    Spinner,
     /// Commands over time.
     Timeline,
     /// Positions over time.
