@@ -92,7 +92,7 @@ fn a_file_that_is_wrong_is_judged_as_what_it_is() {
     assert!(crate::run(&pack, 0).contains("x.fmu: SpinPlant, "));
     // Start values of another model of the same kind of file do not choose that model.
     let messenger = include_str!("../../../../fmu-src/resources/messenger.toml");
-    fs::write(&wrong, format!("{messenger}\n[start]\n\"pointing.scenario\" = \"nadir\"\n")).unwrap();
+    fs::write(&wrong, format!("{messenger}\n[start.MomentumPlant]\n\"pointing.scenario\" = \"nadir\"\n")).unwrap();
     let told = crate::run(&pack, 1);
     assert!(told.contains("pointing.scenario"), "{told}");
 }

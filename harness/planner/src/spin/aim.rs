@@ -15,6 +15,10 @@ use physics::{
 
 use super::{Options, PlanError, options::RightAscensionDeclination, started};
 
+/// Greatest turn that is planned. A burn is steered by the part of its target's direction across the momentum, which goes to
+/// 0 as the turn nears half a circle.
+pub const MOST_ANGLE_DEG: f64 = 175.0;
+
 /// Samples of a great circle.
 const SAMPLES: u32 = 200;
 /// A Sun this close to the axis or its opposite has no azimuth about it, in rad.
@@ -89,8 +93,8 @@ impl Aim {
             })?;
             let target_inertial = inertial(target);
             let apart_deg = angle_between_rad(&axis_inertial, &target_inertial).to_degrees();
-            if !(apart_deg > 0.0 && apart_deg <= super::MOST_ANGLE_DEG) {
-                let allowed = format!("above 0 to {} deg", super::MOST_ANGLE_DEG);
+            if !(apart_deg > 0.0 && apart_deg <= MOST_ANGLE_DEG) {
+                let allowed = format!("above 0 to {} deg", MOST_ANGLE_DEG);
                 let what =
                     format!("found {apart_deg:.4} deg from the spin axis at the start, allowed: {allowed}");
                 return Err(refuse("--target", &what));

@@ -26,7 +26,7 @@ mod tests;
 #[cfg(test)]
 mod verification_tests;
 
-pub use aim::{Aim, Way, right_ascension_declination_deg};
+pub use aim::{Aim, MOST_ANGLE_DEG, Way, right_ascension_declination_deg};
 pub use burn_table::PlannedBurn;
 pub use campaign::{Cadence, campaign, longest_interval_s, windows};
 pub use error::PlanError;
@@ -36,7 +36,7 @@ pub use judgement::Judged;
 use options::ACE;
 pub use options::{Options, TimingOption};
 pub use start_values::toml as start_table;
-pub use task::{Firing, MOST_ANGLE_DEG, Task, TaskLimits};
+pub use task::{Firing, Task, TaskLimits};
 pub use text::{Answer, plan};
 pub use trade::{Row, best, evaluate, frontier, paper_plan, timing_label, trade};
 pub use verification::{Verification, verify};

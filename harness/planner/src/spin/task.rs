@@ -12,11 +12,11 @@ use physics::{
     },
 };
 
-use super::{Options, PlanError, TimingOption, aim::Aim, started};
-
-/// Greatest turn that is planned. A burn is steered by the part of its target's direction across the momentum, which goes to
-/// 0 as the turn nears half a circle.
-pub const MOST_ANGLE_DEG: f64 = 175.0;
+use super::{
+    Options, PlanError, TimingOption,
+    aim::{Aim, MOST_ANGLE_DEG},
+    started,
+};
 
 /// What fires, as a burn of the FMU takes it.
 #[derive(Clone, Debug, PartialEq, Eq)]

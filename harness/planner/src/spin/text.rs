@@ -145,8 +145,14 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         flight,
         judged,
     };
+    if options.output.is_none() {
+        line(
+            "--output FOLDER writes the burn pulse by pulse, the start values as [start], and a picture"
+                .to_owned(),
+        );
+    }
     line(
-        "Start values, for `heliotorque run` with the spacecraft's SpinPlant and for `heliotorque pack`:"
+        "Start values, for `heliotorque run` of the spacecraft's SpinPlant and for `heliotorque pack`:"
             .to_owned(),
     );
     line(start_values::options(&burn.start_values()));
