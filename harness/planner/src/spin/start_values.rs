@@ -84,12 +84,17 @@ pub fn toml(values: &[(&'static str, Setting)]) -> String {
 
 /// The same as options, quoted for a shell.
 pub fn options(values: &[(&'static str, Setting)]) -> String {
+    // The shortest form that is read back as the same number.
+    let short = |number: &f64| {
+        let written = format!("{number:?}");
+        written.strip_suffix(".0").map_or(written.clone(), str::to_owned)
+    };
     let one = |(name, value): &(&str, Setting)| {
         let written = match value {
-            Setting::Real(number) => number.to_string(),
+            Setting::Real(number) => short(number),
             Setting::Integer(number) => number.to_string(),
             Setting::Text(letters) => letters.clone(),
-            Setting::Vector(numbers) => numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(","),
+            Setting::Vector(numbers) => numbers.iter().map(short).collect::<Vec<_>>().join(","),
         };
         let setting = format!("{name}={written}");
         let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "=.,+-_".contains(letter);
