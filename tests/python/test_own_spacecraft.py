@@ -368,3 +368,27 @@ def test_thresholds_stand_beside_the_papers(heliotorque, momentum_plant):
 def test_three_wheels_leave_nothing_to_share(heliotorque, sailer):
     shown = call(heliotorque, "info", sailer, "--coefficients").stdout
     assert re.search(r"^ *2 \(this spacecraft\) +2\.0000 +2\.0000 *$", shown, re.MULTILINE), shown
+
+
+def test_the_schema_of_a_spinner_is_the_committed_one_and_knows_the_shipped_file(heliotorque):
+    schema = json.loads(call(heliotorque, "schema", "spinner").stdout)
+    assert schema == json.loads((RESOURCES / "spinner.schema.json").read_text(encoding="utf-8"))
+
+    def resolved(node):
+        node = node.get("anyOf", [node])[0]
+        return schema["$defs"][node["$ref"].rsplit("/", 1)[1]] if "$ref" in node else node
+
+    def check(node, value, place):
+        node = resolved(node)
+        if isinstance(value, dict):
+            assert node["additionalProperties"] is False and set(node.get("required", [])) <= value.keys(), place
+            for key, inner in value.items():
+                check(node["properties"][key], inner, f"{place}.{key}")
+        elif isinstance(value, list):
+            for inner in value:
+                check(node["items"], inner, place)
+
+    ace = tomllib.loads((RESOURCES / "ace.toml").read_text(encoding="utf-8"))
+    for optional in ("damper", "group", "star_tracker", "sun_sensor", "l1_orbit", "start"):
+        assert optional not in schema["required"]
+    check(schema, ace, "ace")

@@ -1,8 +1,9 @@
-//! `cargo xtask demo | test [--long] | dist | bench | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long] | dist | install | bench | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod bench;
 mod build;
 mod dist;
+mod install;
 mod locale;
 mod long;
 mod notices;
@@ -27,6 +28,8 @@ cargo xtask <task>
           HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
   dist    build and pack every shipped FMU and system into dist/
+  install build and pack everything, then put the program, its library and the FMUs below a prefix: ~/.local or
+          --prefix FOLDER; the program then works in any folder
   bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
   notices write anew what licences the linked crates have, after Cargo.lock has changed
 ";
@@ -43,13 +46,16 @@ fn main() -> ExitCode {
         }
         "test" => test::all(),
         "dist" => dist::dist().map(|_| ()),
+        "install" => install::install(arguments.get(1..).unwrap_or_default()),
         "bench" => bench::all(),
         "notices" => notices::write(),
         "" | "help" | "--help" | "-h" => {
             print!("{HELP}");
             Ok(())
         }
-        other => Err(format!("unknown task `{other}`; there are demo, test, dist, bench and notices")),
+        other => {
+            Err(format!("unknown task `{other}`; there are demo, test, dist, install, bench and notices"))
+        }
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,9 +7,21 @@ use std::process::Command;
 /// What a task ends with; the text says what went wrong.
 pub type Outcome = Result<(), String>;
 
-/// The workspace folder.
+/// The folder of the workspace that the task was started in, also after the checkout was copied or moved: nothing of where
+/// it was compiled is kept.
 pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
+    // Set by `cargo xtask`.
+    let manifest = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    let of_manifest = manifest.as_deref().and_then(workspace_above);
+    let above = || workspace_above(&std::env::current_dir().ok()?);
+    of_manifest.or_else(above).unwrap_or_else(|| PathBuf::from("."))
+}
+
+/// The nearest folder from `folder` upward that is this workspace.
+fn workspace_above(folder: &Path) -> Option<PathBuf> {
+    let is_workspace =
+        |folder: &&Path| folder.join("Cargo.toml").is_file() && folder.join("xtask/Cargo.toml").is_file();
+    folder.ancestors().find(is_workspace).map(Path::to_path_buf)
 }
 
 /// The folder cargo builds into.
@@ -75,4 +87,29 @@ fn show(command: &Command) -> String {
         text.push_str(&argument.to_string_lossy());
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    //! A workspace is found from anywhere within, and only there.
+
+    use super::*;
+
+    #[test]
+    fn the_workspace_is_the_one_around() {
+        let own = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+        let scratch = std::env::temp_dir().join(format!("xtask-root-{}", std::process::id()));
+        let copy = scratch.join("copy");
+        std::fs::create_dir_all(copy.join("xtask/src")).unwrap();
+        std::fs::create_dir_all(copy.join("deep/er")).unwrap();
+        for name in ["Cargo.toml", "xtask/Cargo.toml"] {
+            std::fs::copy(own.join(name), copy.join(name)).unwrap();
+        }
+        for folder in ["", "xtask", "xtask/src", "deep/er"] {
+            assert_eq!(workspace_above(&copy.join(folder)), Some(copy.clone()), "{folder}");
+        }
+        assert_eq!(workspace_above(&own.join("xtask")), Some(own.to_path_buf()));
+        assert_eq!(workspace_above(&scratch), None);
+        std::fs::remove_dir_all(&scratch).unwrap();
+    }
 }

@@ -13,6 +13,7 @@ use crate::{
 
 // JSON Schemas, kept in step with their readers by tests of `physics`.
 const SPACECRAFT_SCHEMA: &str = include_str!("../../../fmu-src/resources/spacecraft.schema.json");
+const SPINNER_SCHEMA: &str = include_str!("../../../fmu-src/resources/spinner.schema.json");
 const TIMELINE_SCHEMA: &str = include_str!("../../../fmu-src/resources/timeline.schema.json");
 const EPHEMERIS_SCHEMA: &str = include_str!("../../../fmu-src/resources/ephemeris.schema.json");
 
@@ -39,6 +40,7 @@ pub fn run() -> Outcome {
         Command::Schema(arguments) => {
             let schema = match arguments.kind {
                 SchemaKind::Spacecraft => SPACECRAFT_SCHEMA,
+                SchemaKind::Spinner => SPINNER_SCHEMA,
                 SchemaKind::Timeline => TIMELINE_SCHEMA,
                 SchemaKind::Ephemeris => EPHEMERIS_SCHEMA,
             };

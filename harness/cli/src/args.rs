@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use crate::values::{DEFAULT_TEMPLATE, duration, span};
+use crate::values::{duration, span};
 
 const PACK_EXAMPLE: &str = "\
 Example:
@@ -104,7 +104,8 @@ pub struct Info {
 pub struct Check {
     /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; a spacecraft or an ephemeris, a .toml file
     pub subject: PathBuf,
-    /// For a spacecraft only: the FMU whose library shall read it, as for `pack`; otherwise dist/MomentumPlant.fmu
+    /// For a spacecraft only: the FMU whose library shall read it, as for `pack`; otherwise the installed
+    /// program's own, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
     /// For an FMU only: check what can be read, without running it
@@ -124,7 +125,7 @@ pub struct Check {
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of which kind of file: spacecraft; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
@@ -143,6 +144,8 @@ pub enum SchemaKind {
     /// A spacecraft.
     #[default]
     Spacecraft,
+    /// A spin-stabilised spacecraft.
+    Spinner,
     /// Commands over time.
     Timeline,
     /// Positions over time.
@@ -303,13 +306,14 @@ pub struct Pack {
     /// Name of the new FMU, a C identifier; otherwise the model's
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// Take libraries and licences from this FMU
-    #[arg(long, value_name = "FMU", default_value = DEFAULT_TEMPLATE)]
-    pub template: PathBuf,
+    /// Take libraries and licences from this FMU; otherwise the installed program's own, or dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
     /// Take this shared library, just built, instead of a template's
     #[arg(long, value_name = "FILE", conflicts_with = "template", requires = "model")]
     pub library: Option<PathBuf>,
-    /// The model: MomentumPlant, ...; otherwise the template's
+    /// The model: MomentumPlant, ...; otherwise the template's or MomentumPlant, where it takes the file, or the one that does:
+    /// SpinPlant for a spinner's
     #[arg(long, value_name = "MODEL")]
     pub model: Option<String>,
     /// The FMU to write; otherwise its name with .fmu, in this folder; - is the standard output
@@ -330,10 +334,10 @@ pub enum Plan {
 pub struct Study {
     /// The study, or `list`
     pub name: String,
-    /// Folder with the FMUs
-    #[arg(long, value_name = "FOLDER", default_value = "dist")]
-    pub dist: PathBuf,
-    /// Folder for CSV files and pictures; otherwise dist/<study>
+    /// Folder with the FMUs; otherwise the installed program's, or dist
+    #[arg(long, value_name = "FOLDER")]
+    pub dist: Option<PathBuf>,
+    /// Folder for CSV files and pictures; otherwise <study> in the folder of --dist, for an installed program in this one
     #[arg(long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
     /// Run only the cases whose label contains this text

@@ -12,6 +12,7 @@ mod completions;
 mod draw;
 mod ephemeris;
 mod epoch;
+mod home;
 mod info;
 mod interrupt;
 mod map;

@@ -1,10 +1,10 @@
 //! `heliotorque study`: the papers' tables and figures.
 
-use std::{io::IsTerminal, process::ExitCode};
+use std::{io::IsTerminal, path::PathBuf, process::ExitCode};
 
 use studies::{Options, STUDIES};
 
-use crate::{args::Study, outcome::Outcome};
+use crate::{args::Study, home, outcome::Outcome};
 
 /// Runs a study, or lists them.
 pub fn run(arguments: &Study) -> Outcome {
@@ -16,11 +16,18 @@ pub fn run(arguments: &Study) -> Outcome {
         terminal::print(&table.to_string())?;
         return Ok(ExitCode::SUCCESS);
     }
+    let folder = arguments.dist.clone().unwrap_or_else(home::dist);
+    let output = match &arguments.output {
+        Some(output) => output.clone(),
+        // An installed program's folder is not for results.
+        None if arguments.dist.is_none() && home::installed().is_some() => PathBuf::from(&arguments.name),
+        None => folder.join(&arguments.name),
+    };
     let report = studies::run(
         &arguments.name,
         &Options {
-            dist: arguments.dist.clone(),
-            output: arguments.output.clone().unwrap_or_else(|| arguments.dist.join(&arguments.name)),
+            dist: folder,
+            output,
             only: arguments.only.clone(),
             angle_rad: arguments.angle,
             step_s: arguments.step,

@@ -1,7 +1,4 @@
-//! What values on the command line mean: times, and the FMU that stands in where none is named.
-
-/// The FMU whose library reads and runs new spacecraft unless another is named.
-pub const DEFAULT_TEMPLATE: &str = "dist/MomentumPlant.fmu";
+//! What times on the command line mean.
 
 /// Seconds, or a number with a unit of time.
 pub fn duration(text: &str) -> Result<f64, String> {

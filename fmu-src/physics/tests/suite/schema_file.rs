@@ -18,6 +18,11 @@ fn the_schema_of_the_ephemeris_is_in_step() {
     assert_in_step("ephemeris.schema.json", &physics::environment::flown::schema());
 }
 
+#[test]
+fn the_schema_of_the_spinner_is_in_step() {
+    assert_in_step("spinner.schema.json", &physics::spin::spinner::schema());
+}
+
 fn assert_in_step(file: &str, wanted: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../resources").join(file);
     if std::env::var_os("UPDATE_SCHEMA").is_some() {

@@ -2,23 +2,26 @@
 //!
 //! The library itself reads the file, so that what passes here passes in every FMU made from it.
 
-use std::{path::Path, process::ExitCode};
+use std::process::ExitCode;
 
 use loader::Described;
 use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
-use toml::{Table, de::DeTable};
+use toml::Table;
 
 use super::figures;
-use crate::{args::Check, outcome::Outcome, pack::source, values::DEFAULT_TEMPLATE};
+use crate::{
+    args::Check,
+    outcome::Outcome,
+    pack::source::{Source, common_keys},
+};
 
 /// Has the models of the template's library read the file, the template's own first.
 pub fn run(arguments: &Check) -> Outcome {
     let file = arguments.subject.display().to_string();
     let text = files::read_text(&arguments.subject)?;
-    let template_path = arguments.template.as_deref().unwrap_or(Path::new(DEFAULT_TEMPLATE));
-    let template = source::open_template(template_path)?;
-    let binary = template.binary()?;
-    let own = source::model_of(&template, &binary).ok();
+    let source = Source::open(arguments.template.as_deref(), None)?;
+    let binary = source.binary();
+    let own = source.own_model().ok();
     let mut refusals = Vec::new();
     let mut taken = None;
     for model in binary.models()?.into_iter().filter(|model| model.setup_file.is_some()) {
@@ -51,7 +54,7 @@ pub fn run(arguments: &Check) -> Outcome {
     let is_own = |model: &Described| Some(&model.model) == own.as_ref();
     let rank = |model: &Described| (common_keys(&text, &model.default_setup), is_own(model));
     let Some(fittest) = refusals.iter().max_by_key(|(model, _)| rank(model)) else {
-        return Err(format!("{}: none of its models reads a file", template_path.display()).into());
+        return Err(format!("{}: none of its models reads a file", source.path().display()).into());
     };
     let takes_the_same =
         |model: &Described| binary.describe(&model.model, None, Some(&fittest.0.default_setup)).is_ok();
@@ -77,13 +80,6 @@ fn without_start_values(text: &str) -> Option<String> {
     let mut file: Table = text.parse().ok()?;
     file.remove("start")?;
     Some(file.to_string())
-}
-
-/// How many keys two files have in common, tables inside of tables left out.
-fn common_keys(one: &str, other: &str) -> usize {
-    // What can be read of a damaged file shows its kind too.
-    let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
-    one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }
 
 /// How many of each part the file describes.

@@ -47,7 +47,9 @@ pub fn run_check(path: &Path, (bytes, read): (usize, Result<FlownEphemeris, Stri
 pub fn run(arguments: &Ephemeris) -> Outcome {
     let [start_s, stop_s] = arguments.span_s()?;
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(FILE));
-    let destination = Destination::open(&output, "--output", &arguments.inputs())?;
+    let inputs = arguments.inputs();
+    let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
+    let destination = Destination::open(&output, "--output", &inputs)?;
     let source = source(arguments, [start_s, stop_s])?;
     let mut made = FlownEphemeris { source: Some(source.title()), ..FlownEphemeris::default() };
     for target in arguments.targets() {
@@ -97,5 +99,5 @@ fn source(arguments: &Ephemeris, span_s: [f64; 2]) -> Result<Box<dyn Source>, Fa
         }
         return Ok(Box::new(kernel::Kernels::open(&arguments.kernels, &targets, span_s)?));
     }
-    Ok(Box::new(Flight::open(&arguments.source, &arguments.set, span_s[0])?))
+    Ok(Box::new(Flight::open(&arguments.flown(), &arguments.set, span_s[0])?))
 }

@@ -1,13 +1,13 @@
 //! Options of `heliotorque ephemeris`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use physics::environment::{dates, flown::FlownTarget};
 
 #[cfg(feature = "spk")]
 use super::kernel::KernelOptions;
-use crate::values::{DEFAULT_TEMPLATE, span};
+use crate::{home, values::span};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -23,9 +23,10 @@ Example:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Ephemeris {
-    /// The FMU whose flight is fitted: a MomentumPlant, whose outputs place Sun, Earth and spacecraft about orbit.center
-    #[arg(value_name = "FMU", default_value = DEFAULT_TEMPLATE)]
-    pub source: PathBuf,
+    /// The FMU whose flight is fitted: a MomentumPlant, whose outputs place Sun, Earth and
+    /// spacecraft about orbit.center; otherwise the installed program's, or dist/MomentumPlant.fmu
+    #[arg(value_name = "FMU")]
+    pub source: Option<PathBuf>,
     #[cfg(feature = "spk")]
     #[command(flatten)]
     pub kernels: KernelOptions,
@@ -86,13 +87,18 @@ pub enum BodyKind {
 }
 
 impl Ephemeris {
+    /// The FMU that is flown.
+    pub fn flown(&self) -> PathBuf {
+        self.source.clone().unwrap_or_else(|| home::fmu(home::DEFAULT_MODEL))
+    }
+
     /// The files it reads.
-    pub fn inputs(&self) -> Vec<&Path> {
+    pub fn inputs(&self) -> Vec<PathBuf> {
         #[cfg(feature = "spk")]
         if self.kernels.is_given() {
-            return self.kernels.kernel.iter().map(PathBuf::as_path).collect();
+            return self.kernels.kernel.clone();
         }
-        vec![self.source.as_path()]
+        vec![self.flown()]
     }
 
     /// First and last epoch, in s past J2000 TDB.

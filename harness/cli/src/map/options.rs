@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::{draw::options::angle, values::DEFAULT_TEMPLATE};
+use crate::{draw::options::angle, home};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -28,7 +28,8 @@ Example:
 pub struct Map {
     /// The spacecraft, a TOML file as for `pack`, or an FMU that was packed with one
     pub craft: PathBuf,
-    /// For a TOML file only: the FMU whose library reads it, as for `pack`; otherwise dist/MomentumPlant.fmu
+    /// For a TOML file only: the FMU whose library reads it, as for `pack`; otherwise the installed program's, or
+    /// dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
     /// Distance from the Sun, in AU; otherwise that of the file's sun.positionBody, without one the mean distance of the body
@@ -77,7 +78,7 @@ pub struct Map {
 impl Map {
     /// The FMU whose library reads a TOML file.
     pub fn template(&self) -> PathBuf {
-        self.template.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_TEMPLATE))
+        self.template.clone().unwrap_or_else(|| home::fmu(home::DEFAULT_MODEL))
     }
 }
 

@@ -43,10 +43,13 @@ fn with_hint(
 
 /// Packs the FMU.
 pub fn run(arguments: &Pack) -> Outcome {
-    let source = Source::open(arguments)?;
-    let model = source.model(arguments)?;
+    let source = Source::open(arguments.template.as_deref(), arguments.library.as_deref())?;
     let spacecraft = arguments.spacecraft.as_deref().map(files::read_text).transpose()?;
     let file = arguments.spacecraft.as_deref().map(|path| path.display().to_string());
+    let model = match &arguments.model {
+        Some(model) => model.clone(),
+        None => source.model_for(file.as_deref(), spacecraft.as_deref())?,
+    };
     let described =
         source.binary().describe(&model, file.as_deref(), spacecraft.as_deref()).map_err(|refusal| {
             with_hint(source.binary(), &model, file.as_deref(), spacecraft.as_deref(), refusal)

@@ -4,8 +4,9 @@ use std::{fs, path::Path, path::PathBuf, sync::Arc};
 
 use ::files::Entries;
 use loader::{Binary, Described, Fmu};
+use toml::de::DeTable;
 
-use crate::args::Pack;
+use crate::home;
 
 /// The licences of this project and of the crates it links, for FMUs packed from its own library.
 const LICENSES: [(&str, &[u8]); 4] = [
@@ -24,15 +25,23 @@ pub struct Source {
 }
 
 enum From {
-    Library(PathBuf),
+    /// A library, and the model that is meant unless another is named.
+    Library(PathBuf, Option<&'static str>),
     Template(Fmu),
 }
 
 impl Source {
-    /// Opens what `--library` or `--template` names.
-    pub fn open(arguments: &Pack) -> Result<Self, Box<dyn std::error::Error>> {
-        let Some(path) = arguments.library.as_deref() else {
-            let fmu = open_template(&arguments.template)?;
+    /// Opens what `--template` or `--library` names, otherwise the installed program's own library, otherwise a shipped FMU in
+    /// `dist`.
+    pub fn open(template: Option<&Path>, library: Option<&Path>) -> Result<Self, Box<dyn std::error::Error>> {
+        let own = || home::library().map(|path| (path, Some(home::DEFAULT_MODEL)));
+        let library = match (template, library) {
+            (None, None) => own(),
+            (_, library) => library.map(|path| (path.to_owned(), None)),
+        };
+        let Some((path, model)) = library else {
+            let fallback = home::fmu(home::DEFAULT_MODEL);
+            let fmu = open_template(template.unwrap_or(&fallback))?;
             return Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) });
         };
         // A bare file name would be searched in the system's library folders.
@@ -41,13 +50,13 @@ impl Source {
             let path = path.display();
             return Err(format!("{path}: found {found}, allowed: a regular file: see --library").into());
         }
-        Ok(Self { binary: Arc::new(Binary::load(&path)?), from: From::Library(path) })
+        Ok(Self { binary: Arc::new(Binary::load(&path)?), from: From::Library(path, model) })
     }
 
     /// The library or template.
     pub fn path(&self) -> &Path {
         match &self.from {
-            From::Library(path) => path,
+            From::Library(path, _) => path,
             From::Template(fmu) => fmu.source(),
         }
     }
@@ -63,15 +72,40 @@ impl Source {
         &self.binary
     }
 
-    /// The model's name: `--model`, otherwise the one that the template holds.
-    pub fn model(&self, arguments: &Pack) -> Result<String, String> {
-        if let Some(model) = &arguments.model {
-            return Ok(model.clone());
-        }
+    /// The model that is meant unless another is named: the one that the template holds.
+    pub fn own_model(&self) -> Result<String, String> {
         match &self.from {
             From::Template(fmu) => model_of(fmu, &self.binary),
-            From::Library(_) => Err(which(&self.binary.models()?)),
+            From::Library(_, Some(model)) => Ok((*model).to_owned()),
+            From::Library(_, None) => Err(which(&self.binary.models()?)),
         }
+    }
+
+    /// The model for a file: the one that is meant, or the first that takes another kind of file and this one.
+    pub fn model_for(&self, file: Option<&str>, text: Option<&str>) -> Result<String, String> {
+        let own = self.own_model()?;
+        let Some(text) = text.filter(|text| self.binary.describe(&own, file, Some(text)).is_err()) else {
+            return Ok(own);
+        };
+        let models = self.binary.models()?;
+        let default_setup = models.iter().find(|model| model.model == own).map(|model| &model.default_setup);
+        let is_other_kind = |model: &Described| {
+            default_setup.is_some_and(|own| self.binary.describe(&model.model, None, Some(own)).is_err())
+        };
+        let takes = |model: &&Described| {
+            model.setup_file.is_some()
+                && is_other_kind(model)
+                && (self.binary.describe(&model.model, file, Some(text)).is_ok())
+        };
+        if let Some(taker) = models.iter().find(takes) {
+            return Ok(taker.model.clone());
+        }
+        // None takes it: the kind that it has most of is judged.
+        let common = |model: &Described| common_keys(text, &model.default_setup);
+        let of_own = models.iter().find(|model| model.model == own).map_or(0, common);
+        let other = models.iter().filter(|model| model.setup_file.is_some() && is_other_kind(model));
+        let nearest = other.max_by_key(|model| common(model)).filter(|model| common(model) > of_own);
+        Ok(nearest.map_or(own, |model| model.model.clone()))
     }
 
     /// Adds the libraries under the FMU's own identifier.
@@ -81,7 +115,7 @@ impl Source {
         identifier: &str,
     ) -> Result<(), Box<dyn std::error::Error>> {
         match &self.from {
-            From::Library(path) => {
+            From::Library(path, _) => {
                 let bytes = files::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
                 let platform =
                     loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
@@ -106,7 +140,7 @@ impl Source {
     /// Adds the licences.
     pub fn add_licenses(&self, entries: &mut Entries) -> Result<(), Box<dyn std::error::Error>> {
         match &self.from {
-            From::Library(_) => {
+            From::Library(..) => {
                 for (name, bytes) in LICENSES {
                     entries.add(&format!("{FOLDER}/{name}"), bytes.to_vec())?;
                 }
@@ -125,7 +159,10 @@ impl Source {
 pub fn open_template(path: &Path) -> Result<Fmu, String> {
     Fmu::open(path).map_err(|error| {
         let reason = loader::Error::chain(&error);
-        format!("{reason}\nA heliotorque FMU is needed, whose library reads the spacecraft: see --template")
+        format!(
+            "{reason}\nA heliotorque FMU is needed, whose library reads the spacecraft: see --template (an installed program has \
+             its own: cargo xtask install)"
+        )
     })
 }
 
@@ -149,6 +186,13 @@ pub fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
         Some(model) => Ok(model.model.clone()),
         None => Err(which(&models)),
     }
+}
+
+/// How many keys two files have in common, tables inside of tables left out.
+pub fn common_keys(one: &str, other: &str) -> usize {
+    // What can be read of a damaged file shows its kind too.
+    let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
+    one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()
 }
 
 fn which(models: &[Described]) -> String {

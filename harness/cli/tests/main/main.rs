@@ -6,6 +6,7 @@ mod drawings;
 mod ephemerides;
 mod files;
 mod hostile;
+mod installed;
 #[cfg(feature = "spk")]
 mod kernels;
 mod maps;

@@ -1,4 +1,9 @@
-//! A plan is simulated again through the shipped FMU where there is one, and the text names it.
+//! A plan is simulated again through the shipped FMU where there is one, and what it prints and writes flies there.
+
+use std::{
+    path::Path,
+    process::{Command, Stdio},
+};
 
 use crate::{heliotorque, library, run, shown, text};
 
@@ -35,4 +40,141 @@ fn a_plan_is_simulated_through_the_fmu_in_dist() {
     assert!(status == Some(0) && text.contains("Not re-simulated: ") && text.contains("archive"), "{text}");
     let (status, text) = plan(&["--fmu", "dist/SpinPlant.fmu"]);
     assert!(status == Some(1) && text.contains("archive"), "{text}");
+}
+
+/// The last row of a recording, by column.
+fn last_row(csv: &Path) -> Vec<(String, f64)> {
+    let text = std::fs::read_to_string(csv).unwrap();
+    let mut lines = text.lines();
+    let names = lines.next().unwrap().split(',').map(str::to_owned);
+    names.zip(lines.next_back().unwrap().split(',').map(|field| field.parse().unwrap())).collect()
+}
+
+/// Right ascension and declination of the momentum, in deg, and nutation, in deg.
+fn axis_deg(csv: &Path) -> [f64; 3] {
+    let row = last_row(csv);
+    let value = |name: &str| row.iter().find(|(column, _)| column == name).unwrap().1;
+    let [x, y, z] = [1, 2, 3].map(|k| value(&format!("momentum.inertial[{k}]")));
+    assert_eq!(value("burn.done"), 1.0);
+    let declination_deg = z.atan2((x * x + y * y).sqrt()).to_degrees();
+    [y.atan2(x).to_degrees().rem_euclid(360.0), declination_deg, value("nutation.angle").to_degrees()]
+}
+
+/// What the plan states of where it ends is where the FMU ends, by the printed options and by the `[start]` table.
+#[test]
+fn the_printed_start_values_fly_to_where_the_plan_says() {
+    let Some(library) = library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let at = |name: &str| scratch.path().join(name);
+    let ace = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fmu-src/resources/ace.toml");
+    let (fmu, csv) = (at("ace.fmu"), at("flown.csv"));
+    let pack = ["pack", "--library", shown(&library), "--model", "SpinPlant", "--output"];
+    run(&[&pack[..], &[shown(&fmu), "--spacecraft", ace]].concat(), 0);
+    let date = "2026-11-22T12:00:00 UTC";
+    for (k, arguments) in [
+        vec!["--date", date, "--from", "245,-22", "--target", "249,-18", "--max-nutation", "0.04"],
+        vec![
+            "--sun",
+            "237,-20",
+            "--from",
+            "240,-5",
+            "--angle",
+            "3",
+            "--direction",
+            "70",
+            "--thruster",
+            "upper radial I",
+        ],
+        vec!["--angle", "2", "--ratio", "1.5", "--propellant", "40", "--rate-rpm", "4", "--timing", "phase"],
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let folder = at(&format!("plan{k}"));
+        let plan = [&["plan", "spin", "--output", shown(&folder)], arguments.as_slice()].concat();
+        let printed = run(&plan, 0);
+        let json = std::fs::read_to_string(folder.join("burn.json")).unwrap();
+        let number = |after: &str, key: &str| -> f64 {
+            let rest = &json[json.find(&format!("\"{after}\"")).unwrap()..];
+            let rest = rest.split_once(&format!("\"{key}\": ")).unwrap().1;
+            rest.split([',', '\n']).next().unwrap().parse().unwrap()
+        };
+        let stated = [number("end", "right_ascension_deg"), number("end", "declination_deg")];
+        let miss_deg = number("end", "miss_deg");
+        let target = [number("target", "right_ascension_deg"), number("target", "declination_deg")];
+        // Nutation is left; the plan's figure holds without it.
+        let check = |found: [f64; 3]| {
+            let apart_deg = |to: [f64; 2]| {
+                let [east, north] = [(found[0] - to[0]) * to[1].to_radians().cos(), found[1] - to[1]];
+                (east * east + north * north).sqrt()
+            };
+            assert!(apart_deg(stated) < 1e-6, "{arguments:?}: {found:?} {stated:?}");
+            assert!(
+                apart_deg(target) < miss_deg + 1e-3 && miss_deg < 0.2,
+                "{arguments:?}: {found:?} {target:?}"
+            );
+        };
+        // The shell reads the line as it was printed.
+        let settings = printed.lines().find(|line| line.starts_with("--set ")).unwrap();
+        let stop = number("pulses", "time_s") + 1500.0;
+        let record = "momentum.inertial,nutation.angle,burn.done";
+        let line = format!(
+            "exec \"$0\" run '{}' --stop {stop} --step 12.5 --record {record} --output '{}' {settings}",
+            shown(&fmu),
+            shown(&csv)
+        );
+        let flown = Command::new("sh")
+            .args(["-c", &line, env!("CARGO_BIN_EXE_heliotorque")])
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        assert!(flown.status.success(), "{}", text(&flown));
+        check(axis_deg(&csv));
+        // The same as a file's `[start]`.
+        let with_start = at("with_start.toml");
+        let start = std::fs::read_to_string(folder.join("start.toml")).unwrap();
+        std::fs::write(&with_start, std::fs::read_to_string(ace).unwrap() + "\n" + &start).unwrap();
+        let own = at("own.fmu");
+        run(&[&pack[..], &[shown(&own), "--spacecraft", shown(&with_start)]].concat(), 0);
+        let stop = stop.to_string();
+        run(
+            &[
+                "run",
+                shown(&own),
+                "--stop",
+                &stop,
+                "--step",
+                "12.5",
+                "--record",
+                record,
+                "--output",
+                shown(&csv),
+            ],
+            0,
+        );
+        check(axis_deg(&csv));
+        // Pulse by pulse, and the picture.
+        let pulses = std::fs::read_to_string(folder.join("burn.csv")).unwrap().lines().count() - 1;
+        assert_eq!(pulses, json.matches("\"pulse\": ").count());
+        let svg = std::fs::read_to_string(folder.join("burn.svg")).unwrap();
+        for part in
+            ["axis after each pulse", "great circle", "rhumb line about the Sun", "nutation [deg]", "Sun"]
+        {
+            assert!(svg.contains(part), "{part}");
+        }
+        assert_eq!(svg.contains("Earth"), arguments.contains(&"--date"));
+    }
+}
+
+#[test]
+fn a_plan_never_writes_over_the_spacecrafts_file() {
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("start.toml");
+    let ace = include_str!("../../../../fmu-src/resources/ace.toml");
+    std::fs::write(&file, ace).unwrap();
+    let folder = shown(scratch.path());
+    let text = run(&["plan", "spin", "--spacecraft", shown(&file), "--output", folder], 1);
+    assert!(text.contains("it is an input too") && text.contains("--output"), "{text}");
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), ace);
+    assert_eq!(std::fs::read_dir(scratch.path()).unwrap().count(), 1, "nothing else is written");
 }

@@ -13,6 +13,14 @@ pub enum PlanError {
         /// What is allowed.
         allowed: String,
     },
+    /// Flags that do not say enough, or too much.
+    #[error("{flag}: {what}")]
+    Aim {
+        /// The flag.
+        flag: &'static str,
+        /// What is missing or wrong, and what to do.
+        what: String,
+    },
     /// A body that does not come to rest about its spin axis, or none.
     #[error(
         "the inertia ratio I3/IT is {least:.4} to {greatest:.4} (--ratio, otherwise the spacecraft's, +- \
@@ -86,6 +94,12 @@ pub enum PlanError {
     /// Simulated through the FMU, no plan kept what it promised.
     #[error("no plan keeps its limits when it is simulated through the FMU: {0}")]
     Broken(String),
+    /// The plan cannot be flown.
+    #[error("the plan could not be flown pulse by pulse: {0}")]
+    Flight(String),
+    /// The plan cannot be written down.
+    #[error("the plan could not be written: {0}")]
+    Write(String),
     /// The FMU did not simulate it.
     #[error("the plan could not be simulated through the FMU: {0}")]
     Verify(String),

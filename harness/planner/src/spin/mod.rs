@@ -1,25 +1,42 @@
 //! Attitude manoeuvres of a spinner: which train of pulses turns it by an angle with the least nutation, and how often
 //! to turn during months of antenna pointing (paper 002 and beyond).
 
+mod aim;
+mod burn_table;
 mod campaign;
 mod error;
+mod flight;
+mod judgement;
+mod months;
 mod options;
+mod start_values;
+mod started;
+mod tables;
 mod task;
 mod text;
 mod trade;
 mod verification;
 
 #[cfg(test)]
+mod aim_tests;
+#[cfg(test)]
+mod burn_tests;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod verification_tests;
 
+pub use aim::{Aim, MOST_ANGLE_DEG, Way, right_ascension_declination_deg};
+pub use burn_table::PlannedBurn;
 pub use campaign::{Cadence, campaign, longest_interval_s, windows};
 pub use error::PlanError;
+pub use flight::{Flight, Pulse, Sample};
+pub use judgement::Judged;
 #[cfg(test)]
 use options::ACE;
 pub use options::{Options, TimingOption};
-pub use task::{Firing, MOST_ANGLE_DEG, Task, TaskLimits};
-pub use text::plan;
+pub use start_values::toml as start_table;
+pub use task::{Firing, Task, TaskLimits};
+pub use text::{Answer, plan};
 pub use trade::{Row, best, evaluate, frontier, paper_plan, timing_label, trade};
 pub use verification::{Verification, verify};

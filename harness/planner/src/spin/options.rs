@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use physics::environment::dates;
 
 /// The spacecraft that is planned for unless another is named: the shipped ACE.
 pub(super) const ACE: &str = include_str!("../../../../fmu-src/resources/ace.toml");
@@ -18,12 +19,59 @@ pub enum TimingOption {
     Phase,
 }
 
+/// A direction in EME2000, as it was written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RightAscensionDeclination {
+    /// In deg.
+    pub right_ascension_deg: f64,
+    /// In deg, -90 to 90.
+    pub declination_deg: f64,
+}
+
+/// Right ascension and declination in deg, with a comma between.
+fn direction(text: &str) -> Result<RightAscensionDeclination, String> {
+    const ALLOWED: &str =
+        "allowed: right ascension (-360 to 360) and declination (-90 to 90) in deg, such as 83.63,22.01";
+    let read = || {
+        let (right_ascension, declination) = text.split_once(',')?;
+        let number = |part: &str| part.trim().trim_end_matches("deg").trim_end().parse::<f64>().ok();
+        Some(RightAscensionDeclination {
+            right_ascension_deg: number(right_ascension).filter(|deg| deg.abs() <= 360.0)?,
+            declination_deg: number(declination).filter(|deg| deg.abs() <= 90.0)?,
+        })
+    };
+    read().ok_or_else(|| ALLOWED.to_owned())
+}
+
+/// A date in seconds past J2000 TDB.
+fn date(text: &str) -> Result<f64, String> {
+    dates::epoch_s(text).map_err(|error| format!("{error}, allowed: {}", dates::ALLOWED_DATE))
+}
+
 /// `heliotorque plan spin`: choose the train of pulses that turns a spinner with the least nutation.
 #[derive(Clone, Debug, Args)]
 pub struct Options {
-    /// Angle by which the spin axis shall turn, above 0 to 175 deg
+    /// Angle by which the spin axis shall turn, above 0 to 175 deg; see --direction, --target
     #[arg(long = "angle", value_name = "DEG", default_value_t = 2.0)]
     pub angle_deg: f64,
+    /// Way of that turn about the spin axis, right-handed from the Sun, in deg: 0 toward it, 180 away, otherwise across
+    #[arg(long = "direction", value_name = "DEG", default_value_t = -90.0)]
+    pub direction_deg: f64,
+    /// Turn to here instead: right ascension and declination (EME2000) in deg, 83.63,22.01; the Sun by --date or --sun
+    #[arg(long, value_name = "RA,DEC", value_parser = direction, conflicts_with_all = ["angle_deg", "direction_deg", "sun_angle_deg"])]
+    pub target: Option<RightAscensionDeclination>,
+    /// Where the spin axis stands at the start; otherwise by start.q in the spacecraft's file
+    #[arg(long, value_name = "RA,DEC", value_parser = direction)]
+    pub from: Option<RightAscensionDeclination>,
+    /// Date of the turn, which gives Sun and Earth as seen from the Sun-Earth L1 point: '2026-11-22T12:00:00 UTC'
+    #[arg(long, value_name = "DATE", value_parser = date, conflicts_with = "sun_angle_deg")]
+    pub date: Option<f64>,
+    /// Where the Sun stands, in place of --date
+    #[arg(long, value_name = "RA,DEC", value_parser = direction, conflicts_with = "sun_angle_deg")]
+    pub sun: Option<RightAscensionDeclination>,
+    /// Where the Earth stands, in place of --date: off L1 it is up to 15 deg elsewhere
+    #[arg(long, value_name = "RA,DEC", value_parser = direction)]
+    pub earth: Option<RightAscensionDeclination>,
     /// Trains that move by whole pulses may miss the angle by this much, in per cent
     #[arg(long = "angle-tolerance", value_name = "PERCENT", default_value_t = 2.0)]
     pub angle_tolerance_percent: f64,
@@ -33,19 +81,20 @@ pub struct Options {
     /// The ratio may be off by this much either way
     #[arg(long, value_name = "RATIO", default_value_t = 0.0115)]
     pub ratio_uncertainty: f64,
-    /// Spin rate, in rpm
-    #[arg(long, value_name = "RPM", default_value_t = 5.0)]
-    pub rate_rpm: f64,
+    /// Spin rate, in rpm; otherwise spin.initialRate in the spacecraft's [start], or its nominal rate
+    #[arg(long, value_name = "RPM")]
+    pub rate_rpm: Option<f64>,
     /// The spin rate may be off by this much either way, in rpm
     #[arg(long, value_name = "RPM", default_value_t = 0.0)]
     pub rate_uncertainty_rpm: f64,
-    /// Thruster or group, by its name in the spacecraft's file
-    #[arg(long, value_name = "NAME", default_value = "IIIR")]
-    pub thruster: String,
+    /// Thruster or group, by its name in the spacecraft's file; otherwise the first that tilts the spin axis alone
+    #[arg(long, value_name = "NAME")]
+    pub thruster: Option<String>,
     /// What pulses are timed by
     #[arg(long, value_enum, default_value_t = TimingOption::Sun)]
     pub timing: TimingOption,
-    /// Angle from the spin axis to the Sun, in deg: sets the nutation that science bears
+    /// Angle from the spin axis to the Sun, in deg: sets the nutation that science bears; otherwise by
+    /// --date or --sun
     #[arg(long = "sun-angle", value_name = "DEG", default_value_t = 10.0)]
     pub sun_angle_deg: f64,
     /// Limit on nutation at any time, in deg
@@ -71,10 +120,16 @@ pub struct Options {
     #[arg(
         long,
         value_name = "DAYS",
-        conflicts_with_all = ["angle_deg", "angle_tolerance_percent", "sun_angle_deg", "fmu", "rows"]
+        conflicts_with_all = [
+            "angle_deg", "direction_deg", "target", "from", "date", "sun", "earth", "angle_tolerance_percent",
+            "sun_angle_deg", "fmu", "rows", "output"
+        ]
     )]
     pub campaign: Option<f64>,
-    /// Most rows of the trade table
-    #[arg(long, value_name = "COUNT", default_value_t = 20)]
+    /// Rows of the trade table, the last of them the paper's plan; 0 for no table
+    #[arg(long, value_name = "COUNT", default_value_t = 12)]
     pub rows: usize,
+    /// Write the plan here: burn.csv and burn.json (pulse by pulse), start.toml (start values), burn.svg (axis and nutation)
+    #[arg(long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
 }

@@ -1,19 +1,22 @@
 //! What a spinner's manoeuvre has to achieve, and with what.
 
-use core::f64::consts::PI;
-
-use physics::spin::{
-    burn::opposes,
-    forecast::{ForecastCase, Range, Timing},
-    nutation::{Spin, allowed_nutation_rad},
-    spinner::Spinner,
+use nalgebra::Vector3;
+use physics::{
+    attitude::{Inertia, Quaternion},
+    constants::RPM_RAD_S,
+    spin::{
+        burn::opposes,
+        forecast::{ForecastCase, Range, Timing},
+        nutation::{Spin, allowed_nutation_rad},
+        spinner::Spinner,
+    },
 };
 
-use super::{Options, PlanError, TimingOption};
-
-/// Greatest turn that is planned. A burn is steered by the part of its target's direction across the momentum, which goes to
-/// 0 as the turn nears half a circle.
-pub const MOST_ANGLE_DEG: f64 = 175.0;
+use super::{
+    Options, PlanError, TimingOption,
+    aim::{Aim, MOST_ANGLE_DEG},
+    started,
+};
 
 /// What fires, as a burn of the FMU takes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,6 +35,14 @@ pub enum Firing {
 /// A manoeuvre to plan.
 #[derive(Clone, Debug)]
 pub struct Task {
+    /// From where to where.
+    pub aim: Aim,
+    /// Moments about the body axes of what is planned for, in kg m2.
+    pub moments_kg_m2: [f64; 3],
+    /// Products of inertia 12, 13, 23, in kg m2: elements of the tensor.
+    pub products_kg_m2: [f64; 3],
+    /// Spin axis in the body.
+    pub spin_axis_body: Vector3<f64>,
     /// How far the momentum shall move, in rad.
     pub angle_rad: f64,
     /// Relative: trains move by whole pulses.
@@ -87,12 +98,22 @@ impl Task {
         check("--angle", angle_deg, angle_deg > 0.0 && angle_deg <= MOST_ANGLE_DEG, &allowed)?;
         let sun_deg = options.sun_angle_deg;
         check("--sun-angle", sun_deg, sun_deg > 0.0 && sun_deg < 90.0, "above 0 to below 90 deg")?;
-        let rate_rad_s = positive("--rate-rpm", options.rate_rpm)? * PI / 30.0;
+        let aim = Aim::new(options, spinner)?;
+        let angle_rad = if options.target.is_some() { aim.angle_rad() } else { angle_deg.to_radians() };
+        let sun_angle_rad = if options.sun.is_some() || options.date.is_some() {
+            aim.sun_angle_rad()
+        } else {
+            sun_deg.to_radians()
+        };
+        let rate_rad_s = match options.rate_rpm {
+            Some(rate_rpm) => positive("--rate-rpm", rate_rpm)? * RPM_RAD_S,
+            None => started::rate_rad_s(spinner)?.unwrap_or_else(|| spinner.limits.spin_rate_rad_s()),
+        };
         let propellant_kg = options.propellant_kg.unwrap_or(spinner.mass_properties.initial_propellant_kg);
         let most_kg = spinner.mass_properties.most_propellant_kg();
         let allowed = format!("0 to {most_kg} kg, where the spacecraft's mass properties end");
         check("--propellant", propellant_kg, (0.0..=most_kg).contains(&propellant_kg), &allowed)?;
-        let inertia = spinner
+        let mut inertia = spinner
             .mass_properties
             .inertia(propellant_kg)
             .map_err(|error| PlanError::Setup(error.to_string()))?;
@@ -109,11 +130,20 @@ impl Task {
         check(
             "--rate-uncertainty-rpm",
             rate_uncertainty_rpm,
-            rate_uncertainty_rpm < options.rate_rpm,
-            "less than --rate-rpm",
+            rate_uncertainty_rpm * RPM_RAD_S < rate_rad_s,
+            "less than the spin rate (--rate-rpm)",
         )?;
-        let (mask, opposite) = spinner.named(&options.thruster).ok_or_else(|| PlanError::Thruster {
-            found: options.thruster.clone(),
+        let mass = &spinner.mass_properties;
+        let (mut moments_kg_m2, mut products_kg_m2) =
+            (mass.moments_kg_m2(propellant_kg), mass.products_kg_m2(propellant_kg));
+        if options.ratio.is_some() {
+            inertia = Inertia::axisymmetric(inertia.spin_kg_m2(), ratio)
+                .map_err(|error| PlanError::Setup(error.to_string()))?;
+            (moments_kg_m2, products_kg_m2) = (inertia.principal_kg_m2(), [0.0; 3]);
+        }
+        let name = thruster_name(options, spinner)?;
+        let (mask, opposite) = spinner.named(&name).ok_or_else(|| PlanError::Thruster {
+            found: name.clone(),
             known: spinner
                 .thrusters
                 .iter()
@@ -125,17 +155,17 @@ impl Task {
         let thrust = spinner.thrust(mask);
         let torque_n_m = thrust.torque_body_n_m.xy().norm();
         if torque_n_m < 1e-9 {
-            return Err(PlanError::NoTorque { found: options.thruster.clone() });
+            return Err(PlanError::NoTorque { found: name });
         }
         let push = |mask: u32| spinner.thrust(mask).torque_body_n_m;
         let against = |mask: u32| opposes(&thrust.torque_body_n_m, &push(mask));
         let number = |k: usize| i32::try_from(k + 1).unwrap_or(i32::MAX);
-        let firing = match spinner.thrusters.iter().position(|t| t.name == options.thruster) {
+        let firing = match spinner.thrusters.iter().position(|t| t.name == name) {
             Some(k) => Firing::Thruster {
                 number: number(k),
                 opposite: (0..spinner.thrusters.len()).find(|&k| against(1 << k)).map(number),
             },
-            None => Firing::Group(options.thruster.clone()),
+            None => Firing::Group(name.clone()),
         };
         let has_opposite = match &firing {
             Firing::Thruster { opposite, .. } => opposite.is_some(),
@@ -144,7 +174,11 @@ impl Task {
         let spin = Spin { rate_rad_s, ratio, inertia_kg_m2: inertia.spin_kg_m2() };
         let limit = |flag, value: Option<f64>| value.map_or(Ok(f64::INFINITY), |value| positive(flag, value));
         Ok(Self {
-            angle_rad: angle_deg.to_radians(),
+            aim,
+            moments_kg_m2,
+            products_kg_m2,
+            spin_axis_body: inertia.spin_axis_body(),
+            angle_rad,
             angle_tolerance: positive("--angle-tolerance", options.angle_tolerance_percent)? / 100.0,
             case: ForecastCase {
                 spin,
@@ -156,11 +190,11 @@ impl Task {
                 },
                 torque_n_m,
             },
-            range: Range { ratio: ratio_uncertainty, rate_rad_s: rate_uncertainty_rpm * PI / 30.0 },
-            thruster: options.thruster.clone(),
+            range: Range { ratio: ratio_uncertainty, rate_rad_s: rate_uncertainty_rpm * RPM_RAD_S },
+            thruster: name,
             firing,
             propellant_kg,
-            sun_angle_rad: sun_deg.to_radians(),
+            sun_angle_rad,
             flow_kg_s: thrust.flow_kg_s,
             has_opposite,
             resolution_s: spinner.resolution_s,
@@ -168,7 +202,7 @@ impl Task {
             allowed_nutation_rad: allowed_nutation_rad(
                 spinner.limits.period_variation_s,
                 rate_rad_s,
-                sun_deg.to_radians(),
+                sun_angle_rad,
             ),
             limits: TaskLimits {
                 peak_rad: limit("--max-nutation", options.max_nutation_deg)?.to_radians(),
@@ -176,6 +210,17 @@ impl Task {
                 duration_s: limit("--max-duration", options.max_duration_min)? * 60.0,
             },
         })
+    }
+
+    /// EME2000 to body at the start, with the spin axis where the turn begins.
+    pub fn attitude(&self) -> Quaternion {
+        self.aim.attitude(&self.spin_axis_body)
+    }
+
+    /// Whether a limit was given for the burn; the propellant on board always is one.
+    pub fn is_limited(&self) -> bool {
+        let TaskLimits { peak_rad, final_rad, duration_s } = self.limits;
+        [peak_rad, final_rad, duration_s].iter().any(|limit| limit.is_finite())
     }
 
     /// Whether a move is the task's angle within its tolerance.
@@ -188,4 +233,16 @@ impl Task {
     pub fn with_angle(&self, angle_rad: f64) -> Self {
         Self { angle_rad, angle_tolerance: f64::INFINITY, ..self.clone() }
     }
+}
+
+/// What fires: the flag's, otherwise the first thruster that tilts the momentum.
+fn thruster_name(options: &Options, spinner: &Spinner) -> Result<String, PlanError> {
+    if let Some(name) = &options.thruster {
+        return Ok(name.clone());
+    }
+    let first = spinner.steering_pair().and_then(|(first, _)| spinner.thrusters.get(first));
+    first.map(|thruster| thruster.name.clone()).ok_or_else(|| PlanError::Aim {
+        flag: "--thruster",
+        what: "no thruster of the spacecraft's file tilts the spin axis".to_owned(),
+    })
 }

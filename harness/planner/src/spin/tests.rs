@@ -92,7 +92,8 @@ fn plans_that_cannot_be_had_say_why() {
     let text = plan(&options("--thruster IR+ --angle 0")).unwrap_err().to_string();
     assert!(text.contains("--angle") && text.contains('0'));
     assert!(plan(&options("--spacecraft nowhere.toml")).unwrap_err().to_string().contains("nowhere.toml"));
-    let text = Task::new(&Options { thruster: "thrust along +Z".into(), ..options("") }, &ace()).unwrap_err();
+    let text =
+        Task::new(&Options { thruster: Some("thrust along +Z".into()), ..options("") }, &ace()).unwrap_err();
     assert!(matches!(text, PlanError::NoTorque { .. }));
 }
 
@@ -181,10 +182,10 @@ fn below_a_ratio_of_1_the_damper_does_the_opposite() {
 #[test]
 fn a_plan_says_whether_it_was_simulated_again() {
     // Tests run in the crate's folder, where nothing is packed.
-    let text = plan(&options("--angle 2")).unwrap();
+    let text = plan(&options("--angle 2")).unwrap().text;
     assert!(text.contains("Not re-simulated: no dist/SpinPlant.fmu"), "{text}");
     let own = "../../fmu-src/resources/ace.toml";
-    let text = plan(&Options { spacecraft: Some(own.into()), ..options("--angle 2") }).unwrap();
+    let text = plan(&Options { spacecraft: Some(own.into()), ..options("--angle 2") }).unwrap().text;
     assert!(text.contains("Not re-simulated") && text.contains("another spacecraft"), "{text}");
     let text = plan(&options("--fmu nowhere.fmu")).unwrap_err().to_string();
     assert!(text.contains("nowhere.fmu"), "{text}");
@@ -216,7 +217,7 @@ fn a_campaign_keeps_its_limits_and_its_days() {
     let (free, bound) = (cadence(""), cadence("--max-nutation 0.02"));
     assert!(bound.manoeuvring_s > free.manoeuvring_s && bound.largest_rad == free.largest_rad);
     // No row and no interval is longer than the campaign.
-    let text = plan(&options("--campaign 3")).unwrap();
+    let text = plan(&options("--campaign 3")).unwrap().text;
     assert!(
         text.contains("2.00 d") && !text.contains("4.00 d") && text.contains("No turn is needed"),
         "{text}"
@@ -241,7 +242,7 @@ fn flags_of_one_manoeuvre_do_not_go_with_a_campaign() {
 
 #[test]
 fn the_line_of_the_best_plan_says_what_it_misses_and_how_much_it_nutates() {
-    let text = plan(&options("--angle 2")).unwrap();
+    let text = plan(&options("--angle 2")).unwrap().text;
     let line = text.lines().find(|line| line.starts_with("Least final nutation")).unwrap();
     for part in ["moves 1.9676 of 2.0000 deg (-1.6 %)", "peak nutation 0.14135 deg", "8.0 times the paper's"]
     {
@@ -251,6 +252,6 @@ fn the_line_of_the_best_plan_says_what_it_misses_and_how_much_it_nutates() {
 
 #[test]
 fn months_of_pointing_on_the_lissajous_orbit_keep_earth_and_sun() {
-    let text = plan(&options("--campaign 120")).unwrap();
+    let text = plan(&options("--campaign 120")).unwrap().text;
     assert!(text.contains("Longest interval") && text.contains("kept") && text.contains("broken"));
 }

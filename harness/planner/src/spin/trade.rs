@@ -30,6 +30,8 @@ pub struct Row {
     pub moved_range_rad: (f64, f64),
     /// From first to last edge, in s.
     pub duration_s: f64,
+    /// The same for the slowest spin of the range, in s.
+    pub longest_s: f64,
     /// In kg.
     pub propellant_kg: f64,
     /// Damping after it until nutation is what science bears, in s.
@@ -44,6 +46,16 @@ pub struct Row {
 }
 
 impl Row {
+    /// The same in a few letters, for a table.
+    pub fn short_label(&self) -> String {
+        let shape = match self.train.shape() {
+            Shape::Uniform => "uniform".to_owned(),
+            Shape::Tapered { order } => format!("taper {order}"),
+            Shape::Split => "split".to_owned(),
+        };
+        format!("{shape} /{}", self.train.turns_per_pulse())
+    }
+
     /// What the train is, in words.
     pub fn label(&self) -> String {
         let shape = match self.train.shape() {
@@ -171,6 +183,7 @@ pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row>
         moved_rad: nominal.moved_rad,
         moved_range_rad: (worst.least_moved_rad, worst.most_moved_rad),
         duration_s,
+        longest_s,
         propellant_kg,
         damping_s,
         damping_saved_s: 0.0,

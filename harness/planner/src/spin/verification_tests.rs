@@ -27,7 +27,7 @@ fn alternating_trains_fire_the_thrusters_they_were_planned_for() {
     let Some(fmu) = shipped() else { return };
     for thruster in ["IA", "IIIA", "IIIR", "IR+", "axial couple I-IV", "upper radial I"] {
         let given = options("--angle 2 --angle-tolerance 4 --ratio-uncertainty 0.01");
-        let task = Task::new(&Options { thruster: thruster.into(), ..given }, &ace()).unwrap();
+        let task = Task::new(&Options { thruster: Some(thruster.into()), ..given }, &ace()).unwrap();
         // A canted thruster also spins the body up, by 2 % on the way, which the theory does not know.
         let tolerance = if thruster == "IR+" { 0.02 } else { 0.002 };
         for turns in [0.5, 1.0, 1.5] {

@@ -26,6 +26,8 @@ pub struct PlanePanel {
     pub title: String,
     /// Polygons, shaded, under the series.
     pub areas: Vec<Vec<(f64, f64)>>,
+    /// Thin lines under the series, such as meridians; a point that is not finite interrupts them.
+    pub grid: Vec<(f64, f64)>,
     /// Curves of any course and dots.
     pub series: Vec<Series>,
     /// Short texts and the points they are centred on.
@@ -128,6 +130,9 @@ impl PlaneChart {
             .x_desc(self.x_label.as_str())
             .y_desc(self.y_label.as_str())
             .draw()?;
+        for piece in window.line(&panel.grid).split(|(x, _)| !x.is_finite()) {
+            chart.draw_series(LineSeries::new(piece.iter().copied(), FRAME.stroke_width(FINE / 2)))?;
+        }
         for (index, series) in panel.series.iter().enumerate() {
             let points = match series.mark {
                 Mark::Line | Mark::Dashed => window.line(&series.points),

@@ -2,12 +2,13 @@
 //! allowed.
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
+use super::description::{Description, GroupEntry, ThrusterEntry};
 use super::hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
 use crate::spacecraft::{
-    Checker, Document, MOST_THRUSTERS, Place, SpacecraftError, StartEntry, StartTable, Thrust, Thruster,
-    ValveTiming, nearest, start_entries,
+    Checker, Document, MOST_THRUSTERS, Place, SpacecraftError, StartEntry, Thrust, Thruster, ValveTiming,
+    nearest, start_entries,
 };
 use crate::spin::geometry::L1Orbit;
 
@@ -54,7 +55,7 @@ impl Spinner {
     /// line, key, what was found and what is allowed.
     pub fn parse(file: &str, text: &str) -> Result<Self, SpacecraftError> {
         let document = Document::parse(file, text)?;
-        let (raw, findings) = document.read::<File>()?;
+        let (raw, findings) = document.read::<Description>()?;
         let mut builder = Builder { check: Checker::new(&document, findings) };
         let spinner = builder.spinner(raw);
         builder.check.finish(spinner)
@@ -104,66 +105,18 @@ impl Spinner {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    name: String,
-    mass_properties: MassTable,
-    damper: DamperEntry,
-    thrusters: ThrustersEntry,
-    thruster: Vec<ThrusterEntry>,
-    group: Option<Vec<GroupEntry>>,
-    star_tracker: StarTracker,
-    sun_sensor: SunSensor,
-    limits: Limits,
-    l1_orbit: L1Orbit,
-    start: Option<StartTable>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DamperEntry {
-    time_constant_s: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ThrustersEntry {
-    resolution_s: f64,
-    specific_impulse_s: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ThrusterEntry {
-    name: String,
-    force_n: f64,
-    position_m: [f64; 3],
-    direction: [f64; 3],
-    min_on_time_s: Option<f64>,
-    rise_time_s: Option<f64>,
-    tail_off_time_s: Option<f64>,
-    scatter: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct GroupEntry {
-    name: String,
-    thrusters: Vec<String>,
-    opposite: Option<String>,
-}
-
 /// Gathers problems on the way through the file.
 struct Builder<'d> {
     check: Checker<'d>,
 }
 
 impl Builder<'_> {
-    fn spinner(&mut self, raw: File) -> Spinner {
+    fn spinner(&mut self, raw: Description) -> Spinner {
         let root = Place::root();
-        self.mass_properties(&root.key("mass_properties"), &raw.mass_properties);
-        self.check.not_negative(&root.key("damper").key("time_constant_s"), raw.damper.time_constant_s);
+        let mass_properties = raw.mass_properties.table();
+        self.mass_properties(&root.key("mass_properties"), &mass_properties);
+        let damper_time_constant_s = raw.damper.map_or(0.0, |damper| damper.time_constant_s);
+        self.check.not_negative(&root.key("damper").key("time_constant_s"), damper_time_constant_s);
         let common = root.key("thrusters");
         self.check.positive(&common.key("resolution_s"), raw.thrusters.resolution_s);
         let impulse_s = raw.thrusters.specific_impulse_s;
@@ -172,21 +125,24 @@ impl Builder<'_> {
         let exhaust_m_s = raw.thrusters.specific_impulse_s * STANDARD_GRAVITY_M_S2;
         let thrusters = self.thrusters(&root.key("thruster"), raw.thruster, exhaust_m_s);
         let groups = self.groups(&root.key("group"), raw.group.unwrap_or_default(), &thrusters);
-        self.star_tracker(&root.key("star_tracker"), &raw.star_tracker);
-        self.sun_sensor(&root.key("sun_sensor"), &raw.sun_sensor);
+        let star_tracker = raw.star_tracker.unwrap_or_default().tracker();
+        let sun_sensor = raw.sun_sensor.unwrap_or_default().sensor();
+        let l1_orbit = raw.l1_orbit.unwrap_or_default().orbit();
+        self.star_tracker(&root.key("star_tracker"), &star_tracker);
+        self.sun_sensor(&root.key("sun_sensor"), &sun_sensor);
         self.limits(&root.key("limits"), &raw.limits);
-        self.orbit(&root.key("l1_orbit"), &raw.l1_orbit);
+        self.orbit(&root.key("l1_orbit"), &l1_orbit);
         Spinner {
             name: raw.name,
-            mass_properties: raw.mass_properties,
-            damper_time_constant_s: raw.damper.time_constant_s,
+            mass_properties,
+            damper_time_constant_s,
             resolution_s: raw.thrusters.resolution_s,
             thrusters,
             groups,
-            star_tracker: raw.star_tracker,
-            sun_sensor: raw.sun_sensor,
+            star_tracker,
+            sun_sensor,
             limits: raw.limits,
-            l1_orbit: raw.l1_orbit,
+            l1_orbit,
             start: start_entries(&mut self.check, raw.start.as_ref()),
         }
     }

@@ -5,8 +5,7 @@ use crate::constants::{DEG_RAD, RPM_RAD_S};
 use serde::{Deserialize, Serialize};
 
 /// Mass and inertia as functions of the propellant on board.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MassTable {
     /// I3 at each point, in kg m2.
     pub spin_inertia_kg_m2: Vec<f64>,
@@ -89,8 +88,7 @@ pub struct Group {
 }
 
 /// Star tracker of a spinner that searches pickets of sky.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StarTracker {
     /// Boresight azimuth from body X toward Y, in deg.
     pub azimuth_deg: f64,
@@ -105,8 +103,7 @@ pub struct StarTracker {
 }
 
 /// Sun sensor with a slit, from which spins are timed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SunSensor {
     /// Azimuth of the slit from body X toward Y, in deg.
     pub azimuth_deg: f64,
@@ -119,16 +116,22 @@ pub struct SunSensor {
 /// Mission limits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Limits {
     /// Greatest angle from the spin axis to the Sun, in deg.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub sun_angle_deg: f64,
     /// Greatest angle from the antenna (-Z) to the Earth, in deg.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub earth_angle_deg: f64,
     /// Nominal spin rate, in rpm.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub spin_rate_rpm: f64,
     /// Allowed either way, in rpm.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub spin_rate_tolerance_rpm: f64,
     /// Greatest variation of the spin period, in s.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub period_variation_s: f64,
 }
 

@@ -1,7 +1,12 @@
 //! The spinner's hardware, read once from its TOML file.
 
+mod description;
 mod file;
 mod hardware;
+#[cfg(feature = "schema")]
+mod schema;
 
 pub use file::Spinner;
 pub use hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
+#[cfg(feature = "schema")]
+pub use schema::schema;

@@ -1,5 +1,6 @@
 //! Tests of the spinner against closed forms, invariants and independent methods.
 
+mod defaults;
 mod flights;
 mod late;
 mod motion;

@@ -1,0 +1,252 @@
+//! What a spinner's file says: its tables and keys, and what stands for those that are left out.
+
+use serde::Deserialize;
+
+use super::hardware::{Limits, MassTable, StarTracker, SunSensor};
+use crate::environment::frames::OBLIQUITY_J2000_RAD;
+use crate::spacecraft::StartTable;
+use crate::{constants::ASTRONOMICAL_UNIT_M, spin::geometry::L1Orbit};
+
+/// A spin-stabilised spacecraft: the file that SpinPlant is packed with. +Z is the spin axis, the origin the centre of mass.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(title = "heliotorque spinner"))]
+pub struct Description {
+    /// Name of the spacecraft.
+    pub name: String,
+    /// Mass and inertia as functions of the propellant on board.
+    pub mass_properties: MassEntry,
+    /// Passive nutation damper; otherwise there is none.
+    pub damper: Option<DamperEntry>,
+    /// What all thrusters have in common.
+    pub thrusters: ThrustersEntry,
+    /// The thrusters.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 24)))]
+    pub thruster: Vec<ThrusterEntry>,
+    /// Thrusters that fire together.
+    pub group: Option<Vec<GroupEntry>>,
+    /// Star tracker; what is left out is that of paper 002, without noise.
+    pub star_tracker: Option<StarTrackerEntry>,
+    /// Sun sensor, from which spins are timed; what is left out is a slit in the XZ plane, without noise.
+    pub sun_sensor: Option<SunSensorEntry>,
+    /// Mission limits.
+    pub limits: Limits,
+    /// Orbit about the Sun-Earth L1 point, where geometry.source asks for it; what is left out is the point itself.
+    pub l1_orbit: Option<L1OrbitEntry>,
+    /// Start values of SpinPlant's parameters and inputs by their names.
+    pub start: Option<StartTable>,
+}
+
+/// Mass and inertia as functions of the propellant on board.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MassEntry {
+    /// I3 at each point, in kg m2.
+    #[cfg_attr(feature = "schema", schemars(length(min = 2)))]
+    spin_inertia_kg_m2: Vec<f64>,
+    /// I3/I_T at each point.
+    #[cfg_attr(feature = "schema", schemars(length(min = 2)))]
+    inertia_ratio: Vec<f64>,
+    /// The points, rising from empty, in kg.
+    #[cfg_attr(feature = "schema", schemars(length(min = 2)))]
+    propellant_kg: Vec<f64>,
+    /// Everything but propellant, in kg.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    dry_mass_kg: f64,
+    /// On board at the start, in kg; otherwise the last point.
+    initial_propellant_kg: Option<f64>,
+    /// I1/I2; otherwise 1.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    transverse_quotient: Option<f64>,
+    /// Products of inertia 12, 13, 23 at each point, in kg m2: elements of the tensor; otherwise 0.
+    products_of_inertia_kg_m2: Option<Vec<[f64; 3]>>,
+}
+
+impl MassEntry {
+    /// With what is left out.
+    pub fn table(self) -> MassTable {
+        let most_kg = self.propellant_kg.last().copied().unwrap_or(0.0);
+        MassTable {
+            spin_inertia_kg_m2: self.spin_inertia_kg_m2,
+            inertia_ratio: self.inertia_ratio,
+            propellant_kg: self.propellant_kg,
+            dry_mass_kg: self.dry_mass_kg,
+            initial_propellant_kg: self.initial_propellant_kg.unwrap_or(most_kg),
+            transverse_quotient: self.transverse_quotient.unwrap_or(1.0),
+            products_of_inertia_kg_m2: self.products_of_inertia_kg_m2,
+        }
+    }
+}
+
+/// Passive nutation damper.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct DamperEntry {
+    /// 1/e time of the nutation angle, in s; 0 without a damper.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub time_constant_s: f64,
+}
+
+/// What all thrusters have in common.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ThrustersEntry {
+    /// Smallest pulse and step of its width, in s.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub resolution_s: f64,
+    /// Specific impulse, in s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 1e8)))]
+    pub specific_impulse_s: f64,
+}
+
+/// One thruster.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ThrusterEntry {
+    /// A name of its own.
+    pub name: String,
+    /// Force at full thrust, in N.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub force_n: f64,
+    /// Where it stands from the centre of mass, body axes, in m.
+    pub position_m: [f64; 3],
+    /// Direction of the force on the spacecraft, a unit vector in body axes.
+    pub direction: [f64; 3],
+    /// Shortest time for which its valve opens, in s; otherwise 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub min_on_time_s: Option<f64>,
+    /// Time over which the thrust rises after the valve opens, in s; otherwise 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub rise_time_s: Option<f64>,
+    /// Time over which the thrust falls after the valve closes, in s; otherwise 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub tail_off_time_s: Option<f64>,
+    /// Standard deviation of the thrust from pulse to pulse, as a share of it; otherwise 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
+    pub scatter: Option<f64>,
+}
+
+/// Thrusters that fire together.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct GroupEntry {
+    /// A name of its own.
+    pub name: String,
+    /// Names of the thrusters.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub thrusters: Vec<String>,
+    /// Name of the group that pushes the other way half a turn later.
+    pub opposite: Option<String>,
+}
+
+/// Star tracker that searches pickets of sky.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct StarTrackerEntry {
+    /// Boresight azimuth from body X toward Y, in deg; otherwise 90.
+    azimuth_deg: Option<f64>,
+    /// Full width of the field in declination, in deg; otherwise 20.
+    #[cfg_attr(feature = "schema", schemars(range(max = 180.0), extend("exclusiveMinimum" = 0)))]
+    field_of_view_deg: Option<f64>,
+    /// Pickets in a turn, a multiple of 4; otherwise 900.
+    #[cfg_attr(feature = "schema", schemars(range(min = 4)))]
+    pickets: Option<u32>,
+    /// One in so many is searched in a turn; otherwise 8.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    every: Option<u32>,
+    /// Standard deviation of a declination, in deg; otherwise 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 180.0)))]
+    noise_deg: Option<f64>,
+}
+
+impl StarTrackerEntry {
+    /// With what is left out.
+    pub fn tracker(&self) -> StarTracker {
+        StarTracker {
+            azimuth_deg: self.azimuth_deg.unwrap_or(90.0),
+            field_of_view_deg: self.field_of_view_deg.unwrap_or(20.0),
+            pickets: self.pickets.unwrap_or(900),
+            every: self.every.unwrap_or(8),
+            noise_deg: self.noise_deg.unwrap_or(0.0),
+        }
+    }
+}
+
+/// Sun sensor with a slit, from which spins are timed.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SunSensorEntry {
+    /// Azimuth of the slit from body X toward Y, in deg; otherwise 0.
+    azimuth_deg: Option<f64>,
+    /// Standard deviation of a Sun angle, in deg; otherwise 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 180.0)))]
+    noise_deg: Option<f64>,
+    /// Sectors into which science data of one spin are sorted; otherwise 16384.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    sectors: Option<u32>,
+}
+
+impl SunSensorEntry {
+    /// With what is left out.
+    pub fn sensor(&self) -> SunSensor {
+        SunSensor {
+            azimuth_deg: self.azimuth_deg.unwrap_or(0.0),
+            noise_deg: self.noise_deg.unwrap_or(0.0),
+            sectors: self.sectors.unwrap_or(16_384),
+        }
+    }
+}
+
+/// Mean rate of the Earth about the Sun: 360 deg in a sidereal year of 365.256363 days.
+const LINE_RATE_DEG_DAY: f64 = 360.0 / 365.256_363;
+/// From the Earth to L1: 0.0100109 AU, the root of Euler's quintic for the mass of Earth and Moon, 1/328900.56 of the Sun's.
+const EARTH_L1_AU: f64 = 0.010_010_9;
+/// Linear frequencies about it in units of the mean motion, from the same root.
+const L1_FREQUENCIES: [f64; 2] = [2.0864, 2.0152];
+
+/// Orbit about the Sun-Earth L1 point.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct L1OrbitEntry {
+    /// Rate of the Earth-Sun line, in deg/day; otherwise the Earth's mean, 0.98561.
+    line_rate_deg_day: Option<f64>,
+    /// Sun to Earth, in m; otherwise 1 AU.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1e13), extend("exclusiveMinimum" = 0)))]
+    sun_earth_distance_m: Option<f64>,
+    /// Earth to L1, in m; otherwise 1.4976e9.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1e13), extend("exclusiveMinimum" = 0)))]
+    earth_l1_distance_m: Option<f64>,
+    /// Lissajous amplitudes along the line, in the ecliptic across it, normal to the ecliptic, in m; otherwise 0.
+    amplitude_m: Option<[f64; 3]>,
+    /// In-plane frequency over the line's rate; otherwise 2.0864.
+    in_plane_frequency: Option<f64>,
+    /// Out-of-plane frequency over the line's rate; otherwise 2.0152.
+    out_of_plane_frequency: Option<f64>,
+    /// Ecliptic to equator, in deg; otherwise that of J2000.
+    obliquity_deg: Option<f64>,
+}
+
+impl L1OrbitEntry {
+    /// With what is left out.
+    pub fn orbit(&self) -> L1Orbit {
+        let [in_plane, out_of_plane] = L1_FREQUENCIES;
+        L1Orbit {
+            line_rate_deg_day: self.line_rate_deg_day.unwrap_or(LINE_RATE_DEG_DAY),
+            sun_earth_distance_m: self.sun_earth_distance_m.unwrap_or(ASTRONOMICAL_UNIT_M),
+            earth_l1_distance_m: self.earth_l1_distance_m.unwrap_or(EARTH_L1_AU * ASTRONOMICAL_UNIT_M),
+            amplitude_m: self.amplitude_m.unwrap_or([0.0; 3]),
+            in_plane_frequency: self.in_plane_frequency.unwrap_or(in_plane),
+            out_of_plane_frequency: self.out_of_plane_frequency.unwrap_or(out_of_plane),
+            obliquity_deg: self.obliquity_deg.unwrap_or(OBLIQUITY_J2000_RAD.to_degrees()),
+        }
+    }
+}

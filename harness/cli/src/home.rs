@@ -1,0 +1,39 @@
+//! What an installed program finds beside itself, wherever it is started: its library and the shipped FMUs.
+
+use std::path::{Path, PathBuf};
+
+/// Where they stand as seen from the program's folder; `cargo xtask install` puts them there.
+const FROM_PROGRAM: &str = "../lib/heliotorque";
+/// Where `cargo xtask dist` leaves FMUs, for a program that is not installed.
+const DIST: &str = "dist";
+
+/// The model that is packed and read for unless another is named.
+pub const DEFAULT_MODEL: &str = "MomentumPlant";
+
+/// The folder beside the program, if the program is installed.
+pub fn installed() -> Option<PathBuf> {
+    // Behind links: a link to the program in another folder leads to its own.
+    let program = std::env::current_exe().and_then(std::fs::canonicalize).ok()?;
+    let folder = program.parent()?.join(FROM_PROGRAM);
+    library_in(&folder).is_file().then(|| std::fs::canonicalize(&folder).unwrap_or(folder))
+}
+
+/// The shared library of all models, if the program is installed.
+pub fn library() -> Option<PathBuf> {
+    installed().map(|folder| library_in(&folder))
+}
+
+/// The folder with the shipped FMUs: the installed program's, otherwise `dist`.
+pub fn dist() -> PathBuf {
+    installed().unwrap_or_else(|| PathBuf::from(DIST))
+}
+
+/// A shipped FMU.
+pub fn fmu(model: &str) -> PathBuf {
+    dist().join(format!("{model}.fmu"))
+}
+
+fn library_in(folder: &Path) -> PathBuf {
+    let (prefix, suffix) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    folder.join(format!("{prefix}heliotorque{suffix}"))
+}

@@ -1,0 +1,46 @@
+//! The files of a planned burn.
+
+use std::{
+    error::Error,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use ::files::Destination;
+use planner::spin::{PlannedBurn, start_table};
+
+use super::picture;
+
+const OPTION: &str = "--output";
+
+/// Writes `burn.csv`, `burn.json`, `start.toml` and `burn.svg` into the folder, which is created if missing; gives their
+/// paths.
+///
+/// # Errors
+/// A file that cannot be written, or that is the spacecraft's.
+pub fn write(
+    folder: &Path,
+    spacecraft: Option<&Path>,
+    burn: &PlannedBurn,
+) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let contents = [
+        ("burn.csv", burn.to_csv()?),
+        ("burn.json", burn.to_json()?),
+        ("start.toml", start_table(&burn.start_values()).into_bytes()),
+        ("burn.svg", picture::svg(burn)?.into_bytes()),
+    ];
+    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}: see {OPTION}", folder.display()))?;
+    let inputs: Vec<&Path> = spacecraft.into_iter().collect();
+    let opened = contents.map(|(name, bytes)| {
+        let path = folder.join(name);
+        Destination::open(&path, OPTION, &inputs).map(|destination| (path, destination, bytes))
+    });
+    // None is written unless all can be.
+    let opened = opened.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut written = Vec::with_capacity(opened.len());
+    for (path, destination, bytes) in opened {
+        destination.fill(|file| file.write_all(&bytes))?;
+        written.push(path);
+    }
+    Ok(written)
+}

@@ -1,0 +1,25 @@
+//! `heliotorque plan`: optimal plans.
+
+mod files;
+mod picture;
+
+use std::process::ExitCode;
+
+use crate::{args::Plan, home, outcome::Outcome};
+
+/// Prints the plan, and writes its files where a folder is given.
+pub fn run(arguments: &Plan) -> Outcome {
+    let Plan::Spin(options) = arguments;
+    let mut options = options.clone();
+    if options.spacecraft.is_none() && options.fmu.is_none() && options.campaign.is_none() {
+        options.fmu = home::installed().map(|_| home::fmu("SpinPlant")).filter(|fmu| fmu.is_file());
+    }
+    let answer = planner::spin::plan(&options)?;
+    terminal::print(answer.text.trim_end())?;
+    if let (Some(folder), Some(burn)) = (&options.output, &answer.burn) {
+        for path in files::write(folder, options.spacecraft.as_deref(), burn)? {
+            terminal::note(&path.display().to_string());
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,181 @@
+//! A plan pulse by pulse, as CSV and JSON.
+
+use nalgebra::Vector3;
+use physics::{attitude::angle_between_rad, constants::RPM_RAD_S, environment::dates};
+use serde::Serialize;
+
+use super::{
+    PlanError, Row, Task,
+    aim::{Way, right_ascension_declination_deg},
+    flight::Flight,
+    judgement::Judged,
+    start_values::{self, Setting},
+    timing_label,
+};
+
+/// A plan that was flown and judged.
+#[derive(Clone, Debug)]
+pub struct PlannedBurn {
+    /// Of the spacecraft.
+    pub name: String,
+    /// Date, in s past J2000 TDB, where it was given.
+    pub epoch_s: Option<f64>,
+    /// What was asked for.
+    pub task: Task,
+    /// The train.
+    pub row: Row,
+    /// How it is flown.
+    pub flight: Flight,
+    /// Its limits.
+    pub judged: Vec<Judged>,
+}
+
+/// One line of the table.
+#[derive(Serialize)]
+struct Line<'a> {
+    pulse: usize,
+    time_s: f64,
+    on_time_s: f64,
+    thruster: &'a str,
+    phase_deg: f64,
+    after_sun_crossing_s: Option<f64>,
+    axis_right_ascension_deg: f64,
+    axis_declination_deg: f64,
+    nutation_deg: f64,
+    sun_angle_deg: f64,
+    earth_angle_deg: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Place {
+    right_ascension_deg: f64,
+    declination_deg: f64,
+}
+
+impl Place {
+    fn of(direction: &Vector3<f64>) -> Self {
+        let (right_ascension_deg, declination_deg) = right_ascension_declination_deg(direction);
+        Self { right_ascension_deg, declination_deg }
+    }
+}
+
+#[derive(Serialize)]
+struct Course {
+    length_deg: f64,
+    sun_angle_deg: [f64; 2],
+    way_from_sun_deg: [f64; 2],
+}
+
+impl Course {
+    fn of(way: &Way) -> Self {
+        let both = |(from, to): (f64, f64)| [from.to_degrees(), to.to_degrees()];
+        Self {
+            length_deg: way.length_rad.to_degrees(),
+            sun_angle_deg: both(way.sun_angle_rad),
+            way_from_sun_deg: both(way.heading_rad),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    spacecraft: &'a str,
+    date: Option<String>,
+    spin_rate_rpm: f64,
+    timing: &'a str,
+    train: String,
+    start: Place,
+    target: Place,
+    end: Place,
+    miss_deg: f64,
+    sun: Place,
+    earth: Option<Place>,
+    great_circle: Course,
+    rhumb_line: Option<Course>,
+    propellant_kg: f64,
+    worst_nutation_deg: f64,
+    worst_final_nutation_deg: f64,
+    limits: &'a [Judged],
+    start_values: serde_json::Map<String, serde_json::Value>,
+    pulses: Vec<Line<'a>>,
+}
+
+impl PlannedBurn {
+    /// Start values of SpinPlant.
+    pub fn start_values(&self) -> Vec<(&'static str, Setting)> {
+        start_values::start_values(&self.task, &self.row)
+    }
+
+    /// The table with a header.
+    ///
+    /// # Errors
+    /// Text that cannot be written.
+    pub fn to_csv(&self) -> Result<Vec<u8>, PlanError> {
+        let failed = |error: &dyn std::fmt::Display| PlanError::Write(error.to_string());
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for line in self.lines() {
+            writer.serialize(line).map_err(|error| failed(&error))?;
+        }
+        writer.into_inner().map_err(|error| failed(&error))
+    }
+
+    /// Everything there is to say about the plan, the table included.
+    ///
+    /// # Errors
+    /// Text that cannot be written.
+    pub fn to_json(&self) -> Result<Vec<u8>, PlanError> {
+        let failed = |error: serde_json::Error| PlanError::Write(error.to_string());
+        let mut values = serde_json::Map::new();
+        for (name, value) in self.start_values() {
+            values.insert(name.to_owned(), serde_json::to_value(value).map_err(failed)?);
+        }
+        let aim = &self.task.aim;
+        let document = Document {
+            spacecraft: &self.name,
+            date: self.epoch_s.map(dates::utc),
+            spin_rate_rpm: self.task.case.spin.rate_rad_s / RPM_RAD_S,
+            timing: timing_label(self.task.case.timing),
+            train: self.row.label(),
+            start: Place::of(&self.flight.start_axis_inertial),
+            target: Place::of(&aim.target_inertial),
+            end: Place::of(&self.flight.end_axis_inertial()),
+            miss_deg: self.flight.miss_rad(&self.task).to_degrees(),
+            sun: Place::of(&aim.sun_inertial),
+            earth: aim.earth_inertial.as_ref().map(Place::of),
+            great_circle: Course::of(&aim.great_circle()),
+            rhumb_line: aim.rhumb_line().as_ref().map(Course::of),
+            propellant_kg: self.row.propellant_kg,
+            worst_nutation_deg: self.row.peak_rad.to_degrees(),
+            worst_final_nutation_deg: self.row.final_rad.to_degrees(),
+            limits: &self.judged,
+            start_values: values,
+            pulses: self.lines().collect(),
+        };
+        let mut text = serde_json::to_vec_pretty(&document).map_err(failed)?;
+        text.push(b'\n');
+        Ok(text)
+    }
+
+    fn lines(&self) -> impl Iterator<Item = Line<'_>> {
+        let aim = &self.task.aim;
+        self.flight.pulses.iter().enumerate().map(move |(k, pulse)| {
+            let axis = &pulse.axis_inertial;
+            let (axis_right_ascension_deg, axis_declination_deg) = right_ascension_declination_deg(axis);
+            Line {
+                pulse: k + 1,
+                time_s: pulse.time_s,
+                on_time_s: pulse.on_time_s,
+                thruster: &pulse.thruster,
+                phase_deg: pulse.phase_rad.to_degrees(),
+                after_sun_crossing_s: pulse.after_sun_s,
+                axis_right_ascension_deg,
+                axis_declination_deg,
+                nutation_deg: pulse.nutation_rad.to_degrees(),
+                sun_angle_deg: angle_between_rad(axis, &aim.sun_inertial).to_degrees(),
+                earth_angle_deg: aim
+                    .earth_inertial
+                    .map(|earth| angle_between_rad(&-axis, &earth).to_degrees()),
+            }
+        })
+    }
+}

@@ -1,0 +1,186 @@
+//! A flown plan agrees with the theory it was found by, its tables with each other, and its limits are named.
+
+use physics::attitude::angle_between_rad;
+use physics::spin::spinner::Spinner;
+
+use super::tests::{ace, options};
+use super::{ACE, PlannedBurn, plan};
+
+const TURN: &str = "--from 240,-20 --sun 237,-12 --target 246,-19";
+
+fn planned(arguments: &str) -> PlannedBurn {
+    plan(&options(arguments)).unwrap().burn.unwrap()
+}
+
+fn text(arguments: &str) -> String {
+    plan(&options(arguments)).unwrap().text
+}
+
+#[test]
+fn what_is_flown_is_what_was_planned() {
+    for arguments in [
+        "--angle 2",
+        TURN,
+        "--angle 5 --timing phase --thruster IA",
+        "--angle 3 --timing clock",
+        "--angle 2 --thruster axial&couple&I-IV",
+    ] {
+        let mut options = options(arguments);
+        options.thruster = options.thruster.map(|name| name.replace('&', " "));
+        let burn = plan(&options).unwrap().burn.unwrap();
+        let (task, row, flight) = (&burn.task, &burn.row, &burn.flight);
+        assert_eq!(flight.pulses.len() as u32, row.train.count(), "{arguments}");
+        let moved_rad = angle_between_rad(&flight.start_axis_inertial, &flight.end_axis_inertial());
+        assert!((moved_rad / row.moved_rad - 1.0).abs() < 2e-3, "{arguments}: {moved_rad} {}", row.moved_rad);
+        // The pulses' granularity, and what nutation does to Sun crossings.
+        let granularity_rad = (task.angle_rad - row.moved_rad).abs();
+        assert!(
+            flight.miss_rad(task) < granularity_rad + 4.0 * row.peak_rad,
+            "{arguments}: {}",
+            flight.miss_rad(task)
+        );
+        let on_s: f64 = flight.pulses.iter().map(|pulse| pulse.on_time_s).sum();
+        assert!((on_s * task.flow_kg_s / row.propellant_kg - 1.0).abs() < 1e-9, "{arguments}");
+        let (first, last) = (&flight.pulses[0], flight.pulses.last().unwrap());
+        let lasted_s = last.time_s + last.on_time_s - first.time_s;
+        assert!(
+            (lasted_s - row.duration_s).abs() < 0.01 * task.case.spin.period_s(),
+            "{arguments}: {lasted_s}"
+        );
+        let peak_rad = flight.samples.iter().map(|sample| sample.nutation_rad).fold(0.0, f64::max);
+        assert!(peak_rad < 1.02 * row.peak_rad && peak_rad > 0.9 * row.peak_rad, "{arguments}: {peak_rad}");
+        assert!(
+            flight
+                .pulses
+                .iter()
+                .all(|pulse| task.thruster.contains(&pulse.thruster) || row.train.alternates())
+        );
+    }
+}
+
+/// Sun crossing and pulse of a great circle: on a clock of Sun pulses the delay is the phase at the assumed rate.
+#[test]
+fn the_phase_is_the_turn_since_the_sun_crossing() {
+    for arguments in ["--angle 2 --timing sun", "--angle 2 --timing phase", TURN] {
+        let burn = planned(arguments);
+        for pulse in burn.flight.pulses.iter().skip(1) {
+            let since_s = pulse.after_sun_s.unwrap() + 0.5 * pulse.on_time_s;
+            let turned_rad = (since_s * burn.task.case.spin.rate_rad_s).rem_euclid(core::f64::consts::TAU);
+            let off_rad = (turned_rad - pulse.phase_rad).abs();
+            // Nutation moves the crossing by its angle over the tangent of the Sun's.
+            let sun_rad = angle_between_rad(&pulse.axis_inertial, &burn.task.aim.sun_inertial);
+            assert!(off_rad < 3.0 * burn.row.peak_rad / sun_rad.tan() + 1e-6, "{arguments}: {off_rad}");
+        }
+    }
+}
+
+#[test]
+fn csv_and_json_agree() {
+    for arguments in ["--angle 2", &format!("{TURN} --earth 55,20")] {
+        let burn = planned(arguments);
+        let json: serde_json::Value = serde_json::from_slice(&burn.to_json().unwrap()).unwrap();
+        let csv = burn.to_csv().unwrap();
+        let mut reader = csv::Reader::from_reader(csv.as_slice());
+        let header = reader.headers().unwrap().clone();
+        let pulses = json["pulses"].as_array().unwrap();
+        let records: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        assert_eq!((records.len(), pulses.len()), (burn.flight.pulses.len(), burn.flight.pulses.len()));
+        for (record, pulse) in records.iter().zip(pulses) {
+            for (name, field) in header.iter().zip(record) {
+                let value = &pulse[name];
+                match value.as_f64() {
+                    // The reader of JSON rounds to the next number or the one beside it.
+                    Some(number) => {
+                        let written: f64 = field.parse().unwrap();
+                        assert!((written - number).abs() <= f64::EPSILON * number.abs(), "{name}");
+                    }
+                    None => assert_eq!(field, value.as_str().unwrap_or_default(), "{name}"),
+                }
+            }
+        }
+        assert_eq!(pulses[0]["earth_angle_deg"].is_null(), burn.task.aim.earth_inertial.is_none());
+        let table: toml::Table = super::start_table(&burn.start_values()).parse().unwrap();
+        let in_json = json["start_values"].as_object().unwrap();
+        assert_eq!(in_json.len(), table["start"].as_table().unwrap().len());
+        for (name, value) in burn.start_values() {
+            let in_file = serde_json::to_value(&table["start"][name]).unwrap();
+            assert_eq!(in_file, serde_json::to_value(value).unwrap(), "{name}");
+            assert!(in_json.contains_key(name), "{name}");
+        }
+    }
+}
+
+#[test]
+fn limits_are_named_and_judged() {
+    let verdicts = |arguments: &str| -> Vec<(&'static str, Option<bool>)> {
+        planned(arguments).judged.iter().map(|judged| (judged.limit, judged.kept)).collect()
+    };
+    let kept = |arguments: &str, limit: &str| {
+        let all = verdicts(arguments);
+        all.iter().find(|(name, _)| *name == limit).unwrap_or_else(|| panic!("{limit}: {all:?}")).1
+    };
+    assert_eq!(kept("--angle 2", "Earth angle"), None);
+    assert_eq!(kept("--angle 2", "Sun angle"), Some(true));
+    // 17 deg from the Sun, 5 away from it.
+    let away = "--from 0,17 --sun 0,0 --direction 180 --angle 5 --earth 180,0";
+    assert_eq!(kept(away, "Sun angle"), Some(false));
+    assert_eq!(kept(away, "Earth angle"), Some(false));
+    assert_eq!(
+        kept("--from 0,2 --sun 0,10 --earth 180,0 --angle 1 --direction 180", "Earth angle"),
+        Some(true)
+    );
+    assert_eq!(kept("--angle 2 --rate-rpm 5.2", "spin rate"), Some(false));
+    // A peak of 0.02 deg is a Sun-crossing period that varies by 2 x 0.02 deg / (30 deg/s tan 10 deg) = 7.56 ms.
+    assert_eq!(kept("--angle 2 --max-nutation 0.02", "spin period varies"), Some(false));
+    assert_eq!(kept("--angle 2 --max-nutation 0.018", "spin period varies"), Some(true));
+    let beyond = planned(away);
+    let sun = beyond.judged.iter().find(|judged| judged.limit == "Sun angle").unwrap();
+    assert!((sun.found - 22.0).abs() < 0.3 && sun.verdict().starts_with("BROKEN: from "), "{sun:?}");
+    // Only what was given is judged, and called kept.
+    let names: Vec<&str> = verdicts("--angle 2").iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["Sun angle", "Earth angle", "spin rate", "spin period varies", "propellant"]);
+    let given = verdicts("--angle 2 --max-nutation 0.2 --max-final 0.1 --max-duration 30");
+    let flags: Vec<_> = given[4..].iter().map(|(name, kept)| (*name, kept.unwrap())).collect();
+    assert_eq!(
+        flags,
+        [("worst nutation", true), ("worst nutation left", true), ("time", true), ("propellant", true)]
+    );
+    let table_of = |arguments: &str| text(arguments).split("Of ").next().unwrap().to_owned();
+    assert!(!table_of("--angle 2").contains("kept") && !table_of("--angle 2").contains("limits"));
+    assert!(table_of("--angle 2 --max-nutation 0.02").contains("kept"));
+    assert!(text("--angle 2").contains("Least final nutation: "));
+    assert!(text("--angle 2 --max-nutation 0.02").contains("Least final nutation within the limits: "));
+}
+
+#[test]
+fn rows_are_counted_and_fit_a_terminal() {
+    let rows = |arguments: &str| {
+        let text = text(arguments);
+        let shapes = ["uniform /", "taper ", "split /"];
+        text.lines().filter(|line| shapes.iter().any(|shape| line.starts_with(shape))).count()
+    };
+    for count in [0, 1, 2, 5, 12] {
+        assert_eq!(rows(&format!("--angle 2 --rows {count}")), count);
+    }
+    let text =
+        text(&format!("{TURN} --max-nutation 0.2 --rows 15 --timing clock --rate-uncertainty-rpm 0.01"));
+    let campaign = plan(&options("--campaign 20")).unwrap().text;
+    for text in [text, campaign] {
+        let tables: Vec<&str> = text.lines().skip_while(|line| !line.starts_with('─')).collect();
+        let tables = tables.split(|line| line.starts_with('─')).skip(1).step_by(2).flatten();
+        let lines: Vec<usize> = tables.map(|line| line.trim_end().chars().count()).collect();
+        assert!(lines.len() > 5 && lines.iter().all(|width| *width <= 80), "{lines:?}\n{text}");
+    }
+}
+
+#[test]
+fn the_thruster_is_the_files_own() {
+    let renamed = ACE.replace("\"IIIR\"", "\"lower +X\"");
+    let spinner = Spinner::parse("my.toml", &renamed).unwrap();
+    assert_eq!(super::Task::new(&options("--angle 2"), &spinner).unwrap().thruster, "lower +X");
+    let slower = ACE.replace("spin_rate_rpm = 5.0", "spin_rate_rpm = 3.0");
+    let spinner = Spinner::parse("my.toml", &slower).unwrap();
+    let rate = super::Task::new(&options("--angle 2"), &spinner).unwrap().case.spin.rate_rad_s;
+    assert!((rate - 0.1 * core::f64::consts::PI).abs() < 1e-15);
+    assert_eq!(super::Task::new(&options("--angle 2"), &ace()).unwrap().thruster, "IIIR");
+}

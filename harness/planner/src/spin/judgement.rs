@@ -1,0 +1,152 @@
+//! What limits a plan has, what it comes to, and whether it keeps them.
+
+use physics::{
+    attitude::angle_between_rad,
+    constants::RPM_RAD_S,
+    spin::{nutation::period_variation_s, spinner::Spinner},
+};
+
+use super::{Row, Task, flight::Flight};
+
+/// One limit.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Judged {
+    /// Of what.
+    pub limit: &'static str,
+    /// The key or flag that gives it.
+    pub given_by: &'static str,
+    /// What it comes to, in the unit.
+    pub found: f64,
+    /// What is allowed, in the unit: at least and at most.
+    pub allowed: (f64, f64),
+    /// Unit.
+    pub unit: &'static str,
+    /// Whether it is kept; `None` where that cannot be told.
+    pub kept: Option<bool>,
+    /// When it is first broken, in s, or why it is not judged.
+    pub remark: String,
+}
+
+impl Judged {
+    /// In words.
+    pub fn verdict(&self) -> String {
+        let verdict = match self.kept {
+            Some(true) => "kept",
+            Some(false) => "BROKEN",
+            None => "not judged",
+        };
+        if self.remark.is_empty() { verdict.to_owned() } else { format!("{verdict}: {}", self.remark) }
+    }
+}
+
+/// The limits that the spacecraft's file and the flags give, each judged on the flight, and on the worst of the range where
+/// the plan knows it.
+pub fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<Judged> {
+    let (limits, sun) = (&spinner.limits, task.aim.sun_inertial);
+    let mut judged = vec![
+        over_time(
+            flight,
+            ("Sun angle", "limits.sun_angle_deg", "deg"),
+            (0.0, limits.sun_angle_deg),
+            |axis, _| angle_between_rad(axis, &sun).to_degrees(),
+        ),
+        match task.aim.earth_inertial {
+            Some(earth) => over_time(
+                flight,
+                ("Earth angle", "limits.earth_angle_deg", "deg"),
+                (0.0, limits.earth_angle_deg),
+                |axis, _| angle_between_rad(&-axis, &earth).to_degrees(),
+            ),
+            None => Judged {
+                limit: "Earth angle",
+                given_by: "limits.earth_angle_deg",
+                found: f64::NAN,
+                allowed: (0.0, limits.earth_angle_deg),
+                unit: "deg",
+                kept: None,
+                remark: "no --date, no --earth".to_owned(),
+            },
+        },
+        over_time(
+            flight,
+            ("spin rate", "limits.spin_rate_rpm", "rpm"),
+            (
+                limits.spin_rate_rpm - limits.spin_rate_tolerance_rpm,
+                limits.spin_rate_rpm + limits.spin_rate_tolerance_rpm,
+            ),
+            |_, sample| sample.spin_rate_rad_s / RPM_RAD_S,
+        ),
+        over_time(
+            flight,
+            ("spin period varies", "limits.period_variation_s", "ms"),
+            (0.0, 1e3 * limits.period_variation_s),
+            |axis, sample| {
+                let sun_angle_rad = angle_between_rad(axis, &sun);
+                1e3 * period_variation_s(sample.nutation_rad, sample.spin_rate_rad_s, sun_angle_rad).abs()
+            },
+        ),
+    ];
+    let mut at_most = |limit, given_by, found: f64, most: f64, unit| {
+        if most.is_finite() {
+            let kept = Some(found <= most);
+            judged.push(Judged {
+                limit,
+                given_by,
+                found,
+                allowed: (0.0, most),
+                unit,
+                kept,
+                remark: String::new(),
+            });
+        }
+    };
+    at_most(
+        "worst nutation",
+        "--max-nutation",
+        row.peak_rad.to_degrees(),
+        task.limits.peak_rad.to_degrees(),
+        "deg",
+    );
+    at_most(
+        "worst nutation left",
+        "--max-final",
+        row.final_rad.to_degrees(),
+        task.limits.final_rad.to_degrees(),
+        "deg",
+    );
+    at_most("time", "--max-duration", row.longest_s / 60.0, task.limits.duration_s / 60.0, "min");
+    at_most("propellant", "on board", 1e3 * row.propellant_kg, 1e3 * task.propellant_kg, "g");
+    judged
+}
+
+/// A limit that holds all the time.
+fn over_time(
+    flight: &Flight,
+    (limit, given_by, unit): (&'static str, &'static str, &'static str),
+    allowed: (f64, f64),
+    value: impl Fn(&nalgebra::Vector3<f64>, &super::flight::Sample) -> f64,
+) -> Judged {
+    // None of these is below 0.
+    let least = if allowed.0 > 0.0 { allowed.0 } else { f64::NEG_INFINITY };
+    let excess = |found: f64| (found - allowed.1).max(least - found);
+    let mut worst = f64::NAN;
+    let mut first_s = None;
+    let mut last_s = 0.0;
+    for sample in &flight.samples {
+        let found = value(&sample.spin_axis_inertial, sample);
+        if worst.is_nan() || excess(found) > excess(worst) {
+            worst = found;
+        }
+        if excess(found) > 0.0 {
+            first_s = first_s.or(Some(sample.time_s));
+            last_s = sample.time_s;
+        }
+    }
+    let end_s = flight.samples.last().map_or(0.0, |sample| sample.time_s);
+    let remark = match first_s {
+        Some(first_s) if last_s >= end_s => format!("from {first_s:.0} s on"),
+        Some(first_s) => format!("from {first_s:.0} to {last_s:.0} s"),
+        None => String::new(),
+    };
+    Judged { limit, given_by, found: worst, allowed, unit, kept: Some(first_s.is_none()), remark }
+}

@@ -1,0 +1,107 @@
+//! The plan as start values of SpinPlant: what `run --set`, `pack --set` and a file's `[start]` take.
+
+use std::fmt::Write;
+
+use physics::spin::{forecast::Timing, train::Shape};
+
+use super::{Firing, Row, Task};
+
+/// The value of a variable, or of all elements of a vector.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[serde(untagged)]
+pub enum Setting {
+    /// A number in SI.
+    Real(f64),
+    /// A whole number.
+    Integer(i32),
+    /// An item's name, or any text.
+    Text(String),
+    /// A vector.
+    Vector(Vec<f64>),
+}
+
+/// Everything that the flight depends on and that the spacecraft's file does not say by itself.
+pub fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting)> {
+    let train = &row.train;
+    let (plan, order) = match train.shape() {
+        Shape::Uniform => ("uniform", None),
+        Shape::Tapered { order } => ("tapered", Some(order)),
+        Shape::Split => ("split", None),
+    };
+    let timing = match task.case.timing {
+        Timing::Clock => "clock",
+        Timing::SunCrossing => "sunCrossing",
+        Timing::TruePhase => "truePhase",
+    };
+    let whole = |count: u32| Setting::Integer(i32::try_from(count).unwrap_or(i32::MAX));
+    let vector = |values: &[f64]| Setting::Vector(values.to_vec());
+    let mut values = vec![
+        ("inertia", vector(&task.moments_kg_m2)),
+        ("productsOfInertia", vector(&task.products_kg_m2)),
+        ("propellant.loaded", Setting::Real(task.propellant_kg)),
+        ("spin.initialRate", Setting::Real(task.case.spin.rate_rad_s)),
+        ("start.q", vector(&task.attitude().0)),
+        ("start.nutation", Setting::Real(0.0)),
+        ("burn.plan", Setting::Text(plan.to_owned())),
+    ];
+    values.extend(order.map(|order| ("burn.taperOrder", whole(order))));
+    values.push(("burn.timing", Setting::Text(timing.to_owned())));
+    values.push(("burn.start", Setting::Real(0.0)));
+    match &task.firing {
+        Firing::Group(name) => values.push(("burn.group", Setting::Text(name.clone()))),
+        Firing::Thruster { number, opposite } => {
+            values.push(("burn.group", Setting::Text(String::new())));
+            values.push(("burn.thruster", Setting::Integer(*number)));
+            values.push(("burn.oppositeThruster", Setting::Integer(opposite.unwrap_or(0))));
+        }
+    }
+    values.extend([
+        ("burn.pulseWidth", Setting::Real(train.width_s(0))),
+        ("burn.turnsPerPulse", Setting::Real(train.turns_per_pulse())),
+        ("burn.count", whole(train.count())),
+        ("burn.angle", Setting::Real(0.0)),
+        ("burn.targetDirection", vector(task.aim.burn_target_inertial().as_slice())),
+        ("sun.direction", vector(task.aim.sun_inertial.as_slice())),
+    ]);
+    values.extend(task.aim.earth_inertial.map(|earth| ("earth.direction", vector(earth.as_slice()))));
+    values
+}
+
+/// The `[start]` table of a spacecraft's file.
+pub fn toml(values: &[(&'static str, Setting)]) -> String {
+    let mut text = String::from("[start]\n");
+    for (name, value) in values {
+        let written = match value {
+            Setting::Real(number) => format!("{number:?}"),
+            Setting::Integer(number) => number.to_string(),
+            Setting::Text(letters) => format!("{letters:?}"),
+            Setting::Vector(numbers) => format!("{numbers:?}"),
+        };
+        let _ = writeln!(text, "\"{name}\" = {written}");
+    }
+    text
+}
+
+/// The same as options, quoted for a shell.
+pub fn options(values: &[(&'static str, Setting)]) -> String {
+    // The shortest form that is read back as the same number.
+    let short = |number: &f64| {
+        let written = format!("{number:?}");
+        written.strip_suffix(".0").map_or(written.clone(), str::to_owned)
+    };
+    let one = |(name, value): &(&str, Setting)| {
+        let written = match value {
+            Setting::Real(number) => short(number),
+            Setting::Integer(number) => number.to_string(),
+            Setting::Text(letters) => letters.clone(),
+            Setting::Vector(numbers) => numbers.iter().map(short).collect::<Vec<_>>().join(","),
+        };
+        let setting = format!("{name}={written}");
+        let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "=.,+-_".contains(letter);
+        if setting.chars().all(is_plain) {
+            return format!("--set {setting}");
+        }
+        format!("--set '{}'", setting.replace('\'', "'\\''"))
+    };
+    values.iter().map(one).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,84 @@
+//! The planner's tables, no wider than a terminal of 80 columns.
+
+use comfy_table::Table;
+
+use super::{Row, Task, judgement::Judged};
+
+/// A table whose columns stand one space apart.
+pub fn narrow(header: &[&str]) -> Table {
+    let mut table = terminal::table(header);
+    for column in table.column_iter_mut() {
+        column.set_padding((0, 0));
+    }
+    table
+}
+
+/// `count` rows of a trade: the best trains, and the paper's plan as the last; `None` for no rows.
+pub fn trade(task: &Task, rows: &[&Row], paper: &Row, count: usize) -> Option<String> {
+    let with_paper = count > 1;
+    let trains = if with_paper { count - 1 } else { count };
+    if trains == 0 {
+        return None;
+    }
+    let limited = task.is_limited();
+    let mut header =
+        vec!["train", "n", "ms", "min", "left deg", "peak deg", "moved", "g", "saved h", "lost h"];
+    header.extend(limited.then_some("limits"));
+    let mut table = narrow(&header);
+    let is_paper = |row: &Row| row.train == paper.train;
+    let others: Vec<&Row> = rows.iter().copied().filter(|row| !(with_paper && is_paper(row))).collect();
+    for row in others.iter().take(trains) {
+        table.add_row(cells(row, limited, ""));
+    }
+    if with_paper {
+        table.add_row(cells(paper, limited, " *"));
+    }
+    let mut text = table.to_string();
+    text.push_str(
+        "\ntrain: shape, turns from pulse to pulse; n pulses, the first of so many ms\n\
+         left, peak: worst nutation after the last pulse, at any time\n\
+         saved, lost: damping time against the paper's plan, time without science",
+    );
+    if with_paper {
+        text.push_str("\n* the paper's plan: equal pulses of one step, once a turn");
+    }
+    Some(text)
+}
+
+fn cells(row: &Row, limited: bool, mark: &str) -> Vec<String> {
+    let hours =
+        |time_s: f64| if time_s.is_finite() { format!("{:.2}", time_s / 3600.0) } else { "endless".into() };
+    let mut cells = vec![
+        format!("{}{mark}", row.short_label()),
+        row.train.count().to_string(),
+        format!("{:.0}", 1e3 * row.train.width_s(0)),
+        format!("{:.2}", row.duration_s / 60.0),
+        format!("{:.6}", row.final_rad.to_degrees()),
+        format!("{:.5}", row.peak_rad.to_degrees()),
+        format!("{:.4}", row.moved_rad.to_degrees()),
+        format!("{:.2}", 1e3 * row.propellant_kg),
+        hours(row.damping_saved_s),
+        hours(row.science_lost_s),
+    ];
+    if limited {
+        cells.push(if row.fits { "kept".into() } else { "broken".into() });
+    }
+    cells
+}
+
+/// What each limit comes to.
+pub fn limits(judged: &[Judged]) -> String {
+    let mut table = narrow(&["limit", "found", "allowed", "verdict"]);
+    for one in judged {
+        let (least, most) = one.allowed;
+        let allowed = if least > 0.0 {
+            format!("{} to {} {}", terminal::short(least), terminal::short(most), one.unit)
+        } else {
+            format!("up to {} {}", terminal::short(most), one.unit)
+        };
+        let found =
+            if one.found.is_finite() { format!("{:.4} {}", one.found, one.unit) } else { "-".to_owned() };
+        table.add_row([one.limit.to_owned(), found, allowed, one.verdict()]);
+    }
+    table.to_string()
+}

@@ -1,0 +1,86 @@
+//! `cargo xtask install`: the program on the path, its library and FMUs where it looks for them from any folder.
+
+use std::{
+    env,
+    ffi::OsStr,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use crate::dist;
+use crate::shell::{Outcome, root};
+
+/// Where the library and the FMUs stand below the prefix; the program looks there from its own folder.
+const LIBRARY_FOLDER: [&str; 2] = ["lib", "heliotorque"];
+
+/// Builds and packs everything, then copies it below the prefix that `options` name, otherwise `~/.local`.
+pub fn install(options: &[String]) -> Outcome {
+    let prefix = prefix(options)?;
+    let built = dist::dist()?;
+    let binaries = prefix.join("bin");
+    let folder = LIBRARY_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
+    let mut files = vec![(built.heliotorque, &binaries), (built.library, &folder)];
+    files.extend(packed()?.into_iter().map(|path| (path, &folder)));
+    for (from, to) in files {
+        let installed = copy(&from, to)?;
+        println!("{}", installed.display());
+    }
+    let is_on_path = env::var_os("PATH").is_some_and(|path| env::split_paths(&path).any(|it| it == binaries));
+    if !is_on_path {
+        eprintln!(
+            "{} is not on PATH; for this shell and, in its startup file, for others:\n  export PATH=\"{0}:$PATH\"",
+            binaries.display()
+        );
+    }
+    Ok(())
+}
+
+fn prefix(options: &[String]) -> Result<PathBuf, String> {
+    const ALLOWED: &str = "allowed: --prefix FOLDER, otherwise ~/.local";
+    let given = match options {
+        [] => None,
+        [flag, folder] if flag == "--prefix" => Some(folder.as_str()),
+        [flag] => {
+            Some(flag.strip_prefix("--prefix=").ok_or_else(|| format!("install: found {flag}; {ALLOWED}"))?)
+        }
+        other => return Err(format!("install: found {}; {ALLOWED}", other.join(" "))),
+    };
+    let folder = match given {
+        Some("") => return Err(format!("install: --prefix names no folder; {ALLOWED}")),
+        Some(folder) => PathBuf::from(folder),
+        None => {
+            let home = env::var_os("HOME").filter(|home| !home.is_empty());
+            let home = home.ok_or_else(|| format!("install: there is no home folder (HOME); {ALLOWED}"))?;
+            Path::new(&home).join(".local")
+        }
+    };
+    std::path::absolute(&folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+/// The FMUs and systems of `dist/`, by name.
+fn packed() -> Result<Vec<PathBuf>, String> {
+    let folder = root().join("dist");
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let mut paths = Vec::new();
+    for entry in fs::read_dir(&folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.is_file() && matches!(path.extension().and_then(OsStr::to_str), Some("fmu" | "ssp")) {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+/// Copies a file into a folder under its own name: whole or not at all, also over a program that runs.
+fn copy(from: &Path, folder: &Path) -> Result<PathBuf, String> {
+    let name = from.file_name().ok_or_else(|| format!("{} is no file", from.display()))?;
+    let to = folder.join(name);
+    let mut part = name.to_owned();
+    part.push(".part");
+    let part = folder.join(part);
+    let copied =
+        fs::create_dir_all(folder).and_then(|()| fs::copy(from, &part)).and_then(|_| fs::rename(&part, &to));
+    copied.map_err(|error| format!("{}: {error}: see --prefix", to.display()))?;
+    Ok(to)
+}
