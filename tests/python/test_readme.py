@@ -17,11 +17,11 @@ def line(*cells):
     return "| " + " | ".join(cells) + " |"
 
 
-def dump_rows(table_2, assumptions):
+def dump_rows(tables, assumptions):
     """Dumps by rule and choice; what is outside the paper's is bold."""
     counts = {}
-    for row in table_2:
-        if row["momentum"] == "paper's" and row["shade"] != "plates":
+    for row in tables:
+        if (row["momentum"], row["strategy"]) == ("paper's", "dumps only") and row["offset"] in OFFSETS:
             counts.setdefault((row["dumps to"], "study's own", row["threshold"]), []).append(row)
     for row in assumptions:
         counts.setdefault((row["dumps to"], row["choice"], row["threshold"]), row)
@@ -31,7 +31,7 @@ def dump_rows(table_2, assumptions):
         if found is None:
             return ""
         if isinstance(found, list):
-            assert [row["Z offset"] for row in found] == list(OFFSETS)
+            assert [row["offset"] for row in found] == list(OFFSETS)
             text, off = " / ".join(row["ours"] for row in found), any(row["verdict"] == "off" for row in found)
         else:
             text, off = found["ours"], found["verdict"] == "off"
@@ -50,20 +50,37 @@ def dump_rows(table_2, assumptions):
 
 def gap_rows(table_3):
     """Gaps between dumps of the cylinder: the paper's, under its rule, and under ours."""
-    chosen = [row for row in table_3 if (row["shade"], row["momentum"]) == ("cylinder", "paper's")]
+    chosen = [row for row in table_3 if row["strategy"] == "dumps only"]
     paper, ours = chosen[:6], chosen[6:]
+    assert len(chosen) == 12
 
     def short(gaps):
         return gaps.replace("closest ", "").replace("farthest ", "").replace("typical ", "")
 
     for under_papers, under_ours in zip(paper, ours):
         assert (under_papers["dumps to"], under_ours["dumps to"]) == ("1.0", "0.9")
-        assert under_papers["paper"] == under_ours["paper"] and under_papers["Z offset"] == under_ours["Z offset"]
+        assert under_papers["paper"] == under_ours["paper"] and under_papers["offset"] == under_ours["offset"]
         yield line(
-            f"{under_papers['threshold']}, {under_papers['Z offset']}", short(under_papers["paper"]),
+            f"{under_papers['threshold']}, {under_papers['offset']}", short(under_papers["paper"]),
             short(under_papers["ours"]), under_papers["verdict"].replace(" gaps", ""),
             short(under_ours["ours"]), under_ours["verdict"].replace(" gaps", ""),
         )
+
+
+def strategy_rows(table_2, table_4):
+    """Dumps with targets by sunlight where the paper prints them; what is outside the paper's is bold."""
+    rows = [row for row in table_2 + table_4 if row["momentum"] == "paper's" and row["strategy"] != "dumps only"]
+    rows = [row for row in rows if row["shade"] == "cylinder" or row["strategy"] == "reactive" and row["paper"].isdigit()]
+    settings = dict.fromkeys((row["shade"], row["threshold"], row["strategy"]) for row in rows)
+    for setting in settings:
+        found = [row for row in rows if (row["shade"], row["threshold"], row["strategy"]) == setting]
+
+        def cells(rule, column):
+            chosen = [row for row in found if row["dumps to"] == rule]
+            return " / ".join(f"**{row[column]}**" if row["verdict"] == "off" and column == "ours" else row[column] for row in chosen)
+
+        shade, threshold, strategy = setting
+        yield line(f"{shade}, {threshold}", strategy, cells("1.0", "paper"), cells("1.0", "ours"), cells("0.9", "ours"))
 
 
 def light_rows(rows):
@@ -96,7 +113,12 @@ def rows_of(studied, name):
 
 
 def test_dumps_are_those_of_the_studies(studied):
-    block(dump_rows(rows_of(studied, "momentum/table2"), rows_of(studied, "momentum/assumptions")))
+    tables = rows_of(studied, "momentum/table2") + rows_of(studied, "momentum/table4")
+    block(dump_rows(tables, rows_of(studied, "momentum/assumptions")))
+
+
+def test_dumps_by_strategy_are_those_of_the_studies(studied):
+    block(strategy_rows(rows_of(studied, "momentum/table2"), rows_of(studied, "momentum/table4")))
 
 
 def test_gaps_are_those_of_the_study(studied):
@@ -315,10 +337,10 @@ def test_the_paper_integrates_body_components_and_the_physical_momentum_dumps_mo
     [row] = [row for row in README if row.startswith("| 000, momentum convention |")]
     assert "| option 2 | the physical momentum (option 1)" in row and "dumps more often at Z = 0 |" in row
     counts = {}
-    for row in rows_of(studied, "momentum/table2"):
-        if row["Z offset"] == "0 cm" and row["dumps to"] == "0.9":
+    for row in rows_of(studied, "momentum/table2") + rows_of(studied, "momentum/table4"):
+        if (row["offset"], row["dumps to"], row["strategy"]) == ("0 cm", "0.9", "dumps only"):
             counts.setdefault((row["threshold"], row["shade"]), {})[row["momentum"]] = int(row["ours"])
-    assert len(counts) == 5 and all(count["inertial"] > count["paper's"] for count in counts.values())
+    assert len(counts) == 3 and all(count["inertial"] > count["paper's"] for count in counts.values())
 
 
 TESTS = pathlib.Path(__file__).parents[1]

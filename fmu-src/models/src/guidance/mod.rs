@@ -2,7 +2,6 @@
 
 mod dependencies;
 mod inputs;
-mod management;
 mod outputs;
 mod setup;
 mod variables;
@@ -20,7 +19,7 @@ use physics::numerics::work::Work;
 use serde::{Deserialize, Serialize};
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
-use inputs::{Fixed, Reader};
+use inputs::{Fixed, Reader, management};
 pub use setup::Guidance;
 use setup::{GuidanceSetup, Plan};
 use variables::GuidanceVariables;

@@ -11,8 +11,11 @@ pub struct Trends {
     pub exceptions: Vec<String>,
 }
 
+/// Whether a trend orders the first case before the second.
+type Orders = fn(&Case, &Case) -> bool;
+
 /// What a comparison is about.
-const KINDS: [(&str, fn(&Case, &Case) -> bool); 3] = [
+const KINDS: [(&str, Orders); 3] = [
     ("strategy", has_next_strategy),
     ("threshold", |more, fewer| {
         more.threshold_n_m_s < fewer.threshold_n_m_s

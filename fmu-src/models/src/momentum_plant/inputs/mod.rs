@@ -3,6 +3,7 @@
 pub mod center;
 pub mod dynamics;
 mod flexibility;
+mod given;
 pub mod propulsion;
 pub mod state;
 
@@ -23,6 +24,8 @@ use physics::plant::{
 use physics::spacecraft::{PanelControl, SunshadeModel};
 
 use self::center::Center;
+use self::given::given_state;
+pub use self::given::is_given;
 use self::state::PlantState;
 use super::setup::Plan;
 use super::variables::PlantVariables;
@@ -193,18 +196,6 @@ fn orbit(
             plant::orbit_from_elements(center.elements(), center.frame(), &data, data.gm_m3_s2, epoch_s)
                 .map_err(|error| Failure::new(format!("orbit elements: {error}")))
         }
-    }
-}
-
-/// Whether position and velocity are inputs.
-pub fn is_given(variables: &PlantVariables, values: &Values) -> bool {
-    matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs | OrbitSource::Held))
-}
-
-fn given_state(variables: &PlantVariables, values: &Values) -> CartesianState {
-    CartesianState {
-        position_m: Vector3::from(values.vector(variables.orbit.position)),
-        velocity_m_s: Vector3::from(values.vector(variables.orbit.velocity)),
     }
 }
 

@@ -17,7 +17,7 @@ use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
-use super::is_given;
+use super::given::is_given;
 use super::propulsion::{SaidOfThrusters, reaction_control};
 use crate::common::choices::{CommandKind, OrbitCenter};
 use crate::momentum_plant::setup::Plan;

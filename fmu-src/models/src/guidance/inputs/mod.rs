@@ -1,5 +1,7 @@
 //! From parameters, inputs and the timeline to what a sample reads.
 
+pub mod management;
+
 use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;

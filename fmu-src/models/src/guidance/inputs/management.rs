@@ -8,9 +8,9 @@ use physics::momentum::{Convention, DumpPolicy, Reinitialise};
 use physics::plant::{PanelSetting, SunlitCraft};
 use physics::spacecraft::{MassProperties, SunshadeModel};
 
-use super::setup::Plan;
-use super::variables::choices::DumpReinitTo;
 use crate::common::choices::PanelTilt;
+use crate::guidance::setup::Plan;
+use crate::guidance::variables::choices::DumpReinitTo;
 
 /// Sets the panels as they are commanded; `panels` is memory to use again.
 pub fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<PanelSetting>) {
