@@ -37,6 +37,17 @@ fn orbits_inside_planet_or_sun() {
     named.fly(0.0, &far).unwrap().step_to(86_400.0).unwrap();
     let near = [("orbit.source", 2.0), ("orbit.position[1]", 1e8), ("orbit.velocity[2]", 4e5)];
     says(&[&[("orbit.center", 2.0)][..], &near].concat(), &["inside the planet or the Sun", "orbit.*"]);
+    // The Sun at the planet's centre, the spacecraft outside both.
+    let planet = [
+        ("orbit.source", 2.0),
+        ("orbit.position[1]", 1e10),
+        ("orbit.velocity[2]", 50.0),
+        ("ephemeris.source", 3.0),
+        ("sun.position[3]", 1e-4),
+        ("eclipse.method", 4.0),
+        ("planetLight.enabled", 1.0),
+    ];
+    says(&planet, &["the planet inside the Sun", "sun.position"]);
 }
 
 #[test]

@@ -15,8 +15,8 @@ pub enum PlantError {
     Orbit(#[from] OrbitIntegrationError),
     /// A place where no spacecraft can be.
     #[error(
-        "at {time_s} s the spacecraft at {position_m:?} m about the orbit's centre is inside the planet or the Sun, or its \
-         position is no number"
+        "at {time_s} s the spacecraft at {position_m:?} m about the orbit's centre is inside the planet or the Sun, or the \
+         planet inside the Sun, or its position is no number"
     )]
     Nowhere {
         /// When, in s.

@@ -58,16 +58,21 @@ impl Evaluation {
         Self { instant: Instant::nowhere(frame), loads: Loads::zero(), mass }
     }
 
-    /// Checks that a spacecraft can be there at `time_s`: outside the planet and the Sun, every number finite.
+    /// Checks that a spacecraft can be there at `time_s`: outside the planet and the Sun, the planet outside
+    /// the Sun, every number finite.
     ///
     /// # Errors
     /// A place inside one of them.
     pub fn check(&self, time_s: f64) -> Result<(), PlantError> {
         let total = self.loads.total();
+        let geometry = &self.instant.geometry;
+        let planet_is_outside =
+            geometry.to_planet.is_none() || geometry.sun_from_center().position_m.norm() > RADIUS_SUN_M;
         let is_somewhere = self.instant.sun_distance_m > RADIUS_SUN_M
+            && planet_is_outside
             && self.instant.lit_fraction.is_finite()
             && total.torque_body_n_m.iter().chain(&total.force_body_n).all(|x| x.is_finite());
-        let position_m = self.instant.geometry.spacecraft.position_m;
+        let position_m = geometry.spacecraft.position_m;
         if is_somewhere { Ok(()) } else { Err(PlantError::Nowhere { time_s, position_m: position_m.into() }) }
     }
 

@@ -52,7 +52,7 @@ pub fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, s
     for (_, output) in momentum.by_source.all() {
         table.output(output, dumped, knowns![]);
     }
-    table.output(momentum.target_clamped, knowns![], &start.guidance);
+    table.output(momentum.target_clamped, &inputs.management, knowns![&start.guidance, v.start.q]);
     table.output(dump.count, to_target, exceeded);
     table.output(dump.last_time, dumped, exceeded);
     table.output(dump.closest, to_target, knowns![]);

@@ -12,6 +12,8 @@ use crate::common::spacecraft::has_both_shapes;
 pub struct Inputs {
     /// Where spacecraft and Sun are.
     pub places: Knowns,
+    /// Where the Sun is to stand in a downlink that begins.
+    pub management: Knowns,
     /// How the spacecraft is turned: by command, or guided by where Sun, planet and Earth are.
     pub attitude: Knowns,
     pub panels: Knowns,
@@ -31,15 +33,17 @@ impl Inputs {
         let places = knowns![v.orbit.position, v.orbit.velocity, v.sun.position];
         let command = knowns![v.command.kind, v.command.q, v.command.rate, v.command.error];
         let panels = v.panel.iter().map(turned_by).collect::<Knowns>();
-        // Where a flight that waited for its places begins with a downlink, panels tell where the Sun is to stand.
-        let attitude = knowns![&places, command, v.earth.position, &panels];
+        // Where another orbit begins with a downlink, panels and momentum tell where the Sun is to stand.
+        let management = knowns![v.earth.position, &panels, v.dump.request, v.dump.target];
+        let attitude = knowns![&places, command, &management];
+        let management = knowns![&places, management];
         let sensors = knowns![v.star_tracker.failed, v.gyro.failed];
         let failed = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
         let dump = knowns![v.dump.request, v.dump.target];
         let weighed_panels = panels.clone().only_if(panels_weigh(setup));
         let weight = knowns![&attitude, &weighed_panels].only_if(panels_weigh(setup));
         let controller = knowns![&attitude, &sensors, failed, dump, &weighed_panels].only_if(can_control(v));
-        Self { places, attitude, panels, weight, weighed_panels, sensors, controller }
+        Self { places, management, attitude, panels, weight, weighed_panels, sensors, controller }
     }
 }
 
@@ -136,7 +140,8 @@ impl Start {
             management.aim.targeting,
             management.aim.target.element(0),
             management.aim.target.element(2),
-            v.start.momentum,
+            v.start.momentum.element(0),
+            v.start.momentum.element(2),
             v.keep_in.azimuth,
         ];
         let light =

@@ -42,10 +42,10 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, start: 
         table.output(v.velocity.element(axis), &inputs.places, velocity);
         table.output(v.heliocentric.position.element(axis), &inputs.places, from_sun);
         let rate = v.command.rate.element(axis);
-        let others = knowns![v.command.kind, v.command.q, v.command.error, v.earth.position];
+        let others = knowns![v.command.kind, v.command.q, v.command.error];
         let turned = &start.guided.clone().and(v.start.rate.element(axis));
         let at_start = &knowns![&start.rate, rate, turned];
-        let at_step = &knowns![&inputs.places, others, rate, &inputs.weighed_panels];
+        let at_step = &knowns![&inputs.management, others, rate];
         table.output(v.attitude.rate.element(axis), at_step, at_start);
         let gyro = knowns![v.gyro.bias.element(axis), v.gyro.noise, v.gyro.drift, v.gyro.failed];
         table.output(
