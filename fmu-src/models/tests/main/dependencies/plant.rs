@@ -462,10 +462,16 @@ fn look_at_choices(bench: &mut Plant, random: &mut RandomNumbers, shapes: bool) 
         }
         let mut other = values.clone();
         redraw(bench, random, GuidedByInputs, &mut other);
-        let since_s = [&values, &other]
-            .map(|it| Some(bench.real(&bench.initialize(it, 0.0)?.values, "orbit.timeSincePeriapsis")));
-        let [Some(earlier_s), Some(later_s)] = since_s else { continue };
-        if later_s < earlier_s + 60.0 {
+        let since_s =
+            |it: &Tables| Some(bench.real(&bench.initialize(it, 0.0)?.values, "orbit.timeSincePeriapsis"));
+        let (Some(mut earlier_s), Some(mut later_s)) = (since_s(&values), since_s(&other)) else { continue };
+        if later_s < earlier_s {
+            (earlier_s, later_s) = (later_s, earlier_s);
+            let orbit = values.clone();
+            bench.copy(&mut values, &other, |name| name.starts_with("orbit."));
+            bench.copy(&mut other, &orbit, |name| name.starts_with("orbit."));
+        }
+        if later_s - earlier_s < 10.0 {
             continue;
         }
         bench.put(&mut values, "guided.downlinkStart", 0.5 * (earlier_s + later_s));
