@@ -1,7 +1,8 @@
 //! Momentum management by sunlight: its parameters, and the manager they describe.
 
-use fmi_export::{Choice, Integer, Real, RealVector, Values, Variables};
+use fmi_export::{Choice, Failure, Integer, Real, RealVector, Values, Variables};
 use nalgebra::Vector3;
+use physics::guidance::Schedule;
 use physics::management::{self, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
@@ -93,6 +94,26 @@ pub struct ManagementVariables {
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
     pub aim: TargetingVariables,
+}
+
+/// Refuses downlinks that serve no strategy: none comes, or they leave no science between them.
+///
+/// # Errors
+/// Windows that never come or overlap.
+pub fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
+    let Schedule { downlink_start_s, downlink_end_s, every, once, .. } = *schedule;
+    let cycle_s = schedule.cycle_s();
+    let found = if downlink_start_s >= downlink_end_s || (every == 0 && !once) {
+        "no downlink".to_owned()
+    } else if downlink_end_s - downlink_start_s >= cycle_s {
+        format!("downlinks that overlap, one every {cycle_s:?} s")
+    } else {
+        return Ok(());
+    };
+    Err(Failure::new(format!(
+        "momentum.strategy, guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery: found a strategy with {found}, from \
+         {downlink_start_s:?} s to {downlink_end_s:?} s, allowed: dumpsOnly, or downlinks with science between them"
+    )))
 }
 
 /// Keep-in limits of the Sun about -Y.

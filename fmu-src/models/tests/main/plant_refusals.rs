@@ -51,6 +51,25 @@ fn orbits_inside_planet_or_sun() {
 }
 
 #[test]
+fn strategies_without_a_downlink_or_with_downlinks_that_overlap() {
+    let strategy = ("momentum.strategy", 2.0);
+    let never = [("guided.downlinkEvery", 0.0)];
+    let empty = [("guided.downlinkStart", 7_200.0), ("guided.downlinkEnd", 7_200.0)];
+    let overlapping =
+        [("guided.downlinkEvery", 1.0), ("guided.downlinkStart", 0.0), ("guided.downlinkEnd", 50_000.0)];
+    for (sets, found) in [(&never[..], "no downlink"), (&empty, "no downlink"), (&overlapping, "overlap")] {
+        says(
+            &[&[strategy], sets].concat(),
+            &["momentum.strategy", "guided.downlinkEvery", found, "dumpsOnly"],
+        );
+        NamedModel::<MomentumPlant>::shipped().fly(0.0, sets).unwrap().step_to(86_400.0).unwrap();
+    }
+    // One window after the start serves a strategy.
+    let once = [&[strategy, ("guided.downlinkReference", 2.0)][..], &overlapping, &never].concat();
+    NamedModel::<MomentumPlant>::shipped().fly(0.0, &once).unwrap().step_to(86_400.0).unwrap();
+}
+
+#[test]
 fn downlinks_that_end_before_they_begin() {
     let backwards = [("guided.downlinkStart", 36_000.0), ("guided.downlinkEnd", 7_200.0)];
     says(&backwards, &["guided.downlinkStart", "guided.downlinkEnd", "36000.0", "7200.0", "allowed"]);

@@ -32,7 +32,7 @@ use super::variables::PlantVariables;
 use super::variables::choices::{DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
 use crate::common::choices::PanelTilt;
 use crate::common::ephemeris;
-use crate::common::management::Limits;
+use crate::common::management::{Limits, check_windows};
 use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
@@ -277,8 +277,11 @@ fn attitude(
         let elevation_limit_rad = values.real(variables.keep_in.elevation);
         let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
         let law = variables.guided.read(values, periapsis_s, period_s, start_s, elevation_limit_rad)?;
-        let (managed, sun_place) =
-            (variables.momentum.management.manages(values), state.propagator.sun_choice.place());
+        let management = &variables.momentum.management;
+        let (managed, sun_place) = (management.manages(values), state.propagator.sun_choice.place());
+        if managed && !state.waiting {
+            check_windows(&law.schedule)?;
+        }
         Ok::<_, Failure>(Guided { managed, sun_place, ..law })
     };
     let guides_itself = dynamics::guides_itself(context, values);

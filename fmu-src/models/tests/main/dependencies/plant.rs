@@ -141,6 +141,9 @@ fn draw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, shapes: boo
         // Forecasts cost as much, and nothing is forecast at the start.
         bench.put(&mut values, "momentum.strategy", 3.0);
     }
+    if bench.real(&values, "momentum.strategy") > 1.5 && bench.real(&values, "guided.downlinkEvery") == 0.0 {
+        bench.put(&mut values, "guided.downlinkEvery", 1.0);
+    }
     bench.put(&mut values, "start.epoch", random.between(0.0, 3e7));
     if shapes {
         bench.put(&mut values, "sunshade.shape", random.whole(1, 2));
@@ -285,8 +288,32 @@ fn redraw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, values: &
             bench.put(values, &format!("wheel[{k}].capacity"), random.between(0.1, 3.0));
         }
     }
+    keep_science(bench, values);
     let is_flown = is_flown(bench, values);
     plant_dynamics::redraw(bench, random, is_flown, values);
+}
+
+/// Ends downlinks that serve a strategy before the next begins.
+fn keep_science(bench: &Plant, values: &mut Tables) {
+    if bench.real(values, "momentum.strategy") < 1.5 || bench.real(values, "guided.downlinkReference") == 2.0
+    {
+        return;
+    }
+    let vector =
+        |name: &str| nalgebra::Vector3::from([1, 2, 3].map(|i| bench.real(values, &format!("{name}[{i}]"))));
+    let gm_m3_s2 = 2.2e13;
+    let semi_major_axis_m = if bench.real(values, "orbit.source") < 1.5 {
+        bench.real(values, "orbit.semiMajorAxis")
+    } else {
+        let radius_m = vector("orbit.position").norm();
+        1.0 / (2.0 / radius_m - vector("orbit.velocity").norm_squared() / gm_m3_s2)
+    };
+    let period_s = std::f64::consts::TAU * (semi_major_axis_m.powi(3) / gm_m3_s2).sqrt();
+    let [start_s, end_s] =
+        ["guided.downlinkStart", "guided.downlinkEnd"].map(|name| bench.real(values, name));
+    if end_s - start_s > 0.8 * period_s {
+        bench.put(values, "guided.downlinkEnd", start_s + 0.8 * period_s);
+    }
 }
 
 /// Puts Sun or spacecraft so that the planet hides part of the Sun at the start.
@@ -476,6 +503,7 @@ fn look_at_choices(bench: &mut Plant, random: &mut RandomNumbers, shapes: bool) 
         }
         bench.put(&mut values, "guided.downlinkStart", 0.5 * (earlier_s + later_s));
         bench.put(&mut values, "guided.downlinkEnd", later_s + 9000.0);
+        keep_science(bench, &mut values);
         let Some(mut flight) = bench.initialize(&values, 0.0) else { continue };
         if bench.step(&mut flight, 1.0).is_none() {
             continue;
