@@ -36,6 +36,9 @@ impl Spacing {
         if self.closest_d.is_none() && stated.closest_d.is_none() {
             return "no gap, as in the paper";
         }
+        if stated.closest_d.is_none() {
+            return "off";
+        }
         let near = |ours: Option<f64>, theirs: Option<f64>| {
             ours.zip(theirs).is_some_and(|(ours, theirs)| (ours / theirs - 1.0).abs() <= 0.25)
         };
