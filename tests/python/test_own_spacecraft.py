@@ -218,7 +218,7 @@ BAD = {
     "a polygon that is not flat": (
         "center_m = [0, -1, 0]", "polygon_m = [[-1, -1, 0], [0, -1, -1], [1, -1, 0], [0, -1.5, 1]]",
         "polygon_m = [[-1, -1, 0], [0, -1, -1], [1, -1, 0], [0, -1.5, 1]]",
-        "plates[1].polygon_m: found vertex 1 lies 8.08452"),
+        "plates[1].polygon_m: found vertex 1 lies 1.21267"),
     "a polygon that crosses itself": (
         "area_m2 = 1.5", "area_m2 = 1.5\npolygon_m = [[1, 0, -1], [2, 0, 1], [2, 0, -1], [1, 0, 2]]",
         "polygon_m = [[1, 0, -1], [2, 0, 1], [2, 0, -1], [1, 0, 2]]",
@@ -229,7 +229,7 @@ BAD = {
     "a polygon of another area": (
         "area_m2 = 1.5", "area_m2 = 1.5\npolygon_m = [[1, 0, -1], [3, 0, -1], [3, 0, 1], [1, 0, 1]]", "area_m2 = 1.5",
         "panels[1].area_m2: found 1.5, allowed: the polygon's 4 within 1e-3"),
-    "no surface": (PLATE + PANEL, "", "", "found no surface, allowed: at least one of `plates`, `sunshade`, `panels`"),
+    "no surface": (PLATE + PANEL, "", "", "found no surface, allowed: at least one of `plates`, `boxes`, `cylinders`, `discs`, `dishes`, `sunshade`, `panels`"),
 }
 
 
