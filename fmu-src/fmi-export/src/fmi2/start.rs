@@ -168,9 +168,10 @@ fn targets(
         Some(index) => vec![index],
         None => names::elements(&description.variables, &entry.name),
     };
+    let is_for_others =
+        entry.model.is_none() && readers.others().iter().any(|other| other.names.contains(&entry.name));
     let Some(first) = elements.first().and_then(own) else {
-        let is_others = |other: &Reader| other.names.contains(&entry.name);
-        if entry.model.is_none() && readers.others().iter().any(is_others) {
+        if is_for_others {
             return Ok(Vec::new());
         }
         let mut known = settable_names(&description.variables);
@@ -182,6 +183,10 @@ fn targets(
         return Err(unknown(&entry.name, &models, known.iter().map(String::as_str)));
     };
     if !is_settable(first) {
+        // Another model may take what this one gives.
+        if is_for_others {
+            return Ok(Vec::new());
+        }
         let found = format!("the {} {}", first.causality, entry.name);
         return Err(Misfit::new(found, "a parameter or an input"));
     }
