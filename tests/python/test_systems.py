@@ -126,11 +126,13 @@ TO_GUIDANCE = {
     "earth.positionInertial": "earth.position",
     "earth.velocityInertial": "earth.velocity",
     "accelerometer.deltaV": "accelerometer.deltaV",
+    "momentum.body": "momentum.body",
 }
 TO_PLANT = {
     name: name
     for name in (
         "command.kind", "command.q", "command.rate", "command.error", "thrust.request", "thrust.command", "thrust.stop",
+        "dump.request", "dump.target", "panel",
     )
 }
 
@@ -146,7 +148,7 @@ def test_wire_connects_what_belongs_together_and_nothing_else(heliotorque, dist,
     expected = {(f"plant.{output}", f"guidance.{to}") for output, to in TO_GUIDANCE.items()}
     expected |= {(f"guidance.{output}", f"plant.{to}") for output, to in TO_PLANT.items()}
     assert bare == expected
-    assert len(joined) == len(inputs) == 6 * 3 + (4 + 3 + 1 + 3 + 1 + 3) + (1 + 4 + 3 + 4 + 3)
+    assert len(joined) == len(inputs) == 6 * 3 + (4 + 3 + 1 + 3 + 1 + 3) + (1 + 4 + 3 + 4 + 3) + (3 + 1 + 3 + 2)
     assert done.stdout == "" and done.stderr.startswith(f"{len(joined)} connections")
     assert "no output of that name" in done.stderr and "scan.frame" in done.stderr
     # To the standard output the same bytes, once it has the same name; never to a terminal.
