@@ -101,14 +101,10 @@ pub struct ManagementVariables {
 /// # Errors
 /// Windows that never come or overlap.
 pub fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
-    let Schedule { downlink_start_s, downlink_end_s, every, once, .. } = *schedule;
-    let cycle_s = schedule.cycle_s();
-    let found = if downlink_start_s >= downlink_end_s || (every == 0 && !once) {
-        "no downlink".to_owned()
-    } else if downlink_end_s - downlink_start_s >= cycle_s {
-        format!("downlinks that overlap, one every {cycle_s:?} s")
-    } else {
-        return Ok(());
+    let Schedule { downlink_start_s, downlink_end_s, .. } = *schedule;
+    let found = match schedule.check_windows() {
+        Ok(()) => return Ok(()),
+        Err(fault) => fault,
     };
     Err(Failure::new(format!(
         "momentum.strategy, guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery: found a strategy with {found}, from \

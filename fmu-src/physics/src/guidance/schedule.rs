@@ -31,6 +31,20 @@ pub struct Schedule {
     pub once: bool,
 }
 
+/// Why windows give no cycles of science and downlink.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoCycle {
+    /// No window is ever open.
+    #[error("no downlink")]
+    Never,
+    /// A window is still open when the next one begins.
+    #[error("downlinks that overlap, one every {every_s:?} s")]
+    Overlap {
+        /// Between two begins.
+        every_s: f64,
+    },
+}
+
 /// The activity at a time, when it began and when it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
@@ -68,6 +82,21 @@ impl Schedule {
     /// Length of a cycle of science and downlink, in s; infinite where none follows.
     pub fn cycle_s(&self) -> f64 {
         if self.once { f64::INFINITY } else { f64::from(self.every) * self.period_s }
+    }
+
+    /// Whether there are downlinks with science between them.
+    ///
+    /// # Errors
+    /// Windows that never open or overlap.
+    pub fn check_windows(&self) -> Result<(), NoCycle> {
+        let cycle_s = self.cycle_s();
+        if self.downlink_start_s >= self.downlink_end_s || (self.every == 0 && !self.once) {
+            Err(NoCycle::Never)
+        } else if self.downlink_end_s - self.downlink_start_s >= cycle_s {
+            Err(NoCycle::Overlap { every_s: cycle_s })
+        } else {
+            Ok(())
+        }
     }
 
     /// The same windows, one of which begins at `time_s`.
