@@ -3,7 +3,7 @@
 //! The description comes from the library itself, so it cannot disagree with it. The same input gives the same
 //! archive, byte for byte.
 
-mod documentation;
+mod manual;
 mod per_plate;
 mod picture;
 mod schedule;
@@ -107,7 +107,7 @@ pub fn run(arguments: &Pack) -> Outcome {
         entries.add(&format!("resources/{name}"), text.into_bytes())?;
     }
     let drawing = draw::svg(&setup);
-    let page = documentation::html(&description, &described.sources, drawing.as_deref());
+    let page = manual::html(&description, &described, &setup, drawing.as_deref());
     entries.add("documentation/index.html", page.into_bytes())?;
     if let Some(png) = picture::png(&setup) {
         entries.add("model.png", png)?;
