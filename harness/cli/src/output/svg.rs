@@ -120,6 +120,7 @@ fn chart(described: &Description, recording: &Recording) -> Chart {
         title: described.model_name.clone(),
         x_label: format!("time [{time_unit}]"),
         panels: panels.into_iter().map(|(_, panel)| panel).collect(),
+        ..Chart::default()
     }
 }
 
