@@ -19,7 +19,7 @@ const GREATEST: f64 = 1e12;
 const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// Gathers the problems of one document.
-pub(crate) struct Checker<'d> {
+pub struct Checker<'d> {
     document: &'d Document<'d>,
     problems: Vec<Problem>,
     reported: BTreeSet<Place>,

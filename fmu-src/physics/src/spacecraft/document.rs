@@ -11,7 +11,7 @@ use super::place::{Part, Place};
 use super::reader::{Findings, Reader};
 
 /// A parsed text with its file name.
-pub(crate) struct Document<'t> {
+pub struct Document<'t> {
     file: &'t str,
     // Offsets of line ends, counted once: a file may have a fault on every line.
     line_ends: Vec<usize>,

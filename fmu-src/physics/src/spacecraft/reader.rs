@@ -13,7 +13,7 @@ use super::spelling::nearest;
 
 /// What a reading found.
 #[derive(Default)]
-pub(crate) struct Findings {
+pub struct Findings {
     /// Place, what was found there and what is allowed.
     pub problems: Vec<(Place, String, String)>,
     /// Where a value stands in that nobody wrote.
