@@ -22,11 +22,11 @@ impl Entries {
         }
     }
 
-    /// Writes the files into a folder, as an archive would be unpacked.
+    /// Writes the files below an existing folder.
     ///
     /// # Errors
-    /// What the system says of a file or folder that cannot be written.
-    pub fn to_folder(&self, folder: &Path) -> io::Result<()> {
+    /// What cannot be written.
+    pub fn write_below(&self, folder: &Path) -> io::Result<()> {
         for (path, content) in &self.0 {
             let path = folder.join(path);
             if let Some(parent) = path.parent() {

@@ -12,15 +12,30 @@ pub mod source;
 pub mod start;
 
 use std::{
+    error::Error,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
-use files::Destination;
+use files::{Destination, Entries, Scratch};
+use loader::Fmu;
 
 use crate::{args::Pack, draw, mission::Mission, outcome::Outcome};
 use assemble::{Assembled, Parts, assemble};
 use source::Source;
+
+/// Adds the reference flight of the FMU that these files make. An FMU that cannot fly it is not written.
+fn add_reference_flight(entries: &mut Entries, inputs: &str) -> Result<(), Box<dyn Error>> {
+    let folder = Scratch::new("heliotorque-")?;
+    entries.write_below(folder.path())?;
+    let fmu = Fmu::open(folder.path())?;
+    let flight = reference::record(&fmu, inputs)
+        .map_err(|error| format!("the FMU is not written: {}", loader::Error::chain(&error)))?;
+    for (path, content) in flight {
+        entries.add(&path, content)?;
+    }
+    Ok(())
+}
 
 /// Packs the FMU.
 pub fn run(arguments: &Pack) -> Outcome {
@@ -48,6 +63,7 @@ pub fn run(arguments: &Pack) -> Outcome {
     if let Some(png) = picture::png(&setup) {
         entries.add("model.png", png)?;
     }
+    add_reference_flight(&mut entries, &described.reference_inputs)?;
 
     let bytes = entries.to_zip()?;
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{identifier}.fmu")));

@@ -78,7 +78,7 @@ pub fn packed(mission: &Mission, template: Option<&Path>) -> Result<(Scratch, As
     let assembled = assemble(&source, &parts)?;
     let failed = |path: PathBuf, error: std::io::Error| format!("{}: {error}", path.display());
     let folder = Scratch::new("heliotorque-").map_err(|error| failed(std::env::temp_dir(), error))?;
-    assembled.entries.to_folder(folder.path()).map_err(|error| failed(folder.path().to_owned(), error))?;
+    assembled.entries.write_below(folder.path()).map_err(|error| failed(folder.path().to_owned(), error))?;
     Ok((folder, assembled))
 }
 
