@@ -2,15 +2,18 @@
 
 use std::{fs, path::PathBuf, process::ExitCode};
 
-use clap::{Args, CommandFactory};
+use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 
 use crate::{args::Arguments, outcome::Outcome};
 
+/// Name and version.
+const VERSION: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+
 /// `heliotorque man`.
 #[derive(Debug, Args)]
 pub struct Manual {
-    /// The command whose page it is; otherwise the program's
+    /// The command whose page it is, plan-spin for one below another; otherwise the program's
     pub command: Option<String>,
     /// Write every page into this folder instead: heliotorque.1, heliotorque-run.1, ...
     #[arg(long, value_name = "FOLDER", conflicts_with = "command")]
@@ -42,23 +45,24 @@ pub fn run(arguments: &Manual) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The pages by name.
+/// The pages by name, of the program and of every command below it.
 fn pages() -> std::io::Result<Vec<(String, Vec<u8>)>> {
     let program = Arguments::command().disable_help_subcommand(true);
     let name = program.get_name().to_owned();
-    let shown = program.get_subcommands().filter(|command| !command.is_hide_set());
-    let mut commands = vec![(name.clone(), program.clone())];
-    for command in shown {
-        let full = format!("{name}-{}", command.get_name());
-        let usage = format!("{name} {}", command.get_name());
-        let page = command.clone().version(env!("CARGO_PKG_VERSION")).display_name(full.clone()).bin_name(usage);
-        commands.push((full, page));
-    }
     let mut pages = Vec::new();
-    for (name, command) in commands {
-        let mut page = Vec::new();
-        Man::new(command).render(&mut page)?;
-        pages.push((name, page));
-    }
+    add(&mut pages, &program, &name, &name)?;
     Ok(pages)
+}
+
+/// Adds a command's page under its name with hyphens; `usage` is what one types.
+fn add(pages: &mut Vec<(String, Vec<u8>)>, command: &Command, name: &str, usage: &str) -> std::io::Result<()> {
+    let shown = command.clone().display_name(name.to_owned()).bin_name(usage.to_owned());
+    let mut page = Vec::new();
+    Man::new(shown).title(name).source(VERSION).render(&mut page)?;
+    pages.push((name.to_owned(), page));
+    for below in command.get_subcommands().filter(|below| !below.is_hide_set()) {
+        let own = below.get_name();
+        add(pages, &below.clone().disable_help_subcommand(true), &format!("{name}-{own}"), &format!("{usage} {own}"))?;
+    }
+    Ok(())
 }
