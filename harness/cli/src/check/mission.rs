@@ -38,13 +38,21 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
     Ok(format!(
-        "{} flies from {begin} for {} d in {} steps of {} s; {} recorded, {}, {}",
+        "{} flies from {begin} for {} in {} steps of {} s; {} recorded, {}, {}",
         subject.name(),
-        short((times.stop_s - times.start_s) / 86_400.0),
+        span(times.stop_s - times.start_s),
         times.steps(),
         short(times.step_s),
         count(positions.len(), "variable"),
         count(plots.len(), "picture"),
         count(limits.len(), "limit"),
     ))
+}
+
+/// A duration in the largest unit that it has more than one of.
+fn span(span_s: f64) -> String {
+    const UNITS: [(f64, &str); 3] = [(86_400.0, "d"), (3600.0, "h"), (60.0, "min")];
+    let unit = UNITS.into_iter().find(|(unit_s, _)| span_s >= 2.0 * unit_s);
+    let (unit_s, unit) = unit.unwrap_or((1.0, "s"));
+    format!("{} {unit}", terminal::short(span_s / unit_s))
 }

@@ -37,7 +37,7 @@ pub enum Craft {
         /// The spacecraft or spinner.
         spacecraft: Option<PathBuf>,
         /// The model, if it is named.
-        model: Option<String>,
+        model: Option<At<String>>,
         /// Commands over time.
         timeline: Option<PathBuf>,
         /// Positions over time.
@@ -232,11 +232,13 @@ impl Builder<'_> {
             let mut file = |key: &str, path: &Option<String>| {
                 path.as_ref().map(|path| self.input_file(&root.key(key), path))
             };
+            let (spacecraft, timeline) = (file("spacecraft", spacecraft), file("timeline", timeline));
+            let ephemeris = file("ephemeris", ephemeris);
             return Craft::Files {
-                spacecraft: file("spacecraft", spacecraft),
-                model: model.clone(),
-                timeline: file("timeline", timeline),
-                ephemeris: file("ephemeris", ephemeris),
+                spacecraft,
+                model: model.clone().map(|model| self.at(&root.key("model"), model)),
+                timeline,
+                ephemeris,
             };
         };
         let others = [("spacecraft", spacecraft), ("model", model), ("timeline", timeline), ("ephemeris", ephemeris)];

@@ -93,6 +93,12 @@ impl<'m> Resolver<'m> {
             // The key names the variable.
             loader::Error::Value { what, variable } if at.key.contains(&variable) => what,
             loader::Error::Inputs(what) => what,
+            loader::Error::UnknownVariable { name, hint, .. } => {
+                format!("found the unknown variable {name:?}, allowed: one that the FMU has{hint}")
+            }
+            loader::Error::NoOutput { pattern, example, .. } => {
+                format!("found {pattern:?}, which no output fits, allowed: * for outputs, anything else by its name: {example}")
+            }
             other => other.to_string(),
         };
         self.report(at, &what);
@@ -222,6 +228,7 @@ impl<'m> Resolver<'m> {
             if let (Some(low), Some(high)) = (min, max)
                 && low > high
             {
+                let [low, high] = [&at.it.min, &at.it.max].map(|it| it.as_deref().unwrap_or_default());
                 self.report(at, &format!("found min {low} above max {high}, allowed: a min up to max"));
             }
             limits.push(Limit { name: variable.name.clone(), min, max, at: self.mission.place(at) });

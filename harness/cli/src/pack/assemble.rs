@@ -5,6 +5,7 @@ use std::path::Path;
 use ::files::Entries;
 use loader::{Binary, Described};
 use model_description::Description;
+use physics::spacecraft::nearest;
 
 use super::{per_plate, schedule, source::Source, start};
 use crate::mission::{Craft, Mission};
@@ -20,6 +21,8 @@ pub struct Parts<'a> {
     pub timeline: Option<&'a Path>,
     /// Positions over time.
     pub ephemeris: Option<&'a Path>,
+    /// A mission that names some of these.
+    pub origin: Option<&'a Mission>,
     /// A mission, whose values become start values.
     pub mission: Option<&'a Mission>,
     /// Start values, written as for `--set`.
@@ -39,11 +42,27 @@ impl<'a> Parts<'a> {
         };
         Ok(Self {
             spacecraft: self.spacecraft.or(spacecraft.as_deref()),
-            model: self.model.or(model.as_deref()),
+            model: self.model.or(model.as_ref().map(|model| model.it.as_str())),
             timeline: self.timeline.or(timeline.as_deref()),
             ephemeris: self.ephemeris.or(ephemeris.as_deref()),
+            origin: Some(mission),
             ..self
         })
+    }
+
+    /// Refuses a model that the library does not have, if the mission names it.
+    fn check_model(&self, source: &Source) -> Result<(), String> {
+        let Some((mission, Craft::Files { model: Some(model), .. })) = self.origin.map(|it| (it, &it.craft)) else {
+            return Ok(());
+        };
+        let models = source.binary().models()?;
+        let names: Vec<&str> = models.iter().map(|model| model.model.as_str()).collect();
+        if self.model != Some(&model.it) || names.contains(&model.it.as_str()) {
+            return Ok(());
+        }
+        let near = nearest(&model.it, &names).map(|near| format!(" (did you mean {near:?}?)"));
+        let (found, near) = (&model.it, near.unwrap_or_default());
+        Err(mission.problem(model, &format!("found the unknown model {found:?}{near}, allowed: {}", names.join(", "))))
     }
 }
 
@@ -66,6 +85,7 @@ pub struct Assembled {
 /// # Errors
 /// Whatever the library refuses, and names and values that the model does not take.
 pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn std::error::Error>> {
+    parts.check_model(source)?;
     let spacecraft = parts.spacecraft.map(::files::read_text).transpose()?;
     let file = parts.spacecraft.map(|path| path.display().to_string());
     let model = match parts.model {

@@ -45,6 +45,7 @@ pub fn run(arguments: &Pack) -> Outcome {
         model: arguments.model.as_deref(),
         timeline: arguments.timeline.as_deref(),
         ephemeris: arguments.ephemeris.as_deref(),
+        origin: None,
         mission: mission.as_ref(),
         sets: &arguments.set,
         per_plate: arguments.per_plate,
