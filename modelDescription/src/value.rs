@@ -3,7 +3,8 @@
 use core::fmt;
 
 use crate::{
-    Description, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind, VariableKind, names::similar,
+    Description, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind, VariableKind,
+    names::similar,
 };
 
 /// A value of a variable; Enumerations are Integers at the interface.

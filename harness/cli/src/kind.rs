@@ -20,8 +20,20 @@ const OF_SPACECRAFT: &str = "mass_properties";
 const OF_TIMELINE: &str = "command";
 /// Keys that only missions have.
 const OF_MISSION: [&str; 14] = [
-    "spacecraft", "model", "fmu", "timeline", "ephemeris", "stop", "step", "every", "record", "output", "plot", "set",
-    "inputs", "limits",
+    "spacecraft",
+    "model",
+    "fmu",
+    "timeline",
+    "ephemeris",
+    "stop",
+    "step",
+    "every",
+    "record",
+    "output",
+    "plot",
+    "set",
+    "inputs",
+    "limits",
 ];
 
 impl FileKind {

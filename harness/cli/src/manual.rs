@@ -55,14 +55,24 @@ fn pages() -> std::io::Result<Vec<(String, Vec<u8>)>> {
 }
 
 /// Adds a command's page under its name with hyphens; `usage` is what one types.
-fn add(pages: &mut Vec<(String, Vec<u8>)>, command: &Command, name: &str, usage: &str) -> std::io::Result<()> {
+fn add(
+    pages: &mut Vec<(String, Vec<u8>)>,
+    command: &Command,
+    name: &str,
+    usage: &str,
+) -> std::io::Result<()> {
     let shown = command.clone().display_name(name.to_owned()).bin_name(usage.to_owned());
     let mut page = Vec::new();
     Man::new(shown).title(name).source(VERSION).render(&mut page)?;
     pages.push((name.to_owned(), page));
     for below in command.get_subcommands().filter(|below| !below.is_hide_set()) {
         let own = below.get_name();
-        add(pages, &below.clone().disable_help_subcommand(true), &format!("{name}-{own}"), &format!("{usage} {own}"))?;
+        add(
+            pages,
+            &below.clone().disable_help_subcommand(true),
+            &format!("{name}-{own}"),
+            &format!("{usage} {own}"),
+        )?;
     }
     Ok(())
 }

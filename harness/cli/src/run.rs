@@ -18,8 +18,8 @@ mod input_copy;
 pub mod settings;
 pub mod subject;
 
-use input_copy::InputCopy;
 use flown::Flown;
+use input_copy::InputCopy;
 use settings::Settings;
 
 /// Runs in a child process.

@@ -99,7 +99,12 @@ impl InputTable {
     ///
     /// # Errors
     /// No rows, times that fall, a variable that cannot change during a run or has rows already.
-    pub fn add(&mut self, description: &Description, name: &str, rows: Vec<(f64, Value)>) -> Result<(), Error> {
+    pub fn add(
+        &mut self,
+        description: &Description,
+        name: &str,
+        rows: Vec<(f64, Value)>,
+    ) -> Result<(), Error> {
         let position = crate::select::named(description, name)
             .ok_or_else(|| crate::select::unknown(description, name))?;
         let variable = &description.variables[position];

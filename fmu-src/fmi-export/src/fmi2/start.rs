@@ -251,7 +251,8 @@ fn converted(
         }
         _ => return Err(misfit()),
     };
-    if let Some(misfit) = value::angle_misfit(description, variable, &value, given.shown().trim_matches('"')) {
+    if let Some(misfit) = value::angle_misfit(description, variable, &value, given.shown().trim_matches('"'))
+    {
         let AngleMisfit { found, meant, allowed } = misfit;
         let meant = meant.map(|meant| format!(" (did you mean {meant:?}?)")).unwrap_or_default();
         return Err(Misfit::new(format!("{found}{meant}"), allowed));

@@ -29,7 +29,8 @@ impl<'t> Document<'t> {
             }
             Err(error) => {
                 let line = error.span().map(|span| line_of(text, span.start));
-                let written = line.and_then(|line| text.lines().nth(line - 1)).map(excerpt).unwrap_or_default();
+                let written =
+                    line.and_then(|line| text.lines().nth(line - 1)).map(excerpt).unwrap_or_default();
                 let message = one_line(error.message());
                 Err(SpacecraftError {
                     file: file.to_owned(),

@@ -12,7 +12,8 @@ use crate::{args::Check, outcome::Outcome, timeline};
 /// Reads the file with the instruments of Guidance's own spacecraft.
 pub fn run(arguments: &Check, text: &str) -> Outcome {
     let file = arguments.subject.display().to_string();
-    let instruments = Spacecraft::from_toml("", MESSENGER_TOML).map_or_else(|_| Vec::new(), |it| it.instruments);
+    let instruments =
+        Spacecraft::from_toml("", MESSENGER_TOML).map_or_else(|_| Vec::new(), |it| it.instruments);
     match Timeline::from_toml(&file, text, &instruments) {
         Ok(read) => {
             let names: Vec<&str> = instruments.iter().map(|instrument| instrument.name.as_str()).collect();

@@ -182,7 +182,11 @@ impl Builder<'_> {
             && end_s <= begin_s
         {
             let begin = description.start.as_ref().map(Written::to_string).unwrap_or_default();
-            self.check.report(&stop, format_args!("{written}, not after `start`"), format_args!("a time after {begin}"));
+            self.check.report(
+                &stop,
+                format_args!("{written}, not after `start`"),
+                format_args!("a time after {begin}"),
+            );
         }
         let step_s = self.span(&root.key("step"), description.step.as_ref());
         let every_s = self.span(&root.key("every"), description.every.as_ref());
@@ -192,11 +196,14 @@ impl Builder<'_> {
         let plots = plots.into_iter().enumerate();
         let plots = plots.map(|(i, plot)| self.plot(&root.key("plot").item(i), plot)).collect();
         let sets = description.set.unwrap_or_default();
-        let sets = sets.into_iter().filter_map(|(name, written)| self.set(&root.key("set").key(&name), name, &written));
+        let sets = sets
+            .into_iter()
+            .filter_map(|(name, written)| self.set(&root.key("set").key(&name), name, &written));
         let sets = sets.collect();
         let inputs = description.inputs.and_then(|written| self.inputs(&root.key("inputs"), written));
         let limits = description.limits.unwrap_or_default().into_iter();
-        let limits = limits.map(|(name, limit)| self.limit(&root.key("limits").key(&name), name, limit)).collect();
+        let limits =
+            limits.map(|(name, limit)| self.limit(&root.key("limits").key(&name), name, limit)).collect();
         Mission {
             file: file.to_owned(),
             craft,
@@ -241,7 +248,8 @@ impl Builder<'_> {
                 ephemeris,
             };
         };
-        let others = [("spacecraft", spacecraft), ("model", model), ("timeline", timeline), ("ephemeris", ephemeris)];
+        let others =
+            [("spacecraft", spacecraft), ("model", model), ("timeline", timeline), ("ephemeris", ephemeris)];
         for (key, _) in others.into_iter().filter(|(_, other)| other.is_some()) {
             let allowed = "one of them: the FMU has its own, packed with it";
             self.check.report(&root.key(key), format_args!("`{key}` beside `fmu`"), allowed);
@@ -279,9 +287,7 @@ impl Builder<'_> {
     fn plot(&mut self, place: &Place, plot: PlotDescription) -> Plot {
         let key = place.key("file");
         let file = self.path(&key, plot.file);
-        if !self.check.has_stand_in(&key)
-            && !is_svg_path(&file)
-        {
+        if !self.check.has_stand_in(&key) && !is_svg_path(&file) {
             let found = format!("{}, no SVG file's name", file.display());
             self.check.report(&key, found, "one that ends in .svg, or -");
         }
@@ -343,7 +349,11 @@ impl Builder<'_> {
             };
             let Some(time_s) = self.time(&at.item(0), time) else { continue };
             if rows.last().is_some_and(|(before_s, _)| time_s < *before_s) {
-                self.check.report(&at.item(0), format_args!("{time}, before the row above"), "a time that does not fall");
+                self.check.report(
+                    &at.item(0),
+                    format_args!("{time}, before the row above"),
+                    "a time that does not fall",
+                );
             }
             let values = Written::List(values.to_vec());
             if let Some(value) = self.value(&at, &values) {
@@ -384,21 +394,43 @@ impl Builder<'_> {
             let epoch_s = self.checked_date(place, written, read)?;
             if self.epoch_s.is_none() {
                 let allowed = format!("simulation time, {ALLOWED_TIME}; or a date, where `start` is one");
-                self.check.report_across(&Place::root().key("start"), place, format_args!("the date {written}"), allowed);
+                self.check.report_across(
+                    &Place::root().key("start"),
+                    place,
+                    format_args!("the date {written}"),
+                    allowed,
+                );
             }
-            return self.epoch_s.map(|zero_s| epoch_s - zero_s);
+            return self.epoch_s.map(|zero_s| whole(epoch_s - zero_s));
         }
         let number = matches!(written, Written::Number(_) | Written::Integer(_) | Written::Text(_));
         let time_s = written.setting().filter(|_| number).and_then(|text| values::duration(&text).ok());
         if time_s.is_none() {
-            self.check.report(place, written, format_args!("{ALLOWED_DATE}; or simulation time, {ALLOWED_TIME}"));
+            self.check.report(
+                place,
+                written,
+                format_args!("{ALLOWED_DATE}; or simulation time, {ALLOWED_TIME}"),
+            );
         }
         time_s
     }
 
-    fn checked_date(&mut self, place: &Place, written: &Written, read: Result<f64, dates::DateError>) -> Option<f64> {
+    fn checked_date(
+        &mut self,
+        place: &Place,
+        written: &Written,
+        read: Result<f64, dates::DateError>,
+    ) -> Option<f64> {
         read.map_err(|error| self.check.report(place, format_args!("{written}, {error}"), ALLOWED_DATE)).ok()
     }
+}
+
+/// The time between two dates: whole seconds of UTC are whole seconds of the simulation, although TDB runs up to 1.7 ms ahead of TT
+/// or behind it in the course of a year, and a step of less than that would be left over.
+fn whole(span_s: f64) -> f64 {
+    const ANNUAL_TERM_S: f64 = 4e-3;
+    let rounded_s = span_s.round();
+    if (span_s - rounded_s).abs() < ANNUAL_TERM_S { rounded_s } else { span_s }
 }
 
 /// The epoch, if it looks like a date.

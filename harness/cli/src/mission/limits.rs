@@ -67,7 +67,11 @@ impl Judged {
     fn line(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> String {
         let shown = Shown::of(described, &self.limit.name);
         let number = |value: f64| shown.text(shown.value(value));
-        let unit = if shown.unit.is_empty() || shown.unit == "1" { String::new() } else { format!(" {}", shown.unit) };
+        let unit = if shown.unit.is_empty() || shown.unit == "1" {
+            String::new()
+        } else {
+            format!(" {}", shown.unit)
+        };
         let bounds = match (self.limit.min, self.limit.max) {
             (Some(min), Some(max)) => format!("from {} to {}{unit}", number(min), number(max)),
             (Some(min), None) => format!("from {}{unit} up", number(min)),

@@ -8,6 +8,6 @@ mod resolved;
 mod schema;
 mod written;
 
-pub use file::{At, Craft, Inputs, Mission, Plot};
+pub use file::{Craft, Inputs, Mission, Plot};
 pub use limits::Judge;
 pub use resolved::{Limit, Resolved};

@@ -97,7 +97,9 @@ impl<'m> Resolver<'m> {
                 format!("found the unknown variable {name:?}, allowed: one that the FMU has{hint}")
             }
             loader::Error::NoOutput { pattern, example, .. } => {
-                format!("found {pattern:?}, which no output fits, allowed: * for outputs, anything else by its name: {example}")
+                format!(
+                    "found {pattern:?}, which no output fits, allowed: * for outputs, anything else by its name: {example}"
+                )
             }
             other => other.to_string(),
         };
@@ -110,11 +112,8 @@ impl<'m> Resolver<'m> {
             let names = self.described.variables.iter().map(|it| &it.name).filter(|name| is_epoch(name));
             sets.extend(names.map(|name| (name.clone(), Value::Real(at.it))));
             if sets.is_empty() {
-                let name = &self.described.model_name;
-                let what = format!(
-                    "found a date, but {name} has no variable {EPOCH}; allowed: simulation time, 0 or \"10 d\""
-                );
-                self.report(at, &what);
+                let found = format!("found a date, but the FMU has no variable {EPOCH}");
+                self.report(at, &format!("{found}, allowed: simulation time, 0 or \"10 d\""));
             }
         }
         for at in &self.mission.sets {
@@ -213,11 +212,17 @@ impl<'m> Resolver<'m> {
         let mut limits = Vec::new();
         for variable in positions.into_iter().map(|position| &self.described.variables[position]) {
             if !matches!(variable.kind, VariableKind::Real { .. } | VariableKind::Integer { .. }) {
-                self.report(at, &format!("found {}, which is no number, allowed: a Real or an Integer", variable.name));
+                self.report(
+                    at,
+                    &format!("found {}, which is no number, allowed: a Real or an Integer", variable.name),
+                );
                 continue;
             }
             if variable.causality == Causality::Parameter {
-                self.report(at, &format!("found the parameter {}, allowed: what changes during a run", variable.name));
+                self.report(
+                    at,
+                    &format!("found the parameter {}, allowed: what changes during a run", variable.name),
+                );
                 continue;
             }
             let mut bound = |written: &Option<String>| {

@@ -52,6 +52,10 @@ mod tests {
             fs::write(&path, &wanted).unwrap();
         }
         let found = fs::read_to_string(&path).unwrap();
-        assert!(found == wanted, "{} is out of step: run the tests once with UPDATE_SCHEMA=1", path.display());
+        assert!(
+            found == wanted,
+            "{} is out of step: run the tests once with UPDATE_SCHEMA=1",
+            path.display()
+        );
     }
 }

@@ -57,7 +57,11 @@ impl Outputs {
                 return Err(format!("one file cannot take both: see --output and {}", plot.option));
             }
             if pictures.iter().any(|other| other.is_same(&svg)) {
-                return Err(format!("{}: one file cannot take two pictures: see {}", plot.path.display(), plot.option));
+                return Err(format!(
+                    "{}: one file cannot take two pictures: see {}",
+                    plot.path.display(),
+                    plot.option
+                ));
             }
             pictures.push(svg);
         }

@@ -38,7 +38,9 @@ impl<'a> Parts<'a> {
     pub fn with_files_of(self, mission: &'a Mission) -> Result<Self, String> {
         let Craft::Files { spacecraft, model, timeline, ephemeris } = &mission.craft else {
             let file = mission.file.display();
-            return Err(format!("{file}: found `fmu`, which is packed already, allowed: spacecraft or model"));
+            return Err(format!(
+                "{file}: found `fmu`, which is packed already, allowed: spacecraft or model"
+            ));
         };
         Ok(Self {
             spacecraft: self.spacecraft.or(spacecraft.as_deref()),
@@ -52,7 +54,8 @@ impl<'a> Parts<'a> {
 
     /// Refuses a model that the library does not have, if the mission names it.
     fn check_model(&self, source: &Source) -> Result<(), String> {
-        let Some((mission, Craft::Files { model: Some(model), .. })) = self.origin.map(|it| (it, &it.craft)) else {
+        let Some((mission, Craft::Files { model: Some(model), .. })) = self.origin.map(|it| (it, &it.craft))
+        else {
             return Ok(());
         };
         let models = source.binary().models()?;
@@ -62,7 +65,10 @@ impl<'a> Parts<'a> {
         }
         let near = nearest(&model.it, &names).map(|near| format!(" (did you mean {near:?}?)"));
         let (found, near) = (&model.it, near.unwrap_or_default());
-        Err(mission.problem(model, &format!("found the unknown model {found:?}{near}, allowed: {}", names.join(", "))))
+        Err(mission.problem(
+            model,
+            &format!("found the unknown model {found:?}{near}, allowed: {}", names.join(", ")),
+        ))
     }
 }
 

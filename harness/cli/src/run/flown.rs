@@ -55,7 +55,9 @@ impl Flown {
         let Some(mission) = &self.mission else { return Ok((Subject::open(&self.run.fmu)?, None)) };
         if let Craft::Fmu(path) = &mission.craft {
             if self.run.template.is_some() {
-                return Err("--template is for a mission with a spacecraft: its FMU has its own library".into());
+                return Err(
+                    "--template is for a mission with a spacecraft: its FMU has its own library".into()
+                );
             }
             return Ok((Subject::open(path)?, None));
         }

@@ -75,7 +75,14 @@ impl Settings {
             let position = described.variables.iter().position(|variable| variable.name == *name);
             positions.extend(position.filter(|position| !positions.contains(position)));
         }
-        Ok(Self { times, sets, inputs: inputs.or(resolved.inputs), positions, plots, limits: resolved.limits })
+        Ok(Self {
+            times,
+            sets,
+            inputs: inputs.or(resolved.inputs),
+            positions,
+            plots,
+            limits: resolved.limits,
+        })
     }
 }
 

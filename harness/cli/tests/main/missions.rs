@@ -56,12 +56,14 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     let folder = scratch.path();
     fs::create_dir(folder.join("deep")).unwrap();
     fs::write(folder.join("deep/m.toml"), MISSION).unwrap();
-    let fly = |more: &[&str]| {
-        said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat())
-    };
+    let fly =
+        |more: &[&str]| said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat());
     let (status, told) = fly(&[]);
     assert_eq!(status, Some(0), "{told}");
-    assert!(told.contains("120 steps to 7200 s") && told.contains("kept: sun.elevation from -20 to 20 deg"), "{told}");
+    assert!(
+        told.contains("120 steps to 7200 s") && told.contains("kept: sun.elevation from -20 to 20 deg"),
+        "{told}"
+    );
     // Beside the mission, not where it was started.
     assert!(folder.join("deep/momentum.svg").exists() && !folder.join("out.csv").exists());
     let header = fs::read_to_string(folder.join("deep/out.csv")).unwrap();
@@ -79,7 +81,16 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
 
     let csv = folder.join("mine.csv");
     let (status, told) = fly(&[
-        "--stop", "1h", "--every", "60s", "--record", "time*,dump.threshold", "--output", "mine.csv", "--set", "dump.threshold[2]=3",
+        "--stop",
+        "1h",
+        "--every",
+        "60s",
+        "--record",
+        "time*,dump.threshold",
+        "--output",
+        "mine.csv",
+        "--set",
+        "dump.threshold[2]=3",
     ]);
     assert_eq!(status, Some(1), "{told}");
     assert!(told.contains("time*"), "{told}");
@@ -99,7 +110,10 @@ fn a_limit_that_breaks_is_told_with_its_time_and_ends_with_one() {
     let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"]);
     assert_eq!(status, Some(1), "{told}");
     let expected = "m.toml:18: limits.\"sun.elevation\": found ";
-    assert!(told.contains(expected) && told.contains("at 0 s (2011-04-06T00:00:00 UTC), the first time"), "{told}");
+    assert!(
+        told.contains(expected) && told.contains("at 0 s (2011-04-06T00:00:00 UTC), the first time"),
+        "{told}"
+    );
     assert!(folder.join("out.csv").exists(), "what was flown is kept");
 }
 
@@ -110,8 +124,20 @@ fn a_packed_mission_starts_as_the_mission_does() {
     // Inputs over time are no start values.
     let text = MISSION.replace("\"60 deg\"], [\"1 h\", \"65 deg\"]", "\"65 deg\"]");
     fs::write(folder.join("m.toml"), &text).unwrap();
-    let (status, told) =
-        said(folder, &["pack", "--mission", "m.toml", "--template", "template.fmu", "--name", "Mine", "--set", "dump.threshold[3]=5"]);
+    let (status, told) = said(
+        folder,
+        &[
+            "pack",
+            "--mission",
+            "m.toml",
+            "--template",
+            "template.fmu",
+            "--name",
+            "Mine",
+            "--set",
+            "dump.threshold[3]=5",
+        ],
+    );
     assert!(status == Some(0) && told.contains("Mine.fmu: Mine, "), "{told}");
     let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
     assert_eq!(status, Some(0), "{told}");
@@ -153,7 +179,10 @@ fn what_is_no_mission_is_told() {
     let scratch = tempfile::tempdir().unwrap();
     let spacecraft = format!("{RESOURCES}/messenger.toml");
     let told = run(&["run", &spacecraft], 1);
-    assert!(told.contains("without any key of a mission") && told.contains("heliotorque new mission"), "{told}");
+    assert!(
+        told.contains("without any key of a mission") && told.contains("heliotorque new mission"),
+        "{told}"
+    );
     let fmu = scratch.path().join("no.fmu");
     assert!(run(&["run", shown(&fmu), "--template", "x.fmu"], 1).contains("--template is for a mission"));
 }

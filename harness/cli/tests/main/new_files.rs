@@ -53,7 +53,11 @@ fn every_new_file_works_unchanged() {
     let told = with(&["run", shown(&at("mission.toml"))]);
     assert!(told.contains("wrote") && !told.contains("found"), "{told}");
     let rows = fs::read_to_string(at("mission.csv")).unwrap();
-    assert!(rows.starts_with("time,momentum.body[1],momentum.body[2],momentum.body[3],dump.count,sun.elevation\n"));
+    assert!(
+        rows.starts_with(
+            "time,momentum.body[1],momentum.body[2],momentum.body[3],dump.count,sun.elevation\n"
+        )
+    );
     assert_eq!(rows.lines().count(), 1 + 10 * 144 + 1);
     assert!(at("mission.svg").exists());
 }
@@ -83,12 +87,16 @@ fn every_command_has_a_page_that_man_reads() {
     assert!(commands.contains(&"run") && commands.contains(&"plan"), "{help}");
     for command in commands {
         let page = run(&["man", command], 0);
-        assert!(page.contains(&format!("heliotorque\\-{command}")) && page.contains(".SH SYNOPSIS"), "{page}");
+        assert!(
+            page.contains(&format!("heliotorque\\-{command}")) && page.contains(".SH SYNOPSIS"),
+            "{page}"
+        );
     }
     assert!(run(&["man", "nonsense"], 1).contains("allowed: info, check, run"));
     // Without a warning, where there is a man to read it.
     let page = scratch.path().join("heliotorque-run.1");
-    if let Ok(read) = Command::new("man").args(["--warnings", "-l"]).arg(&page).env("MANWIDTH", "80").output() {
+    if let Ok(read) = Command::new("man").args(["--warnings", "-l"]).arg(&page).env("MANWIDTH", "80").output()
+    {
         let (text, said) = (String::from_utf8_lossy(&read.stdout), String::from_utf8_lossy(&read.stderr));
         assert!(read.status.success() && said.is_empty() && text.contains("--stop"), "{said}{text}");
     }

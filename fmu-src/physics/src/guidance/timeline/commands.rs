@@ -392,7 +392,11 @@ impl<'d, 'i> Commands<'d, 'i> {
             match given {
                 Quantity::Number(number) if kind.name == ANGLE.name => {
                     let fits_in_deg = (low..=high).contains(&number.to_radians());
-                    let meant = if fits_in_deg { format!(" (did you mean \"{number} deg\"?)") } else { String::new() };
+                    let meant = if fits_in_deg {
+                        format!(" (did you mean \"{number} deg\"?)")
+                    } else {
+                        String::new()
+                    };
                     self.check.report(at, format_args!("{number} rad{meant}"), allowed);
                 }
                 _ => self.check.report(at, given, allowed),

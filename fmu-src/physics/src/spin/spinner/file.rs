@@ -206,7 +206,12 @@ impl Builder<'_> {
                 let place = at.key("inertia_ratio").item(i);
                 let ratio = mass.inertia_ratio.get(i).copied().unwrap_or(f64::NAN);
                 let found = format!("{ratio}, by which {error}");
-                self.check.report_across(at, &place, found, "a ratio to the transverse moment of at most 2, less with products of inertia");
+                self.check.report_across(
+                    at,
+                    &place,
+                    found,
+                    "a ratio to the transverse moment of at most 2, less with products of inertia",
+                );
             }
         }
     }
