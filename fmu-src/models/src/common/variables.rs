@@ -6,7 +6,7 @@ use physics::bodies::surface::{self, MERCURY, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements;
 use physics::environment::paper004::MERCURY_AS_PRINTED;
-use physics::environment::sun::SOLAR_FLUX_PAPER_000_W_M2;
+use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 
@@ -48,12 +48,20 @@ impl SurfaceVariables {
     }
 }
 
+/// Flux of sunlight.
+#[derive(Variables)]
+pub struct SolarFluxVariables {
+    /// Solar flux at 1 AU; 1361 W/m2 is the nominal irradiance (IAU 2015 Resolution B3), 1353 reproduces paper 000's
+    /// pressure, 1365 fits paper 004 (well-known simulators use 1349 to 1368).
+    #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_W_M2)]
+    pub flux: Real,
+}
+
 /// Sunlight.
 #[derive(Variables)]
 pub struct SolarVariables {
-    /// Solar flux at 1 AU; 1353 W/m2 reproduces paper 000's pressure (well-known simulators use 1349 to 1368).
-    #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_PAPER_000_W_M2)]
-    pub flux: Real,
+    #[group(name = "")]
+    pub at_1_au: SolarFluxVariables,
     /// Whether the pressure is solar.pressure everywhere instead of following the distance from the Sun.
     #[parameter(start = false)]
     pub fixed_pressure: Boolean,
@@ -68,13 +76,13 @@ impl SolarVariables {
         if values.boolean(self.fixed_pressure) {
             SunLight::Fixed { pressure_pa: values.real(self.pressure) }
         } else {
-            SunLight::Distance { flux_w_m2: values.real(self.flux) }
+            SunLight::Distance { flux_w_m2: values.real(self.at_1_au.flux) }
         }
     }
 
     /// All of them.
     pub fn knowns(&self) -> Knowns {
-        knowns![self.flux, self.fixed_pressure, self.pressure]
+        knowns![self.at_1_au.flux, self.fixed_pressure, self.pressure]
     }
 }
 

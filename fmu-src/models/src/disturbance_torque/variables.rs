@@ -3,12 +3,11 @@
 use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Variables};
 use physics::bodies::surface::MERCURY;
 use physics::constants;
-use physics::environment::sun;
 
 use super::setup::DisturbanceSetup;
 use crate::common::choices::SunshadeShape;
 use crate::common::loads::{ForceBySource, PlateVariables, TorqueBySource};
-use crate::common::variables::{EclipseVariables, SurfaceVariables};
+use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVariables};
 
 /// Every variable, in the order of the XML.
 #[derive(Variables)]
@@ -21,7 +20,7 @@ pub struct DisturbanceVariables {
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
     #[group]
-    pub solar: SolarVariables,
+    pub solar: SolarFluxVariables,
     #[group]
     pub eclipse: EclipseVariables,
     #[group]
@@ -82,15 +81,6 @@ pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
-}
-
-/// Sunlight.
-#[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
-pub struct SolarVariables {
-    /// Solar flux at 1 AU; 1365 W/m2 fits paper 004 (well-known simulators use 1349 to 1368).
-    #[parameter(unit = "W/m2", min = 0.0, start = sun::SOLAR_FLUX_PAPER_004_W_M2)]
-    pub flux: Real,
 }
 
 /// How planet light is summed.
