@@ -125,6 +125,18 @@ impl Spacecraft {
             shade.flat_map(|shade| shade.plates.iter().map(|p| p.rotated(&shade.dcm_body_from_shade)));
         self.plates.iter().cloned().chain(shade_plates).collect()
     }
+
+    /// How many surfaces have an outline, and the names of those that have none.
+    pub fn outlines(&self, sunshade_model: SunshadeModel) -> (usize, Vec<String>) {
+        let plates = self.plates_body(sunshade_model);
+        let plates = plates.iter().map(|plate| (&plate.name, plate.polygon.is_some()));
+        let panels = self.panels.iter().map(|panel| (&panel.name, panel.polygon.is_some()));
+        let (given, missing): (Vec<_>, Vec<_>) = plates.chain(panels).partition(|(_, has)| *has);
+        let mut missing: Vec<String> = missing.into_iter().map(|(name, _)| name.clone()).collect();
+        let shade = self.sunshade.as_ref().filter(|_| sunshade_model == SunshadeModel::Cylinder);
+        missing.extend(shade.map(|_| "sunshade.cylinder".to_owned()));
+        (given.len(), missing)
+    }
 }
 
 /// Gathers problems and materials on the way through the file.
