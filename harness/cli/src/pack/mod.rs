@@ -9,6 +9,7 @@ mod picture;
 mod schedule;
 pub mod source;
 pub mod start;
+pub mod without_effect;
 
 use std::{
     path::{Path, PathBuf},
@@ -106,6 +107,9 @@ pub fn run(arguments: &Pack) -> Outcome {
     }
     let files = [&arguments.spacecraft, &arguments.timeline, &arguments.ephemeris].into_iter().flatten();
     let inputs: Vec<&Path> = [source.path()].into_iter().chain(files.map(PathBuf::as_path)).collect();
+    if let Some(warning) = without_effect::unused_map(&setup, &model, &description) {
+        terminal::note(&format!("warning: {warning}"));
+    }
     let destination = Destination::open(&path, "--output", &inputs)?;
     let is_stdout = destination.is_stdout();
     destination.fill(|file| file.write_all(&bytes))?;
