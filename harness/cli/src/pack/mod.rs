@@ -3,7 +3,7 @@
 //! The description comes from the library itself, so it cannot disagree with it. The same input gives the same
 //! archive, byte for byte.
 
-mod documentation;
+mod manual;
 mod per_plate;
 mod picture;
 mod schedule;
@@ -12,14 +12,15 @@ pub mod start;
 pub mod without_effect;
 
 use std::{
+    error::Error,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
-use loader::{Binary, Described};
+use loader::{Binary, Described, Fmu};
 use model_description::Description;
 
-use files::{Destination, Entries};
+use files::{Destination, Entries, Scratch};
 
 use crate::{args::Pack, draw, outcome::Outcome};
 use source::Source;
@@ -40,6 +41,19 @@ fn with_hint(
         Some(other) => format!("{refusal}\nthis is a file of {}: see --model", other.model),
         None => refusal,
     }
+}
+
+/// Adds the reference flight of the FMU that these files make. An FMU that cannot fly it is not written.
+fn add_reference_flight(entries: &mut Entries, inputs: &str) -> Result<(), Box<dyn Error>> {
+    let folder = Scratch::new("heliotorque-")?;
+    entries.write_below(folder.path())?;
+    let fmu = Fmu::open(folder.path())?;
+    let flight = reference::record(&fmu, inputs)
+        .map_err(|error| format!("the FMU is not written: {}", loader::Error::chain(&error)))?;
+    for (path, content) in flight {
+        entries.add(&path, content)?;
+    }
+    Ok(())
 }
 
 /// Packs the FMU.
@@ -94,11 +108,13 @@ pub fn run(arguments: &Pack) -> Outcome {
         entries.add(&format!("resources/{name}"), text.into_bytes())?;
     }
     let drawing = draw::svg(&setup);
-    let page = documentation::html(&description, &described.sources, drawing.as_deref());
+    let page = manual::html(&description, &described, &setup, drawing.as_deref());
     entries.add("documentation/index.html", page.into_bytes())?;
     if let Some(png) = picture::png(&setup) {
         entries.add("model.png", png)?;
     }
+
+    add_reference_flight(&mut entries, &described.reference_inputs)?;
 
     let bytes = entries.to_zip()?;
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{identifier}.fmu")));
