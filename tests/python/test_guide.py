@@ -1,0 +1,99 @@
+"""The guide's commands run in an empty folder and print what the guide shows.
+
+A block `console` holds commands after `$ ` and what they print; a line `...` stands for any lines. The blocks of a page run one
+after the other in one folder that has the tutorial's files. HELIOTORQUE_BLESS=1 writes anew what they print, but for blocks with
+`...`.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BOOK = ROOT / "docs" / "src"
+BLOCK = re.compile(r"(?m)^```console\n(.*?)^```$", re.DOTALL)
+PAGES = sorted(page for page in BOOK.rglob("*.md") if BLOCK.search(page.read_text(encoding="utf-8")))
+BLESS = "HELIOTORQUE_BLESS" in os.environ
+# What differs from run to run and from build to build.
+VARYING = [(r"\bin \d+\.\d+ s\b", "in ... s"), (r"GUID \{[0-9a-f-]{36}\}, \d+ kB", "GUID {...}")]
+
+
+def plain(text):
+    for pattern, replacement in VARYING:
+        text = re.sub(pattern, replacement, text)
+    return [line.rstrip() for line in text.rstrip("\n").split("\n")]
+
+
+def steps(block):
+    """Commands of a block, each with the lines shown below it."""
+    found = []
+    for line in block.splitlines():
+        if line.startswith("$ "):
+            found.append(([line[2:]], []))
+        elif found and not found[-1][1] and found[-1][0][-1].endswith("\\"):
+            found[-1][0].append(line)
+        else:
+            found[-1][1].append(line)
+    return found
+
+
+def shows(expected, printed):
+    """Whether the lines are those printed, `...` standing for any."""
+    pattern = "\n".join(r"(?:.*\n)*?.*" if line == "..." else re.escape(line.rstrip()) for line in expected)
+    return re.fullmatch(pattern, "\n".join(printed)) is not None
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory, heliotorque, dist):
+    """The program with its library and FMUs, as `cargo xtask install` lays them out."""
+    prefix = tmp_path_factory.mktemp("prefix")
+    (prefix / "bin").mkdir()
+    folder = prefix / "lib" / "heliotorque"
+    folder.mkdir(parents=True)
+    shutil.copy2(heliotorque, prefix / "bin" / "heliotorque")
+    shutil.copy2(os.environ["HELIOTORQUE_LIBRARY"], folder / "libheliotorque.so")
+    for fmu in [*pathlib.Path(dist).glob("*.fmu"), *pathlib.Path(dist).glob("*.ssp")]:
+        shutil.copy2(fmu, folder)
+    return prefix / "bin"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(BOOK)))
+def test_a_page_prints_what_it_shows(page, installed, dist, tmp_path):
+    for file in (BOOK / "tutorial").iterdir():
+        if file.suffix in (".toml", ".py"):
+            shutil.copy2(file, tmp_path)
+    (tmp_path / "dist").symlink_to(pathlib.Path(dist).resolve())
+    (tmp_path / "fmu-src").symlink_to(ROOT / "fmu-src")
+    path = os.pathsep.join([str(installed), str(pathlib.Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PATH": path, "COLUMNS": "120"}
+    text, wrong = page.read_text(encoding="utf-8"), []
+
+    def run(match):
+        block = match.group(1)
+        written = []
+        for lines, expected in steps(block):
+            ran = subprocess.run(
+                ["bash", "-c", "\n".join(lines)], cwd=tmp_path, env=environment, stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
+            )
+            printed = plain(ran.stdout) if ran.stdout else []
+            if not shows(expected, printed):
+                wrong.append("\n".join(["$ " + "\n".join(lines), *printed]))
+            written += ["$ " + "\n".join(lines), *(expected if "..." in expected else printed)]
+        return "```console\n" + "\n".join(written) + "\n```"
+
+    blessed = BLOCK.sub(run, text)
+    if BLESS:
+        page.write_text(blessed, encoding="utf-8")
+    else:
+        assert not wrong, "\n".join(wrong)
+
+
+def test_the_tutorials_run():
+    names = {str(page.relative_to(BOOK)) for page in PAGES}
+    assert {"tutorial/own-spacecraft.md", "tutorial/own-controller.md", "tutorial/spinner.md", "commands.md"} <= names
