@@ -78,3 +78,38 @@ fn every_picture_is_shown() {
         assert!(shown.contains(&format!("pictures/{name})")), "{name} is shown nowhere");
     }
 }
+
+#[test]
+fn every_key_of_every_file_is_told_of() {
+    let book = project().join("docs").join("src").join("files");
+    for (schema, chapters) in [
+        ("spacecraft", &["spacecraft.md", "start.md"][..]),
+        ("spinner", &["spinner.md", "start.md"]),
+        ("timeline", &["timeline.md"]),
+        ("ephemeris", &["ephemeris.md"]),
+    ] {
+        let pages: String = chapters.iter().map(|name| fs::read_to_string(book.join(name)).unwrap()).collect();
+        let keys = heliotorque(&["schema", schema]);
+        let mut told = 0;
+        for block in keys.split("\"properties\": {").skip(1) {
+            // Keys of this object stand one level deeper than its brace.
+            let indent = block.lines().nth(1).map_or(0, |line| line.len() - line.trim_start().len());
+            let end = " ".repeat(indent.saturating_sub(2)) + "}";
+            for line in block.lines().skip(1).take_while(|line| *line != end && *line != format!("{end},")) {
+                let own = line.len() - line.trim_start().len() == indent;
+                if let Some((key, _)) = line.trim_start().strip_prefix('"').and_then(|rest| rest.split_once('"')) {
+                    if own {
+                        assert!(
+                            [format!("`{key}`"), format!("[{key}]"), format!("`{key} = ")]
+                                .iter()
+                                .any(|form| pages.contains(form)),
+                            "{schema}: no word on {key}"
+                        );
+                        told += 1;
+                    }
+                }
+            }
+        }
+        assert!(told > 10, "{schema}: {told}");
+    }
+}
