@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 import pytest
+from fmpy import read_model_description
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BOOK = ROOT / "docs" / "src"
@@ -20,7 +21,9 @@ BLOCK = re.compile(r"(?m)^```console\n(.*?)^```$", re.DOTALL)
 PAGES = sorted(page for page in BOOK.rglob("*.md") if BLOCK.search(page.read_text(encoding="utf-8")))
 BLESS = "HELIOTORQUE_BLESS" in os.environ
 # What differs from run to run and from build to build.
-VARYING = [(r"\bin \d+\.\d+ s\b", "in ... s"), (r"GUID \{[0-9a-f-]{36}\}, \d+ kB", "GUID {...}")]
+VARYING = [(r"\bin \d+\.\d+ s\b", "in ... s"), (r"\{[0-9a-f-]{36}\}", "{...}"), (r"\b\d+ kB\b", "... kB")]
+# What stands in backticks like a variable and is none: keys and calls of other things.
+NO_VARIABLES = re.compile(r"\.(md|rs|py|toml|svg|csv|json|ssp|fmu|ssv|part|html|xml|bsp|spk)$|_|^numpy|/")
 
 
 def plain(text):
@@ -92,6 +95,26 @@ def test_a_page_prints_what_it_shows(page, installed, dist, tmp_path):
         page.write_text(blessed, encoding="utf-8")
     else:
         assert not wrong, "\n".join(wrong)
+
+
+def test_every_variable_that_the_guide_names_exists(dist):
+    names = set()
+    for fmu in pathlib.Path(dist).glob("*.fmu"):
+        for variable in read_model_description(str(fmu)).modelVariables:
+            parts = re.sub(r"\[[0-9,]+\]", "", variable.name).split(".")
+            names |= {".".join(parts[:k]) for k in range(1, len(parts) + 1)}
+    checked = set()
+    for page in BOOK.rglob("*.md"):
+        text = re.sub(r"(?ms)^```.*?^```", "", page.read_text(encoding="utf-8"))
+        for name in re.findall(r"`([a-z][A-Za-z0-9]*(?:\[[a-z0-9,]+\])?(?:\.[a-zA-Z0-9*|]+(?:\[[a-z0-9,]+\])?)+)`", text):
+            if NO_VARIABLES.search(name):
+                continue
+            plain = re.sub(r"\[[a-z0-9,]+\]", "", name).removesuffix(".*")
+            head, _, last = plain.rpartition(".")
+            for each in last.split("|"):
+                checked.add(name)
+                assert f"{head}.{each}".strip(".") in names, f"{page.relative_to(BOOK)}: `{name}`"
+    assert len(checked) > 100
 
 
 def test_the_tutorials_run():
