@@ -109,7 +109,8 @@ def test_every_variable_that_the_guide_names_exists(dist):
         for name in re.findall(r"`([a-z][A-Za-z0-9]*(?:\[[a-z0-9,]+\])?(?:\.[a-zA-Z0-9*|]+(?:\[[a-z0-9,]+\])?)+)`", text):
             if NO_VARIABLES.search(name):
                 continue
-            plain = re.sub(r"\[[a-z0-9,]+\]", "", name).removesuffix(".*")
+            # In a system, names begin with the component.
+            plain = re.sub(r"\[[a-z0-9,]+\]", "", name).removesuffix(".*").removeprefix("plant.")
             head, _, last = plain.rpartition(".")
             for each in last.split("|"):
                 checked.add(name)
