@@ -23,7 +23,7 @@ BLESS = "HELIOTORQUE_BLESS" in os.environ
 # What differs from run to run and from build to build.
 VARYING = [(r"\bin \d+\.\d+ s\b", "in ... s"), (r"\{[0-9a-f-]{36}\}", "{...}"), (r"\b\d+ kB\b", "... kB")]
 # What stands in backticks like a variable and is none: keys and calls of other things.
-NO_VARIABLES = re.compile(r"\.(md|rs|py|toml|svg|csv|json|ssp|fmu|ssv|part|html|xml|bsp|spk)$|_|^numpy|/")
+NO_VARIABLES = re.compile(r"\.(md|rs|py|toml|svg|csv|json|ssp|fmu|ssv|part|html|xml|bsp|spk)$|_|^numpy|^name\.|/")
 
 
 def plain(text):
