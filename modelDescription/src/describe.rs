@@ -13,8 +13,8 @@ pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize
 /// `fmi_export_describe(model, setup_file, setup_text, context, receive)`.
 ///
 /// With `model` NULL the models are listed: for each one its name, the name of its setup file under `resources/` (left
-/// out if it has none), those of its schedule files likewise, one at a time, its compiled-in setup text, and by what it computes, one
-/// `quantity TAB source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for
+/// out if it has none), those of its schedule files likewise, one at a time, its compiled-in setup text, the inputs of its reference
+/// flight, and by what it computes, one `quantity TAB source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for
 /// the compiled-in text if that is NULL. `setup_file` names the text in errors; NULL means the model's own file name. Returns
 /// 0, or 1 after an error was sent. The texts given stay the caller's and are not kept; `context` goes to `receive` unread.
 pub type Describe =
@@ -56,4 +56,6 @@ pub mod kind {
     pub const SOURCE: i32 = 5;
     /// Name of a schedule file under `resources/`.
     pub const SCHEDULE_FILE: i32 = 6;
+    /// Inputs of the model's reference flight: CSV whose first column, `time`, counts steps of the default experiment.
+    pub const REFERENCE_INPUTS: i32 = 7;
 }

@@ -30,6 +30,9 @@ pub trait Model: Sized + 'static {
     const SCHEDULE_FILES: &'static [&'static str] = &[];
     /// The compiled-in setup text, used when an importer gives no resource location.
     const DEFAULT_SETUP: &'static str;
+    /// Inputs of the reference flight that a packed FMU carries: CSV whose first column, `time`, counts steps of the default
+    /// experiment. Columns that a setup has no input for are left out.
+    const REFERENCE_INPUTS: &'static str = "";
     /// By what the model computes, for its manual.
     const SOURCES: &'static [Source] = &[];
     /// The optional traits that the model has beside this one.

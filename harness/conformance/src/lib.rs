@@ -16,7 +16,7 @@ pub use finding::{Finding, Verdict};
 pub use probe::{Findings, Probe, Trial};
 pub use static_checks::{archive, description};
 
-use probes::{calls, host, library, state, stepping, times, values};
+use probes::{calls, host, library, reference as reference_flight, state, stepping, times, values};
 
 /// Every trial of every probe.
 pub fn trials() -> impl Iterator<Item = &'static Trial> {
@@ -27,6 +27,11 @@ pub fn trials() -> impl Iterator<Item = &'static Trial> {
 pub const PROBES: &[Probe] = &[
     Probe { name: "library", title: "loads, exports every function", run: library::probe },
     Probe { name: "simulation", title: "runs its default experiment", run: stepping::simulation },
+    Probe {
+        name: "reference",
+        title: "meets the reference flights it carries",
+        run: reference_flight::flights,
+    },
     Probe {
         name: "values",
         title: "start values read back, limits and references are kept",

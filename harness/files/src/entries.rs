@@ -2,7 +2,9 @@
 
 use std::{
     collections::BTreeMap,
-    io::{Cursor, Write},
+    fs,
+    io::{self, Cursor, Write},
+    path::Path,
 };
 
 use zip::{CompressionMethod, DateTime, System, ZipWriter, result::ZipError, write::SimpleFileOptions};
@@ -18,6 +20,21 @@ impl Entries {
             None => Ok(()),
             Some(_) => Err(format!("{path} would stand twice in the archive")),
         }
+    }
+
+    /// Writes the files below an existing folder.
+    ///
+    /// # Errors
+    /// What cannot be written.
+    pub fn write_below(&self, folder: &Path) -> io::Result<()> {
+        for (path, content) in &self.0 {
+            let path = folder.join(path);
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent)?;
+            }
+            fs::write(path, content)?;
+        }
+        Ok(())
     }
 
     /// The archive: entries sorted by path, dated 1980-01-01, deflated, without data descriptors, as made on Unix

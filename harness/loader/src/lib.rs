@@ -10,6 +10,7 @@ mod access;
 mod archive;
 mod call_record;
 mod checker;
+pub mod csv;
 mod error;
 mod fmu;
 mod foreign;

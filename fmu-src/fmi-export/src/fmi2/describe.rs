@@ -30,6 +30,7 @@ impl Sender {
             self.send(kind::SCHEDULE_FILE, file);
         }
         self.send(kind::SETUP_TEXT, entry.default_setup());
+        self.send(kind::REFERENCE_INPUTS, entry.reference_inputs());
         for source in entry.sources() {
             self.send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
         }

@@ -15,6 +15,7 @@ pub struct Entry {
     setup_file: Option<&'static str>,
     schedule_files: &'static [&'static str],
     default_setup: &'static str,
+    reference_inputs: &'static str,
     sources: &'static [Source],
     prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
     start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
@@ -28,6 +29,7 @@ impl Entry {
             setup_file: M::SETUP_FILE,
             schedule_files: M::SCHEDULE_FILES,
             default_setup: M::DEFAULT_SETUP,
+            reference_inputs: M::REFERENCE_INPUTS,
             sources: M::SOURCES,
             prepare: prepare::<M>,
             start_names: start_names::<M>,
@@ -52,6 +54,11 @@ impl Entry {
     /// The compiled-in setup text.
     pub const fn default_setup(&self) -> &'static str {
         self.default_setup
+    }
+
+    /// The inputs of its reference flight.
+    pub const fn reference_inputs(&self) -> &'static str {
+        self.reference_inputs
     }
 
     /// By what the model computes.

@@ -39,6 +39,7 @@ impl Model for DisturbanceTorque {
     const STATE_VERSION: u32 = 2;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
+    const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/DisturbanceTorque.csv");
     const SOURCES: &'static [Source] = crate::sources::DISTURBANCE_TORQUE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().differentiable();
 

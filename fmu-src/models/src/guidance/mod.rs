@@ -52,6 +52,7 @@ impl Model for Guidance {
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
+    const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/Guidance.csv");
     const SOURCES: &'static [Source] = crate::sources::GUIDANCE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 

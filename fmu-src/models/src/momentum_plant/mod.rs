@@ -32,6 +32,7 @@ impl Model for MomentumPlant {
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
+    const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/MomentumPlant.csv");
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 

@@ -27,6 +27,7 @@ impl Model for SpinPlant {
     const STATE_VERSION: u32 = 3;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/ace.toml");
+    const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/SpinPlant.csv");
     const SOURCES: &'static [Source] = crate::sources::SPIN_PLANT;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 

@@ -11,14 +11,15 @@ pub mod source;
 pub mod start;
 
 use std::{
+    error::Error,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
-use loader::{Binary, Described};
+use loader::{Binary, Described, Fmu};
 use model_description::Description;
 
-use files::{Destination, Entries};
+use files::{Destination, Entries, Scratch};
 
 use crate::{args::Pack, draw, outcome::Outcome};
 use source::Source;
@@ -39,6 +40,19 @@ fn with_hint(
         Some(other) => format!("{refusal}\nthis is a file of {}: see --model", other.model),
         None => refusal,
     }
+}
+
+/// Adds the reference flight of the FMU that these files make. An FMU that cannot fly it is not written.
+fn add_reference_flight(entries: &mut Entries, inputs: &str) -> Result<(), Box<dyn Error>> {
+    let folder = Scratch::new("heliotorque-")?;
+    entries.write_below(folder.path())?;
+    let fmu = Fmu::open(folder.path())?;
+    let flight = reference::record(&fmu, inputs)
+        .map_err(|error| format!("the FMU is not written: {}", loader::Error::chain(&error)))?;
+    for (path, content) in flight {
+        entries.add(&path, content)?;
+    }
+    Ok(())
 }
 
 /// Packs the FMU.
@@ -98,6 +112,8 @@ pub fn run(arguments: &Pack) -> Outcome {
     if let Some(png) = picture::png(&setup) {
         entries.add("model.png", png)?;
     }
+
+    add_reference_flight(&mut entries, &described.reference_inputs)?;
 
     let bytes = entries.to_zip()?;
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{identifier}.fmu")));

@@ -66,17 +66,8 @@ fn read_table(
 ) -> Result<InputTable, Box<dyn std::error::Error>> {
     let in_file =
         |error: &dyn std::error::Error| format!("{}: {}", path.display(), loader::Error::chain(error));
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(files::open(at).map_err(|error| format!("{}: see --input", in_file(&error)))?);
-    let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| in_file(&error))?;
-        rows.push(record.iter().map(str::to_owned).collect::<Vec<_>>());
-    }
+    let file = files::open(at).map_err(|error| format!("{}: see --input", in_file(&error)))?;
+    let mut rows = loader::csv::read_rows(file).map_err(|error| in_file(&error))?;
     let header = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
     Ok(InputTable::parse(described, &header, &rows).map_err(|error| in_file(&error))?)
 }

@@ -20,6 +20,8 @@ pub struct Described {
     pub schedule_files: Vec<String>,
     /// The compiled-in setup text.
     pub default_setup: String,
+    /// Inputs of its reference flight, over steps of the default experiment.
+    pub reference_inputs: String,
     /// Quantities and by what they are computed; names of papers and what they stand for.
     pub sources: Vec<(String, String)>,
     /// The `modelDescription.xml`; empty where the models are only listed.
@@ -133,6 +135,7 @@ impl Binary {
                 (kind::ERROR, _) => problem = Some(text),
                 (kind::SETUP_TEXT, Some(model)) => model.default_setup = text,
                 (kind::MODEL, _) => models.push(Described { model: text, ..Described::default() }),
+                (kind::REFERENCE_INPUTS, Some(model)) => model.reference_inputs = text,
                 (kind::SETUP_FILE, Some(model)) => model.setup_file = Some(text),
                 (kind::SCHEDULE_FILE, Some(model)) => model.schedule_files.push(text),
                 (kind::SOURCE, Some(model)) => {

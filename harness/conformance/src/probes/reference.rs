@@ -1,0 +1,46 @@
+//! The reference flights that an FMU carries, flown again.
+
+use loader::Fmu;
+
+use crate::{Finding, probe::Findings};
+
+/// Deviating columns that are shown.
+const SHOWN: usize = 5;
+
+/// Flies every reference flight.
+pub fn flights(fmu: &Fmu) -> Findings {
+    let replays = match reference::replays(fmu) {
+        Ok(Some(replays)) if !replays.is_empty() => replays,
+        Ok(_) => return Ok(vec![Finding::new(crate::Verdict::Skipped, "carries no reference flight")]),
+        Err(problem) => return Ok(vec![Finding::bad(problem)]),
+    };
+    let mut findings = Vec::new();
+    for replay in replays {
+        let replay = match replay {
+            Ok(replay) => replay,
+            Err(problem) => {
+                findings.push(Finding::bad(problem));
+                continue;
+            }
+        };
+        let reference::Replay { source, rows, columns, tolerance, is_stated, .. } = &replay;
+        let worst = replay.deviations.first().map_or(0.0, |it| it.deviation);
+        let stated = if *is_stated { "" } else { ", no tolerance is stated" };
+        let failures: Vec<_> = replay.failures().collect();
+        if failures.is_empty() {
+            findings.push(Finding::good(format!(
+                "{source}: {rows} rows of {columns} columns, the largest deviation {worst:.1e}, allowed: {tolerance:e}{stated}"
+            )));
+        }
+        for failure in failures.iter().take(SHOWN) {
+            findings.push(Finding::bad(format!(
+                "{source}: {} at {} s: found {}, allowed: {} within {tolerance:e} of the column's largest magnitude{stated}",
+                failure.name, failure.time_s, failure.found, failure.expected
+            )));
+        }
+        if let Some(more) = failures.len().checked_sub(SHOWN).filter(|more| *more > 0) {
+            findings.push(Finding::bad(format!("{source}: {more} more columns")));
+        }
+    }
+    Ok(findings)
+}

@@ -1,0 +1,18 @@
+//! Reference flights: a short simulation that an FMU carries with it, its inputs and outputs as CSV.
+//!
+//! They stand where the layered standard FMI-LS-REF (1.0.0-alpha.1) has files related to an FMU, with roles `testcase` and
+//! `result`. The steps, the tolerance and the file of inputs, for which that standard has no place, are an annotation.
+
+mod compare;
+mod manifest;
+mod record;
+mod replay;
+
+pub use manifest::{Flight, Manifest, Related};
+pub use record::{RecordError, record};
+pub use replay::{Replay, replays};
+
+/// The folder of the layered standard inside an FMU.
+pub const FOLDER: &str = "extra/org.fmi-standard.fmi-ls-ref";
+/// Its list of files.
+pub const MANIFEST: &str = "fmi-ls-manifest.xml";

@@ -1,0 +1,144 @@
+//! Flies the reference flights of an FMU again.
+
+use std::path::PathBuf;
+
+use loader::{Fmu, InputTable, Options};
+
+use crate::{
+    FOLDER, MANIFEST,
+    compare::{Deviation, deviations},
+    manifest::{Manifest, Related},
+};
+
+/// Where no tolerance is stated: what tools with solvers of their own meet.
+const UNSTATED_TOLERANCE: f64 = 1e-3;
+
+/// A flight that was flown again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replay {
+    /// Its file, from the manifest.
+    pub source: String,
+    /// Rows that were compared.
+    pub rows: usize,
+    /// Columns that were compared.
+    pub columns: usize,
+    /// What deviates, the worst first.
+    pub deviations: Vec<Deviation>,
+    /// Greatest deviation allowed, as a fraction of a column's largest magnitude.
+    pub tolerance: f64,
+    /// Whether the FMU states this tolerance.
+    pub is_stated: bool,
+}
+
+impl Replay {
+    /// The columns that deviate too much.
+    pub fn failures(&self) -> impl Iterator<Item = &Deviation> {
+        self.deviations.iter().filter(|it| it.deviation > self.tolerance)
+    }
+}
+
+/// Every flight that the FMU lists, flown again, or why it cannot be; `None` for an FMU without any list.
+///
+/// # Errors
+/// A list that cannot be read.
+pub fn replays(fmu: &Fmu) -> Result<Option<Vec<Result<Replay, String>>>, String> {
+    let path = fmu.folder().join(FOLDER).join(MANIFEST);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let in_manifest = |error: &dyn std::fmt::Display| format!("{FOLDER}/{MANIFEST}: {error}");
+    let bytes = files::read(&path).map_err(|error| in_manifest(&error))?;
+    let manifest = Manifest::read(&bytes).map_err(|error| in_manifest(&error))?;
+    let is_flight = |related: &&Related| related.role == "result" && related.kind == "text/csv";
+    let flights = manifest.related.iter().filter(is_flight);
+    Ok(Some(
+        flights.map(|flight| fly(fmu, flight).map_err(|what| format!("{}: {what}", flight.source))).collect(),
+    ))
+}
+
+/// The path of a file that the manifest names; nothing outside the FMU is read.
+fn path_of(fmu: &Fmu, source: &str) -> Result<PathBuf, String> {
+    let mut parts: Vec<&str> = FOLDER.split('/').collect();
+    for part in source.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                parts.pop().ok_or_else(|| format!("found {source:?}, allowed: a file inside the FMU"))?;
+            }
+            part => parts.push(part),
+        }
+    }
+    let inside = loader::path_inside(&parts.join("/"))
+        .ok_or_else(|| format!("found {source:?}, allowed: a file inside the FMU"))?;
+    Ok(fmu.folder().join(inside))
+}
+
+fn table(fmu: &Fmu, source: &str) -> Result<(Vec<String>, Vec<Vec<String>>), String> {
+    let file = files::open(&path_of(fmu, source)?).map_err(|error| error.to_string())?;
+    let mut rows = loader::csv::read_rows(file).map_err(|error| error.to_string())?;
+    if rows.len() < 3 {
+        return Err(format!("found {} lines, allowed: a header and two times or more", rows.len()));
+    }
+    let header = rows.remove(0);
+    Ok((header, rows))
+}
+
+fn fly(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
+    let (header, mut rows) = table(fmu, &flight.source)?;
+    let mut times_s = Vec::with_capacity(rows.len());
+    for (index, row) in rows.iter().enumerate() {
+        let cell = row.first().map_or("", String::as_str);
+        let time_s = cell.parse::<f64>().ok().filter(|time_s| time_s.is_finite());
+        times_s.push(time_s.ok_or_else(|| format!("line {}: time {cell:?} is no number", index + 2))?);
+    }
+    let gaps = times_s.windows(2).map(|pair| pair[1] - pair[0]);
+    // Two rows at one time stand before and after an event.
+    let step_s = gaps.filter(|gap| *gap > 0.0).fold(f64::INFINITY, f64::min);
+    let (start_s, stop_s) = (times_s[0], times_s[times_s.len() - 1]);
+    let stated = flight.flight.as_ref();
+    let inputs = stated.and_then(|it| it.inputs.as_deref()).map(|source| -> Result<InputTable, String> {
+        let (header, rows) = table(fmu, source).map_err(|what| format!("{source}: {what}"))?;
+        InputTable::parse(fmu.description(), &header, &rows).map_err(|error| format!("{source}: {error}"))
+    });
+    let inputs = inputs.transpose()?;
+    let mut record = Vec::new();
+    for name in &header[1..] {
+        record.push(fmu.position(name).ok_or_else(|| format!("the FMU has no variable {name:?}"))?);
+    }
+    let options = Options {
+        start_s: Some(start_s),
+        stop_s: Some(stop_s),
+        step_s: Some(step_s),
+        inputs: inputs.as_ref(),
+        record: Some(record),
+        ..Options::default()
+    };
+    let recording =
+        loader::simulate(fmu, options).map_err(|stopped| loader::Error::chain(&stopped.error))?.recording;
+    let mut lines = Vec::new();
+    let mut row = 0;
+    rows.retain(|_| {
+        let time_s = times_s[row];
+        row += 1;
+        let line = ((time_s - start_s) / step_s).round() as usize;
+        let meets = recording.times_s.get(line).is_some_and(|at_s| (at_s - time_s).abs() <= 1e-6 * step_s);
+        let is_last_at_its_time = times_s.get(row) != Some(&time_s);
+        if meets && is_last_at_its_time {
+            lines.push(line);
+        }
+        meets && is_last_at_its_time
+    });
+    if rows.is_empty() {
+        return Err("none of its times is a communication point".to_owned());
+    }
+    let mut deviations = deviations(&header, &rows, &recording, &lines);
+    deviations.sort_by(|a, b| b.deviation.total_cmp(&a.deviation));
+    Ok(Replay {
+        source: flight.source.clone(),
+        rows: rows.len(),
+        columns: header.len() - 1,
+        deviations,
+        tolerance: stated.map_or(UNSTATED_TOLERANCE, |it| it.tolerance),
+        is_stated: stated.is_some(),
+    })
+}
