@@ -43,8 +43,7 @@ fn every_model_has_a_chapter() {
 
 #[test]
 fn every_command_has_a_section() {
-    let page =
-        fs::read_to_string(project().join("docs").join("src").join("commands.md")).unwrap();
+    let page = fs::read_to_string(project().join("docs").join("src").join("commands.md")).unwrap();
     for command in commands::subcommands() {
         assert!(page.contains(&format!("\n## {command}\n")), "commands.md has no section on {command}");
         let shown = markdown::commands(&page);
@@ -88,7 +87,8 @@ fn every_key_of_every_file_is_told_of() {
         ("timeline", &["timeline.md"]),
         ("ephemeris", &["ephemeris.md"]),
     ] {
-        let pages: String = chapters.iter().map(|name| fs::read_to_string(book.join(name)).unwrap()).collect();
+        let pages: String =
+            chapters.iter().map(|name| fs::read_to_string(book.join(name)).unwrap()).collect();
         let keys = heliotorque(&["schema", schema]);
         let mut told = 0;
         for block in keys.split("\"properties\": {").skip(1) {
@@ -97,7 +97,9 @@ fn every_key_of_every_file_is_told_of() {
             let end = " ".repeat(indent.saturating_sub(2)) + "}";
             for line in block.lines().skip(1).take_while(|line| *line != end && *line != format!("{end},")) {
                 let own = line.len() - line.trim_start().len() == indent;
-                if let Some((key, _)) = line.trim_start().strip_prefix('"').and_then(|rest| rest.split_once('"')) {
+                if let Some((key, _)) =
+                    line.trim_start().strip_prefix('"').and_then(|rest| rest.split_once('"'))
+                {
                     if own {
                         assert!(
                             [format!("`{key}`"), format!("[{key}]"), format!("`{key} = ")]

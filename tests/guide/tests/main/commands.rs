@@ -13,7 +13,8 @@ const WITH_SPK: &[&str] = &["--kernel", "--center", "--spacecraft"];
 
 /// What the program prints; `cargo xtask test` says where it is.
 pub fn heliotorque(arguments: &[&str]) -> String {
-    let program = std::env::var_os("HELIOTORQUE").expect("HELIOTORQUE: the program, set by `cargo xtask test`");
+    let program =
+        std::env::var_os("HELIOTORQUE").expect("HELIOTORQUE: the program, set by `cargo xtask test`");
     let output = Command::new(program).args(arguments).output().unwrap();
     assert!(output.status.success(), "{arguments:?}");
     String::from_utf8(output.stdout).unwrap()
@@ -92,8 +93,7 @@ fn every_command_exists_with_its_options() {
                 }
                 let known = text.lines().any(|row| {
                     let flags = row.trim_start().split("  ").next().unwrap_or_default();
-                    row.trim_start().starts_with('-')
-                        && flags.split([' ', ',']).any(|flag| flag == name)
+                    row.trim_start().starts_with('-') && flags.split([' ', ',']).any(|flag| flag == name)
                 });
                 assert!(known, "{place}: {name}");
             }

@@ -73,7 +73,8 @@ fn every_link_of_the_built_guide_leads_somewhere_in_it() {
             }
             if !target.exists() {
                 wrong.push(format!("{}: {link}", path.display()));
-            } else if !anchor.is_empty() && !anchors.get(&target).is_some_and(|found| found.contains(anchor)) {
+            } else if !anchor.is_empty() && !anchors.get(&target).is_some_and(|found| found.contains(anchor))
+            {
                 wrong.push(format!("{}: no anchor {link}", path.display()));
             }
         }
