@@ -20,6 +20,9 @@ BOOK = ROOT / "docs" / "src"
 BLOCK = re.compile(r"(?m)^```console\n(.*?)^```$", re.DOTALL)
 PAGES = sorted(page for page in BOOK.rglob("*.md") if BLOCK.search(page.read_text(encoding="utf-8")))
 BLESS = "HELIOTORQUE_BLESS" in os.environ
+# Pictures that commands of a page write and the guide shows. A drawing is the same everywhere; a simulation's last digits are not.
+PICTURES = {"venus.svg": "venus.svg", "ten-days.svg": "ten-days.svg", "turn/burn.svg": "turn.svg"}
+DRAWINGS = ("venus.svg",)
 # What differs from run to run and from build to build.
 VARYING = [(r"\bin \d+\.\d+ s\b", "in ... s"), (r"\{[0-9a-f-]{36}\}", "{...}"), (r"\b\d+ kB\b", "... kB")]
 # What stands in backticks like a variable and is none: keys and calls of other things.
@@ -95,6 +98,12 @@ def test_a_page_prints_what_it_shows(page, installed, dist, tmp_path):
         page.write_text(blessed, encoding="utf-8")
     else:
         assert not wrong, "\n".join(wrong)
+    for written, shown in PICTURES.items():
+        if (tmp_path / written).exists() and f"pictures/{shown})" in text:
+            if BLESS:
+                shutil.copy2(tmp_path / written, BOOK / "pictures" / shown)
+            elif shown in DRAWINGS:
+                assert (tmp_path / written).read_bytes() == (BOOK / "pictures" / shown).read_bytes(), shown
 
 
 def test_every_variable_that_the_guide_names_exists(dist):
