@@ -14,7 +14,7 @@ pub type Receive = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, usize
 ///
 /// With `model` NULL the models are listed: for each one its name, the name of its setup file under `resources/` (left
 /// out if it has none), those of its schedule files likewise, one at a time, its compiled-in setup text, the inputs of its reference
-/// flight, and by what it computes, one `quantity TAB source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for
+/// flight, the beginning of its manual, and by what it computes, one `quantity TAB source` at a time. With a model's name: the same, then the `modelDescription.xml` for `setup_text`, or for
 /// the compiled-in text if that is NULL. `setup_file` names the text in errors; NULL means the model's own file name. Returns
 /// 0, or 1 after an error was sent. The texts given stay the caller's and are not kept; `context` goes to `receive` unread.
 pub type Describe =
@@ -58,4 +58,12 @@ pub mod kind {
     pub const SCHEDULE_FILE: i32 = 6;
     /// Inputs of the model's reference flight: CSV whose first column, `time`, counts steps of the default experiment.
     pub const REFERENCE_INPUTS: i32 = 7;
+    /// What the model is, in HTML, for its manual.
+    pub const ABOUT: i32 = 8;
+    /// A first example in Python, of the FMU `{fmu}`.
+    pub const EXAMPLE: i32 = 9;
+    /// An example in Python of a loop around the FMU `{fmu}`.
+    pub const CLOSED_LOOP: i32 = 10;
+    /// Frames and units, in HTML.
+    pub const FRAMES: i32 = 11;
 }

@@ -23,8 +23,8 @@ pub use dependencies::{Dependencies, Knowns};
 pub use fmi_export_derive::{Enumeration, Variables};
 pub use fmi2::{Entry, Library};
 pub use model::{
-    About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Model, OutputRates,
-    SetupError, SetupValue, Source, StartValue, Step, StepEnd,
+    About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Manual, Model,
+    OutputRates, SetupError, SetupValue, Source, StartValue, Step, StepEnd,
 };
 pub use model_description::{self, BaseType, Status};
 pub use variables::{

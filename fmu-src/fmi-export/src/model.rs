@@ -33,6 +33,8 @@ pub trait Model: Sized + 'static {
     /// Inputs of the reference flight that a packed FMU carries: CSV whose first column, `time`, counts steps of the default
     /// experiment. Columns that a setup has no input for are left out.
     const REFERENCE_INPUTS: &'static str = "";
+    /// What the model is and how it is used, for its manual.
+    const MANUAL: Manual = Manual::NONE;
     /// By what the model computes, for its manual.
     const SOURCES: &'static [Source] = &[];
     /// The optional traits that the model has beside this one.
@@ -362,6 +364,24 @@ pub struct Source {
     pub what: &'static str,
     /// Paper and equation, method, title.
     pub by: &'static str,
+}
+
+/// The beginning of a model's manual.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Manual {
+    /// What the model is, in HTML.
+    pub about: &'static str,
+    /// A first example in Python, of the FMU `{fmu}`.
+    pub example: &'static str,
+    /// The same for a loop around the FMU.
+    pub closed_loop: &'static str,
+    /// Frames and units, in HTML with a drawing.
+    pub frames: &'static str,
+}
+
+impl Manual {
+    /// Of a model without.
+    pub const NONE: Self = Self { about: "", example: "", closed_loop: "", frames: "" };
 }
 
 /// Why a model cannot go on; the text reaches the log.

@@ -3,6 +3,7 @@
 mod common;
 mod disturbance_torque;
 mod guidance;
+mod manuals;
 mod momentum_plant;
 mod sources;
 mod spin_plant;

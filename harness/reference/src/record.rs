@@ -1,6 +1,7 @@
 //! Records a reference flight.
 
-use loader::{Fmu, InputTable, Options, Recording, Simulation, Times};
+use loader::{Fmu, InputTable, Options, Recording, Simulation, Times, outputs};
+use model_description::{Causality, ScalarVariable, VariableKind};
 
 use crate::{
     FOLDER, MANIFEST,
@@ -36,9 +37,14 @@ pub fn record(fmu: &Fmu, inputs: &str) -> Result<Vec<(String, Vec<u8>)>, RecordE
     let times = Times::of(fmu, None, None, None).map_err(RecordError::Flight)?;
     let stop_s = times.point_s(STEPS.min(times.steps()));
     let table = table(fmu, inputs, &times)?;
+    // Not every reader of CSV takes texts.
+    let is_number = |position: &usize| {
+        !matches!(fmu.description().variables[*position].kind, VariableKind::String { .. })
+    };
     let options = Options {
         stop_s: Some(stop_s),
         inputs: table.as_ref().map(|(_, table)| table),
+        record: Some(outputs(fmu.description()).into_iter().filter(is_number).collect()),
         ..Options::default()
     };
     let Simulation { recording, .. } =
@@ -83,18 +89,32 @@ fn csv(recording: &Recording) -> Vec<u8> {
     text
 }
 
-/// The inputs that the FMU has, in s; `None` where it has none of them.
+/// A table of every input, in s: these inputs, and the others at their start values; `None` where the FMU has none of these.
 fn table(fmu: &Fmu, inputs: &str, times: &Times) -> Result<Option<(String, InputTable)>, RecordError> {
     let wrong = |error: &dyn std::error::Error| RecordError::Inputs(loader::Error::chain(error));
     let mut rows = loader::csv::read_rows(inputs.as_bytes()).map_err(|error| wrong(&error))?;
-    let Some(header) = rows.first() else { return Ok(None) };
+    let Some(header) = rows.first().cloned() else { return Ok(None) };
     let kept: Vec<usize> =
         (0..header.len()).filter(|&column| column == 0 || fmu.find(&header[column]).is_some()).collect();
     if kept.len() < 2 {
         return Ok(None);
     }
-    for row in &mut rows {
+    let is_other = |variable: &&ScalarVariable| {
+        variable.causality == Causality::Input && !header.contains(&variable.name)
+    };
+    let others: Vec<(&str, String)> = fmu
+        .description()
+        .variables
+        .iter()
+        .filter(is_other)
+        .filter_map(|variable| Some((variable.name.as_str(), start(variable)?)))
+        .collect();
+    for (line, row) in rows.iter_mut().enumerate() {
         *row = kept.iter().filter_map(|&column| row.get(column).cloned()).collect();
+        row.extend(others.iter().map(|(name, start)| match line {
+            0 => (*name).to_owned(),
+            _ => start.clone(),
+        }));
     }
     let header = rows.remove(0);
     for row in &mut rows {
@@ -105,4 +125,16 @@ fn table(fmu: &Fmu, inputs: &str, times: &Times) -> Result<Option<(String, Input
     let table = InputTable::parse(fmu.description(), &header, &rows).map_err(|error| wrong(&error))?;
     let lines = std::iter::once(&header).chain(&rows).map(|cells| format!("{}\n", cells.join(",")));
     Ok(Some((lines.collect(), table)))
+}
+
+/// The start value of a number.
+fn start(variable: &ScalarVariable) -> Option<String> {
+    match &variable.kind {
+        VariableKind::Real { start, .. } => start.map(|start| start.to_string()),
+        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => {
+            start.map(|start| start.to_string())
+        }
+        VariableKind::Boolean { start, .. } => start.map(|start| u8::from(start).to_string()),
+        VariableKind::String { .. } => None,
+    }
 }

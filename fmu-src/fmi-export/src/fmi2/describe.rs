@@ -7,6 +7,7 @@ use model_description::describe::{Receive, kind};
 use super::arguments::text;
 use super::description::DescribeError;
 use super::library::{Entry, Library};
+use crate::model::Manual;
 use crate::panics::contain;
 
 /// Sends texts to a caller.
@@ -31,6 +32,16 @@ impl Sender {
         }
         self.send(kind::SETUP_TEXT, entry.default_setup());
         self.send(kind::REFERENCE_INPUTS, entry.reference_inputs());
+        let Manual { about, example, closed_loop, frames } = *entry.manual();
+        let manual = [
+            (kind::ABOUT, about),
+            (kind::EXAMPLE, example),
+            (kind::CLOSED_LOOP, closed_loop),
+            (kind::FRAMES, frames),
+        ];
+        for (kind, text) in manual {
+            self.send(kind, text);
+        }
         for source in entry.sources() {
             self.send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
         }

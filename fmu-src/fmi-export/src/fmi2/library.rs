@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
 use crate::fmi2::location::{self, Resources};
 use crate::fmi2::start::{OtherReaders, Reader};
-use crate::model::{Model, SetupError, Source};
+use crate::model::{Manual, Model, SetupError, Source};
 use crate::panics::contain;
 
 /// One model of a library, its type erased.
@@ -16,6 +16,7 @@ pub struct Entry {
     schedule_files: &'static [&'static str],
     default_setup: &'static str,
     reference_inputs: &'static str,
+    manual: Manual,
     sources: &'static [Source],
     prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
     start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
@@ -30,6 +31,7 @@ impl Entry {
             schedule_files: M::SCHEDULE_FILES,
             default_setup: M::DEFAULT_SETUP,
             reference_inputs: M::REFERENCE_INPUTS,
+            manual: M::MANUAL,
             sources: M::SOURCES,
             prepare: prepare::<M>,
             start_names: start_names::<M>,
@@ -59,6 +61,11 @@ impl Entry {
     /// The inputs of its reference flight.
     pub const fn reference_inputs(&self) -> &'static str {
         self.reference_inputs
+    }
+
+    /// The beginning of its manual.
+    pub const fn manual(&self) -> &Manual {
+        &self.manual
     }
 
     /// By what the model computes.

@@ -10,8 +10,8 @@ mod variables;
 use std::sync::Arc;
 
 use fmi_export::{
-    About, Dependencies, Differentiable, Extensions, Failure, Model, Real, SetupError, Source, StartValue,
-    Step, StepEnd, Values,
+    About, Dependencies, Differentiable, Extensions, Failure, Manual, Model, Real, SetupError, Source,
+    StartValue, Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
 use physics::radiation::disturbance::{Positions, Workspace};
@@ -40,6 +40,7 @@ impl Model for DisturbanceTorque {
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/DisturbanceTorque.csv");
+    const MANUAL: Manual = crate::manuals::DISTURBANCE_TORQUE;
     const SOURCES: &'static [Source] = crate::sources::DISTURBANCE_TORQUE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().differentiable();
 

@@ -8,8 +8,8 @@ mod setup;
 mod variables;
 
 use fmi_export::{
-    About, Dependencies, Extensions, Failure, Model, OutputRates, Real, SetupError, Source, StartValue, Step,
-    StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, Source,
+    StartValue, Step, StepEnd, Values,
 };
 use nalgebra::Vector3;
 use physics::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Totals};
@@ -33,6 +33,7 @@ impl Model for MomentumPlant {
     const SCHEDULE_FILES: &'static [&'static str] = &[EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/MomentumPlant.csv");
+    const MANUAL: Manual = crate::manuals::MOMENTUM_PLANT;
     const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 

@@ -24,12 +24,15 @@ pub fn flights(fmu: &Fmu) -> Findings {
             }
         };
         let reference::Replay { source, rows, columns, tolerance, is_stated, .. } = &replay;
-        let worst = replay.deviations.first().map_or(0.0, |it| it.deviation);
+        let worst = match replay.deviations.first() {
+            Some(worst) => format!("the largest deviation {:.1e}", worst.deviation),
+            None => "no deviation".to_owned(),
+        };
         let stated = if *is_stated { "" } else { ", no tolerance is stated" };
         let failures: Vec<_> = replay.failures().collect();
         if failures.is_empty() {
             findings.push(Finding::good(format!(
-                "{source}: {rows} rows of {columns} columns, the largest deviation {worst:.1e}, allowed: {tolerance:e}{stated}"
+                "{source}: {rows} rows of {columns} columns, {worst}, allowed: {tolerance:e}{stated}"
             )));
         }
         for failure in failures.iter().take(SHOWN) {

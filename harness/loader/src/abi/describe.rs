@@ -22,6 +22,14 @@ pub struct Described {
     pub default_setup: String,
     /// Inputs of its reference flight, over steps of the default experiment.
     pub reference_inputs: String,
+    /// What the model is, in HTML.
+    pub about: String,
+    /// A first example in Python, of the FMU `{fmu}`.
+    pub example: String,
+    /// An example in Python of a loop around the FMU `{fmu}`.
+    pub closed_loop: String,
+    /// Frames and units, in HTML.
+    pub frames: String,
     /// Quantities and by what they are computed; names of papers and what they stand for.
     pub sources: Vec<(String, String)>,
     /// The `modelDescription.xml`; empty where the models are only listed.
@@ -136,6 +144,10 @@ impl Binary {
                 (kind::SETUP_TEXT, Some(model)) => model.default_setup = text,
                 (kind::MODEL, _) => models.push(Described { model: text, ..Described::default() }),
                 (kind::REFERENCE_INPUTS, Some(model)) => model.reference_inputs = text,
+                (kind::ABOUT, Some(model)) => model.about = text,
+                (kind::EXAMPLE, Some(model)) => model.example = text,
+                (kind::CLOSED_LOOP, Some(model)) => model.closed_loop = text,
+                (kind::FRAMES, Some(model)) => model.frames = text,
                 (kind::SETUP_FILE, Some(model)) => model.setup_file = Some(text),
                 (kind::SCHEDULE_FILE, Some(model)) => model.schedule_files.push(text),
                 (kind::SOURCE, Some(model)) => {

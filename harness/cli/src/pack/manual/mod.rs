@@ -1,0 +1,59 @@
+//! `documentation/index.html`: what the FMU is, how it is used, and all that its description says, as a readable page.
+
+mod craft;
+mod opening;
+mod reference_flight;
+mod standard;
+mod variables;
+
+use loader::Described;
+use model_description::{Description, escape};
+
+const STYLE: &str = include_str!("manual.css");
+
+/// A section: its id, its heading and its content in HTML.
+type Section = (&'static str, &'static str, String);
+
+/// The page of an FMU of this description, with the setup it is packed with and a picture of that, an SVG.
+pub fn html(description: &Description, described: &Described, setup: &str, drawing: Option<&str>) -> String {
+    let mut sections = opening::sections(description, described);
+    sections.extend(craft::section(setup, drawing));
+    sections.extend(variables::sections(description));
+    sections.extend(standard::sources(&described.sources));
+    sections.push(standard::stepping(description));
+    sections.extend(reference_flight::section(description));
+    sections.push(standard::calls());
+    sections.push(standard::facts(description));
+
+    let title = escape(&description.model_name);
+    let mut page = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
+    );
+    if let Some(text) = &description.description {
+        page.push_str(&format!("<p>{}</p>\n", escape(text)));
+    }
+    page.push_str("<nav>");
+    for (id, heading, _) in &sections {
+        page.push_str(&format!("<a href=\"#{id}\">{heading}</a> "));
+    }
+    page.push_str("<a href=\"licenses/license.txt\">Licences</a></nav>\n");
+    for (id, heading, content) in &sections {
+        page.push_str(&format!("<h2 id=\"{id}\">{heading}</h2>\n{content}"));
+    }
+    page.push_str("</body>\n</html>\n");
+    page
+}
+
+/// A table of what stands for itself without its header: on a narrow screen each row is a block.
+fn list(header: &[&str], rows: impl IntoIterator<Item = String>) -> String {
+    table(header, rows).replacen("<table>", "<table class=\"list\">", 1)
+}
+
+/// A table with a header.
+fn table(header: &[&str], rows: impl IntoIterator<Item = String>) -> String {
+    let header: String = header.iter().map(|name| format!("<th>{name}</th>")).collect();
+    let rows: String = rows.into_iter().collect();
+    format!("<div class=\"wide\"><table>\n<tr>{header}</tr>\n{rows}</table></div>\n")
+}
