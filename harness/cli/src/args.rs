@@ -74,7 +74,7 @@ pub enum Command {
     #[command(after_help = COMPLETIONS_EXAMPLE)]
     Completions(Completions),
     /// Print the manual's page of the program or of a command
-    Man(crate::manual::Manual),
+    Man(Manual),
     /// Runs one probe of `check` in a process of its own
     #[command(hide = true, name = "probe-in-child")]
     Probe(Probe),
@@ -142,6 +142,16 @@ pub struct Completions {
     /// The shell
     #[arg(value_enum)]
     pub shell: Shell,
+}
+
+/// `heliotorque man`.
+#[derive(Debug, Args)]
+pub struct Manual {
+    /// The command whose page it is, plan-spin for one below another; otherwise the program's
+    pub command: Option<String>,
+    /// Write every page into this folder instead: heliotorque.1, heliotorque-run.1, ...
+    #[arg(long, value_name = "FOLDER", conflicts_with = "command")]
+    pub output: Option<PathBuf>,
 }
 
 /// A kind of file that has a schema.

@@ -1,24 +1,17 @@
 //! `heliotorque man`: the manual's pages, one for the program and one for each command.
 
-use std::{fs, path::PathBuf, process::ExitCode};
+use std::{fs, process::ExitCode};
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Command, CommandFactory};
 use clap_mangen::Man;
 
-use crate::{args::Arguments, outcome::Outcome};
+use crate::{
+    args::{Arguments, Manual},
+    outcome::Outcome,
+};
 
 /// Name and version.
 const VERSION: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
-
-/// `heliotorque man`.
-#[derive(Debug, Args)]
-pub struct Manual {
-    /// The command whose page it is, plan-spin for one below another; otherwise the program's
-    pub command: Option<String>,
-    /// Write every page into this folder instead: heliotorque.1, heliotorque-run.1, ...
-    #[arg(long, value_name = "FOLDER", conflicts_with = "command")]
-    pub output: Option<PathBuf>,
-}
 
 /// Prints a page, or writes all of them.
 pub fn run(arguments: &Manual) -> Outcome {

@@ -45,13 +45,16 @@ pub enum Craft {
     },
 }
 
+/// An input over time: times in s, and values as `--set` takes them.
+pub type InputRows = Vec<(f64, String)>;
+
 /// Inputs over time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Inputs {
     /// A CSV file.
     File(PathBuf),
-    /// By name: times in s, and values as `--set` takes them.
-    Rows(Vec<At<(String, Vec<(f64, String)>)>>),
+    /// By name.
+    Rows(Vec<At<(String, InputRows)>>),
 }
 
 /// A picture.
@@ -335,8 +338,8 @@ impl Builder<'_> {
         Some(Inputs::Rows(inputs))
     }
 
-    fn rows(&mut self, place: &Place, written: &[Written]) -> Vec<(f64, String)> {
-        let mut rows: Vec<(f64, String)> = Vec::new();
+    fn rows(&mut self, place: &Place, written: &[Written]) -> InputRows {
+        let mut rows = InputRows::new();
         for (i, row) in written.iter().enumerate() {
             let at = place.item(i);
             let Written::List(row) = row else {

@@ -6,6 +6,7 @@ mod known;
 mod shown;
 mod summary;
 mod svg;
+mod svg_path;
 
 use std::{
     error::Error,
@@ -24,7 +25,7 @@ use svg::Svg;
 
 pub use known::Known;
 pub use shown::Shown;
-pub use svg::{check_path as check_svg_path, is_svg_path};
+pub use svg_path::{check_path as check_svg_path, is_svg_path};
 
 /// A picture of a run.
 #[derive(Clone, Debug)]

@@ -1,9 +1,6 @@
 //! The picture of `run --plot`: one panel per vector or variable, in display units.
 
-use std::{
-    error::Error,
-    path::{Path, PathBuf},
-};
+use std::{error::Error, path::PathBuf};
 
 use files::Destination;
 use loader::{Column, Recording};
@@ -29,22 +26,6 @@ fn group(name: &str) -> String {
         }
         None => name.to_owned(),
     }
-}
-
-/// Whether a path promises this kind of picture, or is the standard output.
-pub fn is_svg_path(path: &Path) -> bool {
-    path == Path::new("-") || path.extension().is_some_and(|it| it.eq_ignore_ascii_case("svg"))
-}
-
-/// Refuses a path that promises another kind of picture.
-pub fn check_path(path: &Path, option: &str) -> Result<(), String> {
-    if is_svg_path(path) {
-        return Ok(());
-    }
-    Err(format!(
-        "{}: found no SVG file's name, allowed: one that ends in .svg, or -: see {option}",
-        path.display()
-    ))
 }
 
 /// The picture, drawn at the end.
