@@ -240,7 +240,8 @@ impl EllipseVariables {
     /// Elements of a body's own ellipse about the Sun, in the ecliptic of J2000; `described` is the body of the start values.
     pub fn read(&self, values: &Values, described: Body, body: Body) -> Elements {
         let (default, own) = (center::ellipse(described), center::ellipse(body));
-        let followed = |parameter, of: fn(&Elements) -> f64| followed(values, parameter, of(&default), of(&own));
+        let followed =
+            |parameter, of: fn(&Elements) -> f64| followed(values, parameter, of(&default), of(&own));
         Elements {
             semi_major_axis_m: followed(self.semi_major_axis, |it| it.semi_major_axis_m),
             eccentricity: followed(self.eccentricity, |it| it.eccentricity),

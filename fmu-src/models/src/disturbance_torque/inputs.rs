@@ -6,7 +6,8 @@ use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::Shadow;
 use physics::numerics::scalar::{Dual64, Scalar};
 use physics::radiation::disturbance::{
-    ActiveEffects, BySource, DisturbanceModel, Options, Parameters, PlanetLightMethod, PositionError, Positions, Workspace,
+    ActiveEffects, BySource, DisturbanceModel, Options, Parameters, PlanetLightMethod, PositionError,
+    Positions, Workspace,
 };
 use physics::radiation::grid::CellLayout;
 use physics::spacecraft::{Spacecraft, SunshadeModel};

@@ -54,10 +54,15 @@ fn start_values_are_those_of_the_center_in_the_file() {
     assert_eq!(start(&described::<DisturbanceTorque>(&about("sun")), "planet.present"), 0.0);
     assert_eq!(start(&described::<Guidance>(&about("sun")), "target.planet"), 2.0);
 
-    for (center, item, radius_m) in [("venus", 3.0, 6_051.8e3), ("earth", 4.0, 6_371.0e3), ("jupiter", 7.0, 69_911e3)] {
+    for (center, item, radius_m) in
+        [("venus", 3.0, 6_051.8e3), ("earth", 4.0, 6_371.0e3), ("jupiter", 7.0, 69_911e3)]
+    {
         let text = about(center);
-        let (plant, torque, guidance) =
-            (described::<MomentumPlant>(&text), described::<DisturbanceTorque>(&text), described::<Guidance>(&text));
+        let (plant, torque, guidance) = (
+            described::<MomentumPlant>(&text),
+            described::<DisturbanceTorque>(&text),
+            described::<Guidance>(&text),
+        );
         let radius = start(&plant, "planet.radius");
         assert!((radius / radius_m - 1.0).abs() < 0.03, "{center} {radius}");
         assert_eq!(start(&plant, "orbit.semiMajorAxis"), 3.0 * radius);
@@ -94,7 +99,13 @@ fn a_center_set_later_gives_the_same_orbit_and_a_warning() {
         }
         assert_eq!(by_file.warnings(), [""; 0]);
         let said = by_master.warnings();
-        let names = ["orbit.center is", center, "orbit.semiMajorAxis = ", "orbit.eccentricity = 0", "orbit.inclination = "];
+        let names = [
+            "orbit.center is",
+            center,
+            "orbit.semiMajorAxis = ",
+            "orbit.eccentricity = 0",
+            "orbit.inclination = ",
+        ];
         assert!(said.len() == 1 && names.iter().all(|name| said[0].contains(name)), "{said:?}");
         assert_eq!(said[0].contains("orbit.frame = ecliptic"), body == Body::Sun, "{said:?}");
     }
@@ -127,7 +138,12 @@ fn values_that_are_set_are_flown() {
         ("orbit.periapsisArgument", 0.4),
     ];
     plant.fly(0.0, &elements).unwrap();
-    let given = [("orbit.center", 2.0), ("orbit.source", 2.0), ("orbit.position[1]", 1e11), ("orbit.velocity[2]", 3e4)];
+    let given = [
+        ("orbit.center", 2.0),
+        ("orbit.source", 2.0),
+        ("orbit.position[1]", 1e11),
+        ("orbit.velocity[2]", 3e4),
+    ];
     plant.fly(0.0, &given).unwrap();
     assert_eq!(plant.warnings(), [""; 0]);
 }

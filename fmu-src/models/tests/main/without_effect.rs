@@ -27,7 +27,9 @@ fn shadows_need_outlines<M: Model>() {
     assert!(found.starts_with(expected), "{found}");
     assert_eq!(
         warnings::<M>(RADIATING, SHADOWS),
-        ["shadowing.enabled: `far`, `outer` have no outline (polygon_m), cast no shadow and are never shadowed"]
+        [
+            "shadowing.enabled: `far`, `outer` have no outline (polygon_m), cast no shadow and are never shadowed"
+        ]
     );
     let whole = include_str!("../../../resources/messenger-full.toml");
     assert_eq!(warnings::<M>(whole, SHADOWS), [""; 0]);
@@ -36,7 +38,10 @@ fn shadows_need_outlines<M: Model>() {
     let text = format!("{}[start]\n\"shadowing.enabled\" = true\n", ALL);
     let line = text.lines().count();
     let found = M::parse_setup("my.toml", &text).err().unwrap().to_string();
-    assert!(found.starts_with(&format!("my.toml:{line}: start.\"shadowing.enabled\": found true, ")), "{found}");
+    assert!(
+        found.starts_with(&format!("my.toml:{line}: start.\"shadowing.enabled\": found true, ")),
+        "{found}"
+    );
     let other = format!("{}[start.Guidance]\n\"shadowing.enabled\" = true\n", ALL);
     assert!(M::parse_setup("my.toml", &other).is_ok());
 }
@@ -73,7 +78,10 @@ fn a_map_of_the_planet_that_nothing_reads() {
     assert_eq!(warnings::<DisturbanceTorque>(ALL, &used), [""; 0]);
     for sets in [&[][..], &used[..1], &used[1..]] {
         let found = warnings::<DisturbanceTorque>(ALL, sets);
-        assert!(found.len() == 1 && found[0].starts_with("[planet_map] in the spacecraft.toml of All"), "{found:?}");
+        assert!(
+            found.len() == 1 && found[0].starts_with("[planet_map] in the spacecraft.toml of All"),
+            "{found:?}"
+        );
     }
     let found = warnings::<MomentumPlant>(ALL, &[("planetLight.enabled", 1.0)]);
     assert!(found.len() == 1 && found[0].contains("DisturbanceTorque alone takes it"), "{found:?}");
@@ -88,12 +96,18 @@ fn each_switch_of_disturbance_torque_takes_one_source_away() {
         let flight = named.fly(0.0, sets).unwrap();
         let mut found = Vec::new();
         for source in ["solar", "albedo", "infrared", "thermal"] {
-            found.push((source, flight.vector(&format!("torque.{source}")), flight.vector(&format!("force.{source}"))));
+            found.push((
+                source,
+                flight.vector(&format!("torque.{source}")),
+                flight.vector(&format!("force.{source}")),
+            ));
         }
         let gradient = flight.vector("torque.gravityGradient");
-        let torque: nalgebra::Vector3<f64> = found.iter().map(|it| it.1).sum::<nalgebra::Vector3<f64>>() + gradient;
+        let torque: nalgebra::Vector3<f64> =
+            found.iter().map(|it| it.1).sum::<nalgebra::Vector3<f64>>() + gradient;
         let force: nalgebra::Vector3<f64> = found.iter().map(|it| it.2).sum();
-        let faces: nalgebra::Vector3<f64> = (1..=7).map(|k| flight.vector(&format!("plate[{k}].force"))).sum();
+        let faces: nalgebra::Vector3<f64> =
+            (1..=7).map(|k| flight.vector(&format!("plate[{k}].force"))).sum();
         assert!((torque - flight.vector("torque.total")).norm() < 1e-18);
         assert!((force - flight.vector("force.total")).norm() < 1e-18);
         assert!((faces - force).norm() < 1e-12 * force.norm());

@@ -79,9 +79,8 @@ impl Figures {
             greatest_body_m,
             area_toward_plus_m2: area_toward_m2[0],
             area_toward_minus_m2: area_toward_m2[1],
-            sunlit_area_m2: sunlit(&black(spacecraft)).map_or(0.0, |(force_n, _)| {
-                -force_n.dot(&sun_body()) * SPEED_OF_LIGHT_M_S / SOLAR_FLUX_W_M2
-            }),
+            sunlit_area_m2: sunlit(&black(spacecraft))
+                .map_or(0.0, |(force_n, _)| -force_n.dot(&sun_body()) * SPEED_OF_LIGHT_M_S / SOLAR_FLUX_W_M2),
             total_area_m2,
             mass_properties,
             center_of_mass_outside_m: is_outside(&center_m, &corners_m, tolerance_m),

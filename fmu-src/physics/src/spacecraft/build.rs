@@ -8,7 +8,10 @@ use serde::Serialize;
 use super::build_propulsion::{tank, tanks_fit, thruster};
 use super::build_shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
 use super::build_swinging::{mode, slosh, swinging_fits};
-use super::build_thermal::{Material, Materials, Surroundings, checked_area, checked_center, checked_normal, checked_outline, face_thermal, thermal};
+use super::build_thermal::{
+    Material, Materials, Surroundings, checked_area, checked_center, checked_normal, checked_outline,
+    face_thermal, thermal,
+};
 use super::checker::Checker;
 use super::copies::{check_apart, motions, plate_copies};
 use super::description::{
@@ -436,7 +439,14 @@ impl Builder<'_> {
             normal: checked_normal(&mut self.check, at, normal, outline.as_ref()),
             optics: front.optics,
             rear_optics: rear.map(|rear| rear.optics),
-            thermal: thermal(&mut self.check, self.materials.surroundings, at, description.thermal.as_ref(), front, rear),
+            thermal: thermal(
+                &mut self.check,
+                self.materials.surroundings,
+                at,
+                description.thermal.as_ref(),
+                front,
+                rear,
+            ),
             polygon: outline,
         }
     }
@@ -508,7 +518,14 @@ impl Builder<'_> {
             zero_normal_body: dcm_body_from_panel * zero_normal,
             optics: front.optics,
             rear_optics: rear.map(|rear| rear.optics),
-            thermal: thermal(&mut self.check, self.materials.surroundings, at, description.thermal.as_ref(), front, rear),
+            thermal: thermal(
+                &mut self.check,
+                self.materials.surroundings,
+                at,
+                description.thermal.as_ref(),
+                front,
+                rear,
+            ),
             polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
             control: description.control.unwrap_or(PanelControl::SunOffset),
             sun_offset_rad: self.check.angle(

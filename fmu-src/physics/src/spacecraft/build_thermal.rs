@@ -12,7 +12,8 @@ use super::place::Place;
 use super::polygon::Polygon;
 use super::spelling::nearest;
 use super::thermal::{
-    BACKGROUND_K, BusLink, Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, HIGHEST_TEMPERATURE_K, Honeycomb, Thermal,
+    BACKGROUND_K, BusLink, Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal,
+    HIGHEST_TEMPERATURE_K, Honeycomb, Thermal,
 };
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
@@ -50,8 +51,9 @@ pub(super) struct Surroundings {
 impl Surroundings {
     pub fn of(check: &mut Checker<'_>, description: Option<&SurroundingsDescription>) -> Self {
         let at = Place::root().key("thermal");
-        let mut kelvin =
-            |key: &str, value: f64| check.within(&at.key(key), value, 0.0, HIGHEST_TEMPERATURE_K, "0 to 2000 K");
+        let mut kelvin = |key: &str, value: f64| {
+            check.within(&at.key(key), value, 0.0, HIGHEST_TEMPERATURE_K, "0 to 2000 K")
+        };
         let given = |of: fn(&SurroundingsDescription) -> Option<f64>| description.and_then(of);
         Self {
             background_k: given(|it| it.background_k).map_or(BACKGROUND_K, |it| kelvin("background_k", it)),
@@ -191,7 +193,11 @@ fn bus(
         let conductance_w_m2_k = check.not_negative(&place, conductance_w_m2_k);
         let temperature_k = own_k.or(surroundings.bus_temperature_k);
         if temperature_k.is_none() && conductance_w_m2_k > 0.0 {
-            check.report(&place, "no temperature of the bus", "`bus_temperature_k` beside it or under [thermal]");
+            check.report(
+                &place,
+                "no temperature of the bus",
+                "`bus_temperature_k` beside it or under [thermal]",
+            );
         }
         BusLink { conductance_w_m2_k, temperature_k: temperature_k.unwrap_or(0.0) }
     })

@@ -29,7 +29,8 @@ fn space_is_the_microwave_background_and_no_surface_conducts_to_the_bus() {
 fn a_surface_takes_the_files_bus_or_its_own() {
     let top = "thermal = { background_k = 40, bus_temperature_k = 290 }";
     let panel = "thermal = { bus_conductance_w_m2_k = 1.5, rear_bus_conductance_w_m2_k = 0.5, bus_temperature_k = 250 }";
-    let craft = Spacecraft::from_toml("my.toml", &file(top, "thermal.bus_conductance_w_m2_k = 3", panel)).unwrap();
+    let craft =
+        Spacecraft::from_toml("my.toml", &file(top, "thermal.bus_conductance_w_m2_k = 3", panel)).unwrap();
     let link = |conductance_w_m2_k, temperature_k| BusLink { conductance_w_m2_k, temperature_k };
     assert_eq!(craft.background_k, 40.0);
     assert_eq!(craft.plates[0].thermal.bus, [link(3.0, 290.0), BusLink::NONE]);
@@ -46,10 +47,25 @@ fn a_surface_takes_the_files_bus_or_its_own() {
 fn what_cannot_be_is_told_with_its_key() {
     for (top, plate, panel, expected) in [
         ("thermal.background_k = -1", "", "", "thermal.background_k: found -1.0, allowed: 0 to 2000 K"),
-        ("thermal.bus_temperature_k = 3000", "", "", "thermal.bus_temperature_k: found 3000.0, allowed: 0 to 2000 K"),
+        (
+            "thermal.bus_temperature_k = 3000",
+            "",
+            "",
+            "thermal.bus_temperature_k: found 3000.0, allowed: 0 to 2000 K",
+        ),
         ("thermal.background = 3", "", "", "`background`"),
-        ("", "thermal.bus_conductance_w_m2_k = 3", "", "plates[1].thermal.bus_conductance_w_m2_k: found no temperature of the bus"),
-        ("", "thermal.bus_temperature_k = 290", "", "plates[1].thermal.bus_temperature_k: found no conductance to the bus"),
+        (
+            "",
+            "thermal.bus_conductance_w_m2_k = 3",
+            "",
+            "plates[1].thermal.bus_conductance_w_m2_k: found no temperature of the bus",
+        ),
+        (
+            "",
+            "thermal.bus_temperature_k = 290",
+            "",
+            "plates[1].thermal.bus_temperature_k: found no conductance to the bus",
+        ),
         (
             "thermal.bus_temperature_k = 290",
             "thermal.bus_conductance_w_m2_k = -3",
@@ -62,7 +78,12 @@ fn what_cannot_be_is_told_with_its_key() {
             "",
             "plates[1].thermal.rear_bus_conductance_w_m2_k: found a surface without `rear_optics`",
         ),
-        ("", "", "thermal = { bus_conductance_w_m2_k = 1, bus_temperature_k = 1e9 }", "panels[1].thermal.bus_temperature_k"),
+        (
+            "",
+            "",
+            "thermal = { bus_conductance_w_m2_k = 1, bus_temperature_k = 1e9 }",
+            "panels[1].thermal.bus_temperature_k",
+        ),
     ] {
         let told = refusal(top, plate, panel);
         assert!(told.contains(expected), "{expected}\n{told}");

@@ -17,7 +17,10 @@ pub fn unused_map(setup: &str, model: &str, description: &Description) -> Option
         (Some(VariableKind::Enumeration { start, .. }), switch) => {
             let on = !matches!(switch, Some(VariableKind::Boolean { start: Some(false), .. }));
             (*start != Some(METHOD.1) || !on).then(|| {
-                format!("[planet_map] has an effect in {model} with {SWITCH} = true and {} = map alone", METHOD.0)
+                format!(
+                    "[planet_map] has an effect in {model} with {SWITCH} = true and {} = map alone",
+                    METHOD.0
+                )
             })
         }
         _ => Some(format!(

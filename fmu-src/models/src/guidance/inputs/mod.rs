@@ -60,7 +60,8 @@ impl Fixed {
         let (default, own) = (TargetPlanet::of(described.data()), TargetPlanet::of(body.data()));
         let follow =
             |parameter, of: fn(&TargetPlanet) -> f64| followed(values, parameter, of(&default), of(&own));
-        let radius_m = |i: usize| followed(values, v.planet.radii.element(i), default.radii_m[i], own.radii_m[i]);
+        let radius_m =
+            |i: usize| followed(values, v.planet.radii.element(i), default.radii_m[i], own.radii_m[i]);
         let planet = TargetPlanet {
             radii_m: Vector3::from([0, 1, 2].map(radius_m)),
             pole_right_ascension_rad: follow(v.planet.pole_right_ascension, |it| it.pole_right_ascension_rad),

@@ -121,7 +121,10 @@ pub fn say_followed(context: &Plan<'_>, values: &Values) {
         followed.map(|(name, _, own, unit)| format!("{name} = {}", shown(*own, unit).trim_end())).collect();
     let frame = center.frame();
     if values.choice(orbit.frame).is_some_and(|it| it.0 != frame) {
-        told.push(format!("orbit.frame = {}", if frame == Frame::Ecliptic { "ecliptic" } else { "planetEquator" }));
+        told.push(format!(
+            "orbit.frame = {}",
+            if frame == Frame::Ecliptic { "ecliptic" } else { "planetEquator" }
+        ));
     }
     if told.is_empty() {
         return;

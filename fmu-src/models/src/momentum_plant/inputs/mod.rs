@@ -266,7 +266,12 @@ fn ephemeris_source(
         }
         Some(EphemerisSource::Kepler) => {
             let ellipse = &variables.ephemeris.ellipse;
-            plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, values, center.described_and_own(), epoch_s)?)
+            plant::EphemerisSource::Kepler(ephemeris::kepler(
+                ellipse,
+                values,
+                center.described_and_own(),
+                epoch_s,
+            )?)
         }
         Some(EphemerisSource::Chebyshev) => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {

@@ -139,7 +139,8 @@ fn a_plate_on_the_bus_pushes_by_what_the_bus_leaves() {
     plate.thermal.bus[0] = link;
     let bare = square(-Vector3::z(), Vector3::x(), 0.5, black);
     let craft = Spacecraft { background_k: 0.0, ..spacecraft(vec![plate.clone(), bare.clone()]) };
-    let model = DisturbanceModel::new(&craft, &Options { self_shadowing: false, ..Options::default() }).unwrap();
+    let model =
+        DisturbanceModel::new(&craft, &Options { self_shadowing: false, ..Options::default() }).unwrap();
     let mut workspace = Workspace::default();
     let found = model.evaluate(&sunlit(Vector3::z()), Recoil::Balance, &mut workspace).unwrap();
     assert_relative_eq!(workspace.faces()[0].temperature_k, wanted_k, max_relative = 1e-12);

@@ -240,7 +240,8 @@ mod tests {
     fn radiative_exchange_alone_has_a_closed_form() {
         let (e1, e2, h) = (0.8, 0.6, 0.11);
         let emission = [Emission::constant(e1), Emission::constant(e2)];
-        let [front, rear] = conducting_temperatures_k(&emission.map(in_the_cold), &link(0.0, h), [5000.0, 0.0]);
+        let [front, rear] =
+            conducting_temperatures_k(&emission.map(in_the_cold), &link(0.0, h), [5000.0, 0.0]);
         // (e1 + h) x1 - h x2 = 5000 / sigma, (e2 + h) x2 = h x1
         let x1 = 5000.0 / SIGMA / (e1 + h - h * h / (e2 + h));
         assert_relative_eq!(front.powi(4), x1, max_relative = 1e-11);
@@ -250,7 +251,10 @@ mod tests {
     #[test]
     fn no_heat_is_absolute_zero() {
         let emission = [Emission::constant(0.8); 2];
-        assert_eq!(conducting_temperatures_k(&emission.map(in_the_cold), &link(18.0, 0.11), [0.0, 0.0]), [0.0, 0.0]);
+        assert_eq!(
+            conducting_temperatures_k(&emission.map(in_the_cold), &link(18.0, 0.11), [0.0, 0.0]),
+            [0.0, 0.0]
+        );
         assert_eq!(face_temperature_k(&in_the_cold(emission[0]), 0.0), 0.0);
     }
 

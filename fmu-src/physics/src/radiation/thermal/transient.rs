@@ -166,11 +166,7 @@ mod tests {
     use crate::spacecraft::{BusLink, Emission};
 
     fn in_the_cold(emissivity: f64) -> FaceSurroundings {
-        FaceSurroundings {
-            emission: Emission::constant(emissivity),
-            background_k: 0.0,
-            bus: BusLink::NONE,
-        }
+        FaceSurroundings { emission: Emission::constant(emissivity), background_k: 0.0, bus: BusLink::NONE }
     }
 
     fn panel() -> HeatStore {
@@ -182,11 +178,7 @@ mod tests {
     }
 
     fn blanket(heat_capacity_j_m2_k: f64) -> HeatStore {
-        HeatStore {
-            faces: [in_the_cold(0.7), in_the_cold(0.0)],
-            conduction: None,
-            heat_capacity_j_m2_k,
-        }
+        HeatStore { faces: [in_the_cold(0.7), in_the_cold(0.0)], conduction: None, heat_capacity_j_m2_k }
     }
 
     /// dT/dt = -eps sigma T^4 / C gives 1/T^3 = 1/T0^3 + 3 eps sigma t / C.
