@@ -2,7 +2,10 @@
 
 use core::fmt;
 
-use crate::{Description, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind, VariableKind};
+use crate::{
+    Description, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind, VariableKind,
+    names::similar,
+};
 
 /// A value of a variable; Enumerations are Integers at the interface.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,7 +156,12 @@ pub fn read(description: &Description, variable: &ScalarVariable, text: &str) ->
             let by_name = items(description, variable).iter().find(|item| item.name == text);
             match by_name {
                 Some(item) => Ok(Value::Integer(item.value)),
-                None => text.parse().map(Value::Integer).map_err(|_| misfit()),
+                None => text.parse().map(Value::Integer).map_err(|_| {
+                    let items = items(description, variable).iter().map(|item| item.name.as_str());
+                    let near = similar(text, items);
+                    let hint = near.first().map(|near| format!(" (did you mean {near:?}?)"));
+                    Misfit { found: format!("{text:?}{}", hint.unwrap_or_default()), ..misfit() }
+                }),
             }
         }
     }
@@ -249,6 +257,56 @@ pub fn check(description: &Description, variable: &ScalarVariable, value: &Value
         _ => allowed(description, variable),
     };
     Err(Misfit::new(found(), range))
+}
+
+/// An angle beyond its limits, told in deg too: a number without unit is taken in rad and may have been meant in deg.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AngleMisfit {
+    /// The angle with its unit.
+    pub found: String,
+    /// What was probably meant.
+    pub meant: Option<String>,
+    /// The limits in deg and rad.
+    pub allowed: String,
+}
+
+/// What is wrong with an angle, a Real whose display unit is deg, that is beyond its limits; `None` for anything else.
+pub fn angle_misfit(
+    description: &Description,
+    variable: &ScalarVariable,
+    value: &Value,
+    written: &str,
+) -> Option<AngleMisfit> {
+    let (display, factor, _) =
+        display_unit(description, variable).filter(|(name, ..)| name.starts_with("deg"))?;
+    let Value::Real(number) = value else { return None };
+    if check(description, variable, value).is_ok() {
+        return None;
+    }
+    let own = unit(description, variable).unwrap_or_default();
+    let has_unit = written.parse::<f64>().is_err();
+    let found = if has_unit { written.to_owned() } else { format!("{written} {own}") };
+    let fits_in_deg = check(description, variable, &Value::Real(number / factor)).is_ok();
+    let meant = (!has_unit && fits_in_deg).then(|| format!("{written}{display}"));
+    let (min, max) = limits(description, variable);
+    let in_unit = |factor: f64, unit: &str| {
+        let short = |bound: f64| ((bound * factor * 1e6).round() / 1e6).to_string();
+        match (min.map(short), max.map(short)) {
+            (Some(min), Some(max)) => format!("{min} to {max} {unit}"),
+            (Some(min), None) => format!("{min} {unit} and more"),
+            (None, Some(max)) => format!("{max} {unit} and less"),
+            (None, None) => format!("a number in {unit}"),
+        }
+    };
+    let allowed = format!("{} ({})", in_unit(factor, display), in_unit(1.0, own));
+    Some(AngleMisfit { found, meant, allowed })
+}
+
+/// `min` and `max` of a Real, its own or its declared type's.
+fn limits(description: &Description, variable: &ScalarVariable) -> (Option<f64>, Option<f64>) {
+    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return (None, None) };
+    let of_type = declared_type.as_deref().and_then(|name| real_type(description, name));
+    (attributes.min.or_else(|| of_type?.min), attributes.max.or_else(|| of_type?.max))
 }
 
 /// Makes `value` the start value; a value of another base type changes nothing.

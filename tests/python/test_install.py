@@ -35,7 +35,9 @@ def test_an_installed_program_works_anywhere(heliotorque, tmp_path):
     assert f"{prefix / 'bin'} is not on PATH" in installed.stderr and "export PATH=" in installed.stderr
     shared = prefix / "lib" / "heliotorque"
     listed = {line for line in installed.stdout.splitlines() if line.startswith(str(prefix))}
-    assert {str(prefix / "bin" / "heliotorque"), str(shared / "SpinPlant.fmu")} <= listed
+    page = prefix / "share" / "man" / "man1" / "heliotorque-run.1"
+    assert {str(prefix / "bin" / "heliotorque"), str(shared / "SpinPlant.fmu"), str(page)} <= listed
+    assert "heliotorque run" in page.read_text(encoding="utf-8")
     assert listed == {str(path) for path in prefix.rglob("*") if path.is_file()}
 
     def run(*arguments):

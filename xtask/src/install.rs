@@ -7,11 +7,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::dist;
-use crate::shell::{Outcome, root};
+use crate::shell::{self, Outcome, root, run};
+use crate::{build, dist};
 
 /// Where the library and the FMUs stand below the prefix; the program looks there from its own folder.
 const LIBRARY_FOLDER: [&str; 2] = ["lib", "heliotorque"];
+
+/// Where `man` looks for pages of commands, beside the folder with the program.
+const MANUAL_FOLDER: [&str; 3] = ["share", "man", "man1"];
 
 /// Builds and packs everything, then copies it below the prefix that `options` name, otherwise `~/.local`.
 pub fn install(options: &[String]) -> Outcome {
@@ -19,8 +22,11 @@ pub fn install(options: &[String]) -> Outcome {
     let built = dist::dist()?;
     let binaries = prefix.join("bin");
     let folder = LIBRARY_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
+    let program = built.heliotorque.clone();
     let mut files = vec![(built.heliotorque, &binaries), (built.library, &folder)];
     files.extend(packed()?.into_iter().map(|path| (path, &folder)));
+    let manual = MANUAL_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
+    files.extend(pages(&program)?.into_iter().map(|path| (path, &manual)));
     for (from, to) in files {
         let installed = copy(&from, to)?;
         println!("{}", installed.display());
@@ -59,12 +65,24 @@ fn prefix(options: &[String]) -> Result<PathBuf, String> {
 
 /// The FMUs and systems of `dist/`, by name.
 fn packed() -> Result<Vec<PathBuf>, String> {
-    let folder = root().join("dist");
+    files_in(&root().join("dist"), &["fmu", "ssp"])
+}
+
+/// The manual's pages, as the program writes them.
+fn pages(program: &Path) -> Result<Vec<PathBuf>, String> {
+    let folder = build::scratch("man")?;
+    run(shell::command(program).args(["man", "--output"]).arg(&folder))?;
+    files_in(&folder, &["1"])
+}
+
+/// The files of a folder with one of these extensions, by name.
+fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut paths = Vec::new();
-    for entry in fs::read_dir(&folder).map_err(failed)? {
+    for entry in fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.is_file() && matches!(path.extension().and_then(OsStr::to_str), Some("fmu" | "ssp")) {
+        let extension = path.extension().and_then(OsStr::to_str);
+        if path.is_file() && extension.is_some_and(|extension| extensions.contains(&extension)) {
             paths.push(path);
         }
     }

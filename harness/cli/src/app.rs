@@ -6,14 +6,15 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command, SchemaKind},
-    check, completions, draw, ephemeris, info, interrupt, map,
+    check, completions, draw, ephemeris, info, interrupt, manual, map, new,
     outcome::Outcome,
     pack, plan, run as simulation, study, wire,
 };
 
-// JSON Schemas, kept in step with their readers by tests of `physics`.
+// JSON Schemas, kept in step with their readers by tests of `physics` and of the mission.
 const SPACECRAFT_SCHEMA: &str = include_str!("../../../fmu-src/resources/spacecraft.schema.json");
 const SPINNER_SCHEMA: &str = include_str!("../../../fmu-src/resources/spinner.schema.json");
+const MISSION_SCHEMA: &str = include_str!("../../../fmu-src/resources/mission.schema.json");
 const TIMELINE_SCHEMA: &str = include_str!("../../../fmu-src/resources/timeline.schema.json");
 const EPHEMERIS_SCHEMA: &str = include_str!("../../../fmu-src/resources/ephemeris.schema.json");
 
@@ -34,6 +35,8 @@ pub fn run() -> Outcome {
         Command::Run(arguments) => simulation::run(&arguments),
         Command::Wire(arguments) => wire::run(&arguments),
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
+        Command::New(arguments) => new::run(&arguments),
+        Command::Man(arguments) => manual::run(&arguments),
         Command::Draw(arguments) => draw::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
@@ -41,6 +44,7 @@ pub fn run() -> Outcome {
             let schema = match arguments.kind {
                 SchemaKind::Spacecraft => SPACECRAFT_SCHEMA,
                 SchemaKind::Spinner => SPINNER_SCHEMA,
+                SchemaKind::Mission => MISSION_SCHEMA,
                 SchemaKind::Timeline => TIMELINE_SCHEMA,
                 SchemaKind::Ephemeris => EPHEMERIS_SCHEMA,
             };

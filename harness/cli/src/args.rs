@@ -15,7 +15,8 @@ Example:
 const RUN_EXAMPLE: &str = "\
 Example:
   heliotorque run dist/MomentumPlant.fmu --stop 10d --record 'momentum.body*' --plot momentum.svg
-  heliotorque run dist/MessengerLoop.ssp --stop 1d --record plant.attitude.q --output loop.csv";
+  heliotorque run dist/MessengerLoop.ssp --stop 1d --record plant.attitude.q --output loop.csv
+  heliotorque new mission mission.toml && heliotorque run mission.toml";
 
 const WIRE_EXAMPLE: &str = "\
 Example:
@@ -44,12 +45,14 @@ pub enum Command {
     Info(Info),
     /// Check an FMU, a system, or a spacecraft before it is packed: what is wrong, what it comes to, what looks odd
     Check(Check),
-    /// Run an FMU, or a system of FMUs (SSP), from start to stop
+    /// Run an FMU, a system of FMUs (SSP) or a mission from start to stop
     #[command(after_help = RUN_EXAMPLE)]
     Run(Run),
     /// Connect FMUs by the names and units of their variables: a system (SSP) that any tool for SSP runs
     #[command(after_help = WIRE_EXAMPLE)]
     Wire(Wire),
+    /// Write a commented file that works unchanged: spacecraft, spinner, mission or timeline
+    New(crate::new::New),
     /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
     Draw(crate::draw::options::Draw),
     /// Map the torque of sunlight over the Sun's azimuth and elevation: where it vanishes, what a degree is worth, what
@@ -70,6 +73,8 @@ pub enum Command {
     /// Print what a shell needs to complete commands and options
     #[command(after_help = COMPLETIONS_EXAMPLE)]
     Completions(Completions),
+    /// Print the manual's page of the program or of a command
+    Man(crate::manual::Manual),
     /// Runs one probe of `check` in a process of its own
     #[command(hide = true, name = "probe-in-child")]
     Probe(Probe),
@@ -102,9 +107,10 @@ pub struct Info {
 /// `heliotorque check`.
 #[derive(Debug, Args)]
 pub struct Check {
-    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; a spacecraft or an ephemeris, a .toml file
+    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; a spacecraft, a mission, a timeline or
+    /// an ephemeris, a .toml file
     pub subject: PathBuf,
-    /// For a spacecraft only: the FMU whose library shall read it, as for `pack`; otherwise the installed
+    /// For a spacecraft or a mission only: the FMU whose library shall read it, as for `pack`; otherwise the installed
     /// program's own, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
@@ -125,7 +131,7 @@ pub struct Check {
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub struct Schema {
-    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
@@ -146,6 +152,8 @@ pub enum SchemaKind {
     Spacecraft,
     /// A spin-stabilised spacecraft.
     Spinner,
+    /// A flight.
+    Mission,
     /// Commands over time.
     Timeline,
     /// Positions over time.
@@ -176,10 +184,10 @@ pub struct RunInChild {
 }
 
 /// `heliotorque run`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct Run {
-    /// The FMU, an .fmu file or the folder it was unpacked into; or a system, an .ssp file, whose variables are named
-    /// component.variable
+    /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file, whose variables are named
+    /// component.variable; or a mission, a .toml file (see `heliotorque new mission`), whose values the options replace
     pub fmu: PathBuf,
     /// Start time, in s or with a unit (s, min, h, d); otherwise the FMU's default
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
@@ -224,6 +232,10 @@ pub struct Run {
     /// Draw what was recorded as SVG; - is the standard output
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// For a mission with a spacecraft only: the FMU whose library shall fly it, as for `pack`; otherwise the installed
+    /// program's own, or dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
     /// Longest time an FMI call may take, in s or with a unit; otherwise without bound
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub timeout: Option<f64>,
@@ -233,6 +245,31 @@ pub struct Run {
     /// Show no progress bar and no summary
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+impl Run {
+    /// Of a file, without any option.
+    pub fn of(fmu: PathBuf, template: Option<PathBuf>) -> Self {
+        Self {
+            fmu,
+            start: None,
+            stop: None,
+            step: None,
+            set: Vec::new(),
+            master: None,
+            first_exchange: None,
+            input: None,
+            slopes: false,
+            record: Vec::new(),
+            every: None,
+            output: None,
+            plot: None,
+            template,
+            timeout: None,
+            log: false,
+            quiet: false,
+        }
+    }
 }
 
 /// `--master`.
@@ -295,6 +332,9 @@ pub struct Pack {
     /// read where ephemeris.source is chebyshev or coarse; the GUID stays
     #[arg(long, value_name = "TOML")]
     pub ephemeris: Option<PathBuf>,
+    /// Take spacecraft, model, timeline, ephemeris, start values and times of a mission, a TOML file; other options win
+    #[arg(long, value_name = "TOML")]
+    pub mission: Option<PathBuf>,
     /// Add outputs of every plate: plate[k].temperature and plate[k].force[i], as with `per_plate_outputs = true` in the
     /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
     #[arg(long)]

@@ -7,34 +7,39 @@ use loader::{Collector, Ended, LogMessage};
 use crate::{
     args::{Run, RunInChild},
     interrupt::INTERRUPTED,
+    mission::Judge,
     outcome::Outcome,
     output::{self, Outputs},
 };
 
 mod child;
+pub mod flown;
 mod input_copy;
-mod settings;
-mod subject;
+pub mod settings;
+pub mod subject;
 
+use flown::Flown;
 use input_copy::InputCopy;
 use settings::Settings;
-use subject::Subject;
 
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     if let Some(path) = &arguments.plot {
         output::check_svg_path(path, "--plot")?;
     }
-    let subject = Subject::open(&arguments.fmu)?;
+    let flown = Flown::of(arguments)?;
+    let arguments = &flown.run;
+    let (subject, _packed) = flown.open()?;
     subject.check_options(arguments)?;
     // Everything that can be refused without the FMU's library is refused here.
     let copy = InputCopy::of(arguments)?;
     let input_copy = copy.as_ref().map(InputCopy::path);
-    let settings = Settings::of(&subject, arguments, input_copy.as_deref())?;
+    let settings = Settings::of(&subject, &flown, input_copy.as_deref())?;
     subject.check_libraries()?;
     let described = subject.description();
-    let mut outputs = Outputs::open(arguments)?;
-    let (times, positions) = (settings.times, settings.positions);
+    let mut outputs = Outputs::open(arguments, &settings.plots, &flown.reads())?;
+    let Settings { times, positions, limits, .. } = settings;
+    let mut judge = Judge::new(limits);
     let mut collector = Collector::new(described, &positions);
     let every = loader::steps_between_points(&times, arguments.every)?;
     let points = times.steps().div_ceil(every).saturating_add(1);
@@ -48,12 +53,14 @@ pub fn run(arguments: &Run) -> Outcome {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }
+        judge.update(recording);
         outputs.update(recording)
     });
     let elapsed = began.elapsed();
     progress.finish_and_clear();
 
     let recording = collector.recording();
+    judge.update(recording);
     if arguments.log {
         print_log(&simulated.messages);
     }
@@ -75,6 +82,11 @@ pub fn run(arguments: &Run) -> Outcome {
         let (last, elapsed) = (terminal::short(last_s), elapsed.as_secs_f64());
         terminal::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
     }
+    if !arguments.quiet || !judge.is_kept() {
+        let zero_s = flown.mission.as_ref().and_then(|mission| Some(mission.epoch_s.as_ref()?.it));
+        let lines = judge.report(described, zero_s.map(|zero_s| zero_s - times.start_s));
+        lines.iter().for_each(|line| terminal::note(line));
+    }
     match ended {
         Ended::AtStop => {}
         Ended::ByItself => {
@@ -90,6 +102,7 @@ pub fn run(arguments: &Run) -> Outcome {
     match simulated.fault {
         // The recording is complete, the FMU is not what it should be.
         Some(fault) => Err(fault.into()),
+        None if !judge.is_kept() => Ok(ExitCode::FAILURE),
         None => Ok(ExitCode::SUCCESS),
     }
 }

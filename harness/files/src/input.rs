@@ -50,7 +50,11 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
-        format!("{}: line {line} is not UTF-8", path.display())
+        let found = match error.as_bytes() {
+            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => " (it is UTF-16)",
+            _ => "",
+        };
+        format!("{}: line {line} is not UTF-8{found}, allowed: a text saved as UTF-8", path.display())
     })
 }
 

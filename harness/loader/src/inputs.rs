@@ -1,5 +1,7 @@
 //! Inputs over time: a table of rows, interpolated where the variable is continuous.
 
+use std::sync::Arc;
+
 use model_description::{Causality, Description, ScalarVariable, Variability, VariableKind};
 
 use crate::{Error, Value, parse_value};
@@ -9,9 +11,8 @@ use crate::{Error, Value, parse_value};
 /// Between rows a continuous Real is interpolated linearly, anything else keeps the last row's value; before
 /// the first row and after the last the nearest row holds. Two rows at one time make a jump: the later one
 /// holds from there on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputTable {
-    times_s: Vec<f64>,
     columns: Vec<InputColumn>,
 }
 
@@ -19,6 +20,8 @@ pub struct InputTable {
 struct InputColumn {
     position: usize,
     linear: bool,
+    /// Shared by the columns of one file.
+    times_s: Arc<[f64]>,
     values: Vec<Value>,
 }
 
@@ -52,17 +55,8 @@ impl InputTable {
                 return Err(wrong(format!("column {} stands twice", variable.name)));
             }
         }
-        let mut table = Self {
-            times_s: Vec::with_capacity(rows.len()),
-            columns: variables
-                .iter()
-                .map(|&(position, variable)| InputColumn {
-                    position,
-                    linear: is_linear(variable),
-                    values: Vec::with_capacity(rows.len()),
-                })
-                .collect(),
-        };
+        let mut times_s: Vec<f64> = Vec::with_capacity(rows.len());
+        let mut values = vec![Vec::with_capacity(rows.len()); variables.len()];
         for (index, row) in rows.iter().enumerate() {
             let line = index + 2;
             if row.len() != header.len() {
@@ -78,20 +72,53 @@ impl InputTable {
                 .ok()
                 .filter(|time_s| time_s.is_finite())
                 .ok_or_else(|| wrong(format!("line {line}: time {text:?} is no number")))?;
-            if table.times_s.last().is_some_and(|last| *last > time_s) {
+            if times_s.last().is_some_and(|last| *last > time_s) {
                 return Err(wrong(format!("line {line}: time {time_s} is before the line above")));
             }
-            table.times_s.push(time_s);
-            for ((column, (_, variable)), cell) in table.columns.iter_mut().zip(&variables).zip(&row[1..]) {
+            times_s.push(time_s);
+            for ((column, (_, variable)), cell) in values.iter_mut().zip(&variables).zip(&row[1..]) {
                 let value = parse_value(description, variable, cell.as_ref())
                     .map_err(|error| wrong(format!("line {line}: {error}")))?;
-                column.values.push(value);
+                column.push(value);
             }
         }
-        if table.times_s.is_empty() {
+        if times_s.is_empty() {
             return Err(wrong("it has a header but no rows".to_owned()));
         }
-        Ok(table)
+        let times_s: Arc<[f64]> = times_s.into();
+        let columns = variables.iter().zip(values).map(|(&(position, variable), values)| InputColumn {
+            position,
+            linear: is_linear(variable),
+            times_s: Arc::clone(&times_s),
+            values,
+        });
+        Ok(Self { columns: columns.collect() })
+    }
+
+    /// Adds a variable with rows of its own: a time in s, that does not fall, and a value.
+    ///
+    /// # Errors
+    /// No rows, times that fall, a variable that cannot change during a run or has rows already.
+    pub fn add(
+        &mut self,
+        description: &Description,
+        name: &str,
+        rows: Vec<(f64, Value)>,
+    ) -> Result<(), Error> {
+        let position = crate::select::named(description, name)
+            .ok_or_else(|| crate::select::unknown(description, name))?;
+        let variable = &description.variables[position];
+        check_settable(variable)?;
+        if self.positions().any(|other| other == position) {
+            return Err(Error::Inputs(format!("{name} stands twice")));
+        }
+        let (times_s, values): (Vec<f64>, Vec<Value>) = rows.into_iter().unzip();
+        if times_s.is_empty() || times_s.windows(2).any(|pair| pair[1] < pair[0]) {
+            return Err(Error::Inputs(format!("{name} has no rows, or rows whose times fall")));
+        }
+        let linear = is_linear(variable);
+        self.columns.push(InputColumn { position, linear, times_s: times_s.into(), values });
+        Ok(())
     }
 
     /// Positions in `ModelVariables` of the columns.
@@ -103,12 +130,12 @@ impl InputTable {
     pub fn value(&self, column: usize, time_s: f64) -> Value {
         let column = &self.columns[column];
         // The first row later than the time.
-        let after = self.times_s.partition_point(|row_s| *row_s <= time_s);
+        let after = column.times_s.partition_point(|row_s| *row_s <= time_s);
         let before = after.saturating_sub(1);
         let held = &column.values[before];
         match (held, column.values.get(after)) {
             (Value::Real(left), Some(Value::Real(right))) if column.linear && after > 0 => {
-                let (left_s, right_s) = (self.times_s[before], self.times_s[after]);
+                let (left_s, right_s) = (column.times_s[before], column.times_s[after]);
                 Value::Real(left + (right - left) * ((time_s - left_s) / (right_s - left_s)))
             }
             _ => held.clone(),
@@ -121,11 +148,11 @@ impl InputTable {
         if !column.linear {
             return None;
         }
-        let after = self.times_s.partition_point(|row_s| *row_s <= time_s);
+        let after = column.times_s.partition_point(|row_s| *row_s <= time_s);
         let Some(before) = after.checked_sub(1) else { return Some(0.0) };
         match (&column.values[before], column.values.get(after)) {
             (Value::Real(left), Some(Value::Real(right))) => {
-                Some((right - left) / (self.times_s[after] - self.times_s[before]))
+                Some((right - left) / (column.times_s[after] - column.times_s[before]))
             }
             _ => Some(0.0),
         }

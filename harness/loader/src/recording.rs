@@ -49,6 +49,18 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// The columns of these names, at the same times.
+    pub fn only(&self, names: &[String]) -> Self {
+        let kept = (0..self.names.len()).filter(|&index| names.contains(&self.names[index]));
+        let mut only = Self { times_s: self.times_s.clone(), ..Self::default() };
+        for index in kept {
+            only.names.push(self.names[index].clone());
+            only.units.push(self.units[index].clone());
+            only.columns.push(self.columns[index].clone());
+        }
+        only
+    }
+
     /// The column of a variable.
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.names.iter().position(|candidate| candidate == name).map(|index| &self.columns[index])

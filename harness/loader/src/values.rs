@@ -1,6 +1,9 @@
 //! Values as people write them on the command line and in tables.
 
-use model_description::{Description, ScalarVariable, SimpleTypeKind, VariableKind, value};
+use model_description::{
+    Description, ScalarVariable,
+    value::{self, AngleMisfit},
+};
 
 use crate::{Error, Value, select};
 
@@ -43,7 +46,7 @@ pub fn assignment<'a>(description: &'a Description, text: &'a str) -> Result<Vec
         return Err(Error::Value {
             variable: name.to_owned(),
             what: format!(
-                "{} values given for its {} elements; separate them by commas",
+                "{} values given for its {} elements, allowed: as many values as elements, with commas between them",
                 parts.len(),
                 elements.len()
             ),
@@ -60,49 +63,18 @@ pub fn assignment<'a>(description: &'a Description, text: &'a str) -> Result<Vec
         .collect()
 }
 
-/// Refuses an angle beyond the variable's limits, with the limits in deg too: a number without unit is taken in rad and
-/// may have been meant in deg.
+/// Refuses an angle beyond the variable's limits, with the limits in deg too.
 fn check_angle(
     description: &Description,
     variable: &ScalarVariable,
     value: &Value,
     written: &str,
 ) -> Result<(), Error> {
-    let display = value::display_unit(description, variable).filter(|(name, ..)| name.starts_with("deg"));
-    let (Some((display, factor, _)), Value::Real(number)) = (display, value) else { return Ok(()) };
-    if value::check(description, variable, value).is_ok() {
-        return Ok(());
-    }
-    let own = value::unit(description, variable).unwrap_or_default();
-    let has_unit = written.parse::<f64>().is_err();
-    let found = if has_unit { written.to_owned() } else { format!("{written} {own}") };
-    let fits_in_deg = value::check(description, variable, &Value::Real(number / factor)).is_ok();
-    let hint = if !has_unit && fits_in_deg {
-        format!("; did you mean {written}{display}? Allowed")
-    } else {
-        ", allowed".to_owned()
+    let Some(misfit) = value::angle_misfit(description, variable, value, written) else { return Ok(()) };
+    let AngleMisfit { found, meant, allowed } = misfit;
+    let what = match meant {
+        Some(meant) => format!("found {found}; did you mean {meant}? Allowed: {allowed}"),
+        None => format!("found {found}, allowed: {allowed}"),
     };
-    let (min, max) = limits(description, variable);
-    let in_unit = |factor: f64, unit: &str| {
-        let short = |bound: f64| ((bound * factor * 1e6).round() / 1e6).to_string();
-        match (min.map(short), max.map(short)) {
-            (Some(min), Some(max)) => format!("{min} to {max} {unit}"),
-            (Some(min), None) => format!("{min} {unit} and more"),
-            (None, Some(max)) => format!("{max} {unit} and less"),
-            (None, None) => format!("a number in {unit}"),
-        }
-    };
-    let what = format!("found {found}{hint}: {} ({})", in_unit(factor, display), in_unit(1.0, own));
     Err(Error::Value { variable: variable.name.clone(), what })
-}
-
-/// `min` and `max` of a Real, its own or its declared type's.
-fn limits(description: &Description, variable: &ScalarVariable) -> (Option<f64>, Option<f64>) {
-    let VariableKind::Real { declared_type, attributes, .. } = &variable.kind else { return (None, None) };
-    let of_type = description.types.iter().find_map(|found| match &found.kind {
-        SimpleTypeKind::Real(of_type) if Some(&found.name) == declared_type.as_ref() => Some(of_type),
-        _ => None,
-    });
-    let min = attributes.min.or_else(|| of_type?.min);
-    (min, attributes.max.or_else(|| of_type?.max))
 }

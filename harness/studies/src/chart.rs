@@ -2,6 +2,8 @@
 //!
 //! Used by `heliotorque run --plot` and by the studies. The text is SVG text, so no font is needed to draw it.
 
+pub mod bars;
+mod envelope;
 mod legend;
 pub mod plane;
 mod series;
@@ -28,6 +30,8 @@ pub struct Chart {
     pub x_label: String,
     /// The panels, top to bottom.
     pub panels: Vec<Panel>,
+    /// What the lines of the same place in all panels without labels are, beside the title.
+    pub legend: Vec<String>,
 }
 
 /// A chart that cannot be drawn.
@@ -64,7 +68,7 @@ impl Chart {
     }
 
     fn title_height(&self) -> u32 {
-        if self.title.is_empty() { TOP } else { TITLE_HEIGHT }
+        if self.title.is_empty() && self.legend.is_empty() { TOP } else { TITLE_HEIGHT }
     }
 
     /// Of the lines of a panel with one row of legend.
@@ -86,6 +90,11 @@ impl Chart {
             let style = style.pos(Pos::new(HPos::Left, VPos::Center));
             root.draw_text(&self.title, &style, (pixel(LEFT + Y_AXIS_WIDTH), pixel(title_height / 2)))?;
         }
+        let shared = self.legend.iter().map(|label| Series::line(label.as_str(), Vec::new()));
+        let row = root
+            .clone()
+            .shrink((0, title_height.saturating_sub(legend::ROW_HEIGHT)), (WIDTH, legend::ROW_HEIGHT));
+        legend::draw(&row, &Panel { series: shared.collect(), ..Panel::default() })?;
         let mut top = title_height;
         for (index, panel) in self.panels.iter().enumerate() {
             let last = index + 1 == self.panels.len();
@@ -109,11 +118,15 @@ impl Chart {
             .x_label_area_size(axis_height)
             .y_label_area_size(Y_AXIS_WIDTH)
             .build_cartesian_2d(x_range.0..x_range.1, y_range.0..y_range.1)?;
-        let y_ticks = if self.panels.len() == 1 { 8 } else { 5 };
+        let y_ticks = panel.ticks(y_range, if self.panels.len() == 1 { 8 } else { 5 });
         let x_step = tick_step(x_range, 10);
         let y_step = tick_step(y_range, y_ticks);
         let (x_format, y_format) = (|x: &f64| tick_text(*x, x_step), |y: &f64| tick_text(*y, y_step));
         let label_style = (FONT, 13 * FINE).into_font().color(&QUIET);
+        for (from, to) in &panel.shades {
+            let corners = [(from.max(x_range.0), y_range.0), (to.min(x_range.1), y_range.1)];
+            chart.draw_series([Rectangle::new(corners, SHADE.filled())])?;
+        }
         let mut mesh = chart.configure_mesh();
         mesh.set_all_tick_mark_size(pixel(5 * FINE))
             .light_line_style(TRANSPARENT)
@@ -155,6 +168,11 @@ impl Panel {
         height + self.top().saturating_sub(legend::ROW_HEIGHT)
     }
 
+    /// How many ticks to ask for, so that their distance is one at least where only whole numbers are.
+    fn ticks(&self, (low, high): (f64, f64), ticks: usize) -> usize {
+        if self.is_whole { ticks.min(((high - low) as usize).max(1)) } else { ticks }
+    }
+
     fn data_range(&self) -> (f64, f64) {
         let data = self.series.iter().flat_map(|series| series.points.iter().map(|(_, y)| *y));
         match extremes(data.chain(self.marks.iter().copied()).filter(|y| y.is_finite())) {
@@ -176,6 +194,9 @@ fn finished(title: &str, drawn: Drawn, svg: String, height: u32) -> Result<Strin
     Ok(format!("<svg width=\"{}\" height=\"{}\" {rest}", WIDTH / FINE, height / FINE))
 }
 
+/// Columns into which a long oscillation is gathered: two pixels each.
+const ENVELOPE_COLUMNS: usize = 400;
+
 type Plot<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Draws a series in the colour of its place; `thin` leaves the points of a piece that are drawn.
@@ -190,7 +211,22 @@ fn draw_series(
     match series.mark {
         Mark::Line => {
             for piece in pieces(&series.points) {
-                chart.draw_series(LineSeries::new(thin(piece), colour.stroke_width(2 * FINE)))?;
+                match envelope::of(piece, ENVELOPE_COLUMNS) {
+                    Some(band) => {
+                        chart.draw_series([Polygon::new(band.outline(), colour.mix(0.25))])?;
+                        for edge in [band.lowest, band.greatest] {
+                            chart.draw_series(LineSeries::new(edge, colour.stroke_width(FINE)))?;
+                        }
+                    }
+                    None => {
+                        chart.draw_series(LineSeries::new(thin(piece), colour.stroke_width(2 * FINE)))?;
+                    }
+                }
+            }
+        }
+        Mark::Steps => {
+            for piece in pieces(&series.corners()) {
+                chart.draw_series(LineSeries::new(piece.iter().copied(), colour.stroke_width(2 * FINE)))?;
             }
         }
         Mark::Dots => {

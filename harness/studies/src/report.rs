@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use files::Destination;
 
+use crate::chart::bars::BarChart;
 use crate::chart::plane::PlaneChart;
 use crate::chart::{Chart, ChartError};
 use crate::{Options, StudyError};
@@ -56,6 +57,11 @@ impl Report {
 
     /// Writes a picture below the output folder.
     pub(crate) fn picture(&mut self, options: &Options, file: &str, chart: &Chart) -> Result<(), StudyError> {
+        self.svg(options, file, chart.to_svg())
+    }
+
+    /// Writes a picture of bars below the output folder.
+    pub(crate) fn bars(&mut self, options: &Options, file: &str, chart: &BarChart) -> Result<(), StudyError> {
         self.svg(options, file, chart.to_svg())
     }
 

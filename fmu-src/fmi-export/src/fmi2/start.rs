@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use model_description::{
     Causality, Description, ScalarVariable, VariableKind, names,
-    value::{self, Misfit, Value},
+    value::{self, AngleMisfit, Misfit, Value},
 };
 
 use crate::model::{SetupValue, StartValue};
@@ -251,6 +251,12 @@ fn converted(
         }
         _ => return Err(misfit()),
     };
+    if let Some(misfit) = value::angle_misfit(description, variable, &value, given.shown().trim_matches('"'))
+    {
+        let AngleMisfit { found, meant, allowed } = misfit;
+        let meant = meant.map(|meant| format!(" (did you mean {meant:?}?)")).unwrap_or_default();
+        return Err(Misfit::new(format!("{found}{meant}"), allowed));
+    }
     value::check(description, variable, &value)
         .map_err(|refused| Misfit { found: given.shown(), ..refused })?;
     Ok(value)

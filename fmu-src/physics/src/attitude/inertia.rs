@@ -34,7 +34,7 @@ pub enum InertiaError {
     },
     /// No distribution of mass has these moments.
     #[error(
-        "inertia[{index}] is {value} kg m2, more than the sum {sum} kg m2 of the other two: no distribution of mass \
+        "inertia[{index}] is {value} kg m2, more than the sum {sum:.6} kg m2 of the other two: no distribution of mass \
          has that (triangle inequality)"
     )]
     Triangle {

@@ -38,6 +38,12 @@ pub fn warnings(spacecraft: &Spacecraft, figures: &Figures) -> Vec<String> {
     masses(figures, &mut found);
     center_of_mass(figures, &mut found);
     inward(&surfaces, figures, &mut found);
+    if spacecraft.wheels.len() >= 3 && figures.wheels_hold_n_m_s.is_none() {
+        let count = spacecraft.wheels.len();
+        found.push(format!(
+            "the axes of the {count} wheels lie in one plane or line: across it they give no torque and hold nothing"
+        ));
+    }
     for surface in surfaces.iter().filter(|surface| surface.off_plane_m > ROUNDED_M) {
         found.push(format!(
             "`{}` has a corner {:.2} mm off the plane of its outline; it was moved onto it",

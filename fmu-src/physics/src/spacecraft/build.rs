@@ -12,7 +12,7 @@ use super::build_thermal::{
     Material, Materials, Surroundings, checked_area, checked_center, checked_normal, checked_outline,
     face_thermal, thermal,
 };
-use super::checker::Checker;
+use super::checker::{Checker, rounded};
 use super::copies::{check_apart, motions, plate_copies};
 use super::description::{
     CylinderDescription, Description, InstrumentDescription, MassDescription, OpticsDescription,
@@ -374,8 +374,8 @@ impl Builder<'_> {
         let diffuse = self.check.fraction(&at.key("diffuse"), description.diffuse);
         let reflected = specular + diffuse;
         let Some(absorptivity) = description.absorptivity else {
-            if reflected > 1.0 + OPTICS_SUM_TOLERANCE {
-                let found = format!("specular + diffuse = {reflected}");
+            if reflected > 1.0 + OPTICS_SUM_TOLERANCE && !self.check.has_reported(at) {
+                let found = format!("specular + diffuse = {}", rounded(reflected));
                 self.check.report_across(at, &at.key("specular"), found, "a sum of at most 1");
             }
             let absorptivity = (1.0 - reflected).max(0.0);
@@ -384,7 +384,7 @@ impl Builder<'_> {
         self.check.fraction(&at.key("absorptivity"), absorptivity);
         let sum = absorptivity + reflected;
         if (sum - 1.0).abs() > OPTICS_SUM_TOLERANCE {
-            let found = format!("absorptivity + specular + diffuse = {sum}");
+            let found = format!("absorptivity + specular + diffuse = {}", rounded(sum));
             self.check.report_across(at, &at.key("absorptivity"), found, "a sum of 1 within 1e-9");
         }
         Optics { absorptivity, specular, diffuse }

@@ -19,7 +19,7 @@ const GREATEST: f64 = 1e12;
 const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// Gathers the problems of one document.
-pub(crate) struct Checker<'d> {
+pub struct Checker<'d> {
     document: &'d Document<'d>,
     problems: Vec<Problem>,
     reported: BTreeSet<Place>,
@@ -142,10 +142,18 @@ impl<'d> Checker<'d> {
         if (norm - 1.0).abs() <= UNIT_TOLERANCE {
             return vector / norm;
         }
+        let unit = (norm > f64::MIN_POSITIVE && norm.is_finite()).then(|| vector / norm);
+        let shown = unit.map(|unit| {
+            let [x, y, z] = unit.map(|component| (component * 1e6).round() / 1e6 + 0.0).into();
+            format!(", here [{x}, {y}, {z}]")
+        });
         self.report(
             at,
-            format_args!("{value:?} of length {}", short(norm)),
-            "a unit vector (length 1 within 1e-3; it is then renormalised)",
+            format_args!("{value:?} of length {}", short(rounded(norm))),
+            format_args!(
+                "a unit vector (length 1 within 1e-3; it is then renormalised){}",
+                shown.unwrap_or_default()
+            ),
         );
         Vector3::x()
     }
@@ -159,6 +167,10 @@ impl<'d> Checker<'d> {
         to_key: &str,
     ) -> Vector3<f64> {
         let unit = self.unit_vector(at, value);
+        if (Vector3::from(value).norm() - 1.0).abs() > UNIT_TOLERANCE {
+            // No direction, which is told.
+            return unit;
+        }
         let along = unit.dot(to);
         let square = unit - to * along;
         if along.abs() <= UNIT_TOLERANCE {
@@ -230,6 +242,11 @@ impl<'d> Checker<'d> {
 /// Whether one of the places is this one or inside of it.
 fn has_inside(places: &BTreeSet<Place>, at: &Place) -> bool {
     places.range(at..).next().is_some_and(|place| place.is_in(at))
+}
+
+/// To twelve significant digits: without the noise of a sum.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 /// A number without a row of zeros.

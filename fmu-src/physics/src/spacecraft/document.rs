@@ -11,7 +11,7 @@ use super::place::{Part, Place};
 use super::reader::{Findings, Reader};
 
 /// A parsed text with its file name.
-pub(crate) struct Document<'t> {
+pub struct Document<'t> {
     file: &'t str,
     // Offsets of line ends, counted once: a file may have a fault on every line.
     line_ends: Vec<usize>,
@@ -27,15 +27,21 @@ impl<'t> Document<'t> {
                 let line_ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at);
                 Ok(Self { file, line_ends: line_ends.collect(), root })
             }
-            Err(error) => Err(SpacecraftError {
-                file: file.to_owned(),
-                problems: vec![Problem {
-                    line: error.span().map(|span| line_of(text, span.start)),
-                    key: String::new(),
-                    found: format!("text that is not TOML ({})", one_line(error.message())),
-                    allowed: "TOML 1.0".to_owned(),
-                }],
-            }),
+            Err(error) => {
+                let line = error.span().map(|span| line_of(text, span.start));
+                let written =
+                    line.and_then(|line| text.lines().nth(line - 1)).map(excerpt).unwrap_or_default();
+                let message = one_line(error.message());
+                Err(SpacecraftError {
+                    file: file.to_owned(),
+                    problems: vec![Problem {
+                        line,
+                        key: String::new(),
+                        found: format!("text that is not TOML ({message}){written}"),
+                        allowed: grammar(&message).to_owned(),
+                    }],
+                })
+            }
         }
     }
 
@@ -79,6 +85,32 @@ impl<'t> Document<'t> {
         }
         self.line_ends.partition_point(|end| *end < start) + 1
     }
+}
+
+/// A line, as far as it is short.
+fn excerpt(line: &str) -> String {
+    const LONGEST: usize = 60;
+    let line = line.trim();
+    let shown: String = line.chars().take(LONGEST).collect();
+    match shown.as_str() {
+        "" => String::new(),
+        _ if shown.len() < line.len() => format!(": `{shown}...`"),
+        _ => format!(": `{shown}`"),
+    }
+}
+
+/// What TOML allows where its reader says this.
+fn grammar(message: &str) -> &'static str {
+    const WORDS: [(&str, &str); 4] = [
+        ("duplicate key", "each key once in its table"),
+        ("string values must be quoted", "a number without a unit, true, false, or a string in \"quotes\""),
+        ("invalid basic string", "a string that ends with its quote in the same line"),
+        (
+            "unexpected key or value",
+            "one value behind `=`, and nothing else but a comment: numbers with a decimal point, lists in [brackets]",
+        ),
+    ];
+    WORDS.iter().find(|(words, _)| message.contains(words)).map_or("TOML 1.0", |(_, allowed)| allowed)
 }
 
 fn line_of(text: &str, offset: usize) -> usize {

@@ -46,8 +46,8 @@ mod wheels;
 mod tests;
 
 pub use build::{Spacecraft, SunKeepIn};
-pub(crate) use checker::Checker;
-pub(crate) use document::Document;
+pub use checker::Checker;
+pub use document::Document;
 pub use error::{Problem, SpacecraftError};
 pub use instruments::Instrument;
 pub(crate) use mass::steiner;
@@ -55,12 +55,13 @@ pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use optics::Optics;
 pub use panel::{Panel, PanelControl};
 pub use panel_mass::with_panels;
-pub(crate) use place::Place;
+pub use place::Place;
 pub use planet_map::{PlanetCell, PlanetMap, PlanetMapError};
 pub use polygon::{Polygon, PolygonError};
+pub use reader::Findings;
 #[cfg(feature = "schema")]
 pub use schema::schema;
-pub(crate) use spelling::nearest;
+pub use spelling::nearest;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;

@@ -6,7 +6,7 @@ use core::fmt;
 ///
 /// Places inside of another one follow it in their order, before all others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Place(pub(super) Vec<Part>);
+pub struct Place(pub(super) Vec<Part>);
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {

@@ -13,7 +13,7 @@ use super::spelling::nearest;
 
 /// What a reading found.
 #[derive(Default)]
-pub(crate) struct Findings {
+pub struct Findings {
     /// Place, what was found there and what is allowed.
     pub problems: Vec<(Place, String, String)>,
     /// Where a value stands in that nobody wrote.
@@ -40,7 +40,10 @@ impl<'r> Reader<'r> {
         let taken = self.value.and_then(take);
         if taken.is_none() && self.is_expected {
             let problem = match self.value {
-                Some(value) => (self.place.clone(), shown(value), allowed.to_owned()),
+                Some(value) => {
+                    let allowed = format!("{allowed}{}", remedy(value, allowed, &self.place.split().1));
+                    (self.place.clone(), shown(value), allowed)
+                }
                 None => {
                     let (table, key) = self.place.split();
                     let allowed = format!("a value for `{key}`, which has no default");
@@ -121,6 +124,19 @@ fn shown(value: &DeValue<'_>) -> String {
         DeValue::Datetime(time) => format!("the time {time}"),
         DeValue::Array(_) => "a list".to_owned(),
         DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+/// How what was written becomes what is allowed.
+fn remedy(value: &DeValue<'_>, allowed: &str, key: &str) -> String {
+    match value {
+        DeValue::String(_) if allowed == "a number" => {
+            " without quotes or unit: where there is a unit, the key ends in it".to_owned()
+        }
+        DeValue::String(text) if allowed == "a list" => format!(": [{text:?}]"),
+        DeValue::Table(_) if allowed == "a list" => format!(": [[{key}]], in double brackets"),
+        DeValue::Array(_) if allowed == "a table" => format!(": [{key}], in single brackets"),
+        _ => String::new(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Spelling: the known word that an unknown one was probably meant to be.
 
 /// The candidate that takes the fewest edits, if it takes few.
-pub(crate) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     candidates
         .iter()
         .map(|candidate| (edits(word, candidate), *candidate))

@@ -5,8 +5,10 @@
 
 mod child;
 mod figures;
+mod mission;
 mod spacecraft;
 mod system;
+mod timeline;
 
 use std::{process::ExitCode, time::Instant};
 
@@ -17,8 +19,9 @@ use crate::{
     args::{self, Check},
     child::Link,
     ephemeris,
+    kind::FileKind,
     outcome::Outcome,
-    timeline,
+    timeline as carried_timeline,
 };
 
 /// A group of findings under one heading.
@@ -42,7 +45,14 @@ pub fn run(arguments: &Check) -> Outcome {
         return match (arguments.is_static, &arguments.only) {
             (false, None) => match ephemeris::read(&arguments.subject)? {
                 Some(read) => ephemeris::run_check(&arguments.subject, read),
-                None => spacecraft::run(arguments),
+                None => {
+                    let text = files::read_text(&arguments.subject)?;
+                    match FileKind::of(&text) {
+                        FileKind::Spacecraft => spacecraft::run(arguments),
+                        FileKind::Mission => mission::run(arguments),
+                        FileKind::Timeline => timeline::run(arguments, &text),
+                    }
+                }
             },
             (true, _) => Err("--static is for an FMU: a spacecraft is only read".into()),
             (false, Some(_)) => Err("--only is for an FMU: a spacecraft has no probes".into()),
@@ -80,12 +90,12 @@ pub fn run(arguments: &Check) -> Outcome {
     sections.push(Section { title: "archive".to_owned(), findings: conformance::archive(&fmu) });
     sections
         .push(Section { title: "modelDescription.xml".to_owned(), findings: conformance::description(&fmu) });
-    if let Some(read) = timeline::of(&fmu) {
+    if let Some(read) = carried_timeline::of(&fmu) {
         let findings = match read {
-            Ok(timeline) => vec![Finding::good(timeline::summary(&timeline))],
+            Ok(timeline) => vec![Finding::good(carried_timeline::summary(&timeline))],
             Err(problems) => problems.lines().map(Finding::bad).collect(),
         };
-        sections.push(Section { title: timeline::FILE.to_owned(), findings });
+        sections.push(Section { title: carried_timeline::FILE.to_owned(), findings });
     }
     if let Some(read) = ephemeris::of(&fmu) {
         let findings = match read {

@@ -5,7 +5,10 @@
 use std::process::ExitCode;
 
 use loader::Described;
-use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
+use physics::{
+    spacecraft::{Spacecraft, Thruster},
+    spin::spinner::Spinner,
+};
 use toml::Table;
 
 use super::figures;
@@ -54,7 +57,7 @@ pub fn run(arguments: &Check) -> Outcome {
         terminal::print(&format!(
             "{file}: ok for {model}: {}; the FMU will have {variables} variables{}",
             contents(&text),
-            Spacecraft::from_toml("", &text).map_or_else(|_| String::new(), |it| figures::report(&it))
+            Spacecraft::from_toml("", &text).map_or_else(|_| levers(&text), |it| figures::report(&it))
         ))?;
         // One model that uses it is enough.
         if let Some(warning) = maps.into_iter().reduce(Option::and).flatten() {
@@ -92,6 +95,18 @@ fn without_start_values(text: &str) -> Option<String> {
     let mut file: Table = text.parse().ok()?;
     file.remove("start")?;
     Some(file.to_string())
+}
+
+/// A warning for each thruster of a spinner that turns nothing.
+fn levers(text: &str) -> String {
+    let Ok(spinner) = Spinner::parse("", text) else { return String::new() };
+    let has_none =
+        |thruster: &&Thruster| thruster.torque_body_n_m.norm() <= 1e-6 * thruster.force_body_n.norm();
+    let warnings = spinner.thrusters.iter().filter(has_none).map(|thruster| {
+        let name = &thruster.name;
+        format!("\nwarning: thruster `{name}` has no lever: it pushes through the centre of mass and turns nothing")
+    });
+    warnings.collect()
 }
 
 /// How many of each part the file describes.

@@ -98,7 +98,7 @@ impl Craft {
             let is_known = |description| loader::select(description, name).is_ok();
             let (model, description) =
                 if !is_known(&torque) && is_known(&flown) { (FLOWN, &flown) } else { (MODEL, &torque) };
-            text = with_start_values(&text, model, description, std::slice::from_ref(set))?;
+            text = with_start_values(&text, model, description, &[(format!("--set {set}"), set.clone())])?;
         }
         let described = binary.describe(MODEL, Some(&file), Some(&text))?;
         let flown = describe(FLOWN, &text)?;

@@ -21,7 +21,19 @@ use exporter::Exporter;
 use summary::{Summary, last_values};
 use svg::Svg;
 
-pub use svg::check_path as check_svg_path;
+pub use shown::Shown;
+pub use svg::{check_path as check_svg_path, is_svg_path};
+
+/// A picture of a run.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// The SVG file.
+    pub path: PathBuf,
+    /// The variables that it shows; `None`: everything recorded.
+    pub names: Option<Vec<String>>,
+    /// What gave it.
+    pub option: &'static str,
+}
 
 /// Every output of a run.
 pub struct Outputs {
@@ -33,28 +45,36 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// The outputs that the arguments name, their files opened; without any, a summary on the terminal.
-    pub fn open(arguments: &Run) -> Result<Self, String> {
-        let inputs: Vec<&Path> =
-            [arguments.fmu.as_path()].into_iter().chain(arguments.input.as_deref()).collect();
-        let open = |path: &Option<PathBuf>, option| {
-            path.as_deref().map(|path| Destination::open(path, option, &inputs)).transpose()
-        };
-        let (csv, svg) = (open(&arguments.output, "--output")?, open(&arguments.plot, "--plot")?);
-        if let (Some(csv), Some(svg)) = (&csv, &svg)
-            && csv.is_same(svg)
-        {
-            return Err("one file cannot take both: see --output and --plot".to_owned());
+    /// The outputs that the arguments name, and pictures, their files opened; without any, a summary on the terminal.
+    /// `inputs` are not written over.
+    pub fn open(arguments: &Run, plots: &[Plot], inputs: &[&Path]) -> Result<Self, String> {
+        let csv = arguments.output.as_deref().map(|path| Destination::open(path, "--output", inputs));
+        let csv = csv.transpose()?;
+        let mut pictures: Vec<Destination> = Vec::new();
+        for plot in plots {
+            let svg = Destination::open(&plot.path, plot.option, inputs)?;
+            if csv.as_ref().is_some_and(|csv| csv.is_same(&svg)) {
+                return Err(format!("one file cannot take both: see --output and {}", plot.option));
+            }
+            if pictures.iter().any(|other| other.is_same(&svg)) {
+                return Err(format!(
+                    "{}: one file cannot take two pictures: see {}",
+                    plot.path.display(),
+                    plot.option
+                ));
+            }
+            pictures.push(svg);
         }
-        let named = arguments.output.iter().zip(&csv).chain(arguments.plot.iter().zip(&svg));
+        let named = plots.iter().map(|plot| &plot.path).zip(&pictures);
+        let named = arguments.output.iter().zip(&csv).chain(named);
         let files = named.filter(|(_, file)| !file.is_stdout()).map(|(path, _)| path.clone()).collect();
-        let says_last = !arguments.quiet && (csv.is_some() || svg.is_some());
+        let says_last = !arguments.quiet && (csv.is_some() || !pictures.is_empty());
         let mut exporters: Vec<Box<dyn Exporter>> = Vec::new();
         if let Some(csv) = csv {
-            exporters.push(Box::new(Csv::new(csv.grow(&inputs)?)));
+            exporters.push(Box::new(Csv::new(csv.grow(inputs)?)));
         }
-        if let Some(svg) = svg {
-            exporters.push(Box::new(Svg::new(svg)));
+        for (svg, plot) in pictures.into_iter().zip(plots) {
+            exporters.push(Box::new(Svg::new(svg, plot.names.clone())));
         }
         if exporters.is_empty() && !arguments.quiet {
             exporters.push(Box::new(Summary));

@@ -31,40 +31,55 @@ fn group(name: &str) -> String {
     }
 }
 
+/// Whether a path promises this kind of picture, or is the standard output.
+pub fn is_svg_path(path: &Path) -> bool {
+    path == Path::new("-") || path.extension().is_some_and(|it| it.eq_ignore_ascii_case("svg"))
+}
+
 /// Refuses a path that promises another kind of picture.
 pub fn check_path(path: &Path, option: &str) -> Result<(), String> {
-    match path.extension() {
-        _ if path == Path::new("-") => Ok(()),
-        Some(extension) if extension.eq_ignore_ascii_case("svg") => Ok(()),
-        _ => Err(format!(
-            "{}: found no SVG file's name, allowed: one that ends in .svg, or -: see {option}",
-            path.display()
-        )),
+    if is_svg_path(path) {
+        return Ok(());
     }
+    Err(format!(
+        "{}: found no SVG file's name, allowed: one that ends in .svg, or -: see {option}",
+        path.display()
+    ))
 }
 
 /// The picture, drawn at the end.
-pub struct Svg(Destination);
+pub struct Svg {
+    file: Destination,
+    /// The variables that it shows; `None`: everything recorded.
+    names: Option<Vec<String>>,
+}
 
 impl Svg {
     /// Draws into a file of which nothing is written yet.
-    pub fn new(file: Destination) -> Self {
-        Self(file)
+    pub fn new(file: Destination, names: Option<Vec<String>>) -> Self {
+        Self { file, names }
+    }
+
+    fn draw(&self, described: &Description, recording: &Recording) -> Result<String, Box<dyn Error>> {
+        Ok(match &self.names {
+            Some(names) => chart(described, &recording.only(names)).to_svg()?,
+            None => chart(described, recording).to_svg()?,
+        })
     }
 }
 
 impl Exporter for Svg {
     fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
-        let svg = chart(described, recording).to_svg()?;
-        Ok(self.0.fill(|file| file.write_all(svg.as_bytes()))?)
+        let svg = self.draw(described, recording)?;
+        Ok(self.file.fill(|file| file.write_all(svg.as_bytes()))?)
     }
 
     fn leave(self: Box<Self>, described: &Description, recording: &Recording) -> Option<PathBuf> {
         if recording.times_s.is_empty() {
             return None;
         }
-        let svg = chart(described, recording).to_svg().ok()?;
-        let mut file = self.0.grow(&[]).ok()?;
+        let svg = self.draw(described, recording).ok()?;
+        let mut file = self.file.grow(&[]).ok()?;
         file.append(svg.as_bytes()).ok()?;
         file.leave()
     }
@@ -120,6 +135,7 @@ fn chart(described: &Description, recording: &Recording) -> Chart {
         title: described.model_name.clone(),
         x_label: format!("time [{time_unit}]"),
         panels: panels.into_iter().map(|(_, panel)| panel).collect(),
+        ..Chart::default()
     }
 }
 

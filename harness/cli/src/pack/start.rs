@@ -1,4 +1,4 @@
-//! `--set`: start values written into the `[start]` table of the packed file, over those that stand there.
+//! `--set` and missions: start values written into the `[start]` table of the packed file, over those that stand there.
 
 use loader::{Assigned, assignment};
 use model_description::{Causality, Description, VariableKind, value};
@@ -9,7 +9,8 @@ use crate::epoch;
 /// The table of start values in a setup file.
 const TABLE: &str = "start";
 
-/// The file's text with the start values that `sets` gives to variables of the model; the rest stays, comments too.
+/// The file's text with the start values that `settings` give to variables of the model, each with where it is given; the
+/// rest stays, comments too.
 ///
 /// # Errors
 /// A name that the model does not have or that cannot be set, a value that it does not take.
@@ -17,9 +18,9 @@ pub fn with_start_values(
     text: &str,
     model: &str,
     description: &Description,
-    sets: &[String],
+    settings: &[(String, String)],
 ) -> Result<String, Box<dyn std::error::Error>> {
-    if sets.is_empty() {
+    if settings.is_empty() {
         return Ok(text.to_owned());
     }
     let mut file: DocumentMut = text.strip_prefix('\u{feff}').unwrap_or(text).parse()?;
@@ -28,12 +29,12 @@ pub fn with_start_values(
     if start.contains_key(model) {
         start = table(start, model)?;
     }
-    for set in sets {
-        let in_set = |error: loader::Error| format!("--set {set}: {error}");
+    for (at, set) in settings {
+        let in_set = |error: loader::Error| format!("{at}: {error}");
         let setting = epoch::in_seconds(description, set).map_err(in_set)?;
         for assigned in assignment(description, &setting).map_err(in_set)? {
             let value = checked(description, &assigned)
-                .map_err(|misfit| format!("--set {set}: {}: {misfit}", assigned.variable.name))?;
+                .map_err(|misfit| format!("{at}: {}: {misfit}", assigned.variable.name))?;
             match start.get_mut(&assigned.variable.name).and_then(Item::as_value_mut) {
                 Some(old) => {
                     let decor = old.decor().clone();
@@ -112,8 +113,11 @@ mod tests {
     }
 
     fn written(text: &str, sets: &[&str]) -> String {
-        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        with_start_values(text, "Plant", &description(), &sets).unwrap()
+        with_start_values(text, "Plant", &description(), &settings(sets)).unwrap()
+    }
+
+    fn settings(sets: &[&str]) -> Vec<(String, String)> {
+        sets.iter().map(|set| (format!("--set {set}"), (*set).to_owned())).collect()
     }
 
     #[test]
@@ -141,7 +145,7 @@ mod tests {
         if let VariableKind::Real { attributes, .. } = &mut epoch.kind {
             *attributes = RealAttributes { unit: Some("s".to_owned()), ..RealAttributes::default() };
         }
-        let written = |set: &str| with_start_values("", "Plant", &description, &[set.to_owned()]);
+        let written = |set: &str| with_start_values("", "Plant", &description, &settings(&[set]));
         let text = written("Start.Epoch=2009-04-06 TDB").unwrap();
         assert_eq!(text, "[start]\n\"start.epoch\" = 292248000.0\n");
         let refused = written("start.epoch=2009-04-06").unwrap_err().to_string();
@@ -170,7 +174,7 @@ mod tests {
             ("arm=1", "1 values given for its 2 elements"),
             ("ship.mass", "name=value"),
         ] {
-            let refused = with_start_values("", "Plant", &description(), &[set.to_owned()]).unwrap_err();
+            let refused = with_start_values("", "Plant", &description(), &settings(&[set])).unwrap_err();
             let text = refused.to_string();
             assert!(text.contains(expected) && text.contains("--set"), "{set}: {text}");
         }

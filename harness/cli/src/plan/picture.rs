@@ -188,7 +188,7 @@ fn nutation(burn: &PlannedBurn) -> Chart {
         y_range: Some((0.0, 1.08 * highest.max(1e-9))),
         ..Panel::default()
     };
-    Chart { title: String::new(), x_label: "time [min]".to_owned(), panels: vec![panel] }
+    Chart { title: String::new(), x_label: "time [min]".to_owned(), panels: vec![panel], ..Chart::default() }
 }
 
 /// Pictures of one width below each other.

@@ -10,6 +10,7 @@ use std::{
 use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status};
 
 use super::{
+    flown::Flown,
     settings::Settings,
     subject::{Given, Subject},
 };
@@ -235,7 +236,8 @@ fn simulation(
     link: &mut Link,
 ) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
     let subject = Subject::open(&arguments.unpacked_in)?;
-    let settings = Settings::of(&subject, &arguments.run, arguments.input_copy.as_deref())?;
+    let flown = Flown::of(&arguments.run)?;
+    let settings = Settings::of(&subject, &flown, arguments.input_copy.as_deref())?;
     let (cancel, cancel_word) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
     let mut check_cancel = |_: f64| {
         if cancel_word.load(Ordering::Relaxed) != 0 {
@@ -249,5 +251,5 @@ fn simulation(
         progress: &mut check_cancel,
         cancel: &cancel,
     };
-    Ok(subject.simulate_into(&arguments.run, given, &mut RowSender(link))?)
+    Ok(subject.simulate_into(&flown.run, given, &mut RowSender(link))?)
 }

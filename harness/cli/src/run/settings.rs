@@ -5,8 +5,12 @@ use std::path::Path;
 use loader::{InputTable, Times};
 use model_description::Description;
 
-use super::subject::Subject;
-use crate::{args::Run, epoch};
+use super::{flown::Flown, subject::Subject};
+use crate::{
+    epoch,
+    mission::{self, Limit, Resolved},
+    output::Plot,
+};
 
 /// What the arguments mean for an FMU or a system.
 pub struct Settings {
@@ -18,27 +22,67 @@ pub struct Settings {
     pub inputs: Option<InputTable>,
     /// What is recorded.
     pub positions: Vec<usize>,
+    /// Pictures.
+    pub plots: Vec<Plot>,
+    /// What the run is judged by.
+    pub limits: Vec<Limit>,
 }
 
 impl Settings {
-    /// Of the arguments; the error names the flag. What `--input` names may stand in a copy.
+    /// Of the arguments and the mission; the error names the flag or the line. What `--input` names may stand in a copy.
     pub fn of(
         subject: &Subject,
-        arguments: &Run,
+        flown: &Flown,
         input_copy: Option<&Path>,
     ) -> Result<Self, Box<dyn std::error::Error>> {
-        let times = subject.times(arguments)?;
+        let Flown { run: arguments, mission } = flown;
         let described = subject.description();
-        let mut sets = Vec::new();
+        let resolved = match mission {
+            Some(mission) => mission.resolve(described)?,
+            None => Resolved::default(),
+        };
+        let times = subject.times(arguments)?;
+        let mut sets = resolved.sets;
         for setting in &arguments.set {
             sets.extend(loader::parse_assignment(described, &epoch::in_seconds(described, setting)?)?);
         }
         let inputs = arguments.input.as_deref();
         let inputs =
             inputs.map(|path| read_table(described, path, input_copy.unwrap_or(path))).transpose()?;
-        let positions =
-            selection(described, &arguments.record)?.unwrap_or_else(|| loader::outputs(described));
-        Ok(Self { times, sets, inputs, positions })
+        let named = |positions: &[usize]| -> Vec<String> {
+            positions.iter().map(|&position| described.variables[position].name.clone()).collect()
+        };
+        let plots: Vec<Plot> = match (&arguments.plot, mission) {
+            (Some(path), _) => vec![Plot { path: path.clone(), names: None, option: "--plot" }],
+            (None, Some(mission)) => {
+                let plots = mission.plots.iter().zip(&resolved.plots);
+                let plot = |(plot, shown): (&mission::Plot, &Option<Vec<usize>>)| Plot {
+                    path: plot.file.clone(),
+                    names: shown.as_deref().map(named),
+                    option: "`plot` in the mission",
+                };
+                plots.map(plot).collect()
+            }
+            (None, None) => Vec::new(),
+        };
+        let mut positions = selection(described, &arguments.record)?
+            .or(resolved.record)
+            .unwrap_or_else(|| loader::outputs(described));
+        // What is drawn or judged is recorded too.
+        let wanted = plots.iter().flat_map(|plot| plot.names.iter().flatten());
+        let wanted = wanted.chain(resolved.limits.iter().map(|limit| &limit.name));
+        for name in wanted {
+            let position = described.variables.iter().position(|variable| variable.name == *name);
+            positions.extend(position.filter(|position| !positions.contains(position)));
+        }
+        Ok(Self {
+            times,
+            sets,
+            inputs: inputs.or(resolved.inputs),
+            positions,
+            plots,
+            limits: resolved.limits,
+        })
     }
 }
 

@@ -10,6 +10,9 @@ mod installed;
 #[cfg(feature = "spk")]
 mod kernels;
 mod maps;
+mod missions;
+mod mistakes;
+mod new_files;
 mod packs;
 mod plans;
 mod runs;

@@ -31,7 +31,7 @@ pub(super) fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
         for (index, series) in row {
             let colour = COLOURS[index % COLOURS.len()];
             match series.mark {
-                Mark::Line => {
+                Mark::Line | Mark::Steps => {
                     area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], colour.stroke_width(3 * FINE)))?;
                 }
                 Mark::Dashed => {

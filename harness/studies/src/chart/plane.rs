@@ -38,7 +38,6 @@ pub struct PlanePanel {
     pub half_width: f64,
 }
 
-const SHADE: RGBColor = RGBColor(0xe9, 0xeb, 0xee);
 /// Greatest side of a panel.
 const GREATEST_SIDE: u32 = 600 * FINE;
 
@@ -135,7 +134,7 @@ impl PlaneChart {
         }
         for (index, series) in panel.series.iter().enumerate() {
             let points = match series.mark {
-                Mark::Line | Mark::Dashed => window.line(&series.points),
+                Mark::Line | Mark::Dashed | Mark::Steps => window.line(&series.points),
                 Mark::Dots | Mark::Rings => window.dots(&series.points),
             };
             draw_series(&mut chart, index, &Series { points, ..series.clone() }, <[(f64, f64)]>::to_vec)?;

@@ -12,6 +12,8 @@ pub enum Mark {
     Rings,
     /// A dashed line, as for a limit.
     Dashed,
+    /// A staircase: each value holds until the next, as flags and counts do.
+    Steps,
 }
 
 /// One line of a panel.
@@ -45,6 +47,26 @@ impl Series {
     pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self { label: label.into(), points, mark: Mark::Dashed }
     }
+
+    /// A staircase through `points`.
+    pub fn steps(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark: Mark::Steps }
+    }
+
+    /// The corners of the staircase.
+    pub(super) fn corners(&self) -> Vec<(f64, f64)> {
+        let mut corners: Vec<(f64, f64)> = Vec::with_capacity(2 * self.points.len());
+        for &(x, y) in &self.points {
+            // The value before holds up to here.
+            if let Some(&(_, held)) = corners.last()
+                && held != y
+            {
+                corners.push((x, held));
+            }
+            corners.push((x, y));
+        }
+        corners
+    }
 }
 
 /// One of a chart's stacked panels.
@@ -58,4 +80,8 @@ pub struct Panel {
     pub y_range: Option<(f64, f64)>,
     /// Values marked by a dashed horizontal line, such as limits.
     pub marks: Vec<f64>,
+    /// Spans of the horizontal axis that are shaded, such as eclipses.
+    pub shades: Vec<(f64, f64)>,
+    /// Whether only whole numbers are ticks.
+    pub is_whole: bool,
 }

@@ -12,7 +12,7 @@ pub(super) const SINGLE_HEIGHT: u32 = 420 * FINE;
 pub(super) const TITLE_HEIGHT: u32 = 44 * FINE;
 pub(super) const TOP: u32 = 14 * FINE;
 pub(super) const X_AXIS_HEIGHT: u32 = 52 * FINE;
-pub(super) const Y_AXIS_WIDTH: u32 = 74 * FINE;
+pub(super) const Y_AXIS_WIDTH: u32 = 92 * FINE;
 pub(super) const LEFT: u32 = 14 * FINE;
 pub(super) const BOTTOM: u32 = 12 * FINE;
 pub(super) const RIGHT: u32 = 24 * FINE;
@@ -21,6 +21,7 @@ pub(super) const FONT: &str = "'Source Sans 3','Segoe UI','Helvetica Neue',Arial
 pub(super) const INK: RGBColor = RGBColor(0x26, 0x2b, 0x33);
 pub(super) const QUIET: RGBColor = RGBColor(0x5c, 0x65, 0x70);
 pub(super) const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
+pub(super) const SHADE: RGBColor = RGBColor(0xe9, 0xeb, 0xee);
 pub(super) const FRAME: RGBColor = RGBColor(0x9a, 0xa2, 0xac);
 
 /// Colours of a panel's lines in their order; distinguishable with any colour vision (Okabe and Ito).

@@ -37,6 +37,7 @@ fn sample() -> Chart {
                 ..Panel::default()
             },
         ],
+        ..Chart::default()
     }
 }
 

@@ -203,6 +203,7 @@ fn quaternion_chart(flown: &Flown) -> Chart {
         title: "Commanded and estimated quaternion of a burn, both corrections".to_owned(),
         x_label: "time [s]".to_owned(),
         panels: (0..4).map(panel).collect(),
+        ..Chart::default()
     }
 }
 
@@ -235,5 +236,10 @@ fn velocity_chart(shown: &[(Kind, &Flown)]) -> Chart {
             ..Panel::default()
         });
     }
-    Chart { title: "True velocity off the path of a burn".to_owned(), x_label: "time [s]".to_owned(), panels }
+    Chart {
+        title: "True velocity off the path of a burn".to_owned(),
+        x_label: "time [s]".to_owned(),
+        panels,
+        ..Chart::default()
+    }
 }

@@ -221,5 +221,6 @@ fn figure(flown: &Flown) -> Chart {
                 ..Panel::default()
             },
         ],
+        ..Chart::default()
     }
 }

@@ -137,6 +137,7 @@ fn spectra(shaken: &[Shaken]) -> Chart {
         title: "Attitude jitter by a wheel out of balance".to_owned(),
         x_label: "frequency [Hz]".to_owned(),
         panels: panels.into_iter().filter(|panel| !panel.series.is_empty()).collect(),
+        ..Chart::default()
     }
 }
 
@@ -155,5 +156,6 @@ fn run_up_figure(points: &[(f64, f64)], structure: &Structure) -> Chart {
             ],
             ..Panel::default()
         }],
+        ..Chart::default()
     }
 }

@@ -118,7 +118,7 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
                     f64::from(it.mode)
                 })],
                 y_range: Some((0.0, 4.0)),
-                marks: Vec::new(),
+                ..Panel::default()
             },
             Panel {
                 y_label: "command [1]".to_owned(),
@@ -126,7 +126,7 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
                     f64::from(sample.command_kind)
                 })],
                 y_range: Some((0.0, 4.0)),
-                marks: Vec::new(),
+                ..Panel::default()
             },
             Panel {
                 y_label: "Sun [deg]".to_owned(),
@@ -142,8 +142,9 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
                     line("link with the Earth", &|sample| flag(sample.has_link)),
                 ],
                 y_range: Some((-0.15, 1.15)),
-                marks: Vec::new(),
+                ..Panel::default()
             },
         ],
+        ..Chart::default()
     }
 }

@@ -41,12 +41,14 @@ pub fn figure(flown: &Flown) -> Chart {
             series: wheels(&|sample, k| sample.wheels[k].torque_n_m),
             y_range: Some((-1.15 * torque_n_m, 1.15 * torque_n_m)),
             marks: either_way(torque_n_m),
+            ..Panel::default()
         },
         Panel {
             y_label: "momentum [N m s]".to_owned(),
             series: wheels(&|sample, k| sample.wheels[k].momentum_n_m_s),
             y_range: Some((-1.15 * capacity_n_m_s, 1.15 * capacity_n_m_s)),
             marks: either_way(capacity_n_m_s),
+            ..Panel::default()
         },
     ];
     if matches!(slew.event, Event::Dumped(..) | Event::Threshold(..)) {
@@ -58,13 +60,14 @@ pub fn figure(flown: &Flown) -> Chart {
                 line("dump active", &|sample| f64::from(u8::from(sample.is_dumping))),
             ],
             y_range: Some((-0.3, limits.axes.len() as f64 + 0.3)),
-            marks: Vec::new(),
+            ..Panel::default()
         });
     }
     Chart {
         title: format!("Slew by {:.0} deg: {}", slew.angle_rad.to_degrees(), slew.label),
         x_label: "time [s]".to_owned(),
         panels,
+        ..Chart::default()
     }
 }
 

@@ -314,6 +314,7 @@ fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
         title: format!("Commanded and estimated quaternion over the transition, {}", case.label()),
         x_label: "time [s]".to_owned(),
         panels,
+        ..Chart::default()
     }
 }
 
@@ -335,5 +336,6 @@ fn angle_chart(case: Case, samples: &[Sample]) -> Chart {
         title: format!("Sun, Earth and Mercury in the estimated body frame, {}", case.label()),
         x_label: "time [s]".to_owned(),
         panels: vec![panel("azimuth", 0), panel("elevation", 1)],
+        ..Chart::default()
     }
 }

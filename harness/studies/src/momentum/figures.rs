@@ -80,6 +80,7 @@ pub fn draw(
         series: chosen.iter().filter(|it| it.case.offset_in == *offset_in).map(|it| line(&it)).collect(),
         y_range: Some((-limit, limit)),
         marks: vec![-threshold_n_m_s, threshold_n_m_s],
+        ..Panel::default()
     };
     let chart = Chart {
         title: format!(
@@ -90,6 +91,7 @@ pub fn draw(
         ),
         x_label: "time [d]".to_owned(),
         panels: offsets.iter().map(panel).collect(),
+        ..Chart::default()
     };
     report.picture(options, &format!("{}.svg", figure.name), &chart)?;
     let rows = chosen.iter().flat_map(|simulation| {

@@ -185,6 +185,7 @@ fn within_the_zone(
                 ..Panel::default()
             })
             .collect(),
+        ..Chart::default()
     };
     report.picture(options, "off-sun-momentum.svg", &chart)
 }

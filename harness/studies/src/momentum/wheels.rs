@@ -136,7 +136,7 @@ fn draw(
                 y_label: format!("{}, Z {centimetres:.2} cm", convention.label()),
                 series,
                 y_range: Some((-0.5, 1.15 * most)),
-                marks: Vec::new(),
+                ..Panel::default()
             }
         })
         .filter(|panel| !panel.series.is_empty())
@@ -148,6 +148,7 @@ fn draw(
         title: "Thruster dumps in 90 days over the mass of four wheels, by momentum and offset".to_owned(),
         x_label: "mass of four wheels [kg]: 12 kg store 4 N.m.s a wheel, 17 kg 8, 20 kg 12".to_owned(),
         panels,
+        ..Chart::default()
     };
     report.picture(options, "wheels.svg", &chart)
 }

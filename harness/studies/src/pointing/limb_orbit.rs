@@ -169,6 +169,7 @@ fn chart(points: &[Point<'_>]) -> Chart {
                 ..Panel::default()
             },
         ],
+        ..Chart::default()
     }
 }
 

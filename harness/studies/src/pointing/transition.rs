@@ -205,6 +205,7 @@ fn quaternion_chart(flown: &Flown) -> Chart {
         title: "Commanded quaternion over the transition".to_owned(),
         x_label: "time [s]".to_owned(),
         panels: (0..4).map(panel).collect(),
+        ..Chart::default()
     }
 }
 
@@ -223,5 +224,6 @@ fn angle_chart(flown: &Flown) -> Chart {
         title: "Sun, Earth and Mercury in the commanded body frame".to_owned(),
         x_label: "time [s]".to_owned(),
         panels: vec![panel("azimuth", 0), panel("elevation", 1)],
+        ..Chart::default()
     }
 }

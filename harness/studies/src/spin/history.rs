@@ -104,7 +104,7 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
                 ),
             ],
             y_range: Some((0.0, 0.05)),
-            marks: Vec::new(),
+            ..Panel::default()
         });
     }
     report.table(&["body", "paper [deg]", "ours [deg]", "verdict"], &rows);
@@ -119,6 +119,7 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
         title: "Nutation during the 2 deg manoeuvre".to_owned(),
         x_label: "time [s]".to_owned(),
         panels,
+        ..Chart::default()
     };
     report.picture(options, "figure4.svg", &chart)?;
     Ok(report)

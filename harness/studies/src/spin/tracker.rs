@@ -95,7 +95,7 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
                 ),
             ],
             y_range: Some((-0.03, 0.03)),
-            marks: Vec::new(),
+            ..Panel::default()
         });
     }
     report.table(&["sampling", "paper", "ours", "verdict"], &rows);
@@ -108,6 +108,7 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
         title: format!("Star declination, 0.02 deg nutation, ratio {RATIO}, 5 rpm"),
         x_label: "time [s]".to_owned(),
         panels,
+        ..Chart::default()
     };
     report.picture(options, "figure6.svg", &chart)?;
     Ok(report)
@@ -220,12 +221,16 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
             })
             .collect();
         series.push(Series::dashed("30 min", vec![(4.9, LONG_MIN), (5.1, LONG_MIN)]));
-        Panel { y_label: y_label.to_owned(), series, y_range: Some((0.0, TALLEST_MIN)), marks: Vec::new() }
+        Panel { y_label: y_label.to_owned(), series, y_range: Some((0.0, TALLEST_MIN)), ..Panel::default() }
     };
     let chart = Chart {
         title: "Nutation observation time".to_owned(),
         x_label: "spin rate [rpm]".to_owned(),
-        panels: vec![panel("eq 20 [min]", |p| p.eq20_min), panel("every 8 spins [min]", |p| p.spins_min)],
+        panels: vec![
+            panel("by approximation [min]", |p| p.eq20_min),
+            panel("sampled every 8 spins [min]", |p| p.spins_min),
+        ],
+        ..Chart::default()
     };
     report.picture(options, "figure7.svg", &chart)?;
     Ok(report)

@@ -156,12 +156,13 @@ fn chart(rows: &[Row], turns: f64, phase: f64) -> Chart {
             y_label: "nutation [deg]".to_owned(),
             series: vec![
                 // Eq 8 holds only at whole numbers of pulses.
-                Series::rings("eq 8", at_counts(|row| row.printed_rad)),
+                Series::rings("linear theory", at_counts(|row| row.printed_rad)),
                 Series::line("exact envelope", envelope),
                 Series::dots("SpinPlant", at_counts(|row| row.simulated_rad)),
             ],
             y_range: Some((0.0, 1.05 * envelope_deg(f64::from(FEWEST_SHOWN), phase))),
-            marks: Vec::new(),
+            ..Panel::default()
         }],
+        ..Chart::default()
     }
 }

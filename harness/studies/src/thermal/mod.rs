@@ -69,6 +69,7 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
                 ..Panel::default()
             })
             .collect(),
+        ..Chart::default()
     };
     let mut report = Report::default();
     report.line("Solar, albedo, infrared and recoil around one orbit (paper 004, Figure 12)\n");

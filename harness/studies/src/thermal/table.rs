@@ -2,7 +2,7 @@
 
 use super::orbit::{EFFECTS, Sample};
 use super::paper::Row;
-use crate::chart::{Chart, Panel, Series};
+use crate::chart::bars::{BarChart, BarPanel};
 use crate::{Options, Report, StudyError};
 
 /// One row of the paper, simulated.
@@ -80,29 +80,33 @@ pub(super) fn print(
     }
     report.table(&header, &rows);
     report.csv(options, &format!("{name}.csv"), &header, rows)?;
-    report.picture(options, &format!("{name}.svg"), &chart(simulated))
+    report.bars(options, &format!("{name}.svg"), &chart(simulated))
 }
 
-/// The greatest of each effect by case: the paper's between ours.
-fn chart(simulated: &[Simulated]) -> Chart {
-    let dots = |label: &str, aside: f64, greatest: &dyn Fn(&Simulated) -> f64| {
-        let point = |it: &Simulated| (f64::from(it.row.case) + aside, greatest(it));
-        Series::dots(label, simulated.iter().map(point).collect())
+/// The greatest of each effect by case: the paper's beside ours.
+fn chart(simulated: &[Simulated]) -> BarChart {
+    let has_cells = simulated.iter().any(|it| it.by_cells.is_some());
+    let panel = |effect: usize| {
+        let greatest = |samples: &[Sample]| as_printed(samples)[effect].0;
+        let by_cells = |it: &Simulated| it.by_cells.as_deref().map_or(f64::NAN, greatest);
+        let mut values: Vec<Vec<f64>> = vec![
+            simulated.iter().map(|it| it.row.extremes()[effect].0).collect(),
+            simulated.iter().map(|it| greatest(&it.samples)).collect(),
+        ];
+        if has_cells {
+            values.push(simulated.iter().map(by_cells).collect());
+        }
+        let unit = if effect == 0 { "1e-7 m/s2" } else { "% of solar" };
+        BarPanel { y_label: format!("{} [{unit}]", EFFECTS[effect]), values }
     };
-    let panel = |effect: usize| Panel {
-        y_label: format!("{} [{}]", EFFECTS[effect], if effect == 0 { "1e-7 m/s2" } else { "% of solar" }),
-        series: vec![
-            dots("paper", 0.0, &|it| it.row.extremes()[effect].0),
-            dots("ours", -0.06, &|it| as_printed(&it.samples)[effect].0),
-            dots("by cells", 0.06, &|it| {
-                it.by_cells.as_deref().map_or(f64::NAN, |samples| as_printed(samples)[effect].0)
-            }),
-        ],
-        ..Panel::default()
-    };
-    Chart {
+    let bars = ["paper", "ours", "ours, planet by cells"];
+    BarChart {
         title: "Greatest acceleration around one orbit".to_owned(),
-        x_label: "case".to_owned(),
+        cases: simulated
+            .iter()
+            .map(|it| format!("case {}: true anomaly {} deg", it.row.case, it.row.true_anomaly_deg))
+            .collect(),
+        bars: bars.into_iter().take(if has_cells { 3 } else { 2 }).map(str::to_owned).collect(),
         panels: (0..EFFECTS.len()).map(panel).collect(),
     }
 }

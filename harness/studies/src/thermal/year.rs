@@ -146,5 +146,6 @@ fn chart(orbits: &[Orbit]) -> Chart {
             panel("mean", |range| range.mean),
             panel("least", |range| range.least),
         ],
+        ..Chart::default()
     }
 }

@@ -389,7 +389,18 @@ impl<'d, 'i> Commands<'d, 'i> {
     ) -> f64 {
         let Some(value) = given.si(kind) else { return self.quantity(at, given, kind) };
         if !(low..=high).contains(&value) {
-            self.check.report(at, given, allowed);
+            match given {
+                Quantity::Number(number) if kind.name == ANGLE.name => {
+                    let fits_in_deg = (low..=high).contains(&number.to_radians());
+                    let meant = if fits_in_deg {
+                        format!(" (did you mean \"{number} deg\"?)")
+                    } else {
+                        String::new()
+                    };
+                    self.check.report(at, format_args!("{number} rad{meant}"), allowed);
+                }
+                _ => self.check.report(at, given, allowed),
+            }
         }
         value
     }

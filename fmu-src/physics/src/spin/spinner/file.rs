@@ -204,7 +204,14 @@ impl Builder<'_> {
         for (i, &propellant_kg) in mass.propellant_kg.iter().enumerate() {
             if let Err(error) = mass.inertia(propellant_kg) {
                 let place = at.key("inertia_ratio").item(i);
-                self.check.report_across(at, &place, error, "moments of inertia that a body can have");
+                let ratio = mass.inertia_ratio.get(i).copied().unwrap_or(f64::NAN);
+                let found = format!("{ratio}, by which {error}");
+                self.check.report_across(
+                    at,
+                    &place,
+                    found,
+                    "a ratio to the transverse moment of at most 2, less with products of inertia",
+                );
             }
         }
     }

@@ -1,0 +1,13 @@
+//! Mission files: what flies, when, with which values, what is kept of it and what it is judged by.
+
+mod description;
+mod file;
+mod limits;
+mod resolved;
+#[cfg(feature = "schema")]
+mod schema;
+mod written;
+
+pub use file::{Craft, Inputs, Mission, Plot};
+pub use limits::Judge;
+pub use resolved::{Limit, Resolved};

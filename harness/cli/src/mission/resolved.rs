@@ -1,0 +1,243 @@
+//! A mission's names and values in the FMU that flies it.
+
+use loader::{InputTable, Value};
+use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
+
+use super::file::{At, Bounds, Inputs, Mission};
+use crate::epoch;
+
+/// The epoch of the start.
+const EPOCH: &str = "start.epoch";
+
+/// Bounds of one variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The variable.
+    pub name: String,
+    /// The smallest value that is kept, in the variable's unit.
+    pub min: Option<f64>,
+    /// The largest.
+    pub max: Option<f64>,
+    /// Where the file says so.
+    pub at: String,
+}
+
+/// What a mission means in an FMU.
+#[derive(Debug, Default)]
+pub struct Resolved {
+    /// Values set before the run.
+    pub sets: Vec<(String, Value)>,
+    /// Inputs over time, if the file has them itself.
+    pub inputs: Option<InputTable>,
+    /// Positions of what `record` names; `None`: every output.
+    pub record: Option<Vec<usize>>,
+    /// Positions of what each plot names; `None`: everything recorded.
+    pub plots: Vec<Option<Vec<usize>>>,
+    /// Bounds.
+    pub limits: Vec<Limit>,
+}
+
+impl Mission {
+    /// Finds every name and reads every value.
+    ///
+    /// # Errors
+    /// Everything that the FMU does not have or take, a line for each problem.
+    pub fn resolve(&self, described: &Description) -> Result<Resolved, String> {
+        let mut resolver = Resolver { mission: self, described, problems: Vec::new() };
+        let resolved = Resolved {
+            sets: resolver.sets(),
+            inputs: resolver.inputs(),
+            record: self.record.as_ref().map(|names| resolver.names(names)),
+            plots: self.plots.iter().map(|plot| Some(resolver.names(plot.names.as_ref()?))).collect(),
+            limits: self.limits.iter().flat_map(|limit| resolver.limit(limit)).collect(),
+        };
+        let Resolver { mut problems, .. } = resolver;
+        problems.sort_by_key(|(line, _)| *line);
+        let problems: Vec<String> = problems.into_iter().map(|(_, problem)| problem).collect();
+        if problems.is_empty() { Ok(resolved) } else { Err(problems.join("\n")) }
+    }
+
+    /// Its values as `--set` would take them, the date of its start among them, each with the place that it stands in.
+    pub fn settings(&self, described: &Description) -> Vec<(String, String)> {
+        let epochs = self.epoch_s.iter().flat_map(|at| {
+            let names = described.variables.iter().map(|it| &it.name).filter(|name| is_epoch(name));
+            names.map(move |name| (self.place(at), format!("{name}={}", at.it)))
+        });
+        let sets = self.sets.iter().map(|at| (self.place(at), format!("{}={}", at.it.0, at.it.1)));
+        epochs.chain(sets).collect()
+    }
+
+    fn place<T>(&self, at: &At<T>) -> String {
+        format!("{}:{}: {}", self.file.display(), at.line, at.key)
+    }
+}
+
+/// Whether a variable is the epoch of the start, its own or a component's.
+fn is_epoch(name: &str) -> bool {
+    name.strip_suffix(EPOCH).is_some_and(|component| component.is_empty() || component.ends_with('.'))
+}
+
+struct Resolver<'m> {
+    mission: &'m Mission,
+    described: &'m Description,
+    problems: Vec<(usize, String)>,
+}
+
+impl<'m> Resolver<'m> {
+    fn report<T>(&mut self, at: &At<T>, what: &str) {
+        self.problems.push((at.line, self.mission.problem(at, what)));
+    }
+
+    fn refuse<T>(&mut self, at: &At<T>, error: loader::Error) {
+        let what = match error {
+            // The key names the variable.
+            loader::Error::Value { what, variable } if at.key.contains(&variable) => what,
+            loader::Error::Inputs(what) => what,
+            loader::Error::UnknownVariable { name, hint, .. } => {
+                format!("found the unknown variable {name:?}, allowed: one that the FMU has{hint}")
+            }
+            loader::Error::NoOutput { pattern, example, .. } => {
+                format!(
+                    "found {pattern:?}, which no output fits, allowed: * for outputs, anything else by its name: {example}"
+                )
+            }
+            other => other.to_string(),
+        };
+        self.report(at, &what);
+    }
+
+    fn sets(&mut self) -> Vec<(String, Value)> {
+        let mut sets = Vec::new();
+        if let Some(at) = &self.mission.epoch_s {
+            let names = self.described.variables.iter().map(|it| &it.name).filter(|name| is_epoch(name));
+            sets.extend(names.map(|name| (name.clone(), Value::Real(at.it))));
+            if sets.is_empty() {
+                let found = format!("found a date, but the FMU has no variable {EPOCH}");
+                self.report(at, &format!("{found}, allowed: simulation time, 0 or \"10 d\""));
+            }
+        }
+        for at in &self.mission.sets {
+            let (name, written) = &at.it;
+            for (variable, value) in self.assigned(at, name, written) {
+                match loader::set_early(variable) {
+                    Ok(_) => {}
+                    Err(_) => {
+                        let found = format!("the {} {}", variable.causality, variable.name);
+                        self.report(at, &format!("found {found}, allowed: a parameter or an input"));
+                        continue;
+                    }
+                }
+                match value::check(self.described, variable, &value) {
+                    Ok(()) => sets.push((variable.name.clone(), value)),
+                    Err(misfit) => self.report(at, &misfit.to_string()),
+                }
+            }
+        }
+        sets
+    }
+
+    fn assigned<T>(&mut self, at: &At<T>, name: &str, written: &str) -> Vec<(&'m ScalarVariable, Value)> {
+        let setting = format!("{name}={written}");
+        let read = epoch::in_seconds(self.described, &setting).and_then(|setting| {
+            let assigned = loader::assignment(self.described, &setting)?;
+            Ok(assigned.into_iter().map(|one| (one.variable.name.clone(), one.value)).collect::<Vec<_>>())
+        });
+        match read {
+            Ok(values) => values
+                .into_iter()
+                .filter_map(|(name, value)| {
+                    let mut variables = self.described.variables.iter();
+                    Some((variables.find(|variable| variable.name == name)?, value))
+                })
+                .collect(),
+            Err(error) => {
+                self.refuse(at, error);
+                Vec::new()
+            }
+        }
+    }
+
+    fn inputs(&mut self) -> Option<InputTable> {
+        let Some(Inputs::Rows(inputs)) = &self.mission.inputs else { return None };
+        let mut table = InputTable::default();
+        for at in inputs {
+            let (name, written) = &at.it;
+            let mut columns: Vec<(&str, Vec<(f64, Value)>)> = Vec::new();
+            for (time_s, values) in written {
+                let row = self.assigned(at, name, values);
+                if row.is_empty() {
+                    columns.clear();
+                    break;
+                }
+                for (k, (variable, value)) in row.into_iter().enumerate() {
+                    if columns.len() <= k {
+                        columns.push((&variable.name, Vec::new()));
+                    }
+                    columns[k].1.push((*time_s, value));
+                }
+            }
+            for (name, rows) in columns {
+                if let Err(error) = table.add(self.described, name, rows) {
+                    self.refuse(at, error);
+                }
+            }
+        }
+        Some(table)
+    }
+
+    fn names(&mut self, names: &[At<String>]) -> Vec<usize> {
+        let mut positions = Vec::new();
+        for at in names {
+            match loader::select_outputs(self.described, &at.it) {
+                Ok(found) => {
+                    let new = found.into_iter().filter(|position| !positions.contains(position));
+                    let new: Vec<usize> = new.collect();
+                    positions.extend(new);
+                }
+                Err(error) => self.refuse(at, error),
+            }
+        }
+        positions
+    }
+
+    fn limit(&mut self, at: &At<Bounds>) -> Vec<Limit> {
+        let Bounds { name, min, max } = &at.it;
+        let positions = match loader::select(self.described, name) {
+            Ok(positions) => positions,
+            Err(error) => {
+                self.refuse(at, error);
+                return Vec::new();
+            }
+        };
+        let mut limits = Vec::new();
+        for variable in positions.into_iter().map(|position| &self.described.variables[position]) {
+            if !matches!(variable.kind, VariableKind::Real { .. } | VariableKind::Integer { .. }) {
+                self.report(
+                    at,
+                    &format!("found {}, which is no number, allowed: a Real or an Integer", variable.name),
+                );
+                continue;
+            }
+            if variable.causality == Causality::Parameter {
+                self.report(
+                    at,
+                    &format!("found the parameter {}, allowed: what changes during a run", variable.name),
+                );
+                continue;
+            }
+            let mut bound = |written: &Option<String>| {
+                let read = loader::parse_value(self.described, variable, written.as_ref()?);
+                read.map_err(|error| self.refuse(at, error)).ok().map(|value| value.to_f64())
+            };
+            let (min, max) = (bound(min), bound(max));
+            if let (Some(low), Some(high)) = (min, max)
+                && low > high
+            {
+                let [low, high] = [&at.it.min, &at.it.max].map(|it| it.as_deref().unwrap_or_default());
+                self.report(at, &format!("found min {low} above max {high}, allowed: a min up to max"));
+            }
+            limits.push(Limit { name: variable.name.clone(), min, max, at: self.mission.place(at) });
+        }
+        limits
+    }
+}

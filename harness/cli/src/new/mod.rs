@@ -1,0 +1,71 @@
+//! `heliotorque new`: a commented file that works unchanged, to start from.
+
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use clap::{Args, ValueEnum};
+use files::Destination;
+
+use crate::outcome::Outcome;
+
+/// `heliotorque new`.
+#[derive(Debug, Args)]
+pub struct New {
+    /// Of which kind
+    #[arg(value_enum)]
+    pub kind: NewKind,
+    /// The file to write; otherwise the kind's name with .toml, in this folder; - is the standard output
+    pub file: Option<PathBuf>,
+    /// Write over a file that is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A kind of file that people write.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum NewKind {
+    /// A spacecraft, for `check`, `draw`, `pack`
+    Spacecraft,
+    /// A spin-stabilised spacecraft, for `check`, `pack`, `plan spin`
+    Spinner,
+    /// What flies, when, with which values, and what is kept of it; for `run`, `check`, `pack --mission`
+    Mission,
+    /// Commands over time, for `pack --timeline`
+    Timeline,
+}
+
+impl NewKind {
+    /// The file's name and text.
+    fn content(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Spacecraft => ("spacecraft.toml", include_str!("spacecraft.toml")),
+            Self::Spinner => ("spinner.toml", include_str!("spinner.toml")),
+            Self::Mission => ("mission.toml", include_str!("mission.toml")),
+            Self::Timeline => ("timeline.toml", include_str!("timeline.toml")),
+        }
+    }
+}
+
+/// Writes the file.
+pub fn run(arguments: &New) -> Outcome {
+    let (name, text) = arguments.kind.content();
+    let path = arguments.file.as_deref().unwrap_or(Path::new(name));
+    let is_there = path != Path::new("-") && std::fs::symlink_metadata(path).is_ok();
+    if is_there && !arguments.force {
+        let path = path.display();
+        return Err(format!("{path}: found a file, allowed: a name that is free: see --force").into());
+    }
+    let destination = Destination::open(path, "FILE", &[])?;
+    let is_stdout = destination.is_stdout();
+    destination.fill(|file| file.write_all(text.as_bytes()))?;
+    if !is_stdout {
+        let next = match arguments.kind {
+            NewKind::Mission => "run",
+            _ => "check",
+        };
+        terminal::print(&format!("{0}: written; next: heliotorque {next} {0}", path.display()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

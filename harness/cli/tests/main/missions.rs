@@ -1,0 +1,224 @@
+//! Missions: what they name is flown, drawn, judged and packed; options win; the examples fly.
+
+use std::{fs, path::Path};
+
+use tempfile::TempDir;
+
+use crate::{heliotorque, library, run, shown, text};
+
+const RESOURCES: &str = "../../fmu-src/resources";
+
+/// A folder with an FMU whose library flies missions.
+fn hangar() -> Option<TempDir> {
+    let library = library()?;
+    let scratch = tempfile::tempdir().unwrap();
+    let template = scratch.path().join("template.fmu");
+    let model = ["--model", "MomentumPlant", "--output", shown(&template)];
+    run(&[&["pack", "--library", shown(&library)], &model[..]].concat(), 0);
+    Some(scratch)
+}
+
+/// What a command says in the folder, and its status.
+fn said(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = heliotorque(arguments).current_dir(folder).output().unwrap();
+    (output.status.code(), text(&output))
+}
+
+/// The rows of a CSV file.
+fn rows(path: &Path) -> Vec<Vec<f64>> {
+    let table = fs::read_to_string(path).unwrap();
+    table.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+}
+
+const MISSION: &str = r#"
+model = "MomentumPlant"
+start = "2011-04-06 UTC"
+stop = "2011-04-06T02:00:00 UTC"
+step = "60 s"
+every = "30 min"
+record = ["epoch", "panel[1].sunOffset", "momentum.body[1]"]
+output = "out.csv"
+[[plot]]
+file = "momentum.svg"
+names = ["momentum.body[1]", "sun.elevation"]
+[set]
+"momentum.convention" = "inertial"
+"dump.threshold" = [4, 4, 4]
+[inputs]
+"panel[1].sunOffset" = [[0, "60 deg"], ["1 h", "65 deg"]]
+[limits]
+"sun.elevation" = { min = "-20 deg", max = "20 deg" }
+"#;
+
+#[test]
+fn a_mission_flies_as_it_is_written_and_options_win() {
+    let Some(scratch) = hangar() else { return };
+    let folder = scratch.path();
+    fs::create_dir(folder.join("deep")).unwrap();
+    fs::write(folder.join("deep/m.toml"), MISSION).unwrap();
+    let fly =
+        |more: &[&str]| said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat());
+    let (status, told) = fly(&[]);
+    assert_eq!(status, Some(0), "{told}");
+    assert!(
+        told.contains("120 steps to 7200 s") && told.contains("kept: sun.elevation from -20 to 20 deg"),
+        "{told}"
+    );
+    // Beside the mission, not where it was started.
+    assert!(folder.join("deep/momentum.svg").exists() && !folder.join("out.csv").exists());
+    let header = fs::read_to_string(folder.join("deep/out.csv")).unwrap();
+    // What is drawn or judged is recorded too.
+    let names = "time,epoch,panel[1].sunOffset,momentum.body[1],sun.elevation\n";
+    assert!(header.starts_with(names), "{header}");
+    let found = rows(&folder.join("deep/out.csv"));
+    let times: Vec<f64> = found.iter().map(|row| row[0]).collect();
+    assert_eq!(times, [0.0, 1800.0, 3600.0, 5400.0, 7200.0]);
+    // 2011-04-06 00:00 UTC is 66.184 s later in TDB: 34 leap seconds and 32.184 s, but for TDB - TT.
+    let noon_2000_to_2011_s = 4112.5 * 86_400.0;
+    assert!((found[0][1] - noon_2000_to_2011_s - 66.184).abs() < 2e-3, "{}", found[0][1]);
+    let offsets: Vec<f64> = found.iter().map(|row| row[2].to_degrees().round()).collect();
+    assert_eq!(offsets, [60.0, 60.0, 65.0, 65.0, 65.0], "a tunable parameter is held");
+
+    let csv = folder.join("mine.csv");
+    let (status, told) = fly(&[
+        "--stop",
+        "1h",
+        "--every",
+        "60s",
+        "--record",
+        "time*,dump.threshold",
+        "--output",
+        "mine.csv",
+        "--set",
+        "dump.threshold[2]=3",
+    ]);
+    assert_eq!(status, Some(1), "{told}");
+    assert!(told.contains("time*"), "{told}");
+    let more = ["--stop", "1h", "--every", "60s", "--record", "dump.threshold", "--output", "mine.csv"];
+    let (status, told) = fly(&[&more[..], &["--set", "dump.threshold[2]=3"]].concat());
+    assert_eq!(status, Some(0), "{told}");
+    let mine = rows(&csv);
+    assert_eq!((mine.len(), &mine[0][1..4]), (61, &[4.0, 3.0, 4.0][..]));
+}
+
+#[test]
+fn a_limit_that_breaks_is_told_with_its_time_and_ends_with_one() {
+    let Some(scratch) = hangar() else { return };
+    let folder = scratch.path();
+    let text = MISSION.replace(r#"min = "-20 deg", max = "20 deg""#, "min = 100");
+    fs::write(folder.join("m.toml"), text).unwrap();
+    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"]);
+    assert_eq!(status, Some(1), "{told}");
+    let expected = "m.toml:18: limits.\"sun.elevation\": found ";
+    assert!(
+        told.contains(expected) && told.contains("at 0 s (2011-04-06T00:00:00 UTC), the first time"),
+        "{told}"
+    );
+    assert!(folder.join("out.csv").exists(), "what was flown is kept");
+}
+
+#[test]
+fn a_packed_mission_starts_as_the_mission_does() {
+    let Some(scratch) = hangar() else { return };
+    let folder = scratch.path();
+    // Inputs over time are no start values.
+    let text = MISSION.replace("\"60 deg\"], [\"1 h\", \"65 deg\"]", "\"65 deg\"]");
+    fs::write(folder.join("m.toml"), &text).unwrap();
+    let (status, told) = said(
+        folder,
+        &[
+            "pack",
+            "--mission",
+            "m.toml",
+            "--template",
+            "template.fmu",
+            "--name",
+            "Mine",
+            "--set",
+            "dump.threshold[3]=5",
+        ],
+    );
+    assert!(status == Some(0) && told.contains("Mine.fmu: Mine, "), "{told}");
+    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
+    assert_eq!(status, Some(0), "{told}");
+    let record = "epoch,panel[1].sunOffset,momentum.body[1],sun.elevation,dump.threshold[3]";
+    let more = ["--every", "30min", "--record", record, "--output", "fmu.csv"];
+    let (status, told) = said(folder, &[&["run", "Mine.fmu"], &more[..]].concat());
+    assert_eq!(status, Some(0), "{told}");
+    let (of_mission, of_fmu) = (rows(&folder.join("out.csv")), rows(&folder.join("fmu.csv")));
+    assert!(of_fmu.iter().all(|row| row[5] == 5.0));
+    let same: Vec<Vec<f64>> = of_fmu.into_iter().map(|row| row[..5].to_vec()).collect();
+    assert_eq!(of_mission, same);
+    // It flies an FMU too, and then packs nothing.
+    let text = text.replace("model = \"MomentumPlant\"", "fmu = \"Mine.fmu\"");
+    fs::write(folder.join("of-fmu.toml"), text).unwrap();
+    let (status, told) = said(folder, &["run", "of-fmu.toml", "--output", "again.csv"]);
+    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(rows(&folder.join("again.csv")), of_mission);
+    let (status, told) = said(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"]);
+    assert!(status == Some(1) && told.contains("which is packed already"), "{told}");
+}
+
+#[test]
+fn the_files_of_a_mission_are_not_written_over() {
+    let Some(scratch) = hangar() else { return };
+    let folder = scratch.path();
+    let mission = MISSION.replace("output = \"out.csv\"", "output = \"m.toml\"");
+    fs::write(folder.join("m.toml"), &mission).unwrap();
+    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
+    assert!(status == Some(1) && told.contains("m.toml"), "{told}");
+    assert_eq!(fs::read_to_string(folder.join("m.toml")).unwrap(), mission);
+    let two = MISSION.replace("[set]", "[[plot]]\nfile = \"momentum.svg\"\n[set]");
+    fs::write(folder.join("m.toml"), two).unwrap();
+    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
+    assert!(status == Some(1) && told.contains("one file cannot take two pictures"), "{told}");
+}
+
+#[test]
+fn what_is_no_mission_is_told() {
+    let scratch = tempfile::tempdir().unwrap();
+    let spacecraft = format!("{RESOURCES}/messenger.toml");
+    let told = run(&["run", &spacecraft], 1);
+    assert!(
+        told.contains("without any key of a mission") && told.contains("heliotorque new mission"),
+        "{told}"
+    );
+    let fmu = scratch.path().join("no.fmu");
+    assert!(run(&["run", shown(&fmu), "--template", "x.fmu"], 1).contains("--template is for a mission"));
+}
+
+#[test]
+fn the_missions_of_the_examples_fly() {
+    let Some(scratch) = hangar() else { return };
+    let at = |name: &str| scratch.path().join(name);
+    fs::create_dir_all(at("examples/missions")).unwrap();
+    let mut missions = Vec::new();
+    for folder in ["", "examples", "examples/missions"] {
+        for entry in fs::read_dir(Path::new(RESOURCES).join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                let name = path.file_name().unwrap();
+                fs::copy(&path, at(folder).join(name)).unwrap();
+                if folder == "examples/missions" {
+                    missions.push(name.to_str().unwrap().to_owned());
+                }
+            }
+        }
+    }
+    missions.sort();
+    let expected = ["ace", "mercury-orbiter", "messenger", "solar-sailer", "sunshield-telescope"];
+    assert_eq!(missions, expected.map(|name| format!("{name}.toml")));
+    let folder = at("examples/missions");
+    let template = ["--template", "../../template.fmu"];
+    for mission in &missions {
+        let (status, told) = said(&folder, &[&["check", mission], &template[..]].concat());
+        assert!(status == Some(0) && told.contains(".toml: ok: "), "{told}");
+        // ACE's train is over after half an hour; the others fly for an hour of days.
+        let stop: &[&str] = if mission == "ace.toml" { &[] } else { &["--stop", "2h"] };
+        let (status, told) = said(&folder, &[&["run", mission], &template[..], stop].concat());
+        assert_eq!(status, Some(0), "{mission}: {told}");
+        for kind in ["csv", "svg"] {
+            assert!(folder.join(mission.replace("toml", kind)).exists(), "{mission}: {told}");
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Typical mistakes in files that people write: what `check` says of each is recorded, to be read.
+
+use std::{fs, path::Path};
+
+use crate::{heliotorque, library, run, shown, text};
+
+const RECORDED: &str = "tests/main/mistakes.txt";
+/// What begins a line of what is said.
+const SAID: &str = "    ";
+
+/// A mistake in a base file.
+#[derive(Default)]
+struct Mistake {
+    kind: String,
+    /// Lines of the base, and what stands in their place.
+    edits: Vec<(Vec<String>, Vec<String>)>,
+    bytes: Option<String>,
+}
+
+fn parse(block: &str) -> Mistake {
+    let mut mistake = Mistake::default();
+    for line in block.lines() {
+        if let Some(heading) = line.strip_prefix("## ") {
+            mistake.kind = heading.split_once(':').unwrap().0.to_owned();
+        } else if let Some(old) = line.strip_prefix("- ") {
+            match mistake.edits.last_mut() {
+                Some((olds, news)) if news.is_empty() => olds.push(old.to_owned()),
+                _ => mistake.edits.push((vec![old.to_owned()], Vec::new())),
+            }
+        } else if let Some(new) = line.strip_prefix("+ ") {
+            match mistake.edits.last_mut() {
+                Some((_, news)) => news.push(new.to_owned()),
+                None => mistake.edits.push((Vec::new(), vec![new.to_owned()])),
+            }
+        } else if let Some(bytes) = line.strip_prefix("@ ") {
+            mistake.bytes = Some(bytes.to_owned());
+        }
+    }
+    mistake
+}
+
+impl Mistake {
+    /// The file with the mistake.
+    fn text(&self, base: &str) -> String {
+        let mut text = base.to_owned();
+        for (olds, news) in &self.edits {
+            let joined = |lines: &[String]| lines.iter().map(|line| format!("{line}\n")).collect::<String>();
+            if olds.is_empty() {
+                text.push_str(&joined(news));
+                continue;
+            }
+            let whole = joined(olds);
+            if text.contains(&whole) {
+                text = text.replacen(&whole, &joined(news), 1);
+                continue;
+            }
+            // Lines that stand apart.
+            assert!(news.is_empty(), "{whole} is not in the base");
+            for old in olds {
+                let line = format!("{old}\n");
+                assert!(text.contains(&line), "{line} is not in the base");
+                text = text.replacen(&line, "", 1);
+            }
+        }
+        text
+    }
+
+    fn write(&self, base: &str, path: &Path) {
+        let text = self.text(base);
+        let _ = fs::remove_dir(path);
+        let bytes = match self.bytes.as_deref() {
+            None => text.into_bytes(),
+            Some("byte order mark") => format!("\u{feff}{text}").into_bytes(),
+            Some("carriage returns") => text.replace('\n', "\r\n").into_bytes(),
+            Some("UTF-16") => {
+                let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+                units.flat_map(u16::to_le_bytes).collect()
+            }
+            Some("Latin-1") => text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect(),
+            Some("empty") => Vec::new(),
+            Some("folder") => {
+                let _ = fs::remove_file(path);
+                return fs::create_dir(path).unwrap();
+            }
+            Some("absent") => return drop(fs::remove_file(path)),
+            Some(other) => panic!("@ {other}"),
+        };
+        fs::write(path, bytes).unwrap();
+    }
+}
+
+#[test]
+fn every_typical_mistake_is_told_with_file_place_finding_and_remedy() {
+    let Some(library) = library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let template = scratch.path().join("template.fmu");
+    let model = ["--model", "MomentumPlant", "--output", shown(&template)];
+    run(&[&["pack", "--library", shown(&library)], &model[..]].concat(), 0);
+    let wrong = run(&["new", "spacecraft", "-"], 0).replace("mass_kg = 400.0", "mass_kg = -4.0");
+    fs::write(scratch.path().join("wrong.toml"), wrong).unwrap();
+
+    let recorded = fs::read_to_string(RECORDED).unwrap();
+    let mut found = String::new();
+    let mut told = 0;
+    for (k, block) in recorded.split("\n## ").enumerate() {
+        if k == 0 {
+            found.push_str(block);
+            continue;
+        }
+        let block = format!("## {block}");
+        let mistake = parse(&block);
+        let name = format!("{}.toml", mistake.kind);
+        mistake.write(&run(&["new", &mistake.kind, "-"], 0), &scratch.path().join(&name));
+        let check = ["check", &name, "--template", "template.fmu"];
+        let output = heliotorque(&check).current_dir(scratch.path()).output().unwrap();
+        let said = text(&output);
+        let is_refused = output.status.code() == Some(1);
+        if is_refused {
+            told += 1;
+            assert!(said.contains(".toml"), "{block}\n{said}");
+            assert!(!said.contains(shown(scratch.path())), "{said}");
+        }
+        let input = block.lines().filter(|line| !line.starts_with(SAID) && !line.is_empty());
+        found.push('\n');
+        input.for_each(|line| found.push_str(&format!("{line}\n")));
+        // What a file that is taken comes to is told elsewhere.
+        let said = said.lines().enumerate();
+        let said = said.filter(|(k, line)| is_refused || *k == 0 || line.starts_with("warning"));
+        said.for_each(|(_, line)| found.push_str(&format!("{}\n", format!("{SAID}{line}").trim_end())));
+    }
+    if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
+        fs::write(RECORDED, &found).unwrap();
+    }
+    assert!(told >= 50, "{told} mistakes");
+    assert!(found == fs::read_to_string(RECORDED).unwrap(), "what is said has changed: {found}");
+}

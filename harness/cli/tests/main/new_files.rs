@@ -1,0 +1,103 @@
+//! `heliotorque new` writes files that work unchanged, and `man` pages of every command.
+
+use std::{fs, process::Command};
+
+use crate::{library, run, shown};
+
+const KINDS: [&str; 4] = ["spacecraft", "spinner", "mission", "timeline"];
+
+#[test]
+fn a_file_that_is_there_is_kept() {
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("mine.toml");
+    for kind in KINDS {
+        let _ = fs::remove_file(&file);
+        let told = run(&["new", kind, shown(&file)], 0);
+        assert!(told.contains("mine.toml: written; next: heliotorque "), "{told}");
+        let text = fs::read_to_string(&file).unwrap();
+        assert_eq!(run(&["new", kind, "-"], 0), text, "{kind}");
+        fs::write(&file, "# mine\n").unwrap();
+        let told = run(&["new", kind, shown(&file)], 1);
+        assert!(told.contains("mine.toml: found a file") && told.contains("--force"), "{told}");
+        assert_eq!(fs::read_to_string(&file).unwrap(), "# mine\n");
+        run(&["new", kind, shown(&file), "--force"], 0);
+        assert_eq!(fs::read_to_string(&file).unwrap(), text, "{kind}");
+    }
+    run(&["new", "planet"], 2);
+}
+
+#[test]
+fn every_new_file_works_unchanged() {
+    let Some(library) = library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let at = |name: &str| scratch.path().join(name);
+    let template = at("template.fmu");
+    let model = ["--model", "MomentumPlant", "--output", shown(&template)];
+    run(&[&["pack", "--library", shown(&library)], &model[..]].concat(), 0);
+    let with = |arguments: &[&str]| run(&[arguments, &["--template", shown(&template)]].concat(), 0);
+    for kind in KINDS {
+        let file = at(&format!("{kind}.toml"));
+        run(&["new", kind, shown(&file)], 0);
+        let told = with(&["check", shown(&file)]);
+        assert!(told.contains(".toml: ok"), "{told}");
+        assert!(!told.contains("warning"), "{told}");
+        let fmu = at(&format!("{kind}.fmu"));
+        let pack: &[&str] = match kind {
+            "mission" => &["--mission", shown(&file)],
+            "timeline" => &["--model", "Guidance", "--timeline", shown(&file)],
+            _ => &["--spacecraft", shown(&file)],
+        };
+        with(&[&["pack", "--output", shown(&fmu)], pack].concat());
+        run(&["run", shown(&fmu), "--stop", "60", "--quiet"], 0);
+    }
+    let told = with(&["run", shown(&at("mission.toml"))]);
+    assert!(told.contains("wrote") && !told.contains("found"), "{told}");
+    let rows = fs::read_to_string(at("mission.csv")).unwrap();
+    assert!(
+        rows.starts_with(
+            "time,momentum.body[1],momentum.body[2],momentum.body[3],dump.count,sun.elevation\n"
+        )
+    );
+    assert_eq!(rows.lines().count(), 1 + 10 * 144 + 1);
+    assert!(at("mission.svg").exists());
+}
+
+#[test]
+fn every_command_has_a_page_that_man_reads() {
+    let scratch = tempfile::tempdir().unwrap();
+    run(&["man", "--output", shown(scratch.path())], 0);
+    let mut pages: Vec<String> = fs::read_dir(scratch.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    pages.sort();
+    let help = run(&["help"], 0);
+    let commands: Vec<&str> = help
+        .lines()
+        .skip_while(|line| !line.starts_with("Commands:"))
+        .filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|command| !command.starts_with('-') && *command != "help")
+        .collect();
+    let mut expected: Vec<String> =
+        commands.iter().map(|command| format!("heliotorque-{command}.1")).collect();
+    expected.extend(["heliotorque.1".to_owned(), "heliotorque-plan-spin.1".to_owned()]);
+    expected.sort();
+    assert_eq!(pages, expected);
+    assert!(commands.contains(&"run") && commands.contains(&"plan"), "{help}");
+    for command in commands {
+        let page = run(&["man", command], 0);
+        assert!(
+            page.contains(&format!("heliotorque\\-{command}")) && page.contains(".SH SYNOPSIS"),
+            "{page}"
+        );
+    }
+    assert!(run(&["man", "nonsense"], 1).contains("allowed: info, check, run"));
+    // Without a warning, where there is a man to read it.
+    let page = scratch.path().join("heliotorque-run.1");
+    if let Ok(read) = Command::new("man").args(["--warnings", "-l"]).arg(&page).env("MANWIDTH", "80").output()
+    {
+        let (text, said) = (String::from_utf8_lossy(&read.stdout), String::from_utf8_lossy(&read.stderr));
+        assert!(read.status.success() && said.is_empty() && text.contains("--stop"), "{said}{text}");
+    }
+}
