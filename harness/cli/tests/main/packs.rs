@@ -244,8 +244,7 @@ fn start_values_are_packed_and_simulated() {
     let scratch = tempfile::tempdir().unwrap();
     let toml = scratch.path().join("mine.toml");
     let body = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
-    fs::write(&toml, format!("{body}\n[start]\n# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n"))
-        .unwrap();
+    fs::write(&toml, format!("{body}# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n")).unwrap();
     let pack = |name: &str, more: &[&str]| {
         let fmu = scratch.path().join(format!("{name}.fmu"));
         let mut arguments = vec!["pack", "--library", shown(&library), "--model", "MomentumPlant"];
@@ -270,8 +269,9 @@ fn start_values_are_packed_and_simulated() {
     let packed = file(&fmu, "resources/spacecraft.toml");
     let added =
         "\"dump.threshold[2]\" = 5.0\n\"panel[1].sunOffset\" = \"10deg\"\n\"orbit.frame\" = \"ecliptic\"\n";
-    let table = "[start]\n# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n";
-    assert_eq!(packed, format!("{body}\n{table}{added}"));
+    // The file's last table is [start].
+    let table = "# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n";
+    assert_eq!(packed, format!("{body}{table}{added}"));
     let xml = model_description::parse(file(&fmu, "modelDescription.xml").as_bytes()).unwrap().description;
     let start = |name: &str| {
         let variable = xml.variables.iter().find(|variable| variable.name == name).unwrap();
@@ -322,8 +322,8 @@ fn start_values_that_nothing_takes_are_refused() {
     assert!(text.contains("found the output torque.total[1], allowed: a parameter or an input"), "{text}");
     let toml = scratch.path().join("mine.toml");
     let body = fs::read_to_string("../../fmu-src/resources/messenger.toml").unwrap();
-    fs::write(&toml, format!("{body}\n[start]\n\"orbit.centre\" = \"sun\"\n")).unwrap();
-    let line = body.lines().count() + 3;
+    fs::write(&toml, format!("{body}\"orbit.centre\" = \"sun\"\n")).unwrap();
+    let line = body.lines().count() + 1;
     let text = pack("MomentumPlant", &["--spacecraft", shown(&toml)]);
     assert!(
         text.contains(&format!("mine.toml:{line}: start.\"orbit.centre\": found the unknown name")),
