@@ -84,6 +84,7 @@ fn every_key_of_every_file_is_told_of() {
     for (schema, chapters) in [
         ("spacecraft", &["spacecraft.md", "start.md"][..]),
         ("spinner", &["spinner.md", "start.md"]),
+        ("mission", &["mission.md"]),
         ("timeline", &["timeline.md"]),
         ("ephemeris", &["ephemeris.md"]),
     ] {
