@@ -40,7 +40,7 @@ def light_loop(heliotorque, dist, scratch):
     dark = packed(heliotorque, dist, scratch, "MomentumPlant", "dark", "messenger.toml", *settings, center, "solar.flux=0")
     alone = packed(heliotorque, dist, scratch, "MomentumPlant", "alone", "messenger.toml", *settings, center, flux)
     light = packed(
-        heliotorque, dist, scratch, "DisturbanceTorque", "light", "messenger.toml", center, flux, "shadowing.enabled=false"
+        heliotorque, dist, scratch, "DisturbanceTorque", "light", "messenger.toml", center, flux
     )
     connections = [
         *wires("plant.sun.positionBody", "light.sun.positionBody", 3),

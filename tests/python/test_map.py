@@ -63,7 +63,7 @@ def test_directions_follow_the_flat_plate_law(heliotorque, dist, tmp_path):
     craft = tmp_path / "sailer.toml"
     craft.write_text(SAILER, encoding="utf-8")
     rows = mapped(
-        heliotorque, dist, craft, "--distance", "1", "--step", "10deg", "--set", "shadowing.enabled=false", "--set", "solar.flux=1361"
+        heliotorque, dist, craft, "--distance", "1", "--step", "10deg", "--set", "solar.flux=1361"
     )
     pressure = 1361.0 / 299_792_458.0
     greatest = max(np.linalg.norm(torque(row)) for row in rows)

@@ -186,7 +186,7 @@ def test_the_description_follows_the_schema_and_names_components_units_and_optio
 
 def test_values_are_set_by_component_with_units_and_dates(heliotorque, dist):
     ssp = dist / "DisturbanceLoop.ssp"
-    settings = ("--set", "body.start.rate=0,0,1 deg/s", "--set", "disturbance.shadowing.enabled=false")
+    settings = ("--set", "body.start.rate=0,0,1 deg/s")
     first = flown(heliotorque, ssp, RATE, "--stop", "10", *settings)
     assert first["body.attitude.rate[3]"][0] == np.radians(1.0)
     dated = flown(

@@ -56,8 +56,9 @@ const LOOP: Source = source(
 );
 const RECOIL: Source = source(
     "recoil of heat",
-    "paper 004 eqs 42 to 50; an insulated face gives off what it takes in (eq 43) and is at 0 K where nothing reaches it, \
-     two faces of a thin structure share their heat (eqs 44 to 49, with the power 1/4 in eq 48)",
+    "paper 004 eqs 42 to 50; an insulated face gives off what it takes in (eq 43) and has the temperature of space, \
+     thermal.background_k, where nothing reaches it; a face with bus_conductance_w_m2_k exchanges g (T - T_bus) with a bus of \
+     given temperature and radiates the rest; what it takes in from space is subtracted in the recoil. Two faces of a thin structure share their heat (eqs 44 to 49, with the power 1/4 in eq 48)",
 );
 const SHADOWS: Source = source(
     "shadows of surfaces on one another",

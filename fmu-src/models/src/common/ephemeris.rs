@@ -34,14 +34,14 @@ pub fn check_start(epoch_s: f64) -> Result<(), Failure> {
     )))
 }
 
-/// The planet on the ellipse of `ephemeris.source` kepler.
+/// The planet on the ellipse of `ephemeris.source` kepler; `described` is the body of the start values.
 pub fn kepler(
     ellipse: &EllipseVariables,
     values: &Values,
-    body: Body,
+    [described, body]: [Body; 2],
     epoch_s: f64,
 ) -> Result<KeplerPlanet, Failure> {
-    KeplerPlanet::new(ellipse.read(values, body), epoch_s)
+    KeplerPlanet::new(ellipse.read(values, described, body), epoch_s)
         .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
 }
 

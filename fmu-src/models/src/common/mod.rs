@@ -1,6 +1,8 @@
 //! What several models have in common: choices, groups of variables, what they read from a spacecraft.
 
+pub mod center;
 pub mod choices;
+pub mod effects;
 pub mod ephemeris;
 pub mod loads;
 pub mod management;

@@ -1,6 +1,6 @@
 //! Start values of a setup file, from the file's own words to the exporter's.
 
-use fmi_export::{SetupValue, StartValue};
+use fmi_export::{Enumeration, SetupValue, StartValue};
 use physics::spacecraft::{StartEntry, StartValue as FileValue};
 
 /// The entries of a file's `[start]` as start values of variables.
@@ -23,4 +23,22 @@ fn given(value: &FileValue) -> SetupValue {
         FileValue::Text(text) => SetupValue::Text(text.clone()),
         FileValue::List(items) => SetupValue::List(items.iter().map(given).collect()),
     }
+}
+
+/// The entry that counts for a variable of `model`: one for this model alone goes before one for all.
+pub fn entry_of<'a>(entries: &'a [StartEntry], model: &str, name: &str) -> Option<&'a StartEntry> {
+    let of = |asked: Option<&str>| {
+        entries.iter().rfind(|entry| entry.name == name && entry.model.as_deref() == asked)
+    };
+    of(Some(model)).or_else(|| of(None))
+}
+
+/// The item that a start value names or numbers.
+pub fn item<E: Enumeration>(value: &FileValue) -> Option<E> {
+    let number = match value {
+        FileValue::Integer(number) => i32::try_from(*number).ok()?,
+        FileValue::Text(name) => E::TYPE.items.iter().find(|item| item.name == name.as_str())?.value,
+        _ => return None,
+    };
+    E::from_value(number)
 }

@@ -2,33 +2,34 @@
 
 use fmi_export::{Boolean, Choice, Failure, Integer, Knowns, Real, Values, Variables, knowns};
 use physics::bodies::Body;
-use physics::bodies::surface::{self, MERCURY, PlanetSurface};
+use physics::bodies::surface::{self, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements;
-use physics::environment::paper004::MERCURY_AS_PRINTED;
-use physics::environment::sun::SOLAR_FLUX_PAPER_000_W_M2;
+use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 
+use super::center;
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
 
-/// What a planet's surface does with sunlight; the defaults are Mercury's as they fit paper 004, which prints none.
+/// What a planet's surface does with sunlight; Mercury's fits paper 004, which prints none.
 #[derive(Variables)]
+#[variables(setup = Body)]
 pub struct SurfaceVariables {
-    /// Fraction of sunlight the planet absorbs; 0.88 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.absorptivity)]
+    /// Fraction of sunlight the planet absorbs; Mercury's 0.88 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = center::surface(*setup).absorptivity)]
     pub absorptivity: Real,
-    /// Fraction of sunlight the planet reflects diffusely; 0.12 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.diffuse_reflectivity)]
+    /// Fraction of sunlight the planet reflects diffusely; Mercury's 0.12 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = center::surface(*setup).diffuse_reflectivity)]
     pub diffuse_reflectivity: Real,
-    /// Infrared emissivity of the planet; 0.9 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = MERCURY.emissivity)]
+    /// Infrared emissivity of the planet; Mercury's 0.9 fits paper 004, which does not print it.
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = center::surface(*setup).emissivity)]
     pub emissivity: Real,
-    /// Temperature of the planet's night side; 100 K fits paper 004, which does not print it.
-    #[parameter(unit = "K", min = 0.0, max = 1e4, start = MERCURY.night_temperature_k)]
+    /// Temperature of the planet's night side; Mercury's 100 K fits paper 004, which does not print it.
+    #[parameter(unit = "K", min = 0.0, max = 1e4, start = center::surface(*setup).night_temperature_k)]
     pub night_temperature: Real,
     /// How the temperature of the planet's day side is distributed.
-    #[parameter(start = DayTemperature(surface::DayTemperature::Uniform))]
+    #[parameter(start = DayTemperature(center::surface(*setup).day_temperature))]
     pub day_temperature: Choice<DayTemperature>,
 }
 
@@ -48,12 +49,20 @@ impl SurfaceVariables {
     }
 }
 
+/// Flux of sunlight.
+#[derive(Variables)]
+pub struct SolarFluxVariables {
+    /// Solar flux at 1 AU; 1361 W/m2 is the nominal irradiance (IAU 2015 Resolution B3), 1353 reproduces paper 000's
+    /// pressure, 1365 fits paper 004 (well-known simulators use 1349 to 1368).
+    #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_W_M2)]
+    pub flux: Real,
+}
+
 /// Sunlight.
 #[derive(Variables)]
 pub struct SolarVariables {
-    /// Solar flux at 1 AU; 1353 W/m2 reproduces paper 000's pressure (well-known simulators use 1349 to 1368).
-    #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_PAPER_000_W_M2)]
-    pub flux: Real,
+    #[group(name = "")]
+    pub at_1_au: SolarFluxVariables,
     /// Whether the pressure is solar.pressure everywhere instead of following the distance from the Sun.
     #[parameter(start = false)]
     pub fixed_pressure: Boolean,
@@ -68,13 +77,13 @@ impl SolarVariables {
         if values.boolean(self.fixed_pressure) {
             SunLight::Fixed { pressure_pa: values.real(self.pressure) }
         } else {
-            SunLight::Distance { flux_w_m2: values.real(self.flux) }
+            SunLight::Distance { flux_w_m2: values.real(self.at_1_au.flux) }
         }
     }
 
     /// All of them.
     pub fn knowns(&self) -> Knowns {
-        knowns![self.flux, self.fixed_pressure, self.pressure]
+        knowns![self.at_1_au.flux, self.fixed_pressure, self.pressure]
     }
 }
 
@@ -138,25 +147,26 @@ pub struct GuidedVariables {
 
 /// The planet's ellipse about the Sun when `ephemeris.source` is kepler.
 #[derive(Variables)]
+#[variables(setup = Body)]
 pub struct EllipseVariables {
     /// Semi-major axis of the planet's orbit about the Sun when source is kepler; elements are in the ecliptic and
-    /// equinox of J2000, paper 004's Table 4 (whose axis is printed a digit short).
-    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = MERCURY_AS_PRINTED.semi_major_axis_m)]
+    /// equinox of J2000, of Mercury those of paper 004's Table 4 (whose axis is printed a digit short).
+    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = center::ellipse(*setup).semi_major_axis_m)]
     pub semi_major_axis: Real,
     /// Its eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = MERCURY_AS_PRINTED.eccentricity)]
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = center::ellipse(*setup).eccentricity)]
     pub eccentricity: Real,
     /// Its inclination.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = MERCURY_AS_PRINTED.inclination_rad)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = center::ellipse(*setup).inclination_rad)]
     pub inclination: Real,
     /// Longitude of its ascending node.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY_AS_PRINTED.ascending_node_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::ellipse(*setup).ascending_node_rad)]
     pub ascending_node: Real,
     /// Its argument of perihelion; paper 004 uses Mercury's longitude of perihelion, 77.46 deg, in its place.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY_AS_PRINTED.periapsis_argument_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::ellipse(*setup).periapsis_argument_rad)]
     pub periapsis_argument: Real,
     /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY_AS_PRINTED.true_anomaly_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::ellipse(*setup).true_anomaly_rad)]
     pub true_anomaly: Real,
 }
 
@@ -174,10 +184,10 @@ impl EllipseVariables {
     }
 }
 
-/// The value of a parameter about a body, or the body's own where it was left at `default`, which is Mercury's.
-pub fn followed(values: &Values, body: Body, parameter: Real, default: f64, own: f64) -> f64 {
+/// The value of a parameter, or the body's `own` where it was left at `default`, the start value of the description.
+pub fn followed(values: &Values, parameter: Real, default: f64, own: f64) -> f64 {
     let value = values.real(parameter);
-    if body != Body::Mercury && value == default { own } else { value }
+    if value == default { own } else { value }
 }
 
 impl GuidedVariables {
@@ -227,28 +237,17 @@ impl GuidedVariables {
 }
 
 impl EllipseVariables {
-    /// Elements of a body's own ellipse about the Sun, in the ecliptic of J2000.
-    pub fn read(&self, values: &Values, body: Body) -> Elements {
-        let (default, own) = (MERCURY_AS_PRINTED, Elements::mean_orbit_of(body.data()));
-        let followed = |parameter, default, own| followed(values, body, parameter, default, own);
+    /// Elements of a body's own ellipse about the Sun, in the ecliptic of J2000; `described` is the body of the start values.
+    pub fn read(&self, values: &Values, described: Body, body: Body) -> Elements {
+        let (default, own) = (center::ellipse(described), center::ellipse(body));
+        let followed =
+            |parameter, of: fn(&Elements) -> f64| followed(values, parameter, of(&default), of(&own));
         Elements {
-            semi_major_axis_m: followed(
-                self.semi_major_axis,
-                default.semi_major_axis_m,
-                own.semi_major_axis_m,
-            ),
-            eccentricity: followed(self.eccentricity, default.eccentricity, own.eccentricity),
-            inclination_rad: followed(self.inclination, default.inclination_rad, own.inclination_rad),
-            ascending_node_rad: followed(
-                self.ascending_node,
-                default.ascending_node_rad,
-                own.ascending_node_rad,
-            ),
-            periapsis_argument_rad: followed(
-                self.periapsis_argument,
-                default.periapsis_argument_rad,
-                own.periapsis_argument_rad,
-            ),
+            semi_major_axis_m: followed(self.semi_major_axis, |it| it.semi_major_axis_m),
+            eccentricity: followed(self.eccentricity, |it| it.eccentricity),
+            inclination_rad: followed(self.inclination, |it| it.inclination_rad),
+            ascending_node_rad: followed(self.ascending_node, |it| it.ascending_node_rad),
+            periapsis_argument_rad: followed(self.periapsis_argument, |it| it.periapsis_argument_rad),
             true_anomaly_rad: values.real(self.true_anomaly),
         }
     }

@@ -25,8 +25,15 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
     let shadows = &knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(can_shadow(spacecraft));
     let eclipse = &knowns![planet.present, planet.radius, v.eclipse.method];
     let by_sun = &knowns![v.solar.flux, eclipse, shadows];
-    let over_planet =
-        &knowns![v.solar.flux, planet.present, planet.radius, light.method, light.belts, light.nodes];
+    let over_planet = &knowns![
+        v.solar.flux,
+        planet.present,
+        planet.radius,
+        light.rings.enabled,
+        light.method,
+        light.belts,
+        light.rings.nodes,
+    ];
     let surface = &planet.surface;
     let reflecting = &knowns![over_planet, surface.diffuse_reflectivity];
     let radiating = &knowns![
@@ -36,7 +43,7 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
         surface.night_temperature,
         surface.day_temperature,
     ];
-    let all = &knowns![by_sun, reflecting, radiating];
+    let recoil = &knowns![by_sun, reflecting, radiating, v.thermal.enabled];
 
     let mut table = Dependencies::new();
     table.output(v.sun.lit_fraction, places, knowns![places, eclipse]);
@@ -45,13 +52,13 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
         let panels = panels.map(|(_, panel)| panel.angle).collect::<Knowns>();
         let inputs = &knowns![places, planet.pole, panels];
         let shape = knowns![v.sunshade.shape].only_if(shape_recoils_along(spacecraft, axis));
-        table.output(force.by_source.thermal.element(axis), inputs, knowns![inputs, all, shape]);
+        table.output(force.by_source.thermal.element(axis), inputs, knowns![inputs, recoil, shape]);
     }
     let forces = [
         (force.by_source.solar, sunlit, by_sun),
         (force.by_source.albedo, planet_lit, reflecting),
         (force.by_source.infrared, planet_lit, radiating),
-        (force.total, planet_lit, all),
+        (force.total, planet_lit, recoil),
     ];
     for (force, inputs, parameters) in forces {
         table.output(force, inputs, knowns![inputs, parameters, shade]);
@@ -60,8 +67,8 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
         (torque.by_source.solar, sunlit, by_sun),
         (torque.by_source.albedo, planet_lit, reflecting),
         (torque.by_source.infrared, planet_lit, radiating),
-        (torque.by_source.thermal, planet_lit, all),
-        (torque.total, planet_lit, all),
+        (torque.by_source.thermal, planet_lit, recoil),
+        (torque.total, planet_lit, recoil),
     ];
     for (torque, inputs, parameters) in torques {
         for axis in 0..3 {
@@ -71,7 +78,8 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
     }
     for axis in 0..3 {
         let inertia = inertia_about_others(v.spacecraft.inertia, axis);
-        let gradient = &knowns![planet.present, planet.gravitational_parameter, inertia];
+        let by_planet = knowns![v.gravity_gradient.enabled, planet.gravitational_parameter];
+        let gradient = &knowns![planet.present, by_planet, inertia];
         let at_start = knowns![places, gradient];
         table.output(torque.by_source.gravity_gradient.element(axis), places, at_start);
         table.output(torque.total.element(axis), knowns![], gradient);
@@ -81,9 +89,8 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
         let inputs = &knowns![places, planet.pole, panels.collect::<Knowns>()];
         let shadows = knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(face.shadowed);
         let parameters = &knowns![v.solar.flux, eclipse, reflecting, radiating, shadows, shade];
-        for output in [knowns![plate.temperature], knowns![plate.force]] {
-            table.output(output, inputs, knowns![inputs, parameters]);
-        }
+        table.output(plate.temperature, inputs, knowns![inputs, parameters]);
+        table.output(plate.force, inputs, knowns![inputs, parameters, v.thermal.enabled]);
     }
     table
 }

@@ -6,13 +6,15 @@ use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::Shadow;
 use physics::numerics::scalar::{Dual64, Scalar};
 use physics::radiation::disturbance::{
-    BySource, DisturbanceModel, Options, Parameters, PlanetLightMethod, PositionError, Positions, Workspace,
+    ActiveEffects, BySource, DisturbanceModel, Options, Parameters, PlanetLightMethod, PositionError,
+    Positions, Workspace,
 };
 use physics::radiation::grid::CellLayout;
-use physics::spacecraft::Spacecraft;
+use physics::spacecraft::{Spacecraft, SunshadeModel};
 
 use super::setup::Plan;
 use super::variables::{DisturbanceVariables, PlanetLightVariables, PlanetMethod};
+use crate::common::effects::unused_map;
 use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// What parameters and spacecraft amount to.
@@ -22,6 +24,7 @@ pub struct Prepared {
     /// Absent without a planet.
     shadow: Option<Shadow>,
     pub parameters: Parameters<f64>,
+    effects: ActiveEffects,
 }
 
 /// The vectors among the inputs, in the order of [`Positions`].
@@ -130,8 +133,25 @@ fn method(
                 )
             })?)
         }
-        Some(PlanetMethod::Rings) | None => PlanetLightMethod::Rings(count(light.nodes)),
+        Some(PlanetMethod::Rings) | None => PlanetLightMethod::Rings(count(light.rings.nodes)),
     })
+}
+
+/// Warns of what is set, or stands in the file, and is without effect.
+///
+/// # Errors
+/// A setting that cannot have any.
+pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
+    let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
+    let shape = values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    let shadows = variables.shadowing.check(values, spacecraft, shape)?;
+    let light = &variables.planet_light;
+    let maps = values.boolean(light.rings.enabled) && values.choice(light.method) == Some(PlanetMethod::Map);
+    let map = unused_map(spacecraft).filter(|_| !maps);
+    for warning in [shadows, map].into_iter().flatten() {
+        context.log.warning(&warning);
+    }
+    Ok(())
 }
 
 impl Prepared {
@@ -144,6 +164,11 @@ impl Prepared {
         let spacecraft = &context.setup.spacecraft;
         let planet = &variables.planet;
         let present = values.boolean(planet.present);
+        let effects = ActiveEffects {
+            planet_light: values.boolean(variables.planet_light.rings.enabled),
+            recoil: values.boolean(variables.thermal.enabled),
+            gravity_gradient: values.boolean(variables.gravity_gradient.enabled),
+        };
         let surface = planet.surface.read(values, planet.radius);
         let sunshade_model = values.choice(variables.sunshade.shape).map(|it| it.0);
         let options = Options {
@@ -165,6 +190,7 @@ impl Prepared {
                 inertia_body_kg_m2,
                 planet: surface,
             },
+            effects,
         })
     }
 
@@ -188,7 +214,8 @@ impl Prepared {
         positions: &Positions<T>,
         workspace: &mut Workspace<T>,
     ) -> Result<BySource<T>, Failure> {
-        BySource::at(&self.model, self.shadow.as_ref(), parameters, positions, workspace).map_err(|error| {
+        let model = (&self.model, self.effects);
+        BySource::at(model, self.shadow.as_ref(), parameters, positions, workspace).map_err(|error| {
             let inputs = match &error {
                 PositionError::Eclipse(_) => "sun.positionBody, planet.positionBody, planet.radius",
                 PositionError::Geometry(_) => "sun.positionBody, planet.positionBody, planet.pole",

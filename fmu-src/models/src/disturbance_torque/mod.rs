@@ -80,6 +80,7 @@ impl Model for DisturbanceTorque {
         values: &mut Values,
         _start_time_s: f64,
     ) -> Result<DisturbanceState, Failure> {
+        inputs::check_effects(context, values)?;
         let prepared = Arc::new(Prepared::new(context, values)?);
         let mut state = DisturbanceState {
             positions: inputs::positions(context.variables, |handle| values.real(handle)),

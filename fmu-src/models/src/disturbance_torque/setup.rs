@@ -1,8 +1,13 @@
 //! The model and its immutable setup: the spacecraft.
 
-use fmi_export::{Context, SetupError};
+use fmi_export::{Context, Model, SetupError};
+use physics::bodies::Body;
+use physics::constants::ASTRONOMICAL_UNIT_M;
 use physics::spacecraft::Spacecraft;
 use serde::Serialize;
+
+use crate::common::center::center_of;
+use crate::common::effects::check_start;
 
 /// The memoryless disturbance model.
 pub struct DisturbanceTorque;
@@ -15,6 +20,9 @@ pub type Plan<'a> = Context<'a, DisturbanceTorque>;
 pub struct DisturbanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
+    /// What it flies about by its file, and the defaults of the parameters go by.
+    #[serde(skip)]
+    pub center: Body,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
     pub reported_faces: Vec<crate::common::spacecraft::ReportedFace>,
@@ -24,7 +32,23 @@ impl DisturbanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
+        check_start(file, &spacecraft, DisturbanceTorque::NAME)?;
         let reported_faces = crate::common::spacecraft::reported_faces(file, &spacecraft)?;
-        Ok(Self { spacecraft, reported_faces })
+        Ok(Self { center: center_of(&spacecraft), spacecraft, reported_faces })
+    }
+
+    /// Where the Sun stands by default: at the planet's mean distance from it.
+    pub fn sun_distance_m(&self) -> f64 {
+        match self.center {
+            Body::Mercury => 5.791e10,
+            Body::Sun => ASTRONOMICAL_UNIT_M,
+            planet => planet.data().orbit_semi_major_axis_m,
+        }
+    }
+
+    /// Where the planet stands by default: four radii away.
+    pub fn planet_position_m(&self) -> [f64; 3] {
+        let radii = self.center.data().radius_m / Body::Mercury.data().radius_m;
+        [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
     }
 }

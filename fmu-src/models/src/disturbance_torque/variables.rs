@@ -1,14 +1,12 @@
 //! The model's variables at its public face.
 
 use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Variables};
-use physics::bodies::surface::MERCURY;
-use physics::constants;
-use physics::environment::sun;
 
 use super::setup::DisturbanceSetup;
 use crate::common::choices::SunshadeShape;
+use crate::common::effects::{self, GravityGradientVariables, RecoilVariables, ShadowingVariables};
 use crate::common::loads::{ForceBySource, PlateVariables, TorqueBySource};
-use crate::common::variables::{EclipseVariables, SurfaceVariables};
+use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVariables};
 
 /// Every variable, in the order of the XML.
 #[derive(Variables)]
@@ -21,13 +19,17 @@ pub struct DisturbanceVariables {
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
     #[group]
-    pub solar: SolarVariables,
+    pub solar: SolarFluxVariables,
     #[group]
     pub eclipse: EclipseVariables,
     #[group]
     pub planet_light: PlanetLightVariables,
     #[group]
+    pub thermal: RecoilVariables,
+    #[group]
     pub shadowing: ShadowingVariables,
+    #[group]
+    pub gravity_gradient: GravityGradientVariables,
     #[group]
     pub spacecraft: SpacecraftVariables,
     #[group]
@@ -45,7 +47,7 @@ pub struct DisturbanceVariables {
 #[variables(setup = DisturbanceSetup)]
 pub struct SunVariables {
     /// From the spacecraft to the Sun, body frame.
-    #[input(unit = "m", display = "AU", start = [0.0, -5.791e10, 0.0])]
+    #[input(unit = "m", display = "AU", start = [0.0, -setup.sun_distance_m(), 0.0])]
     pub position_body: RealVector<3>,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", nominal = 1.0)]
@@ -57,21 +59,22 @@ pub struct SunVariables {
 #[variables(setup = DisturbanceSetup)]
 pub struct PlanetVariables {
     /// From the spacecraft to the planet's centre, body frame.
-    #[input(unit = "m", display = "km", start = [2e6, 3e6, 9e6])]
+    #[input(unit = "m", display = "km", start = setup.planet_position_m())]
     pub position_body: RealVector<3>,
-    /// Whether there is a planet; without one its position does not count.
-    #[parameter(start = true)]
+    /// Whether there is a planet; without one its position does not count. By default there is unless the file's orbit.center is
+    /// the Sun; the defaults of planet.* are those of that body.
+    #[parameter(start = setup.center.is_planet())]
     pub present: Boolean,
-    /// Radius; the default is Mercury's. A spacecraft below it is refused.
-    #[parameter(unit = "m", display = "km", min = 1.0, start = MERCURY.radius_m)]
+    /// Radius of the planet; a spacecraft below it is refused.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data().radius_m)]
     pub radius: Real,
-    /// Gravitational parameter, for the gravity gradient; the default is Mercury's.
-    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, start = constants::GM_MERCURY_M3_S2)]
+    /// Gravitational parameter of the planet: by it its gravity gradient.
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data().gm_m3_s2)]
     pub gravitational_parameter: Real,
     /// North of the planet's cells in the body frame, of any length; -Z as paper 004 flies. Without effect on rings.
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]
     pub pole: RealVector<3>,
-    #[group(name = "")]
+    #[group(name = "", setup = &setup.center)]
     pub surface: SurfaceVariables,
 }
 
@@ -82,15 +85,6 @@ pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
-}
-
-/// Sunlight.
-#[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
-pub struct SolarVariables {
-    /// Solar flux at 1 AU; 1365 W/m2 fits paper 004 (well-known simulators use 1349 to 1368).
-    #[parameter(unit = "W/m2", min = 0.0, start = sun::SOLAR_FLUX_PAPER_004_W_M2)]
-    pub flux: Real,
 }
 
 /// How planet light is summed.
@@ -108,6 +102,8 @@ pub enum PlanetMethod {
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct PlanetLightVariables {
+    #[group(name = "")]
+    pub rings: effects::PlanetLightVariables,
     /// How light of the planet is summed over what the spacecraft sees of it.
     #[parameter(start = PlanetMethod::Rings)]
     pub method: Choice<PlanetMethod>,
@@ -115,33 +111,17 @@ pub struct PlanetLightVariables {
     /// right on the terminator. Time goes with the square.
     #[parameter(min = 1, max = 2000, start = 45)]
     pub belts: Integer,
-    /// Quadrature nodes for planet light on rings: 6 for 1e-4 of the force, 16 for 1e-5.
-    #[parameter(min = 1, max = 64, start = 6)]
-    pub nodes: Integer,
-}
-
-/// Shadows of the spacecraft's surfaces on one another.
-#[derive(Variables)]
-#[variables(setup = DisturbanceSetup)]
-pub struct ShadowingVariables {
-    /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.
-    #[parameter(start = true)]
-    pub enabled: Boolean,
-    /// Whether the Sun's disc softens those shadows: lit areas are means over seven directions to it, which takes as much
-    /// longer. Otherwise the Sun is a point.
-    #[parameter(start = false)]
-    pub sun_disc: Boolean,
 }
 
 /// Mass properties.
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct SpacecraftVariables {
-    /// Centre of mass in the body frame.
-    #[input(unit = "m", display = "cm", start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
+    /// Centre of mass in the body frame, as the panels stand.
+    #[input(unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
     pub center_of_mass: RealVector<3>,
-    /// Inertia about the centre of mass, body frame, for the gravity gradient.
-    #[parameter(unit = "kg.m2", start = setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into())]
+    /// Inertia about the centre of mass, body frame.
+    #[parameter(unit = "kg.m2", min = -1e15, max = 1e15, start = setup.spacecraft.mass_properties.inertia_body_kg_m2.transpose().into())]
     pub inertia: RealMatrix<3, 3>,
 }
 

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use fmi_export::{Context, SetupError};
+use fmi_export::{Context, Model, SetupError};
 use nalgebra::Vector3;
+use physics::bodies::Body;
 use physics::environment::flown::FlownEphemeris;
 use physics::guidance::nominal_thrust::NominalThrust;
 use physics::guidance::timeline::Timeline;
@@ -11,6 +12,7 @@ use physics::momentum::WheelArray;
 use physics::spacecraft::{Spacecraft, SunKeepIn, ThrusterSet};
 use serde::Serialize;
 
+use crate::common::center::target_of;
 use crate::common::spacecraft::{PreparedShapes, dump_threshold_n_m_s};
 
 /// Guidance.
@@ -24,6 +26,9 @@ pub type Plan<'a> = Context<'a, Guidance>;
 pub struct GuidanceSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
+    /// The planet that is observed by the file, and the defaults of the parameters go by.
+    #[serde(skip)]
+    pub target: Body,
     /// Prepared for sunlight.
     #[serde(skip)]
     pub shapes: PreparedShapes,
@@ -39,7 +44,13 @@ impl GuidanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
-        Ok(Self { shapes: PreparedShapes::of(&spacecraft), spacecraft, ephemeris: None, timeline: None })
+        Ok(Self {
+            target: target_of(&spacecraft, Guidance::NAME),
+            shapes: PreparedShapes::of(&spacecraft),
+            spacecraft,
+            ephemeris: None,
+            timeline: None,
+        })
     }
 
     /// The dump threshold, as MomentumPlant has it.

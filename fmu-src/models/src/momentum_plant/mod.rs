@@ -82,6 +82,7 @@ impl Model for MomentumPlant {
     }
 
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<PlantState, Failure> {
+        inputs::check_effects(context, values)?;
         let mut state = PlantState::new(context, values, start_s)?;
         if state.waiting {
             wait(context, values, &mut state, start_s)?;

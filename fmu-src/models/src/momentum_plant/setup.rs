@@ -2,18 +2,22 @@
 
 use std::sync::Arc;
 
-use fmi_export::{Context, Enumeration, Failure, Model, SetupError};
+use fmi_export::{Context, Failure, Model, SetupError};
 use nalgebra::Vector3;
+use physics::bodies::Body;
 use physics::environment::flown::FlownEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PreparedSpacecraft};
 use physics::radiation::TorquePolynomial;
-use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
+use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
 use super::variables::choices::AttitudeSource;
+use crate::common::center::center_of;
+use crate::common::effects::check_start;
 use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
+use crate::common::start_values::{entry_of, item};
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -26,6 +30,9 @@ pub type Plan<'a> = Context<'a, MomentumPlant>;
 pub struct PlantSetup {
     /// As read from the file.
     pub spacecraft: Spacecraft,
+    /// What it flies about by its file, and the defaults of the parameters go by.
+    #[serde(skip)]
+    pub center: Body,
     /// Prepared for sunlight.
     #[serde(skip)]
     shapes: PreparedShapes,
@@ -50,9 +57,11 @@ impl PlantSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
+        check_start(file, &spacecraft, MomentumPlant::NAME)?;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let wheel_array = WheelArray::new(&axes);
         Ok(Self {
+            center: center_of(&spacecraft),
             control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
             shapes: PreparedShapes::of(&spacecraft),
@@ -65,20 +74,9 @@ impl PlantSetup {
 
     /// Whether the file asks for controlled or free flight.
     pub fn starts_with_dynamics(&self) -> bool {
-        let dynamic = [AttitudeSource::Controlled, AttitudeSource::Free];
-        let items = AttitudeSource::TYPE.items.iter();
-        let asks = |value: &StartValue| match value {
-            StartValue::Integer(number) => dynamic.iter().any(|it| i64::from(it.value()) == *number),
-            StartValue::Text(name) => {
-                let known = items.clone().find(|item| item.name == name.as_str());
-                known.is_some_and(|item| dynamic.iter().any(|it| it.value() == item.value))
-            }
-            _ => false,
-        };
-        let own = |model: &Option<String>| model.as_deref().is_none_or(|it| it == MomentumPlant::NAME);
-        let mut entries = self.spacecraft.start.iter().filter(|entry| own(&entry.model));
-        let source = entries.rfind(|entry| entry.name == "attitude.source");
-        source.is_some_and(|entry| asks(&entry.value))
+        let source = entry_of(&self.spacecraft.start, MomentumPlant::NAME, "attitude.source");
+        let source = source.and_then(|entry| item(&entry.value));
+        matches!(source, Some(AttitudeSource::Controlled | AttitudeSource::Free))
     }
 
     /// What flies, with its shade modelled as asked for.

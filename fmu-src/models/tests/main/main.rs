@@ -1,6 +1,7 @@
 //! The models through the functions a master calls.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod center_defaults;
 mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;
@@ -22,3 +23,5 @@ mod plant_unset;
 mod plant_work;
 mod spin_plant;
 mod start_values;
+mod vocabulary;
+mod without_effect;

@@ -3,8 +3,8 @@
 use fmi_export::model::Log;
 use std::cell::RefCell;
 
-use fmi_export::fmi2::{references, scalar_variables};
-use fmi_export::model_description::{Causality, Variability, VariableKind};
+use fmi_export::fmi2::{description_of, references, scalar_variables};
+use fmi_export::model_description::{Causality, Description, Variability, VariableKind};
 use fmi_export::{BaseType, Context, Declare, Failure, InputsOverTime, Model, Step, Values, Variables};
 use physics::numerics::intervals::next_multiple_s;
 
@@ -101,7 +101,8 @@ impl<M: Model> NamedModel<M> {
             }
         });
         let names = names.collect();
-        Self { names, setup, handles, start: interface.start, warnings: Warnings::default() }
+        let start = with_file_starts(&interface.start, &description_of::<M>(file, text).unwrap());
+        Self { names, setup, handles, start, warnings: Warnings::default() }
     }
 
     /// The same with a file beside the setup.
@@ -164,6 +165,26 @@ impl<M: Model> NamedModel<M> {
         }
         *values = tables.back();
     }
+}
+
+/// Start values with those of the setup's file.
+pub fn with_file_starts(start: &Values, description: &Description) -> Values {
+    let mut tables = Tables::of(start);
+    for variable in &description.variables {
+        let slot = |base| (variable.value_reference - references::first(base)) as usize;
+        match &variable.kind {
+            VariableKind::Real { start: Some(start), .. } => tables.reals[slot(BaseType::Real)] = *start,
+            VariableKind::Integer { start: Some(start), .. }
+            | VariableKind::Enumeration { start: Some(start), .. } => {
+                tables.integers[slot(BaseType::Integer)] = *start;
+            }
+            VariableKind::Boolean { start: Some(start), .. } => {
+                tables.booleans[slot(BaseType::Boolean)] = *start
+            }
+            _ => {}
+        }
+    }
+    tables.back()
 }
 
 /// The value tables, reached through their serialised form: no author of a model can write them by reference.

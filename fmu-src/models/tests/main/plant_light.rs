@@ -150,7 +150,7 @@ pub fn memoryless<'a>(
         (1..=2).map(|k| (format!("panel[{k}].angle"), plant.real(&format!("panel[{k}].angleActual")))),
     );
     let all: Vec<(&str, f64)> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    named.fly(0.0, &all).unwrap()
+    named.fly(0.0, &[EFFECTS, &all].concat()).unwrap()
 }
 
 #[test]

@@ -150,7 +150,7 @@ fn sun_and_planet_in_the_body_frame_are_the_inputs_of_the_memoryless_model() {
     let memoryless = NamedModel::<DisturbanceTorque>::with("messenger.toml", text);
     for time_s in [100.0, 9_000.0, 20_000.0] {
         flight.step_to(time_s).unwrap();
-        let mut inputs = vec![("shadowing.enabled".to_owned(), 0.0), ("solar.flux".to_owned(), 1365.0)];
+        let mut inputs = vec![("planetLight.enabled".to_owned(), 1.0), ("solar.flux".to_owned(), 1365.0)];
         for name in ["sun.positionBody", "planet.positionBody"] {
             let at = flight.vector(name);
             inputs.extend((0..3).map(|i| (format!("{name}[{}]", i + 1), at[i])));

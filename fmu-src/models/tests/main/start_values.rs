@@ -13,7 +13,8 @@ static LIBRARY: Library = Library {
 
 /// The shipped file of a model with lines added at its end.
 fn text<M: Model>(lines: &str) -> String {
-    format!("{}\n{lines}", M::DEFAULT_SETUP)
+    let shipped = M::DEFAULT_SETUP.split("\n[start]").next().unwrap();
+    format!("{shipped}\n{lines}")
 }
 
 fn described<M: Model>(lines: &str) -> Result<Description, String> {

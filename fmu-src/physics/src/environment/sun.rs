@@ -11,8 +11,8 @@ pub const SOLAR_FLUX_PAPER_000_W_M2: f64 = 1353.0;
 pub const SOLAR_FLUX_PAPER_003_W_M2: f64 = 1358.0;
 /// Flux at 1 AU that fits the numbers of paper 004, W/m2 (unpublished there).
 pub const SOLAR_FLUX_PAPER_004_W_M2: f64 = 1365.0;
-/// Total solar irradiance at 1 AU at solar minimum, W/m2 (Kopp and Lean 2011).
-pub const SOLAR_FLUX_KOPP_LEAN_W_M2: f64 = 1360.8;
+/// Nominal total solar irradiance at 1 AU, W/m2 (IAU 2015 Resolution B3).
+pub const SOLAR_FLUX_W_M2: f64 = 1361.0;
 
 /// Sunlight that cannot be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

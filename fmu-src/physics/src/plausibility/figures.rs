@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::hull::is_outside;
 use super::surfaces::{panel_angle_rad, sun_body, surfaces};
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::sun::SOLAR_FLUX_KOPP_LEAN_W_M2;
+use crate::environment::sun::SOLAR_FLUX_W_M2;
 use crate::momentum::WheelArray;
 use crate::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoil, Workspace};
 use crate::spacecraft::{MassProperties, Optics, Spacecraft, with_panels};
@@ -79,9 +79,8 @@ impl Figures {
             greatest_body_m,
             area_toward_plus_m2: area_toward_m2[0],
             area_toward_minus_m2: area_toward_m2[1],
-            sunlit_area_m2: sunlit(&black(spacecraft)).map_or(0.0, |(force_n, _)| {
-                -force_n.dot(&sun_body()) * SPEED_OF_LIGHT_M_S / SOLAR_FLUX_KOPP_LEAN_W_M2
-            }),
+            sunlit_area_m2: sunlit(&black(spacecraft))
+                .map_or(0.0, |(force_n, _)| -force_n.dot(&sun_body()) * SPEED_OF_LIGHT_M_S / SOLAR_FLUX_W_M2),
             total_area_m2,
             mass_properties,
             center_of_mass_outside_m: is_outside(&center_m, &corners_m, tolerance_m),
@@ -104,7 +103,7 @@ fn sunlight(
     let geometry = Geometry {
         sun_direction_body: sun_body(),
         sun_sine: 0.0,
-        sun_flux_w_m2: SOLAR_FLUX_KOPP_LEAN_W_M2,
+        sun_flux_w_m2: SOLAR_FLUX_W_M2,
         lit_fraction: 1.0,
         planet: None,
         panel_angles_rad,

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::constants::SPEED_OF_LIGHT_M_S;
-use crate::environment::sun::SOLAR_FLUX_KOPP_LEAN_W_M2;
+use crate::environment::sun::SOLAR_FLUX_W_M2;
 use crate::momentum::WheelArray;
 use crate::spacecraft::Spacecraft;
 
@@ -62,7 +62,7 @@ fn a_solid_box_has_the_figures_of_the_textbook() {
     assert_eq!(figures.center_of_mass_outside_m, None);
     assert_eq!(figures.wheels_hold_n_m_s, None);
     // Twice the pressure along +Y on 3 m2, at the arm of the -Y face's centre from the centre of mass.
-    let force_n = Vector3::y() * (2.0 * 3.0 * SOLAR_FLUX_KOPP_LEAN_W_M2 / SPEED_OF_LIGHT_M_S);
+    let force_n = Vector3::y() * (2.0 * 3.0 * SOLAR_FLUX_W_M2 / SPEED_OF_LIGHT_M_S);
     let arm_m = Vector3::new(-0.1, -1.2, -0.3);
     assert_relative_eq!(
         figures.solar_torque_body_n_m.unwrap(),

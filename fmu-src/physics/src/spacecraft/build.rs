@@ -9,7 +9,8 @@ use super::build_propulsion::{tank, tanks_fit, thruster};
 use super::build_shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
 use super::build_swinging::{mode, slosh, swinging_fits};
 use super::build_thermal::{
-    Material, Materials, checked_area, checked_center, checked_normal, checked_outline, face_thermal, thermal,
+    Material, Materials, Surroundings, checked_area, checked_center, checked_normal, checked_outline,
+    face_thermal, thermal,
 };
 use super::checker::{Checker, rounded};
 use super::copies::{check_apart, motions, plate_copies};
@@ -70,6 +71,8 @@ pub struct Spacecraft {
     pub sun_keep_in: Option<SunKeepIn>,
     /// Whether models report temperature and force of every face.
     pub per_plate_outputs: bool,
+    /// Temperature of the space that surfaces see, in K.
+    pub background_k: f64,
     /// The planet it flies about, cell by cell.
     pub planet_map: Option<PlanetMap>,
     /// Start values of the models' variables, handed on as they were written.
@@ -107,8 +110,9 @@ impl Spacecraft {
     pub fn from_toml(file_name: &str, text: &str) -> Result<Self, SpacecraftError> {
         let document = Document::parse(file_name, text)?;
         let (description, findings) = document.read::<Description>()?;
-        let mut builder =
-            Builder { check: Checker::new(&document, findings), materials: Materials::default() };
+        let mut check = Checker::new(&document, findings);
+        let surroundings = Surroundings::of(&mut check, description.thermal.as_ref());
+        let mut builder = Builder { check, materials: Materials::new(surroundings) };
         let spacecraft = builder.spacecraft(&description);
         builder.check.finish(spacecraft)
     }
@@ -124,6 +128,18 @@ impl Spacecraft {
         let shade_plates =
             shade.flat_map(|shade| shade.plates.iter().map(|p| p.rotated(&shade.dcm_body_from_shade)));
         self.plates.iter().cloned().chain(shade_plates).collect()
+    }
+
+    /// How many surfaces have an outline, and the names of those that have none.
+    pub fn outlines(&self, sunshade_model: SunshadeModel) -> (usize, Vec<String>) {
+        let plates = self.plates_body(sunshade_model);
+        let plates = plates.iter().map(|plate| (&plate.name, plate.polygon.is_some()));
+        let panels = self.panels.iter().map(|panel| (&panel.name, panel.polygon.is_some()));
+        let (given, missing): (Vec<_>, Vec<_>) = plates.chain(panels).partition(|(_, has)| *has);
+        let mut missing: Vec<String> = missing.into_iter().map(|(name, _)| name.clone()).collect();
+        let shade = self.sunshade.as_ref().filter(|_| sunshade_model == SunshadeModel::Cylinder);
+        missing.extend(shade.map(|_| "sunshade.cylinder".to_owned()));
+        (given.len(), missing)
     }
 }
 
@@ -209,6 +225,7 @@ impl Builder<'_> {
                 }))
             }),
             per_plate_outputs: description.per_plate_outputs.unwrap_or(false),
+            background_k: self.materials.surroundings.background_k,
             planet_map: description
                 .planet_map
                 .as_ref()
@@ -422,7 +439,14 @@ impl Builder<'_> {
             normal: checked_normal(&mut self.check, at, normal, outline.as_ref()),
             optics: front.optics,
             rear_optics: rear.map(|rear| rear.optics),
-            thermal: thermal(&mut self.check, at, description.thermal.as_ref(), front, rear),
+            thermal: thermal(
+                &mut self.check,
+                self.materials.surroundings,
+                at,
+                description.thermal.as_ref(),
+                front,
+                rear,
+            ),
             polygon: outline,
         }
     }
@@ -494,7 +518,14 @@ impl Builder<'_> {
             zero_normal_body: dcm_body_from_panel * zero_normal,
             optics: front.optics,
             rear_optics: rear.map(|rear| rear.optics),
-            thermal: thermal(&mut self.check, at, description.thermal.as_ref(), front, rear),
+            thermal: thermal(
+                &mut self.check,
+                self.materials.surroundings,
+                at,
+                description.thermal.as_ref(),
+                front,
+                rear,
+            ),
             polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
             control: description.control.unwrap_or(PanelControl::SunOffset),
             sun_offset_rad: self.check.angle(

@@ -76,7 +76,7 @@ pub(super) fn box_plates(
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
         rear,
-        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
@@ -107,7 +107,7 @@ pub(super) fn cylinder_plates(
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: cylinder_facets(radius_m, height_m, facets, open),
         rear,
-        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
@@ -134,7 +134,7 @@ pub(super) fn disc_plates(
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: disc(radius_m, corners),
         rear,
-        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };
@@ -162,7 +162,7 @@ pub(super) fn dish_plates(
         shift_m: check.vector(&at.key("vertex_m"), description.vertex_m),
         facets: dish_facets(radius_m, depth_m, facets, rings),
         rear,
-        thermal: thermal(check, at, description.thermal.as_ref(), front, rear),
+        thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
         repeat: description.repeat.as_ref(),
     };

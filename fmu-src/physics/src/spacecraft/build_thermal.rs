@@ -5,14 +5,15 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use super::checker::Checker;
-use super::describe_thermal::{ConductionDescription, ThermalDescription};
+use super::describe_thermal::{ConductionDescription, SurroundingsDescription, ThermalDescription};
 use super::description::OpticsDescription;
 use super::optics::Optics;
 use super::place::Place;
 use super::polygon::Polygon;
 use super::spelling::nearest;
 use super::thermal::{
-    Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
+    BACKGROUND_K, BusLink, Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal,
+    HIGHEST_TEMPERATURE_K, Honeycomb, Thermal,
 };
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
@@ -39,24 +40,53 @@ impl Material {
     };
 }
 
-/// The file's materials by name.
-#[derive(Default)]
-pub(super) struct Materials(BTreeMap<String, Material>);
+/// What every surface exchanges heat with.
+#[derive(Clone, Copy)]
+pub(super) struct Surroundings {
+    pub background_k: f64,
+    /// Of the bus, if the file gives one for all surfaces.
+    pub bus_temperature_k: Option<f64>,
+}
+
+impl Surroundings {
+    pub fn of(check: &mut Checker<'_>, description: Option<&SurroundingsDescription>) -> Self {
+        let at = Place::root().key("thermal");
+        let mut kelvin = |key: &str, value: f64| {
+            check.within(&at.key(key), value, 0.0, HIGHEST_TEMPERATURE_K, "0 to 2000 K")
+        };
+        let given = |of: fn(&SurroundingsDescription) -> Option<f64>| description.and_then(of);
+        Self {
+            background_k: given(|it| it.background_k).map_or(BACKGROUND_K, |it| kelvin("background_k", it)),
+            bus_temperature_k: given(|it| it.bus_temperature_k).map(|it| kelvin("bus_temperature_k", it)),
+        }
+    }
+}
+
+/// The file's materials by name, and what their surfaces exchange heat with.
+pub(super) struct Materials {
+    by_name: BTreeMap<String, Material>,
+    pub surroundings: Surroundings,
+}
 
 impl Materials {
+    /// None yet.
+    pub fn new(surroundings: Surroundings) -> Self {
+        Self { by_name: BTreeMap::new(), surroundings }
+    }
+
     pub fn insert(&mut self, name: &str, material: Material) {
-        self.0.insert(name.to_owned(), material);
+        self.by_name.insert(name.to_owned(), material);
     }
 
     /// The material of this name; an unknown one is reported.
     pub fn find(&self, check: &mut Checker<'_>, at: &Place, name: &str) -> Material {
-        if let Some(material) = self.0.get(name) {
+        if let Some(material) = self.by_name.get(name) {
             return *material;
         }
         if check.is_stand_in(&Place::root().key("optics")) {
             return Material::BLACK;
         }
-        let known: Vec<&str> = self.0.keys().map(String::as_str).collect();
+        let known: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
         let hint = nearest(name, &known).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
         let allowed = format!("a material under [optics]: {}", known.join(", "));
         check.report(at, format_args!("the unknown material `{name}`{hint}"), allowed);
@@ -85,7 +115,7 @@ pub(super) fn face_thermal(
             &at.key("emissivity_temperature_k"),
             description.emissivity_temperature_k.unwrap_or(EMISSIVITY_REFERENCE_TEMPERATURE_K),
             0.0,
-            2000.0,
+            HIGHEST_TEMPERATURE_K,
             "0 to 2000 K",
         ),
     };
@@ -102,6 +132,7 @@ pub(super) fn face_thermal(
 
 pub(super) fn thermal(
     check: &mut Checker<'_>,
+    surroundings: Surroundings,
     at: &Place,
     description: Option<&ThermalDescription>,
     front: Material,
@@ -114,11 +145,13 @@ pub(super) fn thermal(
         let needs_rear = [
             ("conduction", description.conduction.is_some()),
             ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
+            ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k.is_some()),
         ];
         for (key, _) in needs_rear.into_iter().filter(|(_, given)| *given) {
             check.report(&at.key(key), "a surface without `rear_optics`", "a surface with both faces");
         }
     }
+    let bus = bus(check, surroundings, &at, description);
     let mut heat = |key: &str, value: Option<f64>| {
         let value = value.unwrap_or(0.0);
         check.not_negative(&at.key(key), value)
@@ -126,6 +159,7 @@ pub(super) fn thermal(
     Thermal {
         front: front.thermal,
         rear: rear.map(|rear| rear.thermal),
+        bus,
         internal_heat_w: [
             heat("internal_heat_w", description.internal_heat_w),
             heat("rear_internal_heat_w", description.rear_internal_heat_w),
@@ -133,6 +167,40 @@ pub(super) fn thermal(
         heat_capacity_j_m2_k: heat("heat_capacity_j_m2_k", description.heat_capacity_j_m2_k),
         conduction: description.conduction.as_ref().map(|c| conduction(check, &at.key("conduction"), c)),
     }
+}
+
+/// Heat flow from front and rear to the bus.
+fn bus(
+    check: &mut Checker<'_>,
+    surroundings: Surroundings,
+    at: &Place,
+    description: &ThermalDescription,
+) -> [BusLink; 2] {
+    let temperature = at.key("bus_temperature_k");
+    let own_k = description
+        .bus_temperature_k
+        .map(|own_k| check.within(&temperature, own_k, 0.0, HIGHEST_TEMPERATURE_K, "0 to 2000 K"));
+    let faces = [
+        ("bus_conductance_w_m2_k", description.bus_conductance_w_m2_k),
+        ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k),
+    ];
+    if own_k.is_some() && faces.iter().all(|(_, given)| given.is_none()) {
+        check.report(&temperature, "no conductance to the bus", "`bus_conductance_w_m2_k` beside it");
+    }
+    faces.map(|(key, given)| {
+        let Some(conductance_w_m2_k) = given else { return BusLink::NONE };
+        let place = at.key(key);
+        let conductance_w_m2_k = check.not_negative(&place, conductance_w_m2_k);
+        let temperature_k = own_k.or(surroundings.bus_temperature_k);
+        if temperature_k.is_none() && conductance_w_m2_k > 0.0 {
+            check.report(
+                &place,
+                "no temperature of the bus",
+                "`bus_temperature_k` beside it or under [thermal]",
+            );
+        }
+        BusLink { conductance_w_m2_k, temperature_k: temperature_k.unwrap_or(0.0) }
+    })
 }
 
 fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescription) -> Conduction {

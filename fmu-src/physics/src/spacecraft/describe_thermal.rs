@@ -38,6 +38,19 @@ pub(crate) struct HoneycombDescription {
     pub internal_emissivity: f64,
 }
 
+/// What every surface exchanges heat with.
+#[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SurroundingsDescription {
+    /// Temperature of the space that surfaces see, in K; 2.725, the cosmic microwave background's, unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 2000)))]
+    pub background_k: Option<f64>,
+    /// Temperature of the bus behind surfaces that conduct heat to it, in K; held, whatever flows.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 2000)))]
+    pub bus_temperature_k: Option<f64>,
+}
+
 /// Heat of a plate or panel.
 #[derive(Debug, Default, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -51,6 +64,15 @@ pub(crate) struct ThermalDescription {
     /// Heat from inside that leaves through the rear face, in W; 0 unless given.
     #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
     pub rear_internal_heat_w: Option<f64>,
+    /// Conductance from the front face to the bus, by the surface's area, in W/m2/K; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub bus_conductance_w_m2_k: Option<f64>,
+    /// Conductance from the rear face to the bus, by the surface's area, in W/m2/K; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
+    pub rear_bus_conductance_w_m2_k: Option<f64>,
+    /// Temperature of the bus behind this surface, in K; the one under `[thermal]` unless given.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 2000)))]
+    pub bus_temperature_k: Option<f64>,
     /// Heat capacity of each face, in J/m2/K; used by the transient heat balance; 0 unless given.
     #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
     pub heat_capacity_j_m2_k: Option<f64>,

@@ -9,7 +9,7 @@ use super::describe_shapes::{
     RepeatDescription,
 };
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
-use super::describe_thermal::ThermalDescription;
+use super::describe_thermal::{SurroundingsDescription, ThermalDescription};
 use super::panel::PanelControl;
 use super::start::StartTable;
 use super::surface::SunshadeModel;
@@ -70,6 +70,7 @@ pub(crate) struct Description {
     pub momentum: Option<MomentumDescription>,
     pub sun_keep_in: Option<SunKeepInDescription>,
     pub planet_map: Option<PlanetMapDescription>,
+    pub thermal: Option<SurroundingsDescription>,
     pub start: Option<StartTable>,
 }
 

@@ -69,7 +69,8 @@ pub use surface::{Cylinder, Plate, Sunshade, SunshadeModel};
 pub use swinging::{NamedMode, NamedSlosh};
 pub use tank::{Blowdown, Tank};
 pub use thermal::{
-    Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb, Thermal,
+    BACKGROUND_K, BusLink, Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb,
+    Thermal,
 };
 pub use thruster::{MOST_THRUSTERS, Thrust, Thruster, ThrusterSet, ValveTiming};
 pub use wheels::{PAPER_DUMP_THRESHOLDS_N_M_S, Wheel};

@@ -9,7 +9,7 @@ use crate::numerics::scalar::Scalar;
 pub const EMISSIVITY_REFERENCE_TEMPERATURE_K: f64 = 300.0;
 
 /// Up to here the power a face emits must grow with its temperature, in K.
-const HIGHEST_TEMPERATURE_K: f64 = 2000.0;
+pub(super) const HIGHEST_TEMPERATURE_K: f64 = 2000.0;
 
 /// Least emissivity at any temperature.
 const LEAST_EMISSIVITY: f64 = 1e-3;
@@ -58,6 +58,28 @@ pub struct Honeycomb {
     pub internal_emissivity: f64,
 }
 
+/// Temperature of space unless a file says otherwise, in K: the cosmic microwave background.
+pub const BACKGROUND_K: f64 = 2.725;
+
+/// Heat flow from a face to the bus behind it, whose temperature is given.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BusLink {
+    /// Conductance by area of the face, in W/m2/K; 0 where it is insulated.
+    pub conductance_w_m2_k: f64,
+    /// Temperature of the bus, in K; without a meaning where the face is insulated.
+    pub temperature_k: f64,
+}
+
+impl BusLink {
+    /// Insulation.
+    pub const NONE: Self = Self { conductance_w_m2_k: 0.0, temperature_k: 0.0 };
+
+    /// Whether heat flows.
+    pub const fn conducts(&self) -> bool {
+        self.conductance_w_m2_k > 0.0
+    }
+}
+
 /// Thermal properties of a plate or panel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Thermal {
@@ -67,6 +89,8 @@ pub struct Thermal {
     pub rear: Option<FaceThermal>,
     /// Heat flow between the faces; without it each is insulated.
     pub conduction: Option<Conduction>,
+    /// Heat flow from front and rear to the bus.
+    pub bus: [BusLink; 2],
     /// Heat from inside that leaves through front and rear, in W.
     pub internal_heat_w: [f64; 2],
     /// Heat capacity of each face, in J/m2/K; 0 where the face follows its light at once.
@@ -134,6 +158,7 @@ impl Thermal {
             front: FaceThermal::like_sunlight(front),
             rear: rear.map(FaceThermal::like_sunlight),
             conduction: None,
+            bus: [BusLink::NONE; 2],
             internal_heat_w: [0.0; 2],
             heat_capacity_j_m2_k: 0.0,
         }

@@ -1,6 +1,7 @@
 //! What holds for the physics as a whole.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod bus_and_space;
 mod module_order;
 mod planet_nodes;
 mod plant_flight;

@@ -15,7 +15,10 @@ use super::figures;
 use crate::{
     args::Check,
     outcome::Outcome,
-    pack::source::{Source, common_keys},
+    pack::{
+        source::{Source, common_keys},
+        without_effect::unused_map,
+    },
 };
 
 /// Has the models of the template's library read the file, the template's own first.
@@ -27,9 +30,14 @@ pub fn run(arguments: &Check) -> Outcome {
     let own = source.own_model().ok();
     let mut refusals = Vec::new();
     let mut taken = None;
+    let mut maps = Vec::new();
     for model in binary.models()?.into_iter().filter(|model| model.setup_file.is_some()) {
         match binary.describe(&model.model, Some(&file), Some(&text)) {
-            Ok(described) => taken = taken.or(Some(described)),
+            Ok(described) => {
+                let description = model_description::parse(described.xml.as_bytes())?.description;
+                maps.push(unused_map(&text, &described.model, &description));
+                taken = taken.or(Some(described));
+            }
             Err(reason) => refusals.push((model, reason)),
         }
     }
@@ -51,6 +59,10 @@ pub fn run(arguments: &Check) -> Outcome {
             contents(&text),
             Spacecraft::from_toml("", &text).map_or_else(|_| levers(&text), |it| figures::report(&it))
         ))?;
+        // One model that uses it is enough.
+        if let Some(warning) = maps.into_iter().reduce(Option::and).flatten() {
+            terminal::print(&format!("warning: {warning}"))?;
+        }
         return Ok(ExitCode::SUCCESS);
     }
     // The kinds of file are far apart: what the other models miss in it would hide what is wrong.

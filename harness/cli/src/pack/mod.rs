@@ -10,6 +10,7 @@ mod picture;
 mod schedule;
 pub mod source;
 pub mod start;
+pub mod without_effect;
 
 use std::{
     error::Error,
@@ -74,6 +75,9 @@ pub fn run(arguments: &Pack) -> Outcome {
     let files = [parts.spacecraft, parts.timeline, parts.ephemeris].into_iter().flatten();
     let of_mission = arguments.mission.as_deref();
     let inputs: Vec<&Path> = [source.path()].into_iter().chain(files).chain(of_mission).collect();
+    if let Some(warning) = without_effect::unused_map(&setup, &described.model, &description) {
+        terminal::note(&format!("warning: {warning}"));
+    }
     let destination = Destination::open(&path, "--output", &inputs)?;
     let is_stdout = destination.is_stdout();
     destination.fill(|file| file.write_all(&bytes))?;

@@ -55,33 +55,20 @@ impl Fixed {
     /// From the parameters.
     pub fn read(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
         let v = context.variables;
-        let body = values.choice(v.target.planet).map_or(Body::Mercury, |it| it.0);
-        let (default, own) = (TargetPlanet::of(Body::Mercury.data()), TargetPlanet::of(body.data()));
-        let follow = |parameter, default, own| followed(values, body, parameter, default, own);
-        let radius_m = |i: usize| follow(v.planet.radii.element(i), default.radii_m[i], own.radii_m[i]);
+        let described = context.setup.target;
+        let body = values.choice(v.target.planet).map_or(described, |it| it.0);
+        let (default, own) = (TargetPlanet::of(described.data()), TargetPlanet::of(body.data()));
+        let follow =
+            |parameter, of: fn(&TargetPlanet) -> f64| followed(values, parameter, of(&default), of(&own));
+        let radius_m =
+            |i: usize| followed(values, v.planet.radii.element(i), default.radii_m[i], own.radii_m[i]);
         let planet = TargetPlanet {
             radii_m: Vector3::from([0, 1, 2].map(radius_m)),
-            pole_right_ascension_rad: follow(
-                v.planet.pole_right_ascension,
-                default.pole_right_ascension_rad,
-                own.pole_right_ascension_rad,
-            ),
-            pole_declination_rad: follow(
-                v.planet.pole_declination,
-                default.pole_declination_rad,
-                own.pole_declination_rad,
-            ),
-            prime_meridian_rad: follow(
-                v.planet.prime_meridian,
-                default.prime_meridian_rad,
-                own.prime_meridian_rad,
-            ),
-            rotation_rate_rad_s: follow(
-                v.planet.rotation_rate,
-                default.rotation_rate_rad_s,
-                own.rotation_rate_rad_s,
-            ),
-            gm_m3_s2: follow(v.planet.gravitational_parameter, default.gm_m3_s2, own.gm_m3_s2),
+            pole_right_ascension_rad: follow(v.planet.pole_right_ascension, |it| it.pole_right_ascension_rad),
+            pole_declination_rad: follow(v.planet.pole_declination, |it| it.pole_declination_rad),
+            prime_meridian_rad: follow(v.planet.prime_meridian, |it| it.prime_meridian_rad),
+            rotation_rate_rad_s: follow(v.planet.rotation_rate, |it| it.rotation_rate_rad_s),
+            gm_m3_s2: follow(v.planet.gravitational_parameter, |it| it.gm_m3_s2),
         };
         let epoch_s = values.real(v.start.epoch);
         let source = values.choice(v.ephemeris.source).unwrap_or(EphemerisSource::Vsop87);
@@ -93,7 +80,7 @@ impl Fixed {
             ephemeris::check_flown(carried, body, "start.epoch", epoch_s)?;
         }
         let ellipse = if source == EphemerisSource::Kepler {
-            Some(ephemeris::kepler(&v.ephemeris.ellipse, values, body, epoch_s)?)
+            Some(ephemeris::kepler(&v.ephemeris.ellipse, values, [described, body], epoch_s)?)
         } else {
             None
         };

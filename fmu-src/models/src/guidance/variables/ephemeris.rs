@@ -5,16 +5,18 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Real, Variables};
 use physics::guidance::places;
 
+use super::super::setup::GuidanceSetup;
 use super::choices::{EphemerisModel, EphemerisSource};
 use crate::common::variables::EllipseVariables;
 
 /// Positions of the Sun, the target planet and the Earth.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct EphemerisVariables {
     /// Where the positions of Sun and Earth come from.
     #[parameter(start = EphemerisSource::Vsop87)]
     pub source: Choice<EphemerisSource>,
-    #[group(name = "")]
+    #[group(name = "", setup = &setup.target)]
     pub ellipse: EllipseVariables,
     /// When source is chebyshev: how far from the sensed Sun that of the precise models, in the estimated body frame, may
     /// be (assumed; paper 001 names no angle).

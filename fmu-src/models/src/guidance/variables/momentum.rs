@@ -24,7 +24,7 @@ pub struct SpacecraftVariables {
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct SunshadeVariables {
-    /// Which model of the shade takes the light.
+    /// Which model of the shade takes the light; without a shade it does not count.
     #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
     pub shape: Choice<SunshadeShape>,
 }
@@ -39,7 +39,7 @@ pub struct PanelVariables {
     /// Sense of that tilt; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
-    /// Whether the panel takes part in the torque that targets count on.
+    /// Whether the panel takes part; here in the torque that targets count on.
     #[parameter(start = true)]
     pub enabled: Boolean,
     /// Commanded angle between the panel's normal and the Sun direction.

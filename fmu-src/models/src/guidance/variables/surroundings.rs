@@ -3,14 +3,12 @@
 use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
-use physics::bodies::{Body, BodyData};
 use physics::environment::{ephemeris, time};
 use physics::guidance::{command, lighting};
 
+use super::super::setup::GuidanceSetup;
 use super::choices::SubsolarMethod;
 use crate::common::choices::OrbitCenter;
-
-const MERCURY: &BodyData = Body::Mercury.data();
 
 /// Where the flight starts.
 #[derive(Variables)]
@@ -18,16 +16,18 @@ pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = ephemeris::EARLIEST_EPOCH_S, max = ephemeris::VALID_EPOCH_S, start = time::MOMENTUM_STUDY_START_S)]
     pub epoch: Real,
-    /// Attitude quaternion, scalar last, from EME2000 to body, held until there is a command.
+    /// Attitude quaternion at the start, scalar last, from EME2000 to body; held until there is a command.
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
 }
 
 /// What is observed.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct TargetVariables {
-    /// The planet that is observed, from whose centre positions count.
-    #[parameter(start = OrbitCenter(Body::Mercury))]
+    /// The planet that is observed, from whose centre positions count; by default orbit.center of the file's [start]. Set after
+    /// packing, what is left of planet.* at its start value is that body's own.
+    #[parameter(start = OrbitCenter(setup.target))]
     pub planet: Choice<OrbitCenter>,
     /// Whether the boresight is on the aimpoint; false: clamped, constrained, or there is no such point.
     #[output]
@@ -36,25 +36,25 @@ pub struct TargetVariables {
 
 /// Shape, pole and rotation of the target planet.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct PlanetVariables {
-    /// Radii of the ellipsoid along the planet's x, y and z. This and all that follows of the planet is Mercury's by
-    /// default; with another target.planet what is left at that default is that body's own.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = [MERCURY.radius_m; 3])]
+    /// Radii of the ellipsoid along the planet's x, y and z.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = [setup.target.data().radius_m; 3])]
     pub radii: RealVector<3>,
-    /// Right ascension of its north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY.pole_right_ascension_rad)]
+    /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data().pole_right_ascension_rad)]
     pub pole_right_ascension: Real,
-    /// Declination of its north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY.pole_declination_rad)]
+    /// Declination of the planet's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data().pole_declination_rad)]
     pub pole_declination: Real,
     /// Prime meridian at J2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = MERCURY.prime_meridian_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data().prime_meridian_rad)]
     pub prime_meridian: Real,
     /// Rotation rate.
-    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = MERCURY.rotation_rate_rad_s)]
+    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = setup.target.data().rotation_rate_rad_s)]
     pub rotation_rate: Real,
-    /// Gravitational parameter: by the acceleration it gives, the rate of a frame that follows the velocity.
-    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = MERCURY.gm_m3_s2)]
+    /// Gravitational parameter of the planet: by the acceleration it gives, the rate of a frame that follows the velocity.
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.target.data().gm_m3_s2)]
     pub gravitational_parameter: Real,
 }
 
@@ -69,7 +69,7 @@ pub struct SubsolarVariables {
 /// The Sun.
 #[derive(Variables)]
 pub struct SunVariables {
-    /// Sun's position from the target planet in EME2000 when ephemeris.source is inputs; zero: not connected yet.
+    /// Sun's position from the orbit's centre in EME2000 when ephemeris.source is inputs; zero: not connected yet.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,
     /// Its velocity.
@@ -92,7 +92,7 @@ pub struct SunVariables {
 /// The Earth.
 #[derive(Variables)]
 pub struct EarthVariables {
-    /// Earth's position from the target planet in EME2000 when ephemeris.source is inputs; zero: not connected yet.
+    /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs; zero: not connected yet.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,
     /// Its velocity.

@@ -119,7 +119,7 @@ fn light_and_loads(
     let solar = &knowns![by_sun, shade];
     let albedo = &knowns![&start.attitude, reflected, shade, linear];
     let infrared = &knowns![&start.attitude, radiated, shade, linear];
-    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.enabled];
+    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.recoil.enabled];
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
@@ -186,7 +186,7 @@ fn light_and_loads(
         let at_start = &knowns![&start.attitude, sunlight, eclipse, shadows, reflected, radiated, panels];
         table.output(plate.temperature, lit, knowns![at_start, &stored]);
         for (axis, recoils) in face.recoils_along.into_iter().enumerate() {
-            let recoil = knowns![v.thermal.enabled, &stored].only_if(recoils);
+            let recoil = knowns![v.thermal.recoil.enabled, &stored].only_if(recoils);
             table.output(plate.force.element(axis), lit, knowns![at_start, recoil]);
         }
     }

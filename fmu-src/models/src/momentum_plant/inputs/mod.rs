@@ -9,7 +9,6 @@ pub mod state;
 
 use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
-use physics::bodies::surface::MERCURY;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
 use physics::environment::CartesianState;
@@ -31,6 +30,7 @@ use super::setup::Plan;
 use super::variables::PlantVariables;
 use super::variables::choices::{DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
 use crate::common::choices::PanelTilt;
+use crate::common::effects::unused_map;
 use crate::common::ephemeris;
 use crate::common::management::{Limits, check_windows};
 use crate::common::spacecraft::inertia_body_kg_m2;
@@ -53,7 +53,7 @@ pub fn refreshed(
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
-    let center = Center::of(variables, values);
+    let center = Center::of(context, values);
     let (body, data) = (center.body, center.data());
     let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
     let limit_m = data.radius_m;
@@ -98,7 +98,7 @@ pub fn refreshed(
         shadow: variables.eclipse.read(values, data.radius_m)?,
         light_and_heat: RadiationSettings {
             planet_light: values.boolean(variables.planet_light.enabled),
-            recoil: values.boolean(variables.thermal.enabled),
+            recoil: values.boolean(variables.thermal.recoil.enabled),
             storage: values.boolean(variables.thermal.storage),
             shadowing: values.boolean(variables.shadowing.enabled),
             sun_disc: values.boolean(variables.shadowing.sun_disc),
@@ -126,6 +126,21 @@ pub fn refreshed(
     Ok(configuration)
 }
 
+/// Warns of what is set, or stands in the file, and is without effect.
+///
+/// # Errors
+/// A setting that cannot have any.
+pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
+    let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
+    let shape = values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    let shadows = variables.shadowing.check(values, spacecraft, shape)?;
+    for warning in [shadows, unused_map(spacecraft)].into_iter().flatten() {
+        context.log.warning(&warning);
+    }
+    center::say_followed(context, values);
+    Ok(())
+}
+
 /// Refuses a step that leaves the span of the flown ephemerides it goes by.
 pub fn check_span(
     context: &Plan<'_>,
@@ -140,7 +155,7 @@ pub fn check_span(
     };
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
-    let center = Center::of(variables, values).body;
+    let center = Center::of(context, values).body;
     ephemeris::check_flown(carried, center, "the epoch at the end of the step", end_epoch_s)
 }
 
@@ -154,7 +169,7 @@ pub fn light(
     if !configuration.light_and_heat.any() && variables.plate.is_empty() {
         return Ok(None);
     }
-    let surface = Center::of(variables, values).data().surface.unwrap_or(MERCURY);
+    let surface = Center::of(context, values).surface();
     let nodes = usize::try_from(values.integer(variables.planet_light.nodes)).unwrap_or(0);
     let spacecraft = &context.setup.spacecraft;
     let asked = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);
@@ -251,7 +266,12 @@ fn ephemeris_source(
         }
         Some(EphemerisSource::Kepler) => {
             let ellipse = &variables.ephemeris.ellipse;
-            plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, values, center.body, epoch_s)?)
+            plant::EphemerisSource::Kepler(ephemeris::kepler(
+                ellipse,
+                values,
+                center.described_and_own(),
+                epoch_s,
+            )?)
         }
         Some(EphemerisSource::Chebyshev) => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {

@@ -17,7 +17,7 @@ pub struct SpacecraftVariables {
     /// Inertia about the centre of mass, body frame.
     #[parameter(unit = "kg.m2", min = -1e15, max = 1e15, start = defaults::inertia_kg_m2(setup))]
     pub inertia: RealMatrix<3, 3>,
-    /// Centre of mass in the body frame.
+    /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
     #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
     pub center_of_mass: RealVector<3>,
 }
@@ -26,7 +26,7 @@ pub struct SpacecraftVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct SunshadeVariables {
-    /// Which model of the shade takes the light.
+    /// Which model of the shade takes the light; without a shade it does not count.
     #[parameter(start = SunshadeShape::of(&setup.spacecraft))]
     pub shape: Choice<SunshadeShape>,
     /// Coefficients of paper 000's eq 3 for the shade in use, about the centre of mass, in the shade's frame: rows are
@@ -55,7 +55,7 @@ pub struct PanelVariables {
     /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
     #[parameter(start = true)]
     pub enabled: Boolean,
-    /// Rotation angle when panel control is by angle.
+    /// Rotation angle about the panel's axis from its zero position; it counts when panel control is by angle.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
     /// Angle between the panel's normal and the Sun direction when panel control is by command.

@@ -7,56 +7,22 @@ use physics::momentum::Convention;
 use super::super::setup::PlantSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::MomentumConvention;
+use crate::common::effects::RecoilVariables;
 use crate::common::loads::{ForceBySource, MomentumBySource, TorqueBySource};
 use crate::common::management::ManagementVariables;
 use crate::common::spacecraft::dump_threshold_n_m_s;
 use crate::common::variables::WorkLimit;
 
-/// Light of the planet.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct PlanetLightVariables {
-    /// Whether sunlight reflected by the planet and its infrared light act and heat; paper 000 leaves them out.
-    #[parameter(start = false)]
-    pub enabled: Boolean,
-    /// Quadrature nodes over the planet's disc: 6 for 1e-4 of the force, 16 for 1e-5.
-    #[parameter(min = 1, max = 64, start = 6)]
-    pub nodes: Integer,
-}
-
 /// Heat the spacecraft radiates.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct ThermalVariables {
-    /// Whether the recoil of radiated heat acts; paper 000 leaves it out.
-    #[parameter(start = false)]
-    pub enabled: Boolean,
+    #[group(name = "")]
+    pub recoil: RecoilVariables,
     /// Whether surfaces whose file gives a heat capacity store heat, and stay warm into an eclipse; otherwise every surface
     /// is in balance with its light.
     #[parameter(start = true)]
     pub storage: Boolean,
-}
-
-/// Shadows of the spacecraft's surfaces on one another.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct ShadowingVariables {
-    /// Whether surfaces given as polygons shadow one another from the Sun. Planet light is never shadowed.
-    #[parameter(start = false)]
-    pub enabled: Boolean,
-    /// Whether the Sun's disc softens those shadows: lit areas are means over seven directions to it, which takes as much
-    /// longer. Otherwise the Sun is a point.
-    #[parameter(start = false)]
-    pub sun_disc: Boolean,
-}
-
-/// Gravity-gradient torque.
-#[derive(Variables)]
-#[variables(setup = PlantSetup)]
-pub struct GravityGradientVariables {
-    /// Whether the planet's gravity gradient acts; paper 000 leaves it out.
-    #[parameter(start = true)]
-    pub enabled: Boolean,
 }
 
 /// Torque about the centre of mass by source, body frame.

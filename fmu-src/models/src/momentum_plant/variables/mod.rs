@@ -18,8 +18,7 @@ use control::{
     SunSensorVariables,
 };
 use effects::{
-    DumpVariables, ForceVariables, GravityGradientVariables, MomentumVariables, PlanetLightVariables,
-    ShadowingVariables, SolverVariables, ThermalVariables, TorqueVariables,
+    DumpVariables, ForceVariables, MomentumVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
 use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
@@ -31,6 +30,7 @@ use surroundings::{
 };
 
 use super::setup::PlantSetup;
+use crate::common::effects::{GravityGradientVariables, PlanetLightVariables, ShadowingVariables};
 use crate::common::loads::PlateVariables;
 use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
 

@@ -3,12 +3,11 @@
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
-use physics::bodies::Body;
-use physics::environment::frames::Frame;
 use physics::guidance::system;
 
 use super::choices::{AttitudeSource, CommandSource, OrbitDynamics, OrbitFrame, OrbitSource};
 use super::defaults;
+use crate::common::center;
 use crate::common::choices::{CommandKind, OrbitCenter};
 
 /// Attitude: where it comes from, and what it is.
@@ -74,8 +73,9 @@ pub struct StartVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct OrbitVariables {
-    /// What the spacecraft flies around.
-    #[parameter(start = OrbitCenter(Body::Mercury))]
+    /// What the spacecraft flies around. By a file that sets it in [start] the elements' and the planet's start values are of that
+    /// body; set later, what is left at them is taken as that body's own, and a warning says so of the elements.
+    #[parameter(start = OrbitCenter(setup.center))]
     pub center: Choice<OrbitCenter>,
     /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity, or these are where the spacecraft is.
     /// While one of the two is zero, of a held place the position, the flight waits for it: the attitude is held and nothing
@@ -94,24 +94,24 @@ pub struct OrbitVariables {
     /// Longest integration step of a disturbed orbit; 300 s keep a revolution of the default orbit to 0.1 mm.
     #[parameter(unit = "s", min = 1.0, max = 1_800.0, start = 300.0)]
     pub step: Real,
-    /// Frame of the elements.
-    #[parameter(start = OrbitFrame(Frame::PlanetEquator))]
+    /// Frame of the elements; by default the equator of a planet, about the Sun the ecliptic.
+    #[parameter(start = OrbitFrame(center::frame(setup.center)))]
     pub frame: Choice<OrbitFrame>,
-    /// Semi-major axis; the default gives a period of 12 h about Mercury. With another orbit.center, elements left at their
-    /// defaults are those of a circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e13, start = defaults::semi_major_axis_m())]
+    /// Semi-major axis; by default a period of 12 h about Mercury. About another planet the elements are by default those of a
+    /// circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e13, start = center::elements(setup.center).semi_major_axis_m)]
     pub semi_major_axis: Real,
     /// Eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = defaults::ECCENTRICITY)]
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = center::elements(setup.center).eccentricity)]
     pub eccentricity: Real,
     /// Inclination.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::INCLINATION_RAD)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = center::elements(setup.center).inclination_rad)]
     pub inclination: Real,
     /// Longitude of the ascending node.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::ASCENDING_NODE_RAD)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::elements(setup.center).ascending_node_rad)]
     pub ascending_node: Real,
     /// Argument of periapsis.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::PERIAPSIS_ARGUMENT_RAD)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::elements(setup.center).periapsis_argument_rad)]
     pub periapsis_argument: Real,
     /// True anomaly at the start.
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = 0.0)]

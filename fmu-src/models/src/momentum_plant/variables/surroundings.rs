@@ -4,16 +4,16 @@ use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
 use super::choices::EphemerisSource;
-use super::defaults;
 use crate::common::variables::{EllipseVariables, SurfaceVariables};
 
 /// Positions of the Sun, the orbit's centre and the Earth.
 #[derive(Variables)]
+#[variables(setup = PlantSetup)]
 pub struct EphemerisVariables {
     /// Where the positions of Sun and Earth come from.
     #[parameter(start = EphemerisSource::Vsop87)]
     pub source: Choice<EphemerisSource>,
-    #[group(name = "")]
+    #[group(name = "", setup = &setup.center)]
     pub ellipse: EllipseVariables,
 }
 
@@ -21,26 +21,25 @@ pub struct EphemerisVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct PlanetVariables {
-    /// Gravitational parameter of the orbit's centre. This and all that follows of it is Mercury's by default; with another
-    /// orbit.center what is left at that default is that body's own.
-    #[parameter(unit = "m3/s2", display = "km3/s2", min = 1.0, max = 1e20, start = defaults::MERCURY.gm_m3_s2)]
+    /// Gravitational parameter of the planet: by default that of orbit.center, as everything of planet.* is.
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data().gm_m3_s2)]
     pub gravitational_parameter: Real,
-    /// Radius of the centre; a flight below it is refused.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = defaults::MERCURY.radius_m)]
+    /// Radius of the planet; a spacecraft below it is refused.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data().radius_m)]
     pub radius: Real,
     /// Flattening of the centre's gravity on a disturbed orbit: second zonal harmonic, unnormalised (HgM005); 0 = none.
-    #[parameter(unit = "1", min = -1.0, max = 1.0, start = defaults::MERCURY.j2)]
+    #[parameter(unit = "1", min = -1.0, max = 1.0, start = setup.center.data().j2)]
     pub j2: Real,
     /// Radius to which planet.j2 refers.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = defaults::MERCURY.j2_radius_m)]
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data().j2_radius_m)]
     pub j2_radius: Real,
-    /// Right ascension of the centre's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::MERCURY.pole_right_ascension_rad)]
+    /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data().pole_right_ascension_rad)]
     pub pole_right_ascension: Real,
-    /// Declination of the centre's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = defaults::MERCURY.pole_declination_rad)]
+    /// Declination of the planet's north pole in EME2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data().pole_declination_rad)]
     pub pole_declination: Real,
-    #[group(name = "")]
+    #[group(name = "", setup = &setup.center)]
     pub surface: SurfaceVariables,
     /// From the spacecraft to the planet's centre, body frame; 0 without a planet, that is with orbit.center sun.
     #[output(unit = "m", display = "km", nominal = 1e7)]

@@ -7,7 +7,7 @@ use fmi_export::model::Log;
 use fmi_export::model_description::{Description, Unknown};
 use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
 
-use super::super::named_model::Tables;
+use super::super::named_model::{Tables, with_file_starts};
 use super::random::RandomNumbers;
 use super::variable::{Base, Variable, natural, variables};
 
@@ -74,6 +74,8 @@ pub struct Bench<M: Model> {
     random: RandomNumbers,
     refused: usize,
     taken: usize,
+    /// Whether surfaces have outlines, so that they can shadow one another.
+    pub outlined: bool,
 }
 
 /// A flight at a communication point.
@@ -100,8 +102,8 @@ impl<M: Model> Bench<M> {
         let setup = M::parse_setup("spacecraft.toml", text).unwrap();
         let mut scope = Declare::new();
         let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
-        let start = scope.finish().start;
         let description = description_of::<M>("spacecraft.toml", text).unwrap();
+        let start = with_file_starts(&scope.finish().start, &description);
         let variables = variables(&description);
         let by_name = variables.iter().enumerate().map(|(at, v)| (v.name.clone(), at)).collect();
         let structure = &description.structure;
@@ -125,6 +127,7 @@ impl<M: Model> Bench<M> {
             random: RandomNumbers(1),
             refused: 0,
             taken: 0,
+            outlined: text.contains("polygon_m"),
         }
     }
 

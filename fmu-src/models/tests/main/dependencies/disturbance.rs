@@ -37,7 +37,13 @@ fn measure(text: &str, map: bool, shapes: bool) {
         bench.put(&mut values, KINDS[0], random.whole(1, if map { 3 } else { 2 }));
         bench.put(&mut values, KINDS[1], random.whole(1, 4));
         bench.put(&mut values, "planet.dayTemperature", random.whole(1, 2));
-        bench.put(&mut values, "shadowing.enabled", random.whole(0, 1));
+        if bench.outlined {
+            bench.put(&mut values, "shadowing.enabled", random.whole(0, 1));
+        }
+        for effect in ["planetLight", "thermal", "gravityGradient"] {
+            let acts = random.whole(0, 3).min(1.0);
+            bench.put(&mut values, &format!("{effect}.enabled"), acts);
+        }
         bench.put(&mut values, "shadowing.sunDisc", random.whole(0, 1));
         bench.put(&mut values, "planet.present", if round == 5 { 0.0 } else { 1.0 });
         if shapes {

@@ -7,6 +7,6 @@ mod guidance;
 mod plant;
 mod plant_dynamics;
 pub mod random;
-mod spacecraft;
+pub mod spacecraft;
 mod spin;
 mod variable;

@@ -132,7 +132,7 @@ fn unset(bench: &Plant, random: &mut RandomNumbers, subject: Subject, values: &m
 
 fn draw(bench: &Plant, random: &mut RandomNumbers, subject: Subject, shapes: bool) -> Tables {
     let mut values = bench.defaults();
-    for (name, low, high) in OPTIONS {
+    for (name, low, high) in OPTIONS.iter().filter(|it| it.0 != "shadowing.enabled" || bench.outlined) {
         bench.put(&mut values, name, random.whole(*low, *high));
     }
     // The theory of the planets costs most.

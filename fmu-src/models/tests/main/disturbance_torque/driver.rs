@@ -41,6 +41,10 @@ optics = "white"
 rear_optics = "white"
 control = "angle"
 thermal.conduction = { conductance_w_m2_k = 10.0, radiative_exchange = 0.1 }
+[start]
+"planetLight.enabled" = true
+"thermal.enabled" = true
+"shadowing.enabled" = true
 "#;
 
 fn resources(name: &str, text: &str) -> std::path::PathBuf {

@@ -11,6 +11,7 @@ use crate::attitude::gravity_gradient_n_m;
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
 use crate::numerics::scalar::Scalar;
+use crate::radiation::force_torque::ForceTorque;
 
 /// Where everything is, body frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,6 +39,17 @@ pub struct Parameters<T: Scalar> {
     pub inertia_body_kg_m2: Matrix3<T>,
     /// The planet's surface.
     pub planet: PlanetSurface<T>,
+}
+
+/// Which effects act beside sunlight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ActiveEffects {
+    /// Whether light of the planet acts and heats.
+    pub planet_light: bool,
+    /// Whether the recoil of radiated heat acts.
+    pub recoil: bool,
+    /// Whether the planet's gravity gradient acts.
+    pub gravity_gradient: bool,
 }
 
 /// Everything computed from one set of positions, but for the faces, which are in the workspace.
@@ -87,13 +99,13 @@ impl<T: Scalar> BySource<T> {
         force.iter().chain(&torque).all(|x| x.value().is_finite())
     }
 
-    /// At these positions, with these parameters, by the model's light and heat and the planet's shadow; without a shadow
-    /// there is no planet. The parameters' planet counts in place of the model's.
+    /// At these positions, with these parameters, by the model's light and heat, of which these effects act, and the planet's
+    /// shadow; without a shadow there is no planet. The parameters' planet counts in place of the model's.
     ///
     /// # Errors
     /// The spacecraft inside planet or Sun, positions that are no numbers.
     pub fn at(
-        model: &DisturbanceModel,
+        (model, effects): (&DisturbanceModel, ActiveEffects),
         shadow: Option<&Shadow>,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
@@ -113,7 +125,11 @@ impl<T: Scalar> BySource<T> {
         let (lit_fraction, gravity_gradient_n_m) = match (shadow, &planet_m) {
             (Some(shadow), Some(planet_m)) => (
                 shadow.lit_fraction_of(parameters.planet.radius_m, &-planet_m, &(sun_m - planet_m))?,
-                gravity_gradient_n_m(parameters.gm_m3_s2, &parameters.inertia_body_kg_m2, planet_m),
+                if effects.gravity_gradient {
+                    gravity_gradient_n_m(parameters.gm_m3_s2, &parameters.inertia_body_kg_m2, planet_m)
+                } else {
+                    Vector3::zeros()
+                },
             ),
             _ => (T::constant(1.0), Vector3::zeros()),
         };
@@ -129,8 +145,12 @@ impl<T: Scalar> BySource<T> {
             let pole = Vector3::from(positions.pole);
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };
         }
-        let planet = shadow.map(|_| &parameters.planet);
-        let disturbance = model.evaluate_on(planet, &geometry, Recoil::Balance, workspace)?;
+        let planet = shadow.filter(|_| effects.planet_light).map(|_| &parameters.planet);
+        let mut disturbance = model.evaluate_on(planet, &geometry, Recoil::Balance, workspace)?;
+        if !effects.recoil {
+            disturbance.thermal = ForceTorque::zero();
+            workspace.leave_out_recoil();
+        }
         Ok(Self { disturbance, gravity_gradient_n_m, lit_fraction })
     }
 }

@@ -7,7 +7,7 @@ use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::flat_plate::force_per_area_pa;
 use crate::radiation::force_torque::ForceTorque;
-use crate::radiation::thermal::balance::{conducting_temperatures_k, exitance_w_m2, insulated_temperature_k};
+use crate::radiation::thermal::balance::{conducting_temperatures_k, face_temperature_k};
 use crate::radiation::thermal::recoil_n;
 
 /// The faces at one geometry. Normals, planet light and shadows stand in the workspace.
@@ -77,12 +77,12 @@ impl<T: Scalar> FaceLoads<'_, T> {
                 _ => None,
             };
             let at_center = set_temperatures(surface, faces, states, stored);
-            for (face, state) in faces.iter().zip(states) {
+            for ((face, state), surroundings) in faces.iter().zip(states).zip(surface.surroundings()) {
                 let normal = &workspace.normals[face.normal];
-                let radiated_w =
-                    exitance_w_m2(&face.thermal.emission, state.temperature_k).0 * surface.area_m2;
+                let radiated_w = surroundings.radiated_w_m2(state.temperature_k).0 * surface.area_m2;
                 let center_m =
                     constant_vector::<T>(&surface.center_body_m) - self.geometry.center_of_mass_body_m;
+                let at_center = at_center || surroundings.bus.conducts();
                 // An insulated face gives off sunlight where it is absorbed, everything else evenly.
                 let spread_w =
                     if at_center { radiated_w } else { state.absorbed_planet_w + face.internal_heat_w };
@@ -121,15 +121,14 @@ fn set_temperatures<T: Scalar>(
         (&surface.thermal.conduction, faces, &mut *states)
         && (conduction.conductance_w_m2_k > 0.0 || conduction.radiative_exchange > 0.0)
     {
-        let emission = [front.thermal.emission, rear.thermal.emission];
         let heat_w_m2 = [heat(front, front_state), heat(rear, rear_state)];
-        let [front_k, rear_k] = conducting_temperatures_k(&emission, conduction, heat_w_m2);
+        let [front_k, rear_k] = conducting_temperatures_k(&surface.surroundings(), conduction, heat_w_m2);
         front_state.temperature_k = front_k;
         rear_state.temperature_k = rear_k;
         return true;
     }
-    for (face, state) in faces.iter().zip(states) {
-        state.temperature_k = insulated_temperature_k(&face.thermal.emission, heat(face, state));
+    for ((face, state), surroundings) in faces.iter().zip(states).zip(surface.surroundings()) {
+        state.temperature_k = face_temperature_k(&surroundings, heat(face, state));
     }
     false
 }

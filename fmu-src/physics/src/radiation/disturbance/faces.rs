@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 
 use crate::radiation::shadow::{Hinge, Outline};
+use crate::radiation::thermal::balance::FaceSurroundings;
 use crate::radiation::thermal::transient::HeatStore;
 use crate::spacecraft::{
-    Cylinder, Emission, FaceThermal, Optics, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
+    BusLink, Cylinder, Emission, FaceThermal, Optics, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
 };
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
@@ -36,6 +37,8 @@ pub(super) struct Surface {
     pub first_face: usize,
     pub two_sided: bool,
     pub thermal: Thermal,
+    /// Temperature of the space it sees, in K.
+    pub background_k: f64,
     /// Whether sunlight's force on it is computed elsewhere, in closed form.
     pub closed_form_sun: bool,
     /// Index of its outline among the outlines, if it has one.
@@ -43,6 +46,15 @@ pub(super) struct Surface {
 }
 
 impl Surface {
+    /// What front and rear give off heat to; a face there is not gives off none.
+    pub fn surroundings(&self) -> [FaceSurroundings; 2] {
+        let Thermal { front, rear, bus, .. } = &self.thermal;
+        let rear = rear.map_or(Emission::constant(0.0), |rear| rear.emission);
+        let face = |emission, bus| FaceSurroundings { emission, background_k: self.background_k, bus };
+        let rear_bus = if self.two_sided { bus[1] } else { BusLink::NONE };
+        [face(front.emission, bus[0]), face(rear, rear_bus)]
+    }
+
     /// Temperatures of its faces `duration_s` later, in place, for the heat of every face at the start and at the end; left
     /// as they are where it stores no heat.
     pub fn advance_temperatures(&self, temperatures_k: &mut [f64], heat_w: [&[f64]; 2], duration_s: f64) {
@@ -55,9 +67,8 @@ impl Surface {
             let at = |side: usize| values.get(first + side).map_or(0.0, |value| value * scale);
             if count == 2 { [at(0), at(1)] } else { [at(0), 0.0] }
         };
-        let rear = self.thermal.rear.map_or(Emission::constant(0.0), |rear| rear.emission);
         let store = HeatStore {
-            emission: [self.thermal.front.emission, rear],
+            faces: self.surroundings(),
             conduction: self.thermal.conduction,
             heat_capacity_j_m2_k: self.thermal.heat_capacity_j_m2_k,
         };
@@ -89,13 +100,15 @@ pub(super) struct Faces {
     pub surfaces: Vec<Surface>,
     pub faces: Vec<Face>,
     pub normals: Vec<Normal>,
+    /// Temperature of the space that all of them see, in K.
+    pub background_k: f64,
     /// Outlines: surface and, for panels, which.
     pub outlines: Vec<(usize, Option<usize>)>,
 }
 
 impl Faces {
     pub fn new(spacecraft: &Spacecraft, sunshade_model: Option<SunshadeModel>) -> Self {
-        let mut faces = Self::default();
+        let mut faces = Self { background_k: spacecraft.background_k, ..Self::default() };
         for plate in &spacecraft.plates {
             faces.add_plate(plate, false);
         }
@@ -128,6 +141,7 @@ impl Faces {
                 first_face: self.faces.len(),
                 two_sided: plate.rear_optics.is_some(),
                 thermal: plate.thermal,
+                background_k: self.background_k,
                 closed_form_sun,
                 outline: plate.polygon.as_ref().map(|_| self.outlines.len()),
             },
@@ -146,6 +160,7 @@ impl Faces {
                 first_face: self.faces.len(),
                 two_sided: panel.rear_optics.is_some(),
                 thermal: panel.thermal,
+                background_k: self.background_k,
                 closed_form_sun: false,
                 outline: panel.polygon.as_ref().map(|_| self.outlines.len()),
             },

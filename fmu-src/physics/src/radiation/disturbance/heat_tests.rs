@@ -7,7 +7,7 @@ use super::*;
 use crate::bodies::surface::{DayTemperature, PlanetSurface};
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::spacecraft::{
-    Emission, FaceThermal, MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft, Thermal,
+    BusLink, Emission, FaceThermal, MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft, Thermal,
 };
 
 const RADIUS_M: f64 = 2.4394e6;
@@ -124,4 +124,62 @@ fn a_face_half_in_shadow_recoils_where_it_is_lit() {
         max_relative = 1e-12
     );
     assert_relative_eq!(found.thermal.force_body_n.z, -2.0 / 3.0 * pressure_pa * 18.0, max_relative = 1e-12);
+}
+
+/// Sun on a black plate that conducts heat to the bus: what it radiates is what is left, and pushes by 2/3 of its momentum from
+/// the middle of the plate; unlit it is kept warm by the bus, and one without a bus is as cold as space.
+#[test]
+fn a_plate_on_the_bus_pushes_by_what_the_bus_leaves() {
+    let black = Optics::from_reflectivities(0.0, 0.0);
+    // 9000 W/m2 of sunlight: at 350 K the plate radiates 850.9 W/m2 and gives 8149 W/m2 to a bus of 300 K.
+    let (wanted_k, bus_k) = (350.0_f64, 300.0);
+    let radiated = crate::constants::STEFAN_BOLTZMANN_W_M2_K4 * wanted_k.powi(4);
+    let link = BusLink { conductance_w_m2_k: (9000.0 - radiated) / (wanted_k - bus_k), temperature_k: bus_k };
+    let mut plate = square(Vector3::z(), Vector3::x(), 0.5, black);
+    plate.thermal.bus[0] = link;
+    let bare = square(-Vector3::z(), Vector3::x(), 0.5, black);
+    let craft = Spacecraft { background_k: 0.0, ..spacecraft(vec![plate.clone(), bare.clone()]) };
+    let model =
+        DisturbanceModel::new(&craft, &Options { self_shadowing: false, ..Options::default() }).unwrap();
+    let mut workspace = Workspace::default();
+    let found = model.evaluate(&sunlit(Vector3::z()), Recoil::Balance, &mut workspace).unwrap();
+    assert_relative_eq!(workspace.faces()[0].temperature_k, wanted_k, max_relative = 1e-12);
+    assert_eq!(workspace.faces()[1].temperature_k, 0.0);
+    let expected = Vector3::z() * (-2.0 / 3.0 * radiated / SPEED_OF_LIGHT_M_S);
+    assert_relative_eq!(found.thermal.force_body_n, expected, max_relative = 1e-11);
+    assert_relative_eq!(found.thermal.torque_body_n_m, Vector3::x().cross(&expected), max_relative = 1e-11);
+
+    // In the dark, with space at 2.725 K as files have it unless they say otherwise.
+    let craft = spacecraft(vec![plate, bare]);
+    assert_eq!(craft.background_k, 2.725);
+    let model = DisturbanceModel::new(&craft, &Options::default()).unwrap();
+    let dark = Geometry { lit_fraction: 0.0, ..sunlit(Vector3::z()) };
+    let found = model.evaluate(&dark, Recoil::Balance, &mut workspace).unwrap();
+    let [warm, cold] = [0, 1].map(|face| workspace.faces()[face]);
+    let from_bus_w_m2 = link.conductance_w_m2_k * (bus_k - warm.temperature_k);
+    assert!(warm.temperature_k > 290.0 && cold.temperature_k == 2.725);
+    let expected_n = -2.0 / 3.0 * from_bus_w_m2 / SPEED_OF_LIGHT_M_S;
+    assert_relative_eq!(found.thermal.force_body_n.z, expected_n, max_relative = 1e-9);
+    assert_eq!(cold.forces_body_n[3], Vector3::zeros());
+}
+
+/// The transient solver comes to the balance that the other gives, bus and space included; heat that flows to the bus on the way
+/// is missing from what is stored.
+#[test]
+fn stored_heat_goes_to_the_bus_as_in_balance() {
+    let white = Optics::from_reflectivities(0.2, 0.5);
+    let mut plate = square(Vector3::z(), Vector3::x(), 0.5, white);
+    plate.thermal.heat_capacity_j_m2_k = 2000.0;
+    plate.thermal.bus[0] = BusLink { conductance_w_m2_k: 4.0, temperature_k: 280.0 };
+    let model = DisturbanceModel::new(&spacecraft(vec![plate]), &Options::default()).unwrap();
+    let mut workspace = Workspace::default();
+    let lit = sunlit(Vector3::z());
+    let balanced = model.evaluate(&lit, Recoil::Balance, &mut workspace).unwrap();
+    let (balanced_k, mut heat_w) = (workspace.faces()[0].temperature_k, [0.0]);
+    model.heat_w(&workspace, &mut heat_w);
+    let mut stored_k = [150.0];
+    model.advance_temperatures(&mut stored_k, &heat_w, &heat_w, 1e6);
+    assert_relative_eq!(stored_k[0], balanced_k, max_relative = 1e-8);
+    let found = model.recoil(&lit, Recoil::Stored(&stored_k), &mut workspace).unwrap();
+    assert_relative_eq!(found.force_body_n, balanced.thermal.force_body_n, max_relative = 1e-7);
 }

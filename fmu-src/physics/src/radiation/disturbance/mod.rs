@@ -21,7 +21,7 @@ mod tests;
 #[cfg(test)]
 mod whole_tests;
 
-pub use by_source::{BySource, Parameters, PositionError, Positions};
+pub use by_source::{ActiveEffects, BySource, Parameters, PositionError, Positions};
 pub use error::ModelError;
 pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
 pub use model::{DisturbanceModel, Options};

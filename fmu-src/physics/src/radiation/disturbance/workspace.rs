@@ -112,6 +112,13 @@ impl<T: Scalar> Workspace<T> {
         self.faces.resize(faces, FaceResult::dark());
     }
 
+    /// Takes the recoil out of the faces' forces; their temperatures stay.
+    pub(super) fn leave_out_recoil(&mut self) {
+        for face in &mut self.faces {
+            face.forces_body_n[3] = Vector3::zeros();
+        }
+    }
+
     /// Sizes everything; allocates only when a size changes.
     pub(super) fn prepare(&mut self, normals: usize, faces: usize) {
         if self.normals.len() != normals {

@@ -2,7 +2,7 @@
 
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
 use crate::numerics::scalar::Scalar;
-use crate::spacecraft::{Conduction, Emission};
+use crate::spacecraft::{BusLink, Conduction, Emission};
 
 /// Newton's method stops when it changes no temperature by more than this part.
 const TOLERANCE: f64 = 1e-13;
@@ -19,17 +19,63 @@ pub fn exitance_w_m2<T: Scalar>(emission: &Emission, temperature_k: T) -> (T, T)
     (emissivity * fourth, emissivity * cube * 4.0 + slope * fourth)
 }
 
-/// Temperature of an insulated face that takes in `heat_w_m2` (eq 43).
-pub fn insulated_temperature_k<T: Scalar>(emission: &Emission, heat_w_m2: T) -> T {
+/// What a face gives off heat to: space all around, and the bus behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceSurroundings {
+    /// Emission of the face.
+    pub emission: Emission,
+    /// Temperature of the space it sees, in K.
+    pub background_k: f64,
+    /// Heat flow to the bus.
+    pub bus: BusLink,
+}
+
+impl FaceSurroundings {
+    /// Power per area that the face radiates more than it takes in from space, in W/m2, and its derivative by temperature.
+    #[inline]
+    pub fn radiated_w_m2<T: Scalar>(&self, temperature_k: T) -> (T, T) {
+        let (exitance, exitance_slope) = exitance_w_m2(&self.emission, temperature_k);
+        let (emissivity, slope) = self.emission.at(temperature_k);
+        let from_space = STEFAN_BOLTZMANN_W_M2_K4 * fourth(self.background_k);
+        (exitance - emissivity * from_space, exitance_slope - slope * from_space)
+    }
+
+    /// The same with what flows to the bus.
+    #[inline]
+    pub fn outflow_w_m2<T: Scalar>(&self, temperature_k: T) -> (T, T) {
+        let (radiated, slope) = self.radiated_w_m2(temperature_k);
+        let conductance_w_m2_k = self.bus.conductance_w_m2_k;
+        let to_bus = (temperature_k - self.bus.temperature_k) * conductance_w_m2_k;
+        (radiated + to_bus, slope + T::constant(conductance_w_m2_k))
+    }
+
+    /// The bus's temperature, where heat flows to it.
+    fn bus_k(&self) -> f64 {
+        if self.bus.conducts() { self.bus.temperature_k } else { 0.0 }
+    }
+}
+
+fn fourth(temperature_k: f64) -> f64 {
+    (temperature_k * temperature_k) * (temperature_k * temperature_k)
+}
+
+/// Temperature of a face that takes in `heat_w_m2` and is insulated but for its surroundings (eq 43 where they are cold). No
+/// heat gives the temperature of space.
+pub fn face_temperature_k<T: Scalar>(face: &FaceSurroundings, heat_w_m2: T) -> T {
     let heat = heat_w_m2.value();
-    if heat <= 0.0 {
+    let emission = &face.emission;
+    if heat <= 0.0 && !face.bus.conducts() {
+        return T::constant(face.background_k);
+    }
+    let alone = heat / (emission.emissivity * STEFAN_BOLTZMANN_W_M2_K4) + fourth(face.background_k);
+    let mut temperature_k = alone.sqrt().sqrt().max(face.bus_k());
+    if temperature_k <= 0.0 {
         return T::constant(0.0);
     }
-    let mut temperature_k = (heat / (emission.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).sqrt().sqrt();
-    if emission.slope_per_k != 0.0 {
+    if emission.slope_per_k != 0.0 || face.bus.conducts() {
         for _ in 0..MOST_ITERATIONS {
-            let (radiated, slope) = exitance_w_m2(emission, temperature_k);
-            let change = damped((heat - radiated) / slope, temperature_k);
+            let (outflow, slope) = face.outflow_w_m2(temperature_k);
+            let change = damped((heat - outflow) / slope, temperature_k);
             temperature_k += change;
             if change.abs() <= TOLERANCE * temperature_k {
                 break;
@@ -37,28 +83,35 @@ pub fn insulated_temperature_k<T: Scalar>(emission: &Emission, heat_w_m2: T) -> 
         }
     }
     // One more step in the kernel's numbers carries the derivative over exactly.
-    let (radiated, slope) = exitance_w_m2(emission, temperature_k);
-    (heat_w_m2 - radiated) / slope + temperature_k
+    let (outflow, slope) = face.outflow_w_m2(temperature_k);
+    (heat_w_m2 - outflow) / slope + temperature_k
 }
 
 /// Temperatures of front and rear of a thin structure that take in `heat_w_m2` each (eqs 44-49).
 ///
 /// Newton's method on the two energy balances, from the temperature both faces had in common; the balances close to
-/// 1e-12 of the heat. No heat gives 0 K. Heat must not be negative; radiative exchange or conductance may be 0, not both.
+/// 1e-12 of the heat. No heat gives the temperature of space, of which both faces see the same. Heat must not be negative;
+/// radiative exchange or conductance may be 0, not both.
 pub fn conducting_temperatures_k<T: Scalar>(
-    emission: &[Emission; 2],
+    faces: &[FaceSurroundings; 2],
     conduction: &Conduction,
     heat_w_m2: [T; 2],
 ) -> [T; 2] {
     let heat = heat_w_m2.map(T::value);
     let total = heat[0] + heat[1];
-    if total <= 0.0 {
+    let background_k = faces[0].background_k;
+    if total <= 0.0 && !faces.iter().any(|face| face.bus.conducts()) {
+        return [T::constant(background_k); 2];
+    }
+    let emissivity = faces[0].emission.emissivity + faces[1].emission.emissivity;
+    let alone = total / (emissivity * STEFAN_BOLTZMANN_W_M2_K4) + fourth(background_k);
+    let together_k = alone.sqrt().sqrt().max(faces[0].bus_k()).max(faces[1].bus_k());
+    if together_k <= 0.0 {
         return [T::constant(0.0); 2];
     }
-    let emissivity = emission[0].emissivity + emission[1].emissivity;
-    let mut temperatures_k = [(total / (emissivity * STEFAN_BOLTZMANN_W_M2_K4)).sqrt().sqrt(); 2];
+    let mut temperatures_k = [together_k; 2];
     for _ in 0..MOST_ITERATIONS {
-        let balance = Balance::at(emission, conduction, temperatures_k);
+        let balance = Balance::at(faces, conduction, temperatures_k);
         let change = balance.solve([heat[0] - balance.outflow[0], heat[1] - balance.outflow[1]]);
         let mut small = true;
         for (temperature_k, change) in temperatures_k.iter_mut().zip(change) {
@@ -71,7 +124,7 @@ pub fn conducting_temperatures_k<T: Scalar>(
         }
     }
     // One more step in the kernel's numbers carries the derivative over exactly.
-    let balance = Balance::at(emission, conduction, temperatures_k);
+    let balance = Balance::at(faces, conduction, temperatures_k);
     let change = balance.solve([0, 1].map(|i| heat_w_m2[i] - balance.outflow[i]));
     [0, 1].map(|i| change[i] + temperatures_k[i])
 }
@@ -82,26 +135,26 @@ fn damped(change_k: f64, temperature_k: f64) -> f64 {
     change_k.max(-0.5 * temperature_k).min(temperature_k)
 }
 
-/// Heat flow out of each face, into space and to the other face, with its slopes.
+/// Heat flow out of each face, into space, to the bus and to the other face, with its slopes.
 struct Balance {
     /// In W/m2.
     outflow: [f64; 2],
-    /// d(radiated) / dT of each face, in W/m2/K.
-    radiation_slope: [f64; 2],
+    /// d(flow to space and bus) / dT of each face, in W/m2/K.
+    own_slope: [f64; 2],
     /// d(exchange) / dT of each face, in W/m2/K.
     exchange_slope: [f64; 2],
 }
 
 impl Balance {
     #[inline]
-    fn at(emission: &[Emission; 2], conduction: &Conduction, temperatures_k: [f64; 2]) -> Self {
+    fn at(faces: &[FaceSurroundings; 2], conduction: &Conduction, temperatures_k: [f64; 2]) -> Self {
         let [front, rear] = temperatures_k;
-        let (front_radiated, front_slope) = exitance_w_m2(&emission[0], front);
-        let (rear_radiated, rear_slope) = exitance_w_m2(&emission[1], rear);
+        let (front_outflow, front_slope) = faces[0].outflow_w_m2(front);
+        let (rear_outflow, rear_slope) = faces[1].outflow_w_m2(rear);
         let (exchange, exchange_slope) = exchange_w_m2(conduction, temperatures_k);
         Self {
-            outflow: [front_radiated + exchange, rear_radiated - exchange],
-            radiation_slope: [front_slope, rear_slope],
+            outflow: [front_outflow + exchange, rear_outflow - exchange],
+            own_slope: [front_slope, rear_slope],
             exchange_slope,
         }
     }
@@ -109,7 +162,7 @@ impl Balance {
     /// Changes of temperature that raise the outflow by `missing`.
     #[inline]
     fn solve<T: Scalar>(&self, missing: [T; 2]) -> [T; 2] {
-        let [a1, a2] = self.radiation_slope;
+        let [a1, a2] = self.own_slope;
         let [b1, b2] = self.exchange_slope;
         let determinant = a1 * a2 + a1 * b2 + a2 * b1;
         [
@@ -145,6 +198,11 @@ mod tests {
         Conduction { conductance_w_m2_k, radiative_exchange }
     }
 
+    /// In space without a temperature, insulated from the bus: as in the paper.
+    fn in_the_cold(emission: Emission) -> FaceSurroundings {
+        FaceSurroundings { emission, background_k: 0.0, bus: BusLink::NONE }
+    }
+
     fn emissions() -> impl Strategy<Value = Emission> {
         (0.02..1.0_f64, -1e-4..3e-4_f64).prop_map(|(emissivity, slope)| Emission {
             // Falling emissivities stay high enough to have one answer.
@@ -160,7 +218,7 @@ mod tests {
         assert_relative_eq!(black, 459.3, max_relative = 1e-4);
         assert_relative_eq!(slope, 4.0 * black / 300.0, max_relative = 1e-14);
         // The Sun at 1 AU on a black insulated plate: 394 K.
-        let plate = insulated_temperature_k(&Emission::constant(1.0), 1361.0);
+        let plate = face_temperature_k(&in_the_cold(Emission::constant(1.0)), 1361.0);
         assert_relative_eq!(plate, 393.6, max_relative = 1e-3);
     }
 
@@ -168,11 +226,11 @@ mod tests {
     fn strong_conduction_makes_faces_equal_and_weak_leaves_them_alone() {
         let emission = [Emission::constant(0.75), Emission::constant(0.7)];
         let heat = [7000.0, 100.0];
-        let [front, rear] = conducting_temperatures_k(&emission, &link(1e9, 0.0), heat);
+        let [front, rear] = conducting_temperatures_k(&emission.map(in_the_cold), &link(1e9, 0.0), heat);
         let together = (7100.0 / (1.45 * SIGMA)).powf(0.25);
         assert_relative_eq!(front, together, max_relative = 1e-7);
         assert_relative_eq!(rear, together, max_relative = 1e-7);
-        let [front, rear] = conducting_temperatures_k(&emission, &link(1e-12, 0.0), heat);
+        let [front, rear] = conducting_temperatures_k(&emission.map(in_the_cold), &link(1e-12, 0.0), heat);
         assert_relative_eq!(front, (7000.0 / (0.75 * SIGMA)).powf(0.25), max_relative = 1e-9);
         assert_relative_eq!(rear, (100.0 / (0.7 * SIGMA)).powf(0.25), max_relative = 1e-9);
     }
@@ -182,7 +240,8 @@ mod tests {
     fn radiative_exchange_alone_has_a_closed_form() {
         let (e1, e2, h) = (0.8, 0.6, 0.11);
         let emission = [Emission::constant(e1), Emission::constant(e2)];
-        let [front, rear] = conducting_temperatures_k(&emission, &link(0.0, h), [5000.0, 0.0]);
+        let [front, rear] =
+            conducting_temperatures_k(&emission.map(in_the_cold), &link(0.0, h), [5000.0, 0.0]);
         // (e1 + h) x1 - h x2 = 5000 / sigma, (e2 + h) x2 = h x1
         let x1 = 5000.0 / SIGMA / (e1 + h - h * h / (e2 + h));
         assert_relative_eq!(front.powi(4), x1, max_relative = 1e-11);
@@ -192,8 +251,11 @@ mod tests {
     #[test]
     fn no_heat_is_absolute_zero() {
         let emission = [Emission::constant(0.8); 2];
-        assert_eq!(conducting_temperatures_k(&emission, &link(18.0, 0.11), [0.0, 0.0]), [0.0, 0.0]);
-        assert_eq!(insulated_temperature_k(&emission[0], 0.0), 0.0);
+        assert_eq!(
+            conducting_temperatures_k(&emission.map(in_the_cold), &link(18.0, 0.11), [0.0, 0.0]),
+            [0.0, 0.0]
+        );
+        assert_eq!(face_temperature_k(&in_the_cold(emission[0]), 0.0), 0.0);
     }
 
     #[test]
@@ -218,13 +280,13 @@ mod tests {
         ) {
             let emission = [front, rear];
             let link = link(q, h);
-            let temperatures_k = conducting_temperatures_k(&emission, &link, heats);
+            let temperatures_k = conducting_temperatures_k(&emission.map(in_the_cold), &link, heats);
             let (flow, _) = exchange_w_m2(&link, temperatures_k);
             let radiated = [0, 1].map(|i| exitance_w_m2(&emission[i], temperatures_k[i]).0);
             let total = heats[0] + heats[1];
             prop_assert!((heats[0] - flow - radiated[0]).abs() <= 1e-9 * total);
             prop_assert!((heats[1] + flow - radiated[1]).abs() <= 1e-9 * total);
-            let alone = insulated_temperature_k(&front, heats[0]);
+            let alone = face_temperature_k(&in_the_cold(front), heats[0]);
             prop_assert!((exitance_w_m2(&front, alone).0 - heats[0]).abs() <= 1e-9 * heats[0]);
         }
 
@@ -235,15 +297,97 @@ mod tests {
         ) {
             let emission = [front, rear];
             let link = link(q, h);
-            let at = |x: f64| conducting_temperatures_k(&emission, &link, [heats[0] + x, heats[1] - 0.3 * x]);
+            let at = |x: f64| conducting_temperatures_k(&emission.map(in_the_cold), &link, [heats[0] + x, heats[1] - 0.3 * x]);
             let seeded = [Dual64::new(heats[0], 1.0), Dual64::new(heats[1], -0.3)];
-            let exact = conducting_temperatures_k(&emission, &link, seeded);
+            let exact = conducting_temperatures_k(&emission.map(in_the_cold), &link, seeded);
             let step = 1e-4 * heats[0].min(heats[1]);
             for i in 0..2 {
                 let slope = (at(step)[i] - at(-step)[i]) / (2.0 * step);
                 let scale = exact[0].eps.abs() + exact[1].eps.abs();
                 prop_assert!((slope - exact[i].eps).abs() < 1e-6 * scale, "{slope} {}", exact[i].eps);
                 prop_assert!((exact[i].re - at(0.0)[i]).abs() <= 1e-12 * exact[i].re);
+            }
+        }
+    }
+
+    /// Sunlight on a plate that conducts heat to the bus, with T and everything else chosen: what conductance closes the balance
+    /// is arithmetic.
+    #[test]
+    fn a_plate_on_a_bus_has_the_temperature_its_balance_was_made_for() {
+        let (emissivity, wanted_k, bus_k, background_k, heat) = (0.8, 310.0_f64, 280.0, 60.0_f64, 900.0);
+        let radiated = emissivity * SIGMA * (wanted_k.powi(4) - background_k.powi(4));
+        let conductance_w_m2_k = (heat - radiated) / (wanted_k - bus_k);
+        assert!(conductance_w_m2_k > 10.0);
+        let face = FaceSurroundings {
+            emission: Emission::constant(emissivity),
+            background_k,
+            bus: BusLink { conductance_w_m2_k, temperature_k: bus_k },
+        };
+        assert_relative_eq!(face_temperature_k(&face, heat), wanted_k, max_relative = 1e-13);
+        // In the dark the bus keeps it warm: between the two it is where both flows are equal.
+        let dark_k = face_temperature_k(&face, 0.0);
+        let from_bus = conductance_w_m2_k * (bus_k - dark_k);
+        let to_space = emissivity * SIGMA * (dark_k.powi(4) - background_k.powi(4));
+        assert!(dark_k > 250.0 && dark_k < bus_k);
+        assert_relative_eq!(from_bus, to_space, max_relative = 1e-11);
+    }
+
+    #[test]
+    fn without_light_a_face_has_the_temperature_of_space_or_between_it_and_the_bus() {
+        let face = |conductance_w_m2_k, temperature_k| FaceSurroundings {
+            emission: Emission::constant(0.8),
+            background_k: 2.725,
+            bus: BusLink { conductance_w_m2_k, temperature_k },
+        };
+        let (alone, held) = (face(0.0, 290.0), face(1e9, 290.0));
+        assert_eq!(face_temperature_k(&alone, 0.0), 2.725);
+        assert_relative_eq!(face_temperature_k(&held, 0.0), 290.0, max_relative = 1e-6);
+        assert_eq!(conducting_temperatures_k(&[alone; 2], &link(18.0, 0.11), [0.0; 2]), [2.725; 2]);
+        let [front, rear] = conducting_temperatures_k(&[held, alone], &link(1e6, 0.0), [0.0; 2]);
+        assert_relative_eq!(front, 290.0, max_relative = 1e-5);
+        assert_relative_eq!(rear, 290.0, max_relative = 1e-3);
+        // A bus as cold as space takes no part in what is absolutely cold.
+        let cold = FaceSurroundings { background_k: 0.0, ..face(5.0, 0.0) };
+        assert_eq!(face_temperature_k(&cold, 0.0), 0.0);
+        assert_eq!(conducting_temperatures_k(&[cold; 2], &link(18.0, 0.11), [0.0; 2]), [0.0; 2]);
+    }
+
+    proptest! {
+        /// What comes in goes out: to space, to the bus, through the structure; and derivatives are slopes.
+        #[test]
+        fn energy_balances_close_with_space_and_bus(
+            emissions in [emissions(), emissions()], q in 0.0..200.0_f64, h in 1e-6..1.0_f64,
+            heats in prop::array::uniform2(0.0..15000.0_f64), background_k in 0.0..200.0_f64,
+            conductances in prop::array::uniform2(1e-3..500.0_f64), buses_k in prop::array::uniform2(50.0..500.0_f64),
+        ) {
+            let faces = [0, 1].map(|i| FaceSurroundings {
+                emission: emissions[i],
+                background_k,
+                bus: BusLink { conductance_w_m2_k: conductances[i], temperature_k: buses_k[i] },
+            });
+            let link = link(q, h);
+            let found_k = conducting_temperatures_k(&faces, &link, heats);
+            let (flow, _) = exchange_w_m2(&link, found_k);
+            for (i, through) in [flow, -flow].into_iter().enumerate() {
+                let radiated = exitance_w_m2(&emissions[i], found_k[i]).0
+                    - emissions[i].at(found_k[i]).0 * SIGMA * background_k.powi(4);
+                let to_bus = conductances[i] * (found_k[i] - buses_k[i]);
+                let scale = heats[0] + heats[1] + conductances[i] * buses_k[i] + radiated.abs() + flow.abs();
+                prop_assert!((heats[i] - through - radiated - to_bus).abs() <= 1e-9 * scale, "{found_k:?}");
+            }
+            let seeded = conducting_temperatures_k(&faces, &link, [Dual64::new(heats[0], 1.0), Dual64::new(heats[1], -0.3)]);
+            let step = 1e-2;
+            let at = |x: f64| conducting_temperatures_k(&faces, &link, [heats[0] + step + x, heats[1] + step - 0.3 * x]);
+            let here = conducting_temperatures_k(
+                &faces,
+                &link,
+                [Dual64::new(heats[0] + step, 1.0), Dual64::new(heats[1] + step, -0.3)],
+            );
+            prop_assert!(seeded.iter().all(|it| it.eps.is_finite()));
+            for i in 0..2 {
+                let slope = (at(step)[i] - at(-step)[i]) / (2.0 * step);
+                let scale = here[0].eps.abs() + here[1].eps.abs();
+                prop_assert!((slope - here[i].eps).abs() < 1e-5 * scale, "{slope} {}", here[i].eps);
             }
         }
     }

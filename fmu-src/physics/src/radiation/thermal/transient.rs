@@ -1,6 +1,6 @@
 //! Temperatures that take time: each face stores heat, so that it stays warm into an eclipse.
 //!
-//! Every surface is one or two heat balances C dT/dt = absorbed - exchanged - radiated, independent of the other surfaces.
+//! Every surface is one or two heat balances C dT/dt = absorbed - exchanged - given to space and bus, independent of the other surfaces.
 //! They are stiff (thin layers follow their light in seconds) and are integrated by the extrapolated linearly implicit
 //! Euler method (Deuflhard 1985), which damps what is fast. A step depends on its arguments only, so the temperatures
 //! are all the state there is.
@@ -8,8 +8,8 @@
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
-use super::balance::{exchange_w_m2, exitance_w_m2};
-use crate::spacecraft::{Conduction, Emission};
+use super::balance::{FaceSurroundings, exchange_w_m2};
+use crate::spacecraft::Conduction;
 
 /// Allowed error of one step relative to the temperature.
 const TOLERANCE: f64 = 1e-9;
@@ -37,8 +37,8 @@ pub struct ThermalState {
 /// One surface that stores heat in each of its faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatStore {
-    /// Emission of front and rear; the rear of a one-sided surface is not used.
-    pub emission: [Emission; 2],
+    /// What front and rear give off heat to; the rear of a one-sided surface is not used.
+    pub faces: [FaceSurroundings; 2],
     /// Heat flow between the faces.
     pub conduction: Option<Conduction>,
     /// Heat capacity of each face in J/m2/K, above 0.
@@ -143,8 +143,8 @@ impl HeatStore {
 
     /// Heat flow out of each face in W/m2, and its slopes by the temperatures.
     fn outflow(&self, temperatures_k: &Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
-        let (front, front_slope) = exitance_w_m2(&self.emission[0], temperatures_k.x);
-        let (rear, rear_slope) = exitance_w_m2(&self.emission[1], temperatures_k.y);
+        let (front, front_slope) = self.faces[0].outflow_w_m2(temperatures_k.x);
+        let (rear, rear_slope) = self.faces[1].outflow_w_m2(temperatures_k.y);
         let (flow, [b1, b2]) = self
             .conduction
             .as_ref()
@@ -162,22 +162,23 @@ mod tests {
 
     use super::*;
     use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
-    use crate::radiation::thermal::balance::conducting_temperatures_k;
+    use crate::radiation::thermal::balance::{conducting_temperatures_k, exitance_w_m2};
+    use crate::spacecraft::{BusLink, Emission};
+
+    fn in_the_cold(emissivity: f64) -> FaceSurroundings {
+        FaceSurroundings { emission: Emission::constant(emissivity), background_k: 0.0, bus: BusLink::NONE }
+    }
 
     fn panel() -> HeatStore {
         HeatStore {
-            emission: [Emission::constant(0.75), Emission::constant(0.7)],
+            faces: [in_the_cold(0.75), in_the_cold(0.7)],
             conduction: Some(Conduction { conductance_w_m2_k: 18.0, radiative_exchange: 0.11 }),
             heat_capacity_j_m2_k: 3500.0,
         }
     }
 
     fn blanket(heat_capacity_j_m2_k: f64) -> HeatStore {
-        HeatStore {
-            emission: [Emission::constant(0.7), Emission::constant(0.0)],
-            conduction: None,
-            heat_capacity_j_m2_k,
-        }
+        HeatStore { faces: [in_the_cold(0.7), in_the_cold(0.0)], conduction: None, heat_capacity_j_m2_k }
     }
 
     /// dT/dt = -eps sigma T^4 / C gives 1/T^3 = 1/T0^3 + 3 eps sigma t / C.
@@ -196,7 +197,7 @@ mod tests {
         let (panel, heat) = (panel(), [9000.0, 400.0]);
         let found = panel.advance([200.0, 350.0], [heat, heat], 1e6);
         let link = panel.conduction.unwrap();
-        let balanced = conducting_temperatures_k(&panel.emission, &link, heat);
+        let balanced = conducting_temperatures_k(&panel.faces, &link, heat);
         assert_relative_eq!(found[0], balanced[0], max_relative = 1e-8);
         assert_relative_eq!(found[1], balanced[1], max_relative = 1e-8);
     }
@@ -207,7 +208,7 @@ mod tests {
         let (panel, seconds, steps) = (panel(), 600.0, 600);
         let heat = |t: f64| [9000.0 - 12.0 * t, 300.0 + t];
         let outflow = |t: [f64; 2]| {
-            exitance_w_m2(&panel.emission[0], t[0]).0 + exitance_w_m2(&panel.emission[1], t[1]).0
+            exitance_w_m2(&panel.faces[0].emission, t[0]).0 + exitance_w_m2(&panel.faces[1].emission, t[1]).0
         };
         let start = [330.0, 300.0];
         let (mut temperatures, mut stored, step) = (start, 0.0, seconds / f64::from(steps));
@@ -225,6 +226,35 @@ mod tests {
         let at_once = panel.advance(start, [heat(0.0), heat(seconds)], seconds);
         assert_relative_eq!(at_once[0], temperatures[0], max_relative = 1e-8);
         assert_relative_eq!(at_once[1], temperatures[1], max_relative = 1e-8);
+    }
+
+    /// dT/dt = -(g/C) (T - T_bus) where next to nothing is radiated: an exponential; and in the dark of space without a bus a face
+    /// comes to its temperature and no lower.
+    #[test]
+    fn bus_and_space_draw_temperatures_to_their_own() {
+        let (conductance_w_m2_k, bus_k, capacity, seconds) = (5.0, 280.0, 3500.0, 900.0);
+        let mut plate = blanket(capacity);
+        plate.faces[0].emission = Emission::constant(1e-12);
+        plate.faces[0].bus = BusLink { conductance_w_m2_k, temperature_k: bus_k };
+        let [found, _] = plate.advance([150.0, 0.0], [[0.0; 2]; 2], seconds);
+        let expected = bus_k + (150.0 - bus_k) * (-conductance_w_m2_k * seconds / capacity).exp();
+        assert_relative_eq!(found, expected, max_relative = 1e-9);
+        let mut plate = blanket(1.0);
+        plate.faces[0].background_k = 90.0;
+        for from_k in [40.0, 450.0] {
+            let [found, _] = plate.advance([from_k, 0.0], [[0.0; 2]; 2], 1e8);
+            assert_relative_eq!(found, 90.0, max_relative = 1e-7);
+        }
+        // With light, bus and space after long: the balance.
+        let mut whole = panel();
+        for (face, bus_k) in whole.faces.iter_mut().zip([300.0, 250.0]) {
+            face.background_k = 60.0;
+            face.bus = BusLink { conductance_w_m2_k: 12.0, temperature_k: bus_k };
+        }
+        let found = whole.advance([200.0, 350.0], [[2000.0, 100.0]; 2], 1e6);
+        let balanced = conducting_temperatures_k(&whole.faces, &whole.conduction.unwrap(), [2000.0, 100.0]);
+        assert_relative_eq!(found[0], balanced[0], max_relative = 1e-8);
+        assert_relative_eq!(found[1], balanced[1], max_relative = 1e-8);
     }
 
     /// Two columns that agree by chance once were taken for converged ones here, 1.4e-7 of the temperature apart.

@@ -1,0 +1,131 @@
+//! Effects beside sunlight: the switches by source that several models have, and what in a file is without effect.
+
+use fmi_export::{Boolean, Failure, Integer, SetupError, Values, Variables};
+use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
+
+use super::start_values::entry_of;
+
+/// Surfaces are named in messages up to so many.
+const MOST_NAMES: usize = 6;
+
+/// Light of the planet.
+#[derive(Variables)]
+pub struct PlanetLightVariables {
+    /// Whether sunlight reflected by the planet and its infrared light act and heat; paper 000 leaves them out.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+    /// Quadrature nodes over the planet's disc, on rings: 6 for 1e-4 of the force, 16 for 1e-5.
+    #[parameter(min = 1, max = 64, start = 6)]
+    pub nodes: Integer,
+}
+
+/// Heat the spacecraft radiates.
+#[derive(Variables)]
+pub struct RecoilVariables {
+    /// Whether the recoil of radiated heat acts; paper 000 leaves it out.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+}
+
+/// Shadows of the spacecraft's surfaces on one another.
+#[derive(Variables)]
+pub struct ShadowingVariables {
+    /// Whether surfaces given as polygons shadow one another from the Sun; refused where no surface is. Planet light is never
+    /// shadowed.
+    #[parameter(start = false)]
+    pub enabled: Boolean,
+    /// Whether the Sun's disc softens those shadows: lit areas are means over seven directions to it, which takes as much
+    /// longer. Otherwise the Sun is a point.
+    #[parameter(start = false)]
+    pub sun_disc: Boolean,
+}
+
+/// Gravity-gradient torque.
+#[derive(Variables)]
+pub struct GravityGradientVariables {
+    /// Whether the planet's gravity gradient acts; paper 000 leaves it out.
+    #[parameter(start = true)]
+    pub enabled: Boolean,
+}
+
+impl ShadowingVariables {
+    /// What to warn of: surfaces that have no outline, among others that do.
+    ///
+    /// # Errors
+    /// Shadows asked for where no surface has an outline.
+    pub fn check(
+        &self,
+        values: &Values,
+        spacecraft: &Spacecraft,
+        shape: SunshadeModel,
+    ) -> Result<Option<String>, Failure> {
+        if !values.boolean(self.enabled) {
+            return Ok(None);
+        }
+        let outlines = Outlines::of(spacecraft, shape);
+        if outlines.given == 0 {
+            return Err(Failure::new(format!("shadowing.enabled: {}", outlines.refusal(&spacecraft.name))));
+        }
+        Ok((!outlines.missing.is_empty()).then(|| {
+            let plural = if outlines.missing.len() == 1 { "has" } else { "have" };
+            format!(
+                "shadowing.enabled: {} {plural} no outline (polygon_m), cast no shadow and are never shadowed",
+                outlines.names()
+            )
+        }))
+    }
+}
+
+/// Refuses a file whose `[start]` asks for shadows where no surface has an outline.
+pub fn check_start(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<(), SetupError> {
+    let entry = entry_of(&spacecraft.start, model, "shadowing.enabled");
+    let Some(entry) = entry.filter(|entry| entry.value == StartValue::Boolean(true)) else { return Ok(()) };
+    let shape = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
+    let outlines = Outlines::of(spacecraft, shape);
+    if outlines.given > 0 {
+        return Ok(());
+    }
+    let refusal = outlines.refusal(&spacecraft.name);
+    Err(SetupError(format!("{file}:{}: {}: {refusal}", entry.line, entry.key)))
+}
+
+/// What to warn of where a file's `[planet_map]` is without effect.
+pub fn unused_map(spacecraft: &Spacecraft) -> Option<String> {
+    spacecraft.planet_map.as_ref().map(|_| {
+        format!(
+            "[planet_map] in the spacecraft.toml of {} is without effect: DisturbanceTorque alone takes it, with \
+             planetLight.enabled = true and planetLight.method = map",
+            spacecraft.name
+        )
+    })
+}
+
+/// Which surfaces have an outline.
+struct Outlines {
+    given: usize,
+    missing: Vec<String>,
+}
+
+impl Outlines {
+    fn of(spacecraft: &Spacecraft, shape: SunshadeModel) -> Self {
+        let (given, missing) = spacecraft.outlines(shape);
+        Self { given, missing }
+    }
+
+    fn refusal(&self, name: &str) -> String {
+        format!(
+            "found true, allowed: false, as no surface of {name} has an outline that could cast a shadow; polygon_m gives one \
+             to {}",
+            self.names()
+        )
+    }
+
+    fn names(&self) -> String {
+        let mut names: Vec<String> =
+            self.missing.iter().take(MOST_NAMES).map(|name| format!("`{name}`")).collect();
+        if let Some(more) = self.missing.len().checked_sub(MOST_NAMES).filter(|more| *more > 0) {
+            names.push(format!("{more} more"));
+        }
+        names.join(", ")
+    }
+}

@@ -1,0 +1,149 @@
+//! What follows the body that a spacecraft flies about: start values by the file's, and what is left at them by another's.
+
+use fmi_export::{Entry, Library, Model};
+use model_description::{Description, VariableKind};
+use models::{DisturbanceTorque, Guidance, MomentumPlant};
+use physics::bodies::Body;
+
+use super::named_model::NamedModel;
+
+static LIBRARY: Library = Library {
+    entries: &[Entry::of::<MomentumPlant>(), Entry::of::<DisturbanceTorque>(), Entry::of::<Guidance>()],
+};
+
+const SAILER: &str = include_str!("../../../resources/examples/solar-sailer.toml");
+
+/// The sailer about a body.
+fn about(center: &str) -> String {
+    format!("{SAILER}\n[start]\n\"orbit.center\" = \"{center}\"\n")
+}
+
+fn described<M: Model>(text: &str) -> Description {
+    LIBRARY.describe(LIBRARY.find(M::NAME).unwrap(), Some("my.toml"), Some(text)).unwrap()
+}
+
+fn start(description: &Description, name: &str) -> f64 {
+    let variable = description.variables.iter().find(|variable| variable.name == name).unwrap();
+    match &variable.kind {
+        VariableKind::Real { start, .. } => start.unwrap(),
+        VariableKind::Enumeration { start, .. } => f64::from(start.unwrap()),
+        VariableKind::Boolean { start, .. } => f64::from(u8::from(start.unwrap())),
+        _ => panic!("{name}"),
+    }
+}
+
+#[test]
+fn start_values_are_those_of_the_center_in_the_file() {
+    let plant = described::<MomentumPlant>(&about("sun"));
+    for (name, expected) in [
+        ("orbit.semiMajorAxis", 149_597_870_700.0),
+        ("orbit.eccentricity", 0.0),
+        ("orbit.inclination", 0.0),
+        ("orbit.ascendingNode", 0.0),
+        ("orbit.periapsisArgument", 0.0),
+        // The ecliptic.
+        ("orbit.frame", 4.0),
+        ("planet.radius", 695_700e3),
+    ] {
+        assert_eq!(start(&plant, name), expected, "{name}");
+    }
+    // 1 AU in a year of 365.25 days (Kepler's third law).
+    let gm = start(&plant, "planet.gravitationalParameter");
+    let year_s = core::f64::consts::TAU * (149_597_870_700.0_f64.powi(3) / gm).sqrt();
+    assert!((year_s / 86_400.0 - 365.256_9).abs() < 1e-3, "{year_s}");
+    assert_eq!(start(&described::<DisturbanceTorque>(&about("sun")), "planet.present"), 0.0);
+    assert_eq!(start(&described::<Guidance>(&about("sun")), "target.planet"), 2.0);
+
+    for (center, item, radius_m) in
+        [("venus", 3.0, 6_051.8e3), ("earth", 4.0, 6_371.0e3), ("jupiter", 7.0, 69_911e3)]
+    {
+        let text = about(center);
+        let (plant, torque, guidance) = (
+            described::<MomentumPlant>(&text),
+            described::<DisturbanceTorque>(&text),
+            described::<Guidance>(&text),
+        );
+        let radius = start(&plant, "planet.radius");
+        assert!((radius / radius_m - 1.0).abs() < 0.03, "{center} {radius}");
+        assert_eq!(start(&plant, "orbit.semiMajorAxis"), 3.0 * radius);
+        assert_eq!((start(&plant, "orbit.eccentricity"), start(&plant, "orbit.frame")), (0.0, 2.0));
+        assert_eq!(start(&torque, "planet.radius"), radius);
+        assert_eq!((start(&guidance, "target.planet"), start(&guidance, "planet.radii[1]")), (item, radius));
+        for name in ["planet.gravitationalParameter", "planet.poleDeclination", "ephemeris.semiMajorAxis"] {
+            assert_eq!(start(&plant, name), start(&guidance, name), "{name}");
+        }
+        assert_eq!(start(&plant, "planet.emissivity"), start(&torque, "planet.emissivity"));
+        // Outside the planet: it initializes.
+        NamedModel::<DisturbanceTorque>::with("my.toml", &text).fly(0.0, &[]).unwrap();
+    }
+    // What the file sets besides stays.
+    let set = format!("{}\"orbit.eccentricity\" = 0.3\n", about("sun"));
+    assert_eq!(start(&described::<MomentumPlant>(&set), "orbit.eccentricity"), 0.3);
+}
+
+/// The same orbit, whether the file names the centre or the master does; the master is warned.
+#[test]
+fn a_center_set_later_gives_the_same_orbit_and_a_warning() {
+    for (body, center) in
+        [(Body::Sun, "sun"), (Body::Venus, "venus"), (Body::Earth, "earth"), (Body::Jupiter, "jupiter")]
+    {
+        let by_file = NamedModel::<MomentumPlant>::with("my.toml", &about(center));
+        let by_master = NamedModel::<MomentumPlant>::with("my.toml", SAILER);
+        let item = start(&described::<MomentumPlant>(&about(center)), "orbit.center");
+        let mut a = by_file.fly(0.0, &[]).unwrap();
+        let mut b = by_master.fly(0.0, &[("orbit.center", item)]).unwrap();
+        a.step_to(86_400.0).unwrap();
+        b.step_to(86_400.0).unwrap();
+        for name in ["position", "velocity", "torque.total", "sun.direction"] {
+            assert_eq!(a.vector(name), b.vector(name), "{body:?} {name}");
+        }
+        assert_eq!(by_file.warnings(), [""; 0]);
+        let said = by_master.warnings();
+        let names = [
+            "orbit.center is",
+            center,
+            "orbit.semiMajorAxis = ",
+            "orbit.eccentricity = 0",
+            "orbit.inclination = ",
+        ];
+        assert!(said.len() == 1 && names.iter().all(|name| said[0].contains(name)), "{said:?}");
+        assert_eq!(said[0].contains("orbit.frame = ecliptic"), body == Body::Sun, "{said:?}");
+    }
+}
+
+/// About the Sun an eccentricity that happens to be the one of the default about Mercury is flown by a file about the Sun.
+#[test]
+fn values_that_are_set_are_flown() {
+    let set = format!(
+        "{}\"orbit.eccentricity\" = 0.74\n\"orbit.trueAnomaly\" = 0\n\"orbit.frame\" = \"planetEquator\"\n",
+        about("sun")
+    );
+    let named = NamedModel::<MomentumPlant>::with("my.toml", &set);
+    let flight = named.fly(0.0, &[]).unwrap();
+    let position_m = flight.vector("position");
+    assert!((position_m.norm() / (0.26 * 149_597_870_700.0) - 1.0).abs() < 1e-12, "{position_m}");
+    // Right ascension of the Sun's equator's node on that of the Earth: 90 deg beyond that of its pole, 286.13 deg.
+    let node_rad = position_m.y.atan2(position_m.x);
+    assert!((node_rad - 16.13_f64.to_radians()).abs() < 1e-9, "{node_rad}");
+    assert_eq!(named.warnings(), [""; 0]);
+    // Nothing to tell where every element is set, or none counts.
+    let plant = NamedModel::<MomentumPlant>::shipped();
+    let elements = [
+        ("orbit.center", 2.0),
+        ("orbit.frame", 4.0),
+        ("orbit.semiMajorAxis", 1.5e11),
+        ("orbit.eccentricity", 0.1),
+        ("orbit.inclination", 0.2),
+        ("orbit.ascendingNode", 0.3),
+        ("orbit.periapsisArgument", 0.4),
+    ];
+    plant.fly(0.0, &elements).unwrap();
+    let given = [
+        ("orbit.center", 2.0),
+        ("orbit.source", 2.0),
+        ("orbit.position[1]", 1e11),
+        ("orbit.velocity[2]", 3e4),
+    ];
+    plant.fly(0.0, &given).unwrap();
+    assert_eq!(plant.warnings(), [""; 0]);
+}
