@@ -47,7 +47,7 @@ def test_libcosim_and_fmpy_agree_to_the_bit(dist, model):
 def test_libcosim_runs_options_that_it_cannot_set(heliotorque, dist, tmp_path):
     options = {"momentum.convention": ("bodyIntegral", 2), "eclipse.method": ("off", 4)}
     table = "\n".join(f'"{name}" = "{item}"' for name, (item, _) in options.items())
-    text = (RESOURCES / "messenger.toml").read_text(encoding="utf-8") + f"\n[start]\n{table}\n"
+    text = (RESOURCES / "messenger.toml").read_text(encoding="utf-8") + f"{table}\n"  # its last table is [start]
     fmu = pack(heliotorque, dist, tmp_path, text, "Chosen")
     names = vector("momentum.body")
     shipped = str(dist / "MomentumPlant.fmu")

@@ -50,8 +50,8 @@ def test_fmpy_reads_what_was_packed_and_runs_it_as_if_it_had_set_it(with_start_v
 
 
 def test_the_table_in_the_file_is_the_same(with_start_values, heliotorque, dist, tmp_path):
+    # Into the file's own [start], its last table.
     table = """
-[start]
 "eclipse.method" = "off"
 "panel[1].enabled" = false
 "panel[2].sunOffset" = "10 deg"
@@ -74,9 +74,9 @@ def test_the_table_in_the_file_is_the_same(with_start_values, heliotorque, dist,
 def test_check_tells_a_start_value_that_one_model_does_not_take(heliotorque, dist, tmp_path):
     text = MESSENGER.read_text(encoding="utf-8")
     bad = tmp_path / "bad.toml"
-    bad.write_text(text + '\n[start]\n"orbit.center" = "pluto"\n', encoding="utf-8")
+    bad.write_text(text + '"orbit.center" = "pluto"\n', encoding="utf-8")
     checked = call(heliotorque, "check", bad, "--template", dist / "MomentumPlant.fmu")
-    line = len(text.splitlines()) + 3
+    line = len(text.splitlines()) + 1
     assert checked.returncode == 1
     assert f'bad.toml:{line}: start."orbit.center": found "pluto", allowed: mercury (1), sun (2)' in checked.stdout
     assert "1 problem" in checked.stderr

@@ -90,7 +90,10 @@ pub fn table(setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies
         let shadows = knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(face.shadowed);
         let parameters = &knowns![v.solar.flux, eclipse, reflecting, radiating, shadows, shade];
         table.output(plate.temperature, inputs, knowns![inputs, parameters]);
-        table.output(plate.force, inputs, knowns![inputs, parameters, v.thermal.enabled]);
+        for (axis, recoils) in face.recoils_along.into_iter().enumerate() {
+            let recoil = knowns![v.thermal.enabled].only_if(recoils);
+            table.output(plate.force.element(axis), inputs, knowns![inputs, parameters, recoil]);
+        }
     }
     table
 }

@@ -101,7 +101,10 @@ impl<M: Model> NamedModel<M> {
             }
         });
         let names = names.collect();
-        let start = with_file_starts(&interface.start, &description_of::<M>(file, text).unwrap());
+        // Start values for another model are no names that this one alone knows.
+        let described = description_of::<M>(file, text);
+        let start =
+            described.map_or_else(|_| interface.start.clone(), |it| with_file_starts(&interface.start, &it));
         Self { names, setup, handles, start, warnings: Warnings::default() }
     }
 

@@ -39,6 +39,9 @@ const EXCEPTIONS: &[(&str, &str, &str)] = &[
     ("burn.start", "min", "of the spinner's train of pulses, and of a delta-v"),
     ("burn.start", "max", "of the spinner's train of pulses, and of a delta-v"),
     ("burn.start", "description", "of the spinner's train of pulses, and of a delta-v"),
+    ("deltaV", "description", "the spinner feels its thrusters alone"),
+    ("keepIn.azimuth", "max", "Guidance points within a half of the sky at most"),
+    ("keepIn.azimuth", "default", "Guidance points within a half of the sky at most"),
     ("sun.azimuth", "description", "Guidance gives it of the commanded attitude"),
     ("sun.elevation", "description", "Guidance gives it of the commanded attitude"),
 ];
@@ -168,7 +171,10 @@ fn compare(
 }
 
 /// Names of different models that differ in case, a plural or one letter alone, and are meant.
-const ALIKE: &[(&str, &str)] = &[];
+const ALIKE: &[(&str, &str)] = &[
+    // One of the spinner's, and a set of them.
+    ("burn.thruster", "burn.thrusters"),
+];
 
 /// A name that is almost another model's is a slip, unless it is known here.
 #[test]

@@ -46,12 +46,12 @@ fn a_surface_takes_the_files_bus_or_its_own() {
 #[test]
 fn what_cannot_be_is_told_with_its_key() {
     for (top, plate, panel, expected) in [
-        ("thermal.background_k = -1", "", "", "thermal.background_k: found -1.0, allowed: 0 to 2000 K"),
+        ("thermal.background_k = -1", "", "", "thermal.background_k: found -1, allowed: 0 to 2000 K"),
         (
             "thermal.bus_temperature_k = 3000",
             "",
             "",
-            "thermal.bus_temperature_k: found 3000.0, allowed: 0 to 2000 K",
+            "thermal.bus_temperature_k: found 3000, allowed: 0 to 2000 K",
         ),
         ("thermal.background = 3", "", "", "`background`"),
         (
@@ -70,7 +70,7 @@ fn what_cannot_be_is_told_with_its_key() {
             "thermal.bus_temperature_k = 290",
             "thermal.bus_conductance_w_m2_k = -3",
             "",
-            "plates[1].thermal.bus_conductance_w_m2_k: found -3.0",
+            "plates[1].thermal.bus_conductance_w_m2_k: found -3",
         ),
         (
             "thermal.bus_temperature_k = 290",

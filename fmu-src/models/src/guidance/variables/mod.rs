@@ -123,7 +123,7 @@ pub struct GuidanceVariables {
     /// Its velocity.
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
     pub velocity: RealVector<3>,
-    /// Time, in seconds past J2000 TDB.
+    /// Present epoch, seconds past J2000 TDB.
     #[output(unit = "s", display = "d", nominal = 1e8)]
     pub epoch: Real,
 }

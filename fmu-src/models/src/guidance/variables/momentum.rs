@@ -76,7 +76,7 @@ pub struct MomentumVariables {
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct DumpVariables {
-    /// Magnitude of a body component of momentum that asks for a dump; a very large value means never.
+    /// Magnitude of a body component of momentum that triggers a dump, here a request of one; a very large value means never.
     #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = setup.dump_threshold_n_m_s())]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold; the others stay.

@@ -126,10 +126,10 @@ pub struct WheelVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct KeepInVariables {
-    /// Largest Sun azimuth.
+    /// Largest Sun azimuth either way.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::keep_in(setup).azimuth_rad)]
     pub azimuth: Real,
-    /// Largest Sun elevation; guided attitudes stay within.
+    /// Largest Sun elevation either way; guided attitudes stay within.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::FRAC_PI_2, start = defaults::keep_in(setup).elevation_rad)]
     pub elevation: Real,
     /// How far inside the zone the Sun stands; negative outside.

@@ -34,7 +34,7 @@ pub struct TorqueVariables {
     pub applied: RealVector<3>,
     #[group(name = "")]
     pub by_source: TorqueBySource,
-    /// The spacecraft's own thrusters, in controlled and free flight.
+    /// Torque of the thrusters, in controlled and free flight.
     #[output(unit = "N.m", nominal = 1.0)]
     pub thruster: RealVector<3>,
     /// Sum of all sources, the external one included.
@@ -51,7 +51,7 @@ pub struct ForceVariables {
     pub applied: RealVector<3>,
     #[group(name = "")]
     pub by_source: ForceBySource,
-    /// The spacecraft's own thrusters, in controlled and free flight.
+    /// Force of the thrusters, in controlled and free flight.
     #[output(unit = "N", nominal = 1.0)]
     pub thruster: RealVector<3>,
     /// Sum of all sources, the external one included.

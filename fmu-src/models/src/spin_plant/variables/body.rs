@@ -30,7 +30,7 @@ pub struct PropellantVariables {
         start = setup.mass_properties.initial_propellant_kg
     )]
     pub loaded: Real,
-    /// Used since the start.
+    /// Propellant used since the start.
     #[output(unit = "kg", nominal = 0.01)]
     pub used: Real,
     /// Left on board.
@@ -96,7 +96,7 @@ pub struct AttitudeVariables {
     /// Attitude quaternion, scalar last, from EME2000 to the body frame; continuous, so its sign follows the turns.
     #[output(unit = "1", nominal = 1.0)]
     pub q: RealVector<4>,
-    /// Angular rate J^-1 h of the body in EME2000, in body components.
+    /// Angular rate of the body in EME2000, in body components: J^-1 h.
     #[output(unit = "rad/s", display = "deg/s", nominal = 1e-2)]
     pub rate: RealVector<3>,
 }
@@ -136,10 +136,10 @@ pub struct ConingVariables {
 /// Angular momentum.
 #[derive(Variables)]
 pub struct MomentumVariables {
-    /// In EME2000.
+    /// System momentum in EME2000.
     #[output(unit = "N.m.s", nominal = 100.0)]
     pub inertial: RealVector<3>,
-    /// In the body frame.
+    /// System momentum in the body frame.
     #[output(unit = "N.m.s", nominal = 100.0)]
     pub body: RealVector<3>,
     /// Angle from where it pointed at the start: the manoeuvre done.

@@ -155,10 +155,10 @@ pub struct ThrusterVariables {
 /// Torques on the body.
 #[derive(Variables)]
 pub struct TorqueVariables {
-    /// Outside torque, body frame.
+    /// Torque from outside this model, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
     pub applied: RealVector<3>,
-    /// Of the thrusters, body frame.
+    /// Torque of the thrusters, body frame.
     #[output(unit = "N.m", nominal = 1.0)]
     pub thruster: RealVector<3>,
 }
@@ -166,7 +166,7 @@ pub struct TorqueVariables {
 /// Forces on the body.
 #[derive(Variables)]
 pub struct ForceVariables {
-    /// Of the thrusters, body frame.
+    /// Force of the thrusters, body frame.
     #[output(unit = "N", nominal = 1.0)]
     pub thruster: RealVector<3>,
 }

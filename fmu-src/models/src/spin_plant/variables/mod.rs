@@ -81,7 +81,7 @@ pub struct SpinVariables {
     /// Velocity change by the thrusters since the start, in EME2000.
     #[output(unit = "m/s", display = "mm/s", nominal = 1e-2)]
     pub delta_v: RealVector<3>,
-    /// Spacecraft mass with the propellant left.
+    /// Spacecraft mass, with the propellant left.
     #[output(unit = "kg", nominal = 1e3)]
     pub mass: Real,
     /// Kinetic energy of rotation.

@@ -120,6 +120,8 @@ fn a_closed_body_in_isotropic_light_feels_no_force() {
 fn an_insulated_black_plate_recoils_by_two_thirds_of_the_light() {
     let spacecraft =
         bare(vec![plate(-Vector3::y(), Vector3::x(), 2.0, Optics::from_reflectivities(0.0, 0.0))]);
+    // The law is that of absolutely cold space.
+    let spacecraft = Spacecraft { background_k: 0.0, ..spacecraft };
     let model = DisturbanceModel::new(&spacecraft, &Options::default()).unwrap();
     let geometry = Geometry {
         sun_direction_body: -Vector3::y(),
