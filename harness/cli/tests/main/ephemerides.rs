@@ -81,7 +81,10 @@ fn a_flight_is_fitted_to_the_tolerance_and_flown_by_another_fmu() {
     assert!(impossible.contains("--tolerance: no fit of sun up to degree 16 keeps"), "{impossible}");
     // Another FMU flies by it within its span and nowhere else.
     let set = ["--set", "ephemeris.source=chebyshev", "--ephemeris", shown(&file)];
-    run(&[&pack[..], &[shown(&fitted)], &set].concat(), 0);
+    let refusal = run(&[&pack[..], &[shown(&fitted)], &set].concat(), 1);
+    assert!(refusal.contains("the FMU is not written") && refusal.contains("start.epoch: found"), "{refusal}");
+    let epoch = format!("start.epoch={START}");
+    run(&[&pack[..], &[shown(&fitted)], &set, &["--set", &epoch]].concat(), 0);
     assert!(run(&["info", shown(&fitted)], 0).contains("sun from mercury"));
     let record = path("record.csv");
     let fly = |epoch: &str, status: i32| {

@@ -63,7 +63,9 @@ fn a_simulation_leaves_csv_and_a_picture() {
         assert_eq!(row[2..], [1.0, 0.002, 3.0, 0.0]);
     }
     let svg = fs::read_to_string(&picture).unwrap();
-    assert!(svg.contains("output.vector[2]") && svg.contains("time [s]"));
+    assert!(svg.contains("output.integral") && svg.contains("time [s]"));
+    // What stays the same is told instead.
+    assert!(!svg.contains("output.vector") && text.contains("constant, so not drawn: output.vector"), "{text}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use physics::{
     spin::spinner::Spinner,
 };
 
-use super::{Section, table};
+use super::section::{Section, table};
 
 /// The section with its picture; none for a setup that is no spacecraft.
 pub fn section(setup: &str, drawing: Option<&str>) -> Option<Section> {

@@ -3,6 +3,7 @@
 mod craft;
 mod opening;
 mod reference_flight;
+mod section;
 mod standard;
 mod variables;
 
@@ -10,9 +11,6 @@ use loader::Described;
 use model_description::{Description, escape};
 
 const STYLE: &str = include_str!("manual.css");
-
-/// A section: its id, its heading and its content in HTML.
-type Section = (&'static str, &'static str, String);
 
 /// The page of an FMU of this description, with the setup it is packed with and a picture of that, an SVG.
 pub fn html(description: &Description, described: &Described, setup: &str, drawing: Option<&str>) -> String {
@@ -44,16 +42,4 @@ pub fn html(description: &Description, described: &Described, setup: &str, drawi
     }
     page.push_str("</body>\n</html>\n");
     page
-}
-
-/// A table of what stands for itself without its header: on a narrow screen each row is a block.
-fn list(header: &[&str], rows: impl IntoIterator<Item = String>) -> String {
-    table(header, rows).replacen("<table>", "<table class=\"list\">", 1)
-}
-
-/// A table with a header.
-fn table(header: &[&str], rows: impl IntoIterator<Item = String>) -> String {
-    let header: String = header.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let rows: String = rows.into_iter().collect();
-    format!("<div class=\"wide\"><table>\n<tr>{header}</tr>\n{rows}</table></div>\n")
 }

@@ -3,7 +3,7 @@
 use loader::Described;
 use model_description::{Description, escape};
 
-use super::Section;
+use super::section::Section;
 
 /// Stands for the FMU's file in an example.
 const FMU: &str = "{fmu}";

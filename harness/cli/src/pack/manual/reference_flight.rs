@@ -2,7 +2,7 @@
 
 use model_description::{Description, escape};
 
-use super::Section;
+use super::section::Section;
 
 /// The section; none for an FMU that cannot be stepped.
 pub fn section(description: &Description) -> Option<Section> {

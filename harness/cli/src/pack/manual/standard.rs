@@ -5,7 +5,7 @@ use std::fmt::Write;
 use model_description::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
 use model_description::{Description, escape};
 
-use super::{Section, table};
+use super::section::{Section, table};
 use crate::info;
 
 /// By what the FMU computes.

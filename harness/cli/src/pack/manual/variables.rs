@@ -2,7 +2,7 @@
 
 use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind, escape};
 
-use super::{Section, list};
+use super::section::{Section, list};
 use crate::info;
 
 /// The sections that list variables, in reading order.
