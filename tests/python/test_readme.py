@@ -1,4 +1,4 @@
-"""The README's validation tables say what the studies print."""
+"""The validation tables of guide and README say what the studies print."""
 
 import pathlib
 import re
@@ -9,7 +9,11 @@ from fmpy import read_model_description, simulate_fmu
 
 from studies import table
 
-README = (pathlib.Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8").splitlines()
+ROOT = pathlib.Path(__file__).parents[2]
+README, VALIDATION, PERFORMANCE = (
+    (ROOT / name).read_text(encoding="utf-8").splitlines()
+    for name in ("README.md", "docs/src/validation.md", "docs/src/performance.md")
+)
 OFFSETS = ("0 cm", "-2.54 cm", "-5.08 cm")
 
 
@@ -100,12 +104,12 @@ def light_rows(rows):
 
 
 def block(rows):
-    """The README has these rows one under the other."""
+    """The chapter has these rows one under the other."""
     rows = list(rows)
-    assert rows[0] in README, rows[0]
-    start = README.index(rows[0])
-    assert README[start:start + len(rows)] == rows
-    assert not README[start + len(rows)].startswith("|"), "a row that no study prints"
+    assert rows[0] in VALIDATION, rows[0]
+    start = VALIDATION.index(rows[0])
+    assert VALIDATION[start:start + len(rows)] == rows
+    assert not VALIDATION[start + len(rows)].startswith("|"), "a row that no study prints"
 
 
 def rows_of(studied, name):
@@ -144,14 +148,14 @@ def test_numbers_of_the_spinner_are_those_of_its_study(studied):
     assert line(
         "002, eq 3", "axis moved by a 1 s and a 32 ms pulse", "0.0095 rad, 0.0176 deg",
         f"{second} rad, {pulse} deg (simulated)", "same",
-    ) in README
+    ) in VALIDATION
     counts = [ours[f"32 ms pulses for 2 deg, {deck}"].split()[0] for deck in ("lower radial", "upper axial")]
-    assert line("002", "32 ms pulses for 2 deg, radial and axial", "114, about 58", ", ".join(counts), "same") in README
+    assert line("002", "32 ms pulses for 2 deg, radial and axial", "114, about 58", ", ".join(counts), "same") in VALIDATION
     once, twice = (found(ours[f"duration, {often} a turn"], r"^([\d.]+) min$") for often in ("once", "twice"))
     assert line(
         "002", "duration once and twice a turn", "22.6, 11.6 min", f"{once}, {twice} min",
         "11.6 is a slip: 113 half turns are 11.3 min",
-    ) in README
+    ) in VALIDATION
     envelopes = [
         found(ours[f"envelope, {deck}, {often} a turn"], r"([\d.]+) deg exact")
         for deck in ("radial", "axial") for often in ("twice", "once")
@@ -166,16 +170,16 @@ def test_numbers_of_the_spinner_are_those_of_its_study(studied):
     assert line(
         "002, eqs 9, 10", "envelopes", ", ".join(envelope.removesuffix(" deg") for envelope in published) + " deg",
         f"same as printed; exact {exact} deg", "the printed equations have slips; the FMU gives the exact envelope",
-    ) in README
+    ) in VALIDATION
     observation = found(ours["observation time at 5 rpm, ratio 1.483"], r"^([\d.]+) min by eq 20")
     assert line(
         "002, eq 20", "observation time at 5 rpm, 1.483", "11.2 min", f"{observation} min",
         "11.2 min is the span of 8 samples",
-    ) in README
+    ) in VALIDATION
     final, minutes = found(
         ours["train 1 2 2 ... 2 1, worst of 1.471 to 1.494"], r"final ([\d.]+) deg, peak [\d.]+ deg, ([\d.]+) min"
     )
-    [row] = [row for row in README if row.startswith("| beyond 002 | tapered train")]
+    [row] = [row for row in VALIDATION if row.startswith("| beyond 002 | tapered train")]
     assert float(final) <= float(found(row, r"final under ([\d.]+) deg")) <= float(final) + 1e-4
     assert f"| {float(minutes):.1f} min, " in row
 
@@ -190,8 +194,8 @@ def test_histories_of_nutation_are_those_of_the_study(studied):
     assert line(
         "002, Figure 4", "nutation; final", f"{span} deg; {final} deg",
         f"axisymmetric: {axisymmetric[0]}; {axisymmetric[1]} deg", "**off**: does not follow from the stated inputs",
-    ) in README
-    assert any(f"| greater about X: {about_x[0]}; about Y: {about_y[0]} deg |" in row for row in README)
+    ) in VALIDATION
+    assert any(f"| greater about X: {about_x[0]}; about Y: {about_y[0]} deg |" in row for row in VALIDATION)
 
 
 def test_the_controlled_transition_is_that_of_the_study(studied):
@@ -203,7 +207,7 @@ def test_the_controlled_transition_is_that_of_the_study(studied):
         settled["paper"], settled["ours"],
         f"**off**: our slew of {rows['slew angle']['ours']} takes {limits} within the default limits of rate and acceleration; "
         "the paper prints neither angle nor limits",
-    ) in README
+    ) in VALIDATION
     sun = rows["Sun from -Y in the estimated attitude, greatest"]
     outside = rows["seconds outside the keep-in zone, estimated"]
     assert sun["verdict"] == outside["verdict"] == "agrees"
@@ -211,13 +215,13 @@ def test_the_controlled_transition_is_that_of_the_study(studied):
         "001, Figure 8",
         "Sun from -Y in the estimated attitude, seconds outside the keep-in zone (`control/transition`)", "0 deg, never",
         f"{float(sun['ours'].removesuffix(' deg')):.2f} deg, {outside['ours']} s", "same to a degree",
-    ) in README
+    ) in VALIDATION
 
 
 def test_the_safe_modes_are_those_of_the_study(studied):
     rows = rows_of(studied, "control/safe-mode")
     held = sum(row["verdict"] == "agrees" for row in rows)
-    [row] = [row for row in README if row.startswith('| 001, "Safe Modes" |')]
+    [row] = [row for row in VALIDATION if row.startswith('| 001, "Safe Modes" |')]
     assert f"(`control/safe-mode`) | {len(rows)} statements | {held} hold | same;" in row
 
 
@@ -231,13 +235,13 @@ def test_the_slews_are_those_of_the_study(studied):
         "beyond 001", "slews by 60 deg about X, Y, Z (`control/slew`)", "not stated",
         f"settled in {settled} s; {limits} s by the limits of rate and acceleration",
         f"torque up to {torque} %, momentum up to {momentum} % of a wheel's",
-    ) in README
+    ) in VALIDATION
     failed, full = rows["wheel 2 fails"], rows["wheels full, dump"]
     assert line(
         "beyond 001", "the same with a wheel that fails half-way; with wheels at 99.5 % of capacity (`control/slew`)",
         "not stated", f"settled in {failed['settled [s]']} s; full until a dump, settled in {full['settled [s]']} s",
         f"{failed['verdict']}; {full['verdict']}",
-    ) in README
+    ) in VALIDATION
 
 
 def test_the_burn_is_that_of_the_study(studied):
@@ -253,7 +257,7 @@ def test_the_burn_is_that_of_the_study(studied):
         f"{rms('both', 'magnitude_mm_s'):.2f} mm/s, {both:.3f} deg",
         "same size of the magnitude; the paper's accelerometer is not printed. "
         f"Without correction {none:.3f} deg, with theta {theta:.3f}, with beta {beta:.3f}",
-    ) in README
+    ) in VALIDATION
 
 
 def test_the_dump_and_the_jitter_are_those_of_the_studies(studied):
@@ -264,7 +268,7 @@ def test_the_dump_and_the_jitter_are_those_of_the_studies(studied):
         "not stated",
         f"{dump['propellant [g]']} and {dump['impulsive [g]']} g, {dump['left over [mN m s]']} mN m s",
         "less than the shortest pulse",
-    ) in README
+    ) in VALIDATION
     # 4.4 N for 21 ms at 0.8 m.
     assert float(dump["left over [mN m s]"]) < 74
     jitter = {row["case"]: row for row in rows_of(studied, "control/jitter")}["free, wheel at mode 1"]
@@ -272,7 +276,7 @@ def test_the_dump_and_the_jitter_are_those_of_the_studies(studied):
     assert line(
         "beyond 000", "jitter by a wheel out of balance at the first mode of a flexible craft (`control/jitter`)",
         "not stated", f"{ours:.5f} urad; {closed:.5f} in closed form", f"same to {100 * abs(ours / closed - 1):.2f} %",
-    ) in README
+    ) in VALIDATION
 
 
 def test_a_mercury_year_is_that_of_the_study(studied):
@@ -280,7 +284,7 @@ def test_a_mercury_year_is_that_of_the_study(studied):
     orbits = found(text, r"orbits in a year +172 +([\d.]+)")
     infrared = found(text, r"greatest infrared, of solar +about 25 % +([\d.]+ %)")
     total = found(text, r"greatest total +order of 1e-6 m/s2 +([\d.e-]+ m/s2)")
-    assert any(f"| {orbits}, {infrared}, {total} |" in row for row in README)
+    assert any(f"| {orbits}, {infrared}, {total} |" in row for row in VALIDATION)
 
 
 def test_pressure_is_that_of_the_plant(momentum_plant):
@@ -300,7 +304,7 @@ def test_pressure_is_that_of_the_plant(momentum_plant):
     assert line(
         "000, eq 1 and Table 1", "pressure at 0.3 AU", f"{start['solar.pressure']} N/m2",
         f"{mantissa}e-5 for {start['solar.flux']} W/m2", "same to 2e-5; the flux is a parameter",
-    ) in README
+    ) in VALIDATION
 
 
 def test_coefficients_and_thresholds_are_those_of_info(heliotorque, momentum_plant):
@@ -316,7 +320,7 @@ def test_coefficients_and_thresholds_are_those_of_info(heliotorque, momentum_pla
     assert line(
         "000, eqs 4-5", "k_x_yz, k_y_xz, k_z_xy of the cylinder (m3)", "printed formulas, two slips corrected",
         coefficients, "agrees with 4000 facets to 1e-7",
-    ) in README
+    ) in VALIDATION
     wheels = re.findall(r"^ *(4|8|12) each +([\d.]+) +([\d.]+) +([\d.]+) *$", info(), re.MULTILINE)
     capacities, by_norm, by_load, stated = zip(*wheels)
     assert capacities == ("4", "8", "12")
@@ -325,8 +329,8 @@ def test_coefficients_and_thresholds_are_those_of_info(heliotorque, momentum_pla
     assert line(
         "000", "thresholds of wheels of 4, 8, 12 N.m.s, by pseudo-inverse (smallest norm, as the FMU allocates)", published,
         smallest, "**off**",
-    ) in README
-    [row] = [row for row in README if "the same, by least-maximum allocation" in row]
+    ) in VALIDATION
+    [row] = [row for row in VALIDATION if "the same, by least-maximum allocation" in row]
     assert f"| {published} | {least} | **off**" in row
 
 
@@ -334,7 +338,7 @@ def test_the_paper_integrates_body_components_and_the_physical_momentum_dumps_mo
     types = read_model_description(momentum_plant).typeDefinitions
     [convention] = [kind for kind in types if kind.name == "MomentumConvention"]
     assert {item.name: item.value for item in convention.items} == {"inertial": "1", "bodyIntegral": "2"}
-    [row] = [row for row in README if row.startswith("| 000, momentum convention |")]
+    [row] = [row for row in VALIDATION if row.startswith("| 000, momentum convention |")]
     assert "| option 2 | the physical momentum (option 1)" in row and "dumps more often at Z = 0 |" in row
     counts = {}
     for row in rows_of(studied, "momentum/table2") + rows_of(studied, "momentum/table4"):
@@ -391,8 +395,8 @@ def test_every_figure_of_performance_is_a_line_of_bench():
     # What is filled in when it prints may be anything: {name} and %s.
     literals = {literal.removeprefix("bench ").split(" ")[0] for literal in re.findall(r'"((?:bench )?[a-z0-9_{}%]+_[^"]*)"', text)}
     patterns = [re.sub(r"\\{\w*\\}|%s", r"\\w+", re.escape(literal)) for literal in literals if re.search("[a-z]_", literal)]
-    start = next(k for k, row in enumerate(README) if row.startswith("| what | figure |"))
-    rows = [row.strip("| ").split(" | ")[0] for row in README[start + 2:start + 2 + README[start + 2:].index("")]]
+    start = next(k for k, row in enumerate(PERFORMANCE) if row.startswith("| what | figure |"))
+    rows = [row.strip("| ").split(" | ")[0] for row in PERFORMANCE[start + 2:start + 2 + PERFORMANCE[start + 2:].index("")]]
     rows = [row.split(" with 5 and 6 nodes")[0] for row in rows]
     assert rows == list(BENCHMARKS)
     for row, names in BENCHMARKS.items():
@@ -401,7 +405,7 @@ def test_every_figure_of_performance_is_a_line_of_bench():
 
 
 MODELS = ("MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance")
-# Client as the README names it: the tests in which it works with every model.
+# Client as the PERFORMANCE names it: the tests in which it works with every model.
 CLIENTS = {
     "FMPy 0.3.32": [
         "python/test_momentum_plant.py", "python/test_spin_plant.py", "python/test_disturbance_torque.py",
@@ -425,3 +429,33 @@ def test_every_client_that_works_has_a_test_with_every_model():
         assert all(model in text for model in MODELS), client
     pins = (TESTS / "python" / "requirements.txt").read_text(encoding="utf-8").lower()
     assert "fmpy==0.3.32" in pins.replace("[complete]", "") and "libcosimpy==0.0.6" in pins
+
+
+def tables_of(heading):
+    """Rows of the README's tables under a heading, without heads."""
+    start = README.index(f"## {heading}") + 1
+    end = next(k for k in range(start, len(README)) if README[k].startswith("## "))
+    rows = README[start:end]
+    return [row for k, row in enumerate(rows) if row.startswith("|") and not row.startswith("|-") and not rows[k + 1].startswith("|-")]
+
+
+def test_the_readme_repeats_rows_of_the_guide():
+    """What the README shows of the long tables stands there, word for word."""
+    performance = tables_of("Performance")
+    assert len(performance) > 5 and set(performance) <= set(PERFORMANCE)
+    rows = tables_of("Validation")
+    dumps, quantities = rows[:3], rows[3:]
+    assert len(quantities) > 5 and set(quantities) <= set(VALIDATION)
+    full = {row.strip("| ").split(" | ")[0]: row for row in VALIDATION if "| as chosen |" in row}
+    for shown, rule in zip(dumps[1:], ("1.0, the paper's", "0.9, our default"), strict=True):
+        assert shown == full[rule].replace(f"| {rule} | as chosen |", f"| ours, dumps to {rule} |")
+    assert dumps[0] == line("paper", "4 / 9 / 14", "2 / 6 / 8", '"comparable"')
+
+
+def test_the_readme_counts_what_is_off_in_table_7():
+    start = next(k for k, row in enumerate(VALIDATION) if row.startswith("| Table 7 |"))
+    rows = VALIDATION[start:start + VALIDATION[start:].index("")]
+    cells = [(row.split(" | ")[0].strip("| "), cell) for row in rows if "| ours |" in row for cell in row.strip("| ").split(" | ")[1:]]
+    assert len(cells) == 16 and sum(cell.startswith("**") for _, cell in cells) == 3
+    text = " ".join(README)
+    assert "of 16 greatest values in Table 7 thirteen agree" in text and "three of the recoil" in text

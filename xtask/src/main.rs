@@ -1,8 +1,9 @@
-//! `cargo xtask demo | test [--long] | dist | install | bench | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long] | dist | install | bench | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod bench;
 mod build;
 mod dist;
+mod guide;
 mod install;
 mod locale;
 mod long;
@@ -20,7 +21,7 @@ const HELP: &str = "\
 cargo xtask <task>
 
   demo    build the library, pack dist/MomentumPlant.fmu, simulate paper 000's 90 days, compare with its Table 2
-  test    everything that must hold: format, lints, Rust tests, FMPy, C client
+  test    everything that must hold: format, lints, Rust tests, the guide, FMPy, C client
   test --long
           the same, then the longer searches for faults: each fuzz target of tests/fuzz for a minute
           (cargo-fuzz, nightly), the C client under the address and thread sanitizers, the exporter's unit tests in Miri, a failing n-th
@@ -31,6 +32,7 @@ cargo xtask <task>
   install build and pack everything, then put the program, its library and the FMUs below a prefix: ~/.local or
           --prefix FOLDER; the program then works in any folder
   bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
+  guide   build the guide of docs/ into target/guide
   notices write anew what licences the linked crates have, after Cargo.lock has changed
 ";
 
@@ -48,14 +50,15 @@ fn main() -> ExitCode {
         "dist" => dist::dist().map(|_| ()),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
         "bench" => bench::all(),
+        "guide" => guide::build(),
         "notices" => notices::write(),
         "" | "help" | "--help" | "-h" => {
             print!("{HELP}");
             Ok(())
         }
-        other => {
-            Err(format!("unknown task `{other}`; there are demo, test, dist, install, bench and notices"))
-        }
+        other => Err(format!(
+            "unknown task `{other}`; there are demo, test, dist, install, bench, guide and notices"
+        )),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

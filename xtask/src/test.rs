@@ -1,10 +1,10 @@
-//! `cargo xtask test`: format, lints, Rust tests, FMPy, C client.
+//! `cargo xtask test`: format, lints, Rust tests, the guide, FMPy, C client.
 
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built};
 use crate::shell::{Outcome, cargo, command, need, root, run};
-use crate::{dist, locale, python, shell};
+use crate::{dist, guide, locale, python, shell};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
@@ -13,6 +13,7 @@ const DRAWS: &str = "PROPTEST_RNG_SEED";
 pub fn all() -> Outcome {
     if need("rustfmt", "the format check")? {
         run(&mut cargo(&["fmt", "--all", "--check"]))?;
+        guide::check_format()?;
     }
     if shell::output(&mut cargo(&["clippy", "--version"])).is_ok() {
         run(&mut cargo(&[
@@ -41,6 +42,7 @@ pub fn all() -> Outcome {
     run(cargo(&["test", "--locked", "--release", "--workspace", "--all-features"])
         .envs(environment.clone())
         .envs(locale::environment()?))?;
+    guide::test(environment.clone())?;
     run(command(python::interpreter()?)
         .args(["-m", "pytest", "-q", "tests/python"])
         .env("PYTHONDONTWRITEBYTECODE", "1")

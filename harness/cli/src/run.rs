@@ -9,7 +9,7 @@ use crate::{
     interrupt::INTERRUPTED,
     mission::Judge,
     outcome::Outcome,
-    output::{self, Outputs},
+    output::{self, Known, Outputs},
 };
 
 mod child;
@@ -37,7 +37,8 @@ pub fn run(arguments: &Run) -> Outcome {
     let settings = Settings::of(&subject, &flown, input_copy.as_deref())?;
     subject.check_libraries()?;
     let described = subject.description();
-    let mut outputs = Outputs::open(arguments, &settings.plots, &flown.reads())?;
+    let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
+    let mut outputs = Outputs::open(arguments, &settings.plots, &known, &flown.reads())?;
     let Settings { times, positions, limits, .. } = settings;
     let mut judge = Judge::new(limits);
     let mut collector = Collector::new(described, &positions);

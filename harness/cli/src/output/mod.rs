@@ -2,6 +2,7 @@
 
 mod csv;
 mod exporter;
+mod known;
 mod shown;
 mod summary;
 mod svg;
@@ -21,6 +22,7 @@ use exporter::Exporter;
 use summary::{Summary, last_values};
 use svg::Svg;
 
+pub use known::Known;
 pub use shown::Shown;
 pub use svg::{check_path as check_svg_path, is_svg_path};
 
@@ -47,7 +49,7 @@ pub struct Outputs {
 impl Outputs {
     /// The outputs that the arguments name, and pictures, their files opened; without any, a summary on the terminal.
     /// `inputs` are not written over.
-    pub fn open(arguments: &Run, plots: &[Plot], inputs: &[&Path]) -> Result<Self, String> {
+    pub fn open(arguments: &Run, plots: &[Plot], known: &Known, inputs: &[&Path]) -> Result<Self, String> {
         let csv = arguments.output.as_deref().map(|path| Destination::open(path, "--output", inputs));
         let csv = csv.transpose()?;
         let mut pictures: Vec<Destination> = Vec::new();
@@ -74,7 +76,7 @@ impl Outputs {
             exporters.push(Box::new(Csv::new(csv.grow(inputs)?)));
         }
         for (svg, plot) in pictures.into_iter().zip(plots) {
-            exporters.push(Box::new(Svg::new(svg, plot.names.clone())));
+            exporters.push(Box::new(Svg::new(svg, plot.names.clone(), known.clone())));
         }
         if exporters.is_empty() && !arguments.quiet {
             exporters.push(Box::new(Summary));

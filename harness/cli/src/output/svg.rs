@@ -8,9 +8,9 @@ use std::{
 use files::Destination;
 use loader::{Column, Recording};
 use model_description::{Causality, Description};
-use studies::chart::{COLOURS, Chart, Panel, Series};
+use studies::chart::{COLOURS, Chart, Mark, Panel, Series};
 
-use super::{exporter::Exporter, shown::find};
+use super::{exporter::Exporter, known::Known, shown::find};
 
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
@@ -52,19 +52,23 @@ pub struct Svg {
     file: Destination,
     /// The variables that it shows; `None`: everything recorded.
     names: Option<Vec<String>>,
+    known: Known,
 }
 
 impl Svg {
     /// Draws into a file of which nothing is written yet.
-    pub fn new(file: Destination, names: Option<Vec<String>>) -> Self {
-        Self { file, names }
+    pub fn new(file: Destination, names: Option<Vec<String>>, known: Known) -> Self {
+        Self { file, names, known }
     }
 
     fn draw(&self, described: &Description, recording: &Recording) -> Result<String, Box<dyn Error>> {
-        Ok(match &self.names {
-            Some(names) => chart(described, &recording.only(names)).to_svg()?,
-            None => chart(described, recording).to_svg()?,
-        })
+        let only = self.names.as_ref().map(|names| recording.only(names));
+        let mut chart = chart(described, only.as_ref().unwrap_or(recording), &self.known);
+        let eclipses = eclipses(recording, chart.seconds);
+        for panel in &mut chart.chart.panels {
+            panel.shades.clone_from(&eclipses);
+        }
+        Ok(chart.chart.to_svg()?)
     }
 }
 
@@ -85,59 +89,189 @@ impl Exporter for Svg {
     }
 }
 
+/// The chart of a recording, and how many seconds a unit of its horizontal axis has.
+struct Drawn {
+    chart: Chart,
+    seconds: f64,
+}
+
 /// The chart of a recording.
-fn chart(described: &Description, recording: &Recording) -> Chart {
+fn chart(described: &Description, recording: &Recording, known: &Known) -> Drawn {
     let span_s = match (recording.times_s.first(), recording.times_s.last()) {
         (Some(first_s), Some(last_s)) => last_s - first_s,
         _ => 0.0,
     };
     let (_, time_unit, seconds) =
         TIME_UNITS.into_iter().find(|(from_s, _, _)| span_s >= *from_s).unwrap_or((0.0, "s", 1.0));
-    let mut panels: Vec<(String, Panel)> = Vec::new();
-    let mut left_out = 0;
+    let mut groups: Vec<Group> = Vec::new();
     for (name, column) in drawn(described, recording) {
-        let vector = &group(name);
+        let vector = group(name);
         let variable = find(described, name);
         let display = variable.and_then(|variable| loader::display_unit(described, variable));
         let own = variable.and_then(|variable| loader::unit(described, variable)).unwrap_or_default();
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
         let points = recording.times_s.iter().zip(column.numbers());
         let points = points.map(|(time_s, value)| (time_s / seconds, factor * value + offset)).collect();
-        let series = Series::line(name, points);
+        let series = match column {
+            Column::Real(_) => Series::line(name, points),
+            _ => Series::steps(name, points),
+        };
         let y_label =
-            if unit.is_empty() || unit == "1" { vector.to_owned() } else { format!("{vector} [{unit}]") };
-        let full = panels.len() == PANELS;
+            if unit.is_empty() || unit == "1" { vector.clone() } else { format!("{vector} [{unit}]") };
         // What belongs together may stand apart in the description: wheel[1].momentum, wheel[1].speed, wheel[2]...
-        let with_space = panels.iter_mut().find(|(group, panel)| {
-            group == vector && panel.y_label == y_label && panel.series.len() < COLOURS.len()
+        let with_space = groups.iter().position(|group| {
+            group.name == vector && group.panel.y_label == y_label && group.panel.series.len() < COLOURS.len()
         });
-        match with_space {
-            Some((_, panel)) => panel.series.push(series),
-            None if full => left_out += 1,
-            None => {
-                panels.push((vector.to_owned(), Panel { y_label, series: vec![series], ..Panel::default() }))
-            }
+        let position = with_space.unwrap_or_else(|| {
+            groups.push(Group::new(vector, y_label));
+            groups.len() - 1
+        });
+        groups[position].add(series, known, |value| factor * value + offset);
+    }
+    let constant = leave_out_constants(&mut groups);
+    if !constant.is_empty() {
+        terminal::note(&format!("constant, so not drawn: {}", constant.join(", ")));
+    }
+    if let Some(beyond) = groups.get(PANELS..) {
+        let left_out: usize = beyond.iter().map(|group| group.panel.series.len()).sum();
+        if left_out > 0 {
+            let limit = format!("the picture shows the first {PANELS} panels");
+            terminal::note(&format!("{limit} and leaves out {left_out} variables: see --record"));
         }
+        groups.truncate(PANELS);
     }
-    for (name, panel) in &mut panels {
-        // A lone variable is named by its axis.
-        if let [only] = panel.series.as_mut_slice()
-            && only.label == *name
-        {
-            only.label.clear();
+    let vectors = groups.iter().filter(|group| group.is_vector()).count();
+    let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, known)).collect();
+    let legend =
+        if vectors > 1 { AXES[..3].iter().map(|axis| (*axis).to_owned()).collect() } else { Vec::new() };
+    let chart =
+        Chart { title: described.model_name.clone(), x_label: format!("time [{time_unit}]"), panels, legend };
+    Drawn { chart, seconds }
+}
+
+/// Components of vectors and, with the scalar last, of quaternions.
+const AXES: [&str; 4] = ["x", "y", "z", "w"];
+
+/// A panel with its name.
+struct Group {
+    name: String,
+    panel: Panel,
+    /// Marks that are drawn only near the lines.
+    bounds: Vec<f64>,
+}
+
+impl Group {
+    fn new(name: String, y_label: String) -> Self {
+        Self { name, panel: Panel { y_label, is_whole: true, ..Panel::default() }, bounds: Vec::new() }
+    }
+
+    fn add(&mut self, series: Series, known: &Known, shown: impl Fn(f64) -> f64) {
+        self.bounds.extend(known.bounds(&series.label).iter().map(|value| shown(*value)));
+        self.panel.marks.extend(known.limits(&series.label).iter().map(|value| shown(*value)));
+        self.panel.is_whole &= series.mark == Mark::Steps;
+        self.panel.series.push(series);
+    }
+
+    fn values(&self) -> impl Iterator<Item = f64> {
+        let points = self.panel.series.iter().flat_map(|series| &series.points);
+        points.map(|(_, value)| *value).filter(|value| value.is_finite())
+    }
+
+    fn is_constant(&self) -> bool {
+        self.panel.series.iter().all(|series| {
+            let mut values = series.points.iter().map(|(_, value)| value);
+            values.next().is_some_and(|first| values.all(|value| value == first))
+        })
+    }
+
+    /// Whether its lines are x, y and z of one vector.
+    fn is_vector(&self) -> bool {
+        let of_vector = |(k, series): (usize, &Series)| series.label == format!("{}[{}]", self.name, k + 1);
+        self.panel.series.len() == 3 && self.panel.series.iter().enumerate().all(of_vector)
+    }
+
+    /// The panel with its lines named, and the bounds that are near them.
+    fn labelled(mut self, is_shared: bool, known: &Known) -> Panel {
+        let (low, high) = self
+            .values()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        let reach = (high - low).max(low.abs()).max(high.abs());
+        let near = self.bounds.iter().copied().filter(|mark| *mark > low - reach && *mark < high + reach);
+        self.panel.marks.extend(near);
+        self.panel.marks.sort_by(f64::total_cmp);
+        self.panel.marks.dedup();
+        let is_vector = self.is_vector();
+        let is_alone = matches!(self.panel.series.as_slice(), [only] if only.label == self.name);
+        let components = self.panel.series.len() <= AXES.len();
+        for series in &mut self.panel.series {
+            let index = series
+                .label
+                .strip_prefix(&self.name)
+                .and_then(|rest| rest.strip_prefix('[')?.strip_suffix(']')?.parse::<usize>().ok());
+            let axis = index.filter(|_| components).and_then(|index| AXES.get(index.checked_sub(1)?));
+            // A lone variable is named by its axis, the components of vectors by the legend beside the title.
+            series.label = if is_alone || is_vector && is_shared {
+                String::new()
+            } else if let Some(axis) = axis {
+                (*axis).to_owned()
+            } else {
+                known.name(&series.label).map_or_else(|| series.label.clone(), str::to_owned)
+            };
         }
-    }
-    if left_out > 0 {
-        let limit = format!("the picture shows the first {PANELS} panels");
-        terminal::note(&format!("{limit} and leaves out {left_out} variables: see --record"));
-    }
-    Chart {
-        title: described.model_name.clone(),
-        x_label: format!("time [{time_unit}]"),
-        panels: panels.into_iter().map(|(_, panel)| panel).collect(),
-        ..Chart::default()
+        self.panel
     }
 }
+
+/// Takes out what stays the same, unless nothing else is there; their names with their values.
+fn leave_out_constants(groups: &mut Vec<Group>) -> Vec<String> {
+    /// More are only counted.
+    const NAMED: usize = 5;
+    if groups.iter().all(Group::is_constant) {
+        return Vec::new();
+    }
+    let (constant, varying): (Vec<Group>, Vec<Group>) =
+        std::mem::take(groups).into_iter().partition(Group::is_constant);
+    *groups = varying;
+    let named = constant.iter().take(NAMED).map(|group| {
+        let values: Vec<String> = group
+            .panel
+            .series
+            .iter()
+            .filter_map(|series| Some(terminal::short(series.points.first()?.1)))
+            .collect();
+        format!("{} = {}", group.panel.y_label, values.join(", "))
+    });
+    let mut named: Vec<String> = named.collect();
+    if constant.len() > NAMED {
+        named.push(format!("{} more", constant.len() - NAMED));
+    }
+    named
+}
+
+/// When the Sun was not whole, where the recording says so, in units of so many seconds.
+fn eclipses(recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
+    let is_lit_fraction = |name: &String| name == LIT_FRACTION || name.ends_with(&format!(".{LIT_FRACTION}"));
+    let Some(position) = recording.names.iter().position(is_lit_fraction) else { return Vec::new() };
+    let lit = recording.columns[position].numbers();
+    let mut spans: Vec<(f64, f64)> = Vec::new();
+    let mut since = None;
+    for (time_s, lit) in recording.times_s.iter().zip(&lit) {
+        match (since, *lit < 1.0) {
+            (None, true) => since = Some(*time_s),
+            (Some(from_s), false) => {
+                spans.push((from_s / seconds, time_s / seconds));
+                since = None;
+            }
+            _ => {}
+        }
+    }
+    let last_s = recording.times_s.last().copied();
+    spans.extend(since.zip(last_s).map(|(from_s, last_s)| (from_s / seconds, last_s / seconds)));
+    spans
+}
+
+/// The part of the Sun's disc that is seen.
+const LIT_FRACTION: &str = "sun.litFraction";
 
 /// The columns worth drawing: no texts, and no inputs that nobody used, unless there is nothing else.
 fn drawn<'a>(described: &Description, recording: &'a Recording) -> Vec<(&'a str, &'a Column)> {
@@ -166,20 +300,83 @@ mod tests {
   <ModelStructure/>
 </fmiModelDescription>"#;
 
-    /// The labels of each panel of a recording of two points.
-    fn panels(columns: &[(&str, f64)]) -> Vec<Vec<String>> {
+    /// The chart of a recording of these columns at 0 s, 1 s and so on.
+    fn drawn_chart(columns: &[(&str, Column)], known: &Known) -> Chart {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("modelDescription.xml"), SHIP).unwrap();
+        let rows = columns.first().map_or(0, |(_, column)| column.numbers().len());
         let recording = Recording {
-            times_s: vec![0.0, 1.0],
+            times_s: (0..rows).map(|row| row as f64).collect(),
             names: columns.iter().map(|(name, _)| (*name).to_owned()).collect(),
             units: vec![String::new(); columns.len()],
-            columns: columns.iter().map(|(_, last)| Column::Real(vec![0.0, *last])).collect(),
+            columns: columns.iter().map(|(_, column)| column.clone()).collect(),
         };
         let fmu = loader::Fmu::open(folder.path()).unwrap();
-        let chart = chart(fmu.description(), &recording);
+        chart(fmu.description(), &recording, known).chart
+    }
+
+    /// The labels of each panel of a recording of two points.
+    fn panels(columns: &[(&str, f64)]) -> Vec<Vec<String>> {
+        let columns: Vec<_> =
+            columns.iter().map(|(name, last)| (*name, Column::Real(vec![0.0, *last]))).collect();
         let labels = |panel: Panel| panel.series.into_iter().map(|series| series.label).collect();
-        chart.panels.into_iter().map(labels).collect()
+        drawn_chart(&columns, &Known::default()).panels.into_iter().map(labels).collect()
+    }
+
+    #[test]
+    fn the_components_of_vectors_are_named_once_beside_the_title() {
+        let real = |last: f64| Column::Real(vec![0.0, last]);
+        let names =
+            ["torque[1]", "torque[2]", "torque[3]", "force[1]", "force[2]", "force[3]", "q[4]", "lone"];
+        let columns: Vec<_> = names.iter().map(|name| (*name, real(1.0))).collect();
+        let chart = drawn_chart(&columns, &Known::default());
+        assert_eq!(chart.legend, ["x", "y", "z"]);
+        let labels: Vec<Vec<&str>> = chart
+            .panels
+            .iter()
+            .map(|panel| panel.series.iter().map(|series| series.label.as_str()).collect())
+            .collect();
+        assert_eq!(labels, [vec![""; 3], vec![""; 3], vec!["w"], vec![""]]);
+        let alone = drawn_chart(&columns[..3], &Known::default());
+        assert!(alone.legend.is_empty());
+        assert_eq!(alone.panels[0].series[2].label, "z");
+    }
+
+    #[test]
+    fn what_stays_the_same_has_no_panel() {
+        let real = |values: [f64; 2]| Column::Real(values.to_vec());
+        let chart = drawn_chart(
+            &[("still[1]", real([2.0, 2.0])), ("moves", real([0.0, 1.0])), ("still[2]", real([3.0, 3.0]))],
+            &Known::default(),
+        );
+        assert_eq!(chart.panels.iter().map(|panel| panel.y_label.as_str()).collect::<Vec<_>>(), ["moves"]);
+        let still = drawn_chart(&[("still[1]", real([2.0, 2.0]))], &Known::default());
+        assert_eq!(still.panels.len(), 1, "nothing else is there");
+    }
+
+    #[test]
+    fn counts_and_flags_are_staircases_on_whole_numbers() {
+        let chart = drawn_chart(
+            &[("count", Column::Integer(vec![0, 0, 2])), ("flag", Column::Boolean(vec![false, true, true]))],
+            &Known::default(),
+        );
+        for panel in &chart.panels {
+            assert!(panel.is_whole && panel.series[0].mark == Mark::Steps, "{}", panel.y_label);
+        }
+        assert!(!drawn_chart(&[("x", Column::Real(vec![0.0, 1.0]))], &Known::default()).panels[0].is_whole);
+    }
+
+    #[test]
+    fn eclipses_are_spans_of_a_sun_that_is_not_whole() {
+        let recording = |lit: &[f64]| Recording {
+            times_s: (0..lit.len()).map(|row| 60.0 * row as f64).collect(),
+            names: vec!["plant.sun.litFraction".to_owned()],
+            units: vec![String::new()],
+            columns: vec![Column::Real(lit.to_vec())],
+        };
+        assert_eq!(eclipses(&recording(&[1.0, 0.4, 0.0, 1.0, 1.0, 0.9]), 60.0), [(1.0, 3.0), (5.0, 5.0)]);
+        assert_eq!(eclipses(&recording(&[1.0, 1.0]), 60.0), []);
+        assert_eq!(eclipses(&Recording::default(), 60.0), []);
     }
 
     #[test]
@@ -200,8 +397,8 @@ mod tests {
     #[test]
     fn inputs_that_nobody_used_are_not_drawn() {
         let all = [("push[1]", 0.0), ("push[2]", 2.0), ("torque[1]", 0.0)];
-        assert_eq!(panels(&all), [["push[2]"], ["torque[1]"]]);
-        assert_eq!(panels(&all[..1]), [["push[1]"]], "nothing else is there");
+        assert_eq!(panels(&all), [["y"]]);
+        assert_eq!(panels(&all[..1]), [["x"]], "nothing else is there");
     }
 
     #[test]

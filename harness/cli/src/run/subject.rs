@@ -79,6 +79,17 @@ impl Subject {
         Ok(())
     }
 
+    /// What the variables of each FMU begin with, and the folder it is unpacked in.
+    pub fn parts(&self) -> Vec<(String, PathBuf)> {
+        match self {
+            Self::Fmu(fmu) => vec![(String::new(), fmu.folder().to_owned())],
+            Self::System(system) => {
+                let parts = system.parts().iter();
+                parts.map(|part| (format!("{}.", part.name), part.fmu.folder().to_owned())).collect()
+            }
+        }
+    }
+
     /// Its variables.
     pub fn description(&self) -> &Description {
         match self {

@@ -93,7 +93,7 @@ fn a_missing_library_and_strange_files_are_found() {
     fs::write(folder.path().join("notes.txt"), "mine").unwrap();
     fs::create_dir(folder.path().join("licenses")).unwrap();
     fs::create_dir(folder.path().join("terminalsAndIcons")).unwrap();
-    fs::create_dir(folder.path().join("extra")).unwrap();
+    fs::create_dir_all(folder.path().join("extra")).unwrap();
     fs::remove_dir_all(folder.path().join("documentation/licenses")).unwrap();
     let text = run(&["check", shown(folder.path())], 1);
     for part in [

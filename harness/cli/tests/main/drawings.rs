@@ -208,9 +208,9 @@ fn files_are_named_after_the_spacecraft() {
 
 #[test]
 fn the_readme_shows_what_is_drawn() {
-    let shown = fs::read_to_string(Path::new("../../docs/mercury-orbiter.svg")).unwrap();
+    let shown = fs::read_to_string(Path::new("../../docs/src/pictures/mercury-orbiter.svg")).unwrap();
     assert!(
         shown == drawn(ORBITER, &[]),
-        "`heliotorque draw {ORBITER} --output docs/mercury-orbiter.svg` writes it anew"
+        "`heliotorque draw {ORBITER} --output docs/src/pictures/mercury-orbiter.svg` writes it anew"
     );
 }

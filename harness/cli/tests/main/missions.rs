@@ -77,7 +77,8 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     let noon_2000_to_2011_s = 4112.5 * 86_400.0;
     assert!((found[0][1] - noon_2000_to_2011_s - 66.184).abs() < 2e-3, "{}", found[0][1]);
     let offsets: Vec<f64> = found.iter().map(|row| row[2].to_degrees().round()).collect();
-    assert_eq!(offsets, [60.0, 60.0, 65.0, 65.0, 65.0], "a tunable parameter is held");
+    // A row shows what the step before it read.
+    assert_eq!(offsets, [60.0, 60.0, 60.0, 65.0, 65.0], "a tunable parameter is held");
 
     let csv = folder.join("mine.csv");
     let (status, told) = fly(&[
@@ -157,6 +158,34 @@ fn a_packed_mission_starts_as_the_mission_does() {
     assert_eq!(rows(&folder.join("again.csv")), of_mission);
     let (status, told) = said(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"]);
     assert!(status == Some(1) && told.contains("which is packed already"), "{told}");
+}
+
+#[test]
+fn later_wins_file_mission_option() {
+    let Some(scratch) = hangar() else { return };
+    let folder = scratch.path();
+    // Its [start.MomentumPlant] has 4, 4, 4.
+    fs::create_dir(folder.join("craft")).unwrap();
+    assert_eq!(said(folder, &["new", "spacecraft", "craft/s.toml"]).0, Some(0));
+    let mission = "spacecraft = \"craft/s.toml\"\nstop = 60\nstep = 60\nrecord = [\"dump.threshold\"]\noutput = \"out.csv\"\n";
+    fs::write(
+        folder.join("m.toml"),
+        format!("{mission}[set]\n\"dump.threshold[2]\" = 2\n\"dump.threshold[3]\" = 2\n"),
+    )
+    .unwrap();
+    let options = ["--template", "template.fmu", "--set", "dump.threshold[3]=3"];
+    let (status, told) = said(folder, &[&["run", "m.toml"], &options[..]].concat());
+    assert_eq!(status, Some(0), "{told}");
+    let flown = rows(&folder.join("out.csv"));
+    assert_eq!(flown[0][1..], [4.0, 2.0, 3.0]);
+    let (status, told) =
+        said(folder, &[&["pack", "--mission", "m.toml", "--name", "Mine"], &options[..]].concat());
+    assert_eq!(status, Some(0), "{told}");
+    let again = ["run", "Mine.fmu", "--record", "dump.threshold", "--output", "again.csv"];
+    let (status, told) = said(folder, &again);
+    assert_eq!(status, Some(0), "{told}");
+    // Its default experiment is the mission's too.
+    assert_eq!(rows(&folder.join("again.csv")), flown);
 }
 
 #[test]

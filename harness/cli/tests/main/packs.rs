@@ -269,7 +269,7 @@ fn start_values_are_packed_and_simulated() {
     let packed = file(&fmu, "resources/spacecraft.toml");
     let added =
         "\"dump.threshold[2]\" = 5.0\n\"panel[1].sunOffset\" = \"10deg\"\n\"orbit.frame\" = \"ecliptic\"\n";
-    // The file's last table is [start].
+    // The shipped file ends in its own `[start]`.
     let table = "# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n";
     assert_eq!(packed, format!("{body}{table}{added}"));
     let xml = model_description::parse(file(&fmu, "modelDescription.xml").as_bytes()).unwrap().description;
@@ -332,6 +332,6 @@ fn start_values_that_nothing_takes_are_refused() {
     if let Some(probe) = probe_library() {
         let arguments = ["pack", "--library", shown(&probe), "--model", "Empty", "--output", shown(&output)];
         let text = run(&[&arguments[..], &["--set", "a=1"]].concat(), 1);
-        assert!(text.contains("--set: Empty reads no file"), "{text}");
+        assert!(text.contains("--set a=1: Empty reads no file"), "{text}");
     }
 }

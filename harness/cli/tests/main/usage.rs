@@ -145,14 +145,32 @@ fn shells_complete_commands_and_options() {
     run(&["completions", "tcsh"], 2);
 }
 
+/// Texts whose commands are copied into a shell.
+fn texts_with_commands(folder: &std::path::Path) -> Vec<String> {
+    let mut texts = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            texts.extend(texts_with_commands(&path));
+        } else if path.extension().is_some_and(|extension| extension == "md") {
+            texts.push(std::fs::read_to_string(path).unwrap());
+        }
+    }
+    texts
+}
+
 #[test]
-fn every_shell_takes_the_commands_of_the_readme() {
-    let readme = std::fs::read_to_string("../../README.md").unwrap();
+fn every_shell_takes_the_commands_of_readme_and_guide() {
+    let mut texts = texts_with_commands(std::path::Path::new("../../docs/src"));
+    texts.push(std::fs::read_to_string("../../README.md").unwrap());
     let mut commands = 0;
-    for block in readme.split("```").skip(1).step_by(2) {
-        for line in
-            block.lines().skip(1).filter(|_| block.contains("\nheliotorque ") || block.contains("\ncargo "))
-        {
+    for block in texts.iter().flat_map(|text| text.split("```").skip(1).step_by(2)) {
+        let is_console = block.starts_with("console\n");
+        let is_shell = block.contains("\nheliotorque ") || block.contains("\ncargo ");
+        for line in block.lines().skip(1) {
+            // What a console prints is no command.
+            let typed = if is_console { line.strip_prefix("$ ") } else { is_shell.then_some(line) };
+            let Some(line) = typed else { continue };
             commands += 1;
             // Outside of quotes: what zsh expands, and remarks, which it does not take from a terminal.
             let bare: String = line.split('\'').step_by(2).collect();
@@ -160,7 +178,7 @@ fn every_shell_takes_the_commands_of_the_readme() {
             assert!(line.matches('\'').count() % 2 == 0, "{line}");
         }
     }
-    assert!(commands > 10, "{commands}");
+    assert!(commands > 60, "{commands}");
 }
 
 #[test]

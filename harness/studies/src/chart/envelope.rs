@@ -22,7 +22,8 @@ impl Envelope {
 /// The envelope of a line that swings up and down several times in each of `columns` columns; `None` for any other.
 pub(super) fn of(points: &[(f64, f64)], columns: usize) -> Option<Envelope> {
     let (first, last) = (points.first()?.0, points.last()?.0);
-    let column = |x: f64| ((x - first) / (last - first) * columns as f64).floor();
+    let last_column = columns as f64 - 1.0;
+    let column = |x: f64| ((x - first) / (last - first) * columns as f64).floor().min(last_column);
     let mut band = Envelope { lowest: Vec::new(), greatest: Vec::new() };
     let mut dense = 0;
     for group in points.chunk_by(|a, b| column(a.0) == column(b.0)) {

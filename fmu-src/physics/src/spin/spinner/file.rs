@@ -210,7 +210,7 @@ impl Builder<'_> {
                     at,
                     &place,
                     found,
-                    "a ratio to the transverse moment of at most 2, less with products of inertia",
+                    "a ratio that a body can have: at most 2, less with products of inertia",
                 );
             }
         }

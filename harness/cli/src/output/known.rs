@@ -1,0 +1,183 @@
+//! What a run knows of what it draws: names from the spacecraft's file, and the values that quantities are held against.
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use loader::Value;
+use model_description::{Description, ScalarVariable, VariableKind};
+use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
+
+use super::shown::find;
+use crate::mission::Limit;
+
+/// Quantities and the parameters that are their bound either way; `*` stands for the same number in both.
+const BOUNDS: [(&str, &str); 4] = [
+    ("momentum.body[*]", "dump.threshold[*]"),
+    ("wheel[*].momentum", "wheel[*].capacity"),
+    ("sun.azimuth", "keepIn.azimuth"),
+    ("sun.elevation", "keepIn.elevation"),
+];
+
+/// What is known.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    names: BTreeMap<String, String>,
+    bounds: BTreeMap<String, Vec<f64>>,
+    limits: BTreeMap<String, Vec<f64>>,
+}
+
+impl Known {
+    /// Of an FMU or a system: each part by what its variables begin with and the folder it is unpacked in, the values set before
+    /// the run, and what the run is judged by.
+    pub fn of(
+        parts: &[(String, PathBuf)],
+        described: &Description,
+        sets: &[(String, Value)],
+        limits: &[Limit],
+    ) -> Self {
+        let mut known = Self::default();
+        for (prefix, folder) in parts {
+            for (counted, name) in names_in(folder) {
+                known.names.insert(format!("{prefix}{counted}"), name);
+            }
+            for variable in &described.variables {
+                let Some(own) = variable.name.strip_prefix(prefix.as_str()) else { continue };
+                let bound = BOUNDS
+                    .iter()
+                    .find_map(|(quantity, bound)| Some(bound.replace('*', number_in(own, quantity)?)));
+                let value = bound.and_then(|bound| value(described, sets, &format!("{prefix}{bound}")));
+                if let Some(value) = value.filter(|value| *value > 0.0) {
+                    known.bounds.insert(variable.name.clone(), vec![-value, value]);
+                }
+            }
+        }
+        for variable in &described.variables {
+            if let (Some(counted), Some(name)) = (variable.name.strip_suffix(".name"), text(variable)) {
+                known.names.insert(counted.to_owned(), name.to_owned());
+            }
+        }
+        for limit in limits {
+            let values = [limit.min, limit.max].into_iter().flatten();
+            known.limits.entry(limit.name.clone()).or_default().extend(values);
+        }
+        known
+    }
+
+    /// The name in the file of what a variable belongs to, such as that of `wheel[2]` for `wheel[2].speed`.
+    pub fn name(&self, variable: &str) -> Option<&str> {
+        let end = variable.rfind("].")? + 1;
+        self.names.get(&variable[..end]).map(String::as_str)
+    }
+
+    /// The values that a variable is held against, in its unit.
+    pub fn bounds(&self, variable: &str) -> &[f64] {
+        self.bounds.get(variable).map_or(&[], Vec::as_slice)
+    }
+
+    /// The limits that the mission sets it, in its unit.
+    pub fn limits(&self, variable: &str) -> &[f64] {
+        self.limits.get(variable).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// What stands for `*` where a name is the quantity; empty where there is nothing to stand for.
+fn number_in<'a>(name: &'a str, quantity: &str) -> Option<&'a str> {
+    match quantity.split_once('*') {
+        Some((before, after)) => name
+            .strip_prefix(before)?
+            .strip_suffix(after)
+            .filter(|number| number.bytes().all(|byte| byte.is_ascii_digit())),
+        None => (name == quantity).then_some(""),
+    }
+}
+
+/// The value with which a Real begins.
+fn value(described: &Description, sets: &[(String, Value)], name: &str) -> Option<f64> {
+    let set = sets.iter().rev().find(|(set, _)| set == name);
+    match (set, &find(described, name)?.kind) {
+        (Some((_, Value::Real(value))), _) => Some(*value),
+        (_, VariableKind::Real { start, .. }) => *start,
+        _ => None,
+    }
+}
+
+fn text(variable: &ScalarVariable) -> Option<&str> {
+    match &variable.kind {
+        VariableKind::String { start, .. } => start.as_deref().filter(|name| !name.is_empty()),
+        _ => None,
+    }
+}
+
+/// Panels, wheels, thrusters and tanks of the spacecraft in an FMU's resources, if there is one.
+fn names_in(folder: &Path) -> Vec<(String, String)> {
+    let Ok(entries) = fs::read_dir(folder.join("resources")) else { return Vec::new() };
+    let files = entries.flatten().map(|entry| entry.path());
+    let texts = files.filter_map(|path| fs::read_to_string(path).ok());
+    texts.flat_map(|text| names_of(&text)).collect()
+}
+
+fn names_of(text: &str) -> Vec<(String, String)> {
+    let counted = |kind: &str, names: Vec<&String>| -> Vec<(String, String)> {
+        let names = names.into_iter().enumerate();
+        names.map(|(k, name)| (format!("{kind}[{}]", k + 1), name.clone())).collect()
+    };
+    if let Ok(craft) = Spacecraft::from_toml("", text) {
+        return [
+            counted("panel", craft.panels.iter().map(|panel| &panel.name).collect()),
+            counted("wheel", craft.wheels.iter().map(|wheel| &wheel.name).collect()),
+            counted("thruster", craft.thrusters.iter().map(|thruster| &thruster.name).collect()),
+            counted("tank", craft.tanks.iter().map(|tank| &tank.name).collect()),
+        ]
+        .concat();
+    }
+    Spinner::parse("", text).map_or_else(
+        |_| Vec::new(),
+        |spinner| counted("thruster", spinner.thrusters.iter().map(|thruster| &thruster.name).collect()),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    //! Names and bounds of a plant within a system, and by itself.
+
+    use super::*;
+
+    const PLANT: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="Plant" guid="{plant}">
+  <CoSimulation modelIdentifier="Plant"/>
+  <ModelVariables>
+    <ScalarVariable name="p.dump.threshold[2]" valueReference="0" causality="parameter" variability="fixed"><Real start="4"/></ScalarVariable>
+    <ScalarVariable name="p.momentum.body[2]" valueReference="1" causality="output"><Real/></ScalarVariable>
+    <ScalarVariable name="p.wheel[1].speed" valueReference="2" causality="output"><Real/></ScalarVariable>
+    <ScalarVariable name="p.plate[7].name" valueReference="3" causality="parameter" variability="fixed"><String start="lid"/></ScalarVariable>
+  </ModelVariables>
+  <ModelStructure/>
+</fmiModelDescription>"#;
+
+    #[test]
+    fn names_and_bounds_are_those_of_the_part() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("resources")).unwrap();
+        fs::write(folder.path().join("resources").join("craft.toml"), physics::spacecraft::MESSENGER_TOML)
+            .unwrap();
+        fs::write(folder.path().join("modelDescription.xml"), PLANT).unwrap();
+        let fmu = loader::Fmu::open(folder.path()).unwrap();
+        let parts = [("p.".to_owned(), folder.path().to_owned())];
+        let limit =
+            Limit { name: "p.wheel[1].speed".to_owned(), min: None, max: Some(3.0), at: String::new() };
+        let known = Known::of(&parts, fmu.description(), &[], &[limit]);
+        let craft = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
+        assert_eq!(known.name("p.wheel[1].speed"), Some(craft.wheels[0].name.as_str()));
+        assert_eq!(known.name("p.plate[7].temperature"), Some("lid"));
+        assert_eq!(known.name("p.momentum.body[2]"), None);
+        assert_eq!(known.bounds("p.momentum.body[2]"), [-4.0, 4.0]);
+        assert_eq!(known.bounds("p.wheel[1].speed"), [0.0; 0]);
+        assert_eq!(known.limits("p.wheel[1].speed"), [3.0]);
+        let set = [("p.dump.threshold[2]".to_owned(), Value::Real(7.0))];
+        let set = Known::of(&parts, fmu.description(), &set, &[]);
+        assert_eq!(set.bounds("p.momentum.body[2]"), [-7.0, 7.0]);
+    }
+}

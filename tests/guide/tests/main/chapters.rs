@@ -1,0 +1,139 @@
+//! Every file is a chapter; every model, command, study and drawing has its place.
+
+use std::fs;
+
+use heliotorque_guide::project;
+
+use crate::commands::heliotorque;
+use crate::{commands, markdown};
+
+#[test]
+fn every_file_is_a_chapter() {
+    let folder = project().join("docs").join("src");
+    let summary = fs::read_to_string(folder.join("SUMMARY.md")).unwrap();
+    let chapters = markdown::links(&summary);
+    for path in markdown::files(&folder) {
+        let name = path.strip_prefix(&folder).unwrap().to_str().unwrap().replace('\\', "/");
+        assert!(name == "SUMMARY.md" || chapters.contains(&name), "{name} is not in SUMMARY.md");
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.starts_with("# "), "{name} begins with no title");
+    }
+}
+
+#[test]
+fn every_model_has_a_chapter() {
+    let golden = project().join("modelDescription").join("golden");
+    let mut models = 0;
+    for entry in fs::read_dir(golden).unwrap() {
+        let path = entry.unwrap().path();
+        let model = path.file_stem().unwrap().to_str().unwrap();
+        let words: String = model
+            .chars()
+            .enumerate()
+            .map(|(k, c)| if c.is_uppercase() && k > 0 { format!("-{c}") } else { c.to_string() })
+            .collect();
+        let chapter =
+            project().join("docs").join("src").join("models").join(words.to_lowercase()).with_extension("md");
+        let text = fs::read_to_string(&chapter).unwrap_or_default();
+        assert!(text.starts_with(&format!("# {model}\n")), "{}", chapter.display());
+        models += 1;
+    }
+    assert!(models >= 4);
+}
+
+#[test]
+fn every_command_has_a_section() {
+    let page = fs::read_to_string(project().join("docs").join("src").join("commands.md")).unwrap();
+    for command in commands::subcommands() {
+        assert!(page.contains(&format!("\n## {command}\n")), "commands.md has no section on {command}");
+        let shown = markdown::commands(&page);
+        assert!(shown.iter().any(|line| line.starts_with(&format!("heliotorque {command}"))), "{command}");
+    }
+}
+
+#[test]
+fn every_study_is_told_of() {
+    let page = fs::read_to_string(project().join("docs").join("src").join("studies.md")).unwrap();
+    let list = heliotorque(&["study", "list"]);
+    let mut studies = 0;
+    for word in list.split_whitespace().filter(|word| word.contains('/') && !word.contains('.')) {
+        let is_name = word.chars().all(|c| c.is_ascii_alphanumeric() || c == '/' || c == '-');
+        if is_name && word.chars().next().is_some_and(|c| c.is_ascii_lowercase()) {
+            assert!(page.contains(&format!("`{word}`")), "studies.md does not name {word}");
+            studies += 1;
+        }
+    }
+    assert!(studies > 15, "{studies}");
+}
+
+#[test]
+fn every_picture_is_shown() {
+    let folder = project().join("docs").join("src");
+    let mut shown: String =
+        markdown::files(&folder).iter().map(|path| fs::read_to_string(path).unwrap()).collect();
+    shown += &fs::read_to_string(project().join("README.md")).unwrap();
+    for entry in fs::read_dir(folder.join("pictures")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert!(shown.contains(&format!("pictures/{name})")), "{name} is shown nowhere");
+    }
+}
+
+#[test]
+fn every_key_of_every_file_is_told_of() {
+    let book = project().join("docs").join("src").join("files");
+    for (schema, chapters) in [
+        ("spacecraft", &["spacecraft.md", "start.md"][..]),
+        ("spinner", &["spinner.md", "start.md"]),
+        ("mission", &["mission.md"]),
+        ("timeline", &["timeline.md"]),
+        ("ephemeris", &["ephemeris.md"]),
+    ] {
+        let pages: String =
+            chapters.iter().map(|name| fs::read_to_string(book.join(name)).unwrap()).collect();
+        let keys = heliotorque(&["schema", schema]);
+        let mut told = 0;
+        for block in keys.split("\"properties\": {").skip(1) {
+            // Keys of this object stand one level deeper than its brace.
+            let indent = block.lines().nth(1).map_or(0, |line| line.len() - line.trim_start().len());
+            let end = " ".repeat(indent.saturating_sub(2)) + "}";
+            for line in block.lines().skip(1).take_while(|line| *line != end && *line != format!("{end},")) {
+                let own = line.len() - line.trim_start().len() == indent;
+                if let Some((key, _)) =
+                    line.trim_start().strip_prefix('"').and_then(|rest| rest.split_once('"'))
+                {
+                    if own {
+                        assert!(
+                            [format!("`{key}`"), format!("[{key}]"), format!("`{key} = ")]
+                                .iter()
+                                .any(|form| pages.contains(form)),
+                            "{schema}: no word on {key}"
+                        );
+                        told += 1;
+                    }
+                }
+            }
+        }
+        assert!(told > 10, "{schema}: {told}");
+    }
+}
+
+/// The drawing of the tree in README and guide names every crate, and the modules of `physics` in their order.
+#[test]
+fn the_tree_is_complete() {
+    let library = fs::read_to_string(project().join("fmu-src/physics/src/lib.rs")).unwrap();
+    let modules: Vec<&str> =
+        library.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
+    let modules: Vec<&str> = modules.into_iter().filter(|name| *name != "constants").collect();
+    for text in ["README.md", "docs/src/architecture.md"] {
+        let text = fs::read_to_string(project().join(text)).unwrap();
+        let tree = text.split("```").find(|block| block.contains("fmu-src/\n")).unwrap();
+        let drawn = tree.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(drawn.contains(&modules.join(" -> ")), "{}", modules.join(" -> "));
+        for folder in ["fmu-src", "harness"] {
+            for entry in fs::read_dir(project().join(folder)).unwrap() {
+                let name = entry.unwrap().file_name().into_string().unwrap();
+                assert!(tree.contains(&format!("\n  {name}/")), "{folder}/{name}");
+            }
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! The guide is complete, its links lead somewhere, and its commands exist.
+
+mod chapters;
+mod commands;
+mod html;
+mod links;
+mod markdown;

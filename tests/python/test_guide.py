@@ -1,0 +1,135 @@
+"""The guide's commands run in an empty folder and print what the guide shows.
+
+A block `console` holds commands after `$ ` and what they print; a line `...` stands for any lines. The blocks of a page run one
+after the other in one folder that has the tutorial's files. HELIOTORQUE_BLESS=1 writes anew what they print, but for blocks with
+`...`.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+from fmpy import read_model_description
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BOOK = ROOT / "docs" / "src"
+BLOCK = re.compile(r"(?m)^```console\n(.*?)^```$", re.DOTALL)
+PAGES = sorted(page for page in BOOK.rglob("*.md") if BLOCK.search(page.read_text(encoding="utf-8")))
+BLESS = "HELIOTORQUE_BLESS" in os.environ
+# Pictures that commands of a page write and the guide shows. A drawing is the same everywhere; a simulation's last digits are not.
+PICTURES = {"venus.svg": "venus.svg", "ten-days.svg": "ten-days.svg", "turn/burn.svg": "turn.svg"}
+DRAWINGS = ("venus.svg",)
+# What differs from run to run, from build to build, and in the last digits from processor to processor.
+VARYING = [
+    (r"(\d\.\d{8})\d{4,}", r"\1..."), (r"\bin \d+\.\d+ s\b", "in ... s"),
+    (r"\{[0-9a-f-]{36}\}", "{...}"), (r"\b\d+ kB\b", "... kB"),
+]
+# What stands in backticks like a variable and is none: keys and calls of other things.
+NO_VARIABLES = re.compile(r"\.(md|rs|py|toml|svg|csv|json|ssp|fmu|ssv|part|html|xml|bsp|spk)$|_|^numpy|^name\.|/")
+
+
+def plain(text):
+    for pattern, replacement in VARYING:
+        text = re.sub(pattern, replacement, text)
+    return [line.rstrip() for line in text.rstrip("\n").split("\n")]
+
+
+def steps(block):
+    """Commands of a block, each with the lines shown below it."""
+    found = []
+    for line in block.splitlines():
+        if line.startswith("$ "):
+            found.append(([line[2:]], []))
+        elif found and not found[-1][1] and found[-1][0][-1].endswith("\\"):
+            found[-1][0].append(line)
+        else:
+            found[-1][1].append(line)
+    return found
+
+
+def shows(expected, printed):
+    """Whether the lines are those printed, `...` standing for any."""
+    pattern = "\n".join(r"(?:.*\n)*?.*" if line == "..." else re.escape(line.rstrip()) for line in expected)
+    return re.fullmatch(pattern, "\n".join(printed)) is not None
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory, heliotorque, dist):
+    """The program with its library and FMUs, as `cargo xtask install` lays them out."""
+    prefix = tmp_path_factory.mktemp("prefix")
+    (prefix / "bin").mkdir()
+    folder = prefix / "lib" / "heliotorque"
+    folder.mkdir(parents=True)
+    shutil.copy2(heliotorque, prefix / "bin" / "heliotorque")
+    shutil.copy2(os.environ["HELIOTORQUE_LIBRARY"], folder / "libheliotorque.so")
+    for fmu in [*pathlib.Path(dist).glob("*.fmu"), *pathlib.Path(dist).glob("*.ssp")]:
+        shutil.copy2(fmu, folder)
+    return prefix / "bin"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(BOOK)))
+def test_a_page_prints_what_it_shows(page, installed, dist, tmp_path):
+    for file in (BOOK / "tutorial").iterdir():
+        if file.suffix in (".toml", ".py"):
+            shutil.copy2(file, tmp_path)
+    (tmp_path / "dist").symlink_to(pathlib.Path(dist).resolve())
+    (tmp_path / "fmu-src").symlink_to(ROOT / "fmu-src")
+    path = os.pathsep.join([str(installed), str(pathlib.Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PATH": path, "COLUMNS": "120"}
+    text, wrong = page.read_text(encoding="utf-8"), []
+
+    def run(match):
+        block = match.group(1)
+        written = []
+        for lines, expected in steps(block):
+            ran = subprocess.run(
+                ["bash", "-c", "\n".join(lines)], cwd=tmp_path, env=environment, stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
+            )
+            printed = plain(ran.stdout) if ran.stdout else []
+            if not shows(expected, printed):
+                wrong.append("\n".join(["$ " + "\n".join(lines), *printed]))
+            written += ["$ " + "\n".join(lines), *(expected if "..." in expected else printed)]
+        return "```console\n" + "\n".join(written) + "\n```"
+
+    blessed = BLOCK.sub(run, text)
+    if BLESS:
+        page.write_text(blessed, encoding="utf-8")
+    else:
+        assert not wrong, "\n".join(wrong)
+    for written, shown in PICTURES.items():
+        if (tmp_path / written).exists() and f"pictures/{shown})" in text:
+            if BLESS:
+                shutil.copy2(tmp_path / written, BOOK / "pictures" / shown)
+            elif shown in DRAWINGS:
+                assert (tmp_path / written).read_bytes() == (BOOK / "pictures" / shown).read_bytes(), shown
+
+
+def test_every_variable_that_the_guide_names_exists(dist):
+    names = set()
+    for fmu in pathlib.Path(dist).glob("*.fmu"):
+        for variable in read_model_description(str(fmu)).modelVariables:
+            parts = re.sub(r"\[[0-9,]+\]", "", variable.name).split(".")
+            names |= {".".join(parts[:k]) for k in range(1, len(parts) + 1)}
+    checked = set()
+    for page in BOOK.rglob("*.md"):
+        text = re.sub(r"(?ms)^```.*?^```", "", page.read_text(encoding="utf-8"))
+        for name in re.findall(r"`([a-z][A-Za-z0-9]*(?:\[[a-z0-9,]+\])?(?:\.[a-zA-Z0-9*|]+(?:\[[a-z0-9,]+\])?)+)`", text):
+            if NO_VARIABLES.search(name):
+                continue
+            # In a system, names begin with the component.
+            plain = re.sub(r"\[[a-z0-9,]+\]", "", name).removesuffix(".*").removeprefix("plant.")
+            head, _, last = plain.rpartition(".")
+            for each in last.split("|"):
+                checked.add(name)
+                assert f"{head}.{each}".strip(".") in names, f"{page.relative_to(BOOK)}: `{name}`"
+    assert len(checked) > 100
+
+
+def test_the_tutorials_run():
+    names = {str(page.relative_to(BOOK)) for page in PAGES}
+    assert {"tutorial/own-spacecraft.md", "tutorial/own-controller.md", "tutorial/spinner.md", "commands.md"} <= names
