@@ -14,6 +14,11 @@ pub fn check_format() -> Outcome {
     run(&mut in_workspace(&["fmt", "--check"]))
 }
 
+/// Lints its builder's code.
+pub fn lint() -> Outcome {
+    run(&mut in_workspace(&["clippy", "--locked", "--all-targets", "--quiet", "--", "-D", "warnings"]))
+}
+
 /// Builds it and checks its links, commands and completeness.
 pub fn test(environment: impl IntoIterator<Item = (&'static str, impl Into<OsString>)>) -> Outcome {
     let environment = environment.into_iter().map(|(name, value)| (name, value.into()));

@@ -28,6 +28,7 @@ pub fn all() -> Outcome {
             "-D",
             "warnings",
         ]))?;
+        guide::lint()?;
     } else if std::env::var_os("CI").is_some() {
         return Err("`cargo clippy` is missing".to_owned());
     } else {

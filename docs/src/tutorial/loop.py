@@ -23,7 +23,6 @@ def vector(name):
 
 fmu.instantiate()
 fmu.setupExperiment(startTime=0.0)
-fmu.setReal([reference["planet.radius"], reference["planet.gravitationalParameter"]], [6051.8e3, 3.24858592e14])
 fmu.enterInitializationMode()
 fmu.exitInitializationMode()
 

@@ -97,20 +97,18 @@ fn every_key_of_every_file_is_told_of() {
             let indent = block.lines().nth(1).map_or(0, |line| line.len() - line.trim_start().len());
             let end = " ".repeat(indent.saturating_sub(2)) + "}";
             for line in block.lines().skip(1).take_while(|line| *line != end && *line != format!("{end},")) {
-                let own = line.len() - line.trim_start().len() == indent;
-                if let Some((key, _)) =
-                    line.trim_start().strip_prefix('"').and_then(|rest| rest.split_once('"'))
-                {
-                    if own {
-                        assert!(
-                            [format!("`{key}`"), format!("[{key}]"), format!("`{key} = ")]
-                                .iter()
-                                .any(|form| pages.contains(form)),
-                            "{schema}: no word on {key}"
-                        );
-                        told += 1;
-                    }
+                if line.len() - line.trim_start().len() != indent {
+                    continue;
                 }
+                let key = line.trim_start().strip_prefix('"').and_then(|rest| rest.split_once('"'));
+                let Some((key, _)) = key else { continue };
+                assert!(
+                    [format!("`{key}`"), format!("[{key}]"), format!("`{key} = ")]
+                        .iter()
+                        .any(|form| pages.contains(form)),
+                    "{schema}: no word on {key}"
+                );
+                told += 1;
             }
         }
         assert!(told > 10, "{schema}: {told}");
