@@ -47,7 +47,12 @@ const SHIPPED: &[Shipped] = &[
             GUIDED_AT_START[3],
         ],
     },
-    plain("MessengerLight", "DisturbanceTorque", "messenger-full.toml"),
+    Shipped {
+        name: "MessengerLight",
+        model: "DisturbanceTorque",
+        spacecraft: "messenger-full.toml",
+        options: &["--set", "shadowing.enabled=true"],
+    },
 ];
 
 /// Builds, then packs everything that is shipped.

@@ -190,9 +190,9 @@ fn names_that_look_alike_are_the_same() {
     for (at, (one, a)) in names.iter().enumerate() {
         for (other, b) in &names[at + 1..] {
             for (x, y) in a.iter().flat_map(|x| b.iter().map(move |y| (x, y))) {
-                let known = |pair: &(&str, &str)| *pair == (x, y) || *pair == (y, x);
+                let known = |pair: &(&str, &str)| [(x.as_str(), y.as_str()), (y, x)].contains(pair);
                 let is_of_both = b.contains(x) || a.contains(y);
-                if x != y && !is_of_both && folded(x) == folded(y) && !ALIKE.iter().any(|it| known(it)) {
+                if x != y && !is_of_both && folded(x) == folded(y) && !ALIKE.iter().any(known) {
                     found.push(format!("{one} {x}, {other} {y}"));
                 }
             }

@@ -14,8 +14,7 @@ fn warnings<M: Model>(text: &str, sets: &[(&str, f64)]) -> Vec<String> {
 
 fn refusal<M: Model>(text: &str, sets: &[(&str, f64)]) -> String {
     let named = NamedModel::<M>::with("my.toml", text);
-    let text = named.fly(0.0, sets).err().unwrap().to_string();
-    text
+    named.fly(0.0, sets).err().unwrap().to_string()
 }
 
 const SHADOWS: &[(&str, f64)] = &[("shadowing.enabled", 1.0)];

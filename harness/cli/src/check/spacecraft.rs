@@ -17,7 +17,7 @@ use crate::{
     outcome::Outcome,
     pack::{
         source::{Source, common_keys},
-        without_effect::unused_map,
+        without_effect::{can_read_map, unused_map},
     },
 };
 
@@ -30,12 +30,14 @@ pub fn run(arguments: &Check) -> Outcome {
     let own = source.own_model().ok();
     let mut refusals = Vec::new();
     let mut taken = None;
-    let mut maps = Vec::new();
+    let mut map = None;
     for model in binary.models()?.into_iter().filter(|model| model.setup_file.is_some()) {
         match binary.describe(&model.model, Some(&file), Some(&text)) {
             Ok(described) => {
                 let description = model_description::parse(described.xml.as_bytes())?.description;
-                maps.push(unused_map(&text, &described.model, &description));
+                if can_read_map(&description) {
+                    map = unused_map(&text, &described.model, &description);
+                }
                 taken = taken.or(Some(described));
             }
             Err(reason) => refusals.push((model, reason)),
@@ -59,8 +61,7 @@ pub fn run(arguments: &Check) -> Outcome {
             contents(&text),
             Spacecraft::from_toml("", &text).map_or_else(|_| levers(&text), |it| figures::report(&it))
         ))?;
-        // One model that uses it is enough.
-        if let Some(warning) = maps.into_iter().reduce(Option::and).flatten() {
+        if let Some(warning) = map {
             terminal::print(&format!("warning: {warning}"))?;
         }
         return Ok(ExitCode::SUCCESS);

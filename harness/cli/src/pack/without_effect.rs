@@ -9,6 +9,11 @@ const METHOD: (&str, i32) = ("planetLight.method", 3);
 /// The switch that lets planet light act.
 const SWITCH: &str = "planetLight.enabled";
 
+/// Whether a model can take the map of a file.
+pub fn can_read_map(description: &Description) -> bool {
+    description.variables.iter().any(|it| it.name == METHOD.0)
+}
+
 /// A warning where the file has a map of the planet that the FMU, as described, does not use.
 pub fn unused_map(setup: &str, model: &str, description: &Description) -> Option<String> {
     Spacecraft::from_toml("", setup).ok()?.planet_map?;
@@ -23,6 +28,8 @@ pub fn unused_map(setup: &str, model: &str, description: &Description) -> Option
                 )
             })
         }
+        // A model without light of the planet has no use for its places.
+        (_, None) => None,
         _ => Some(format!(
             "[planet_map] is without effect in {model}; DisturbanceTorque takes it, with {SWITCH} = true and {} = map",
             METHOD.0

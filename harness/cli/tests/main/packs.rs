@@ -335,3 +335,28 @@ fn start_values_that_nothing_takes_are_refused() {
         assert!(text.contains("--set a=1: Empty reads no file"), "{text}");
     }
 }
+
+/// A map of the planet has an effect in one model and by one option; elsewhere it is told.
+#[test]
+fn a_map_that_nothing_reads_is_told() {
+    let Some(library) = library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let (toml, output) = (scratch.path().join("mapped.toml"), scratch.path().join("mapped.fmu"));
+    let body = fs::read_to_string("../../fmu-src/resources/messenger-thermal.toml").unwrap();
+    let map = "[planet_map]\ndiffuse_reflectivity = [[0.1, 0.2]]\nemissivity = [[0.9, 0.9]]\ntemperature_k = [[100, 600]]\n";
+    fs::write(&toml, format!("{body}{map}")).unwrap();
+    let pack = |model: &str, more: &[&str]| {
+        let files = ["--spacecraft", shown(&toml), "--output", shown(&output)];
+        let arguments = ["pack", "--library", shown(&library), "--model", model];
+        run(&[&arguments[..], &files, more].concat(), 0)
+    };
+    let told = pack("MomentumPlant", &[]);
+    assert!(
+        told.contains("warning: [planet_map] is without effect in MomentumPlant; DisturbanceTorque takes it"),
+        "{told}"
+    );
+    let told = pack("DisturbanceTorque", &[]);
+    assert!(told.contains("warning: [planet_map] has an effect in DisturbanceTorque with"), "{told}");
+    let told = pack("DisturbanceTorque", &["--set", "planetLight.method=map"]);
+    assert!(!told.contains("warning"), "{told}");
+}
