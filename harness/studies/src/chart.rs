@@ -121,7 +121,7 @@ impl Chart {
         let y_ticks = panel.ticks(y_range, if self.panels.len() == 1 { 8 } else { 5 });
         let x_step = tick_step(x_range, 10);
         let y_step = tick_step(y_range, y_ticks);
-        let (x_format, y_format) = (|x: &f64| tick_text(*x, x_step), |y: &f64| tick_text(*y, y_step));
+        let (x_format, y_format) = (|x: &f64| tick_text(*x, x_step), |y: &f64| panel.tick_text(*y, y_step));
         let label_style = (FONT, 13 * FINE).into_font().color(&QUIET);
         for (from, to) in &panel.shades {
             let corners = [(from.max(x_range.0), y_range.0), (to.min(x_range.1), y_range.1)];
@@ -170,7 +170,13 @@ impl Panel {
 
     /// How many ticks to ask for, so that their distance is one at least where only whole numbers are.
     fn ticks(&self, (low, high): (f64, f64), ticks: usize) -> usize {
-        if self.is_whole { ticks.min(((high - low) as usize).max(1)) } else { ticks }
+        if self.is_whole { ticks.min((high - low) as usize + 1) } else { ticks }
+    }
+
+    /// A tick's text; none between whole numbers where only these are.
+    fn tick_text(&self, value: f64, step: f64) -> String {
+        let is_between = self.is_whole && (value - value.round()).abs() > 1e-6;
+        if is_between { String::new() } else { tick_text(value, step) }
     }
 
     fn data_range(&self) -> (f64, f64) {

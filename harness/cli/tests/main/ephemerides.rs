@@ -82,7 +82,10 @@ fn a_flight_is_fitted_to_the_tolerance_and_flown_by_another_fmu() {
     // Another FMU flies by it within its span and nowhere else.
     let set = ["--set", "ephemeris.source=chebyshev", "--ephemeris", shown(&file)];
     let refusal = run(&[&pack[..], &[shown(&fitted)], &set].concat(), 1);
-    assert!(refusal.contains("the FMU is not written") && refusal.contains("start.epoch: found"), "{refusal}");
+    assert!(
+        refusal.contains("the FMU is not written") && refusal.contains("start.epoch: found"),
+        "{refusal}"
+    );
     let epoch = format!("start.epoch={START}");
     run(&[&pack[..], &[shown(&fitted)], &set, &["--set", &epoch]].concat(), 0);
     assert!(run(&["info", shown(&fitted)], 0).contains("sun from mercury"));

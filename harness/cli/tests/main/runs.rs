@@ -65,7 +65,10 @@ fn a_simulation_leaves_csv_and_a_picture() {
     let svg = fs::read_to_string(&picture).unwrap();
     assert!(svg.contains("output.integral") && svg.contains("time [s]"));
     // What stays the same is told instead.
-    assert!(!svg.contains("output.vector") && text.contains("constant, so not drawn: output.vector"), "{text}");
+    assert!(
+        !svg.contains("output.vector") && text.contains("constant, so not drawn: output.vector"),
+        "{text}"
+    );
 }
 
 #[test]

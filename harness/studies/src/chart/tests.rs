@@ -160,3 +160,28 @@ fn dashes_and_rings_are_told_from_lines_and_dots() {
     };
     assert_eq!((hollow(&dots), hollow(&rings)), (0, 4));
 }
+
+#[test]
+fn flags_and_counts_have_whole_ticks() {
+    for greatest in [1.0, 2.0, 3.0, 40.0] {
+        let steps = Series::steps("", vec![(0.0, 0.0), (1.0, greatest), (2.0, greatest)]);
+        let panel =
+            Panel { y_label: "count".to_owned(), series: vec![steps], is_whole: true, ..Panel::default() };
+        let svg = Chart { panels: vec![panel; 2], ..Chart::default() }.to_svg().unwrap();
+        let texts: Vec<&str> = svg
+            .split("</text>")
+            .filter_map(|text| text.rsplit_once('>').map(|(_, text)| text.trim()))
+            .filter(|text| !text.is_empty())
+            .collect();
+        assert!(texts.contains(&"0") && texts.len() > 4, "{texts:?}");
+        if greatest <= 3.0 {
+            assert!(texts.contains(&format!("{greatest}").as_str()), "{greatest}: {texts:?}");
+        }
+    }
+}
+
+#[test]
+fn a_staircase_holds_each_value_until_the_next() {
+    let steps = Series::steps("", vec![(0.0, 1.0), (1.0, 1.0), (2.0, 3.0), (3.0, 2.0)]);
+    assert_eq!(steps.corners(), [(0.0, 1.0), (1.0, 1.0), (2.0, 1.0), (2.0, 3.0), (3.0, 3.0), (3.0, 2.0)]);
+}
