@@ -66,7 +66,7 @@ pub fn dist() -> Result<Built, String> {
 fn pack(built: &Built) -> Outcome {
     for Shipped { name, model, spacecraft, options } in SHIPPED {
         run(command(&built.heliotorque)
-            .args(["pack", "--model", model, "--library"])
+            .args(["pack", "--name", name, "--model", model, "--library"])
             .arg(&built.library)
             .arg("--spacecraft")
             .arg(root().join("fmu-src").join("resources").join(spacecraft))

@@ -89,6 +89,7 @@ impl BarChart {
         let label_style = (FONT, 13 * FINE).into_font().color(&QUIET);
         chart
             .configure_mesh()
+            .set_all_tick_mark_size(pixel(5 * FINE))
             .disable_x_mesh()
             .disable_x_axis()
             .light_line_style(TRANSPARENT)
