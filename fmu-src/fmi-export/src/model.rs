@@ -355,6 +355,13 @@ pub enum SetupValue {
     Text(String),
     /// Of a vector the elements, of a matrix the rows.
     List(Vec<Self>),
+    /// What the setup's reader could not read.
+    Refused {
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
 }
 
 /// By what a quantity of a model is computed, or what a name of a source stands for.

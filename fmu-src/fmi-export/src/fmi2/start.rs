@@ -22,6 +22,7 @@ impl SetupValue {
             Self::Integer(number) => number.to_string(),
             Self::Boolean(truth) => truth.to_string(),
             Self::Text(text) => format!("{text:?}"),
+            Self::Refused { found, .. } => found.clone(),
             Self::List(items) => match items.iter().map(Self::length).collect::<Option<BTreeSet<_>>>() {
                 Some(lengths) if lengths.len() == 1 => {
                     let columns = lengths.first().copied().unwrap_or_default();
@@ -239,6 +240,7 @@ fn converted(
 ) -> Result<Value, Misfit> {
     let misfit = || Misfit::new(given.shown(), value::allowed(description, variable));
     let value = match (&variable.kind, given) {
+        (_, SetupValue::Refused { found, allowed }) => return Err(Misfit::new(found.clone(), allowed.clone())),
         (VariableKind::Real { .. }, SetupValue::Number(number)) => Value::Real(*number),
         (VariableKind::Real { .. }, SetupValue::Integer(number)) => Value::Real(*number as f64),
         (VariableKind::Integer { .. } | VariableKind::Enumeration { .. }, SetupValue::Integer(number)) => {

@@ -1,7 +1,13 @@
 //! Start values of a setup file, from the file's own words to the exporter's.
 
 use fmi_export::{Enumeration, SetupValue, StartValue};
-use physics::spacecraft::{StartEntry, StartValue as FileValue};
+use physics::{
+    environment::dates,
+    spacecraft::{StartEntry, StartValue as FileValue},
+};
+
+/// The variable that takes a date: in s past J2000 TDB.
+const EPOCH: &str = "start.epoch";
 
 /// The entries of a file's `[start]` as start values of variables.
 pub fn start_values(entries: &[StartEntry]) -> Vec<StartValue> {
@@ -10,9 +16,22 @@ pub fn start_values(entries: &[StartEntry]) -> Vec<StartValue> {
         line: Some(entry.line),
         model: entry.model.clone(),
         name: entry.name.clone(),
-        value: given(&entry.value),
+        value: match &entry.value {
+            FileValue::Text(text) if entry.name == EPOCH && dates::looks_like_date(text) => date(text),
+            value => given(value),
+        },
     };
     entries.iter().map(convert).collect()
+}
+
+fn date(text: &str) -> SetupValue {
+    match dates::epoch_s(text) {
+        Ok(epoch_s) => SetupValue::Number(epoch_s),
+        Err(error) => SetupValue::Refused {
+            found: format!("{text:?}, {error}"),
+            allowed: dates::ALLOWED_DATE.to_owned(),
+        },
+    }
 }
 
 fn given(value: &FileValue) -> SetupValue {

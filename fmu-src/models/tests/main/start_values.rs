@@ -36,6 +36,20 @@ fn start(description: &Description, name: &str) -> String {
 }
 
 #[test]
+fn an_epoch_takes_a_date() {
+    // 24 Julian years and six leap days' difference are 9496.5 days past J2000, 37 + 32.184 s behind TT.
+    let past_j2000 = |lines: &str| -> f64 {
+        start(&described::<MomentumPlant>(lines).unwrap(), "start.epoch").parse().unwrap()
+    };
+    let utc_s = past_j2000("[start]\n\"start.epoch\" = \"2026-01-01T00:00:00 UTC\"");
+    assert!((utc_s - (9496.5 * 86_400.0 + 69.184)).abs() < 2e-3, "{utc_s}");
+    let for_this_model = "[start.MomentumPlant]\n\"start.epoch\" = \"2009-04-06 TDB\"";
+    assert_eq!(past_j2000(for_this_model), 292_248_000.0);
+    // A number, with its unit too, stays what it was.
+    assert_eq!(past_j2000("[start]\n\"start.epoch\" = \"2000 d\""), 172_800_000.0);
+}
+
+#[test]
 fn every_base_type_and_unit_becomes_a_start_value() {
     let lines = r#"
 [start]
@@ -227,6 +241,21 @@ const REFUSALS: &[(&str, &str)] = &[
         "[start]\n\"orbit.step\" = \"1 week\"",
         "my.toml:+2: start.\"orbit.step\": found \"1 week\" with the unknown unit \"week\", allowed: a number, with one of \
          the units s, ms, min, h, d",
+    ),
+    (
+        "[start]\n\"start.epoch\" = \"2026-02-29 UTC\"",
+        "my.toml:+2: start.\"start.epoch\": found \"2026-02-29 UTC\", a day that no calendar has, allowed: a date such as \
+         \"2008-03-19T19:30:00 UTC\" or \"2008-03-19 TDB\"",
+    ),
+    (
+        "[start]\n\"start.epoch\" = \"2026-01-01T00:00:00\"",
+        "my.toml:+2: start.\"start.epoch\": found \"2026-01-01T00:00:00\", which does not end in UTC or TDB, allowed: a date \
+         such as \"2008-03-19T19:30:00 UTC\" or \"2008-03-19 TDB\"",
+    ),
+    (
+        "[start]\n\"orbit.step\" = \"2026-01-01 UTC\"",
+        "my.toml:+2: start.\"orbit.step\": found \"2026-01-01 UTC\" with the unknown unit \"-01-01 UTC\", allowed: a \
+         number, with one of the units s, ms, min, h, d",
     ),
     (
         "[start]\n\"orbit.step\" = true",

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use crate::{args::Plan, home, outcome::Outcome};
 
-/// Prints the plan, and writes its files where a folder is given.
+/// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
 pub fn run(arguments: &Plan) -> Outcome {
     let Plan::Spin(options) = arguments;
     let mut options = options.clone();
@@ -21,5 +21,9 @@ pub fn run(arguments: &Plan) -> Outcome {
             terminal::note(&path.display().to_string());
         }
     }
-    Ok(ExitCode::SUCCESS)
+    if answer.broken.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    terminal::note(&format!("limits broken: {}", answer.broken.join(", ")));
+    Ok(ExitCode::FAILURE)
 }

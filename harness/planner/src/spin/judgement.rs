@@ -119,6 +119,11 @@ pub fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<
     judged
 }
 
+/// Names of the limits that are broken.
+pub fn broken(judged: &[Judged]) -> Vec<&'static str> {
+    judged.iter().filter(|judged| judged.kept == Some(false)).map(|judged| judged.limit).collect()
+}
+
 /// A limit that holds all the time.
 fn over_time(
     flight: &Flight,

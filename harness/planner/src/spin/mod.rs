@@ -4,6 +4,7 @@
 mod aim;
 mod burn_table;
 mod campaign;
+mod choice;
 mod error;
 mod flight;
 mod judgement;

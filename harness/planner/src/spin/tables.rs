@@ -2,7 +2,7 @@
 
 use comfy_table::Table;
 
-use super::{Row, Task, judgement::Judged};
+use super::{Row, judgement::Judged};
 
 /// A table whose columns stand one space apart.
 pub fn narrow(header: &[&str]) -> Table {
@@ -13,25 +13,30 @@ pub fn narrow(header: &[&str]) -> Table {
     table
 }
 
-/// `count` rows of a trade: the best trains, and the paper's plan as the last; `None` for no rows.
-pub fn trade(task: &Task, rows: &[&Row], paper: &Row, count: usize) -> Option<String> {
+/// `count` rows of a trade: the best trains, and the paper's plan as the last; `None` for no rows. `keeps` says which keep the
+/// limits of the flags and those of the file that are `judged`.
+pub fn trade(
+    rows: &[&Row],
+    paper: &Row,
+    count: usize,
+    judged: &[Judged],
+    keeps: impl Fn(&Row) -> bool,
+) -> Option<String> {
     let with_paper = count > 1;
     let trains = if with_paper { count - 1 } else { count };
     if trains == 0 {
         return None;
     }
-    let limited = task.is_limited();
-    let mut header =
-        vec!["train", "n", "ms", "min", "left deg", "peak deg", "moved", "g", "saved h", "lost h"];
-    header.extend(limited.then_some("limits"));
-    let mut table = narrow(&header);
+    let mut table = narrow(&[
+        "train", "n", "ms", "min", "left deg", "peak deg", "moved", "g", "saved h", "lost h", "limits",
+    ]);
     let is_paper = |row: &Row| row.train == paper.train;
     let others: Vec<&Row> = rows.iter().copied().filter(|row| !(with_paper && is_paper(row))).collect();
     for row in others.iter().take(trains) {
-        table.add_row(cells(row, limited, ""));
+        table.add_row(cells(row, keeps(row), ""));
     }
     if with_paper {
-        table.add_row(cells(paper, limited, " *"));
+        table.add_row(cells(paper, keeps(paper), " *"));
     }
     let mut text = table.to_string();
     text.push_str(
@@ -39,16 +44,19 @@ pub fn trade(task: &Task, rows: &[&Row], paper: &Row, count: usize) -> Option<St
          left, peak: worst nutation after the last pulse, at any time\n\
          saved, lost: damping time against the paper's plan, time without science",
     );
+    let names = judged.iter().filter(|judged| judged.kept.is_some()).map(|judged| judged.limit);
+    text.push_str("\nlimits: ");
+    text.push_str(&names.collect::<Vec<_>>().join(", "));
     if with_paper {
         text.push_str("\n* the paper's plan: equal pulses of one step, once a turn");
     }
     Some(text)
 }
 
-fn cells(row: &Row, limited: bool, mark: &str) -> Vec<String> {
+fn cells(row: &Row, keeps: bool, mark: &str) -> Vec<String> {
     let hours =
         |time_s: f64| if time_s.is_finite() { format!("{:.2}", time_s / 3600.0) } else { "endless".into() };
-    let mut cells = vec![
+    vec![
         format!("{}{mark}", row.short_label()),
         row.train.count().to_string(),
         format!("{:.0}", 1e3 * row.train.width_s(0)),
@@ -59,11 +67,8 @@ fn cells(row: &Row, limited: bool, mark: &str) -> Vec<String> {
         format!("{:.2}", 1e3 * row.propellant_kg),
         hours(row.damping_saved_s),
         hours(row.science_lost_s),
-    ];
-    if limited {
-        cells.push(if row.fits { "kept".into() } else { "broken".into() });
-    }
-    cells
+        if keeps { "kept".into() } else { "broken".into() },
+    ]
 }
 
 /// What each limit comes to.

@@ -9,9 +9,10 @@ use super::{
     Options, PlanError, PlannedBurn, Row, Task, Verification,
     aim::{Way, right_ascension_declination_deg},
     best,
+    choice::{broken_limits, by_all_limits},
     flight::fly,
     frontier,
-    judgement::judge,
+    judgement::{broken, judge},
     months::months,
     options::ACE,
     paper_plan, start_values, tables, timing_label, trade, verify,
@@ -31,6 +32,8 @@ pub struct Answer {
     pub text: String,
     /// The burn, where one was planned.
     pub burn: Option<PlannedBurn>,
+    /// Limits that it breaks, by name.
+    pub broken: Vec<&'static str>,
 }
 
 /// Plans by the options.
@@ -41,7 +44,7 @@ pub fn plan(options: &Options) -> Result<Answer, PlanError> {
     let spinner = spacecraft(options)?;
     let task = Task::new(options, &spinner)?;
     match options.campaign {
-        Some(days) => Ok(Answer { text: months(&spinner, &task, days)?, burn: None }),
+        Some(days) => Ok(Answer { text: months(&spinner, &task, days)?, burn: None, broken: Vec::new() }),
         None => one_manoeuvre(options, &spinner, task),
     }
 }
@@ -60,9 +63,11 @@ fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
 fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Answer, PlanError> {
     let rows = trade(&task)?;
     best(&rows)?;
-    let (chosen, simulations) = simulated_again(options, &task, &rows)?;
+    let candidates = by_all_limits(spinner, &task, &rows, MOST_SIMULATED)?;
+    let (chosen, simulations) = simulated_again(options, &task, &candidates)?;
     let flight = fly(spinner, &task, chosen)?;
     let judged = judge(spinner, &task, chosen, &flight);
+    let broken = broken(&judged);
     let mut text = String::new();
     let spin = &task.case.spin;
     let mut line = |line: String| {
@@ -94,7 +99,11 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     ));
     let paper = paper_plan(&task)?;
     let beaten_by_none = frontier(&rows);
-    if let Some(table) = tables::trade(&task, &beaten_by_none, &paper, options.rows) {
+    let others = beaten_by_none.iter().copied().filter(|row| row.train != chosen.train);
+    let shown: Vec<&Row> = std::iter::once(chosen).chain(others).collect();
+    let keeps =
+        |row: &Row| row.fits && broken_limits(spinner, &task, row).is_ok_and(|broken| broken.is_empty());
+    if let Some(table) = tables::trade(&shown, &paper, options.rows, &judged, keeps) {
         line(table);
     }
     line(format!(
@@ -105,7 +114,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     line(format!(
         "Least final nutation{}: {}, {} pulses, {:.2} min; moves {:.4} of {:.4} deg ({:+.1} %), peak nutation \
          {:.5} deg ({:.1} times the paper's plan's)",
-        if task.is_limited() { " within the limits" } else { "" },
+        if broken.is_empty() { " within the limits" } else { ", with the fewest limits broken" },
         chosen.label(),
         chosen.train.count(),
         chosen.duration_s / 60.0,
@@ -115,6 +124,9 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         chosen.peak_rad.to_degrees(),
         chosen.peak_rad / paper.peak_rad,
     ));
+    if !broken.is_empty() {
+        line(format!("No train keeps every limit of the spacecraft's file; this one breaks: {}", broken.join(", ")));
+    }
     simulations.into_iter().for_each(&mut line);
     line(format!(
         "Flown pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
@@ -156,7 +168,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
             .to_owned(),
     );
     line(start_values::options(&burn.start_values()));
-    Ok(Answer { text, burn: Some(burn) })
+    Ok(Answer { text, burn: Some(burn), broken })
 }
 
 /// Right ascension and declination of a direction.
@@ -181,14 +193,15 @@ fn way(way: &Way) -> String {
     )
 }
 
-/// The plan to take and what the FMU computes for it: the best that keeps in simulation what it promised, or the best if none is
-/// simulated, with the reason.
+/// The plan to take and what the FMU computes for it: the first that keeps in simulation what it promised, or the first if none
+/// is simulated, with the reason.
 fn simulated_again<'a>(
     options: &Options,
     task: &Task,
-    rows: &'a [Row],
+    rows: &[&'a Row],
 ) -> Result<(&'a Row, Vec<String>), PlanError> {
-    let not_simulated = |why: String| Ok((best(rows)?, vec![format!("Not re-simulated: {why}")]));
+    let first = || rows.first().copied().ok_or_else(|| PlanError::Flight("no train was flown".to_owned()));
+    let not_simulated = |why: String| Ok((first()?, vec![format!("Not re-simulated: {why}")]));
     let named = options.fmu.as_deref();
     let path = match named {
         Some(path) => path,
@@ -208,7 +221,7 @@ fn simulated_again<'a>(
         Err(error) => return not_simulated(error.to_string()),
     };
     let mut lines = Vec::new();
-    for row in rows.iter().filter(|row| row.fits).take(MOST_SIMULATED) {
+    for row in rows.iter().copied().take(MOST_SIMULATED) {
         let simulated = verify(&fmu, task, row, RATIOS)?;
         let broken = simulated.broken(task);
         if broken.is_empty() {
@@ -237,6 +250,6 @@ fn kept(task: &Task, row: &Row, simulated: &Verification) -> String {
         row.moved_range_rad.0.to_degrees(),
         row.moved_range_rad.1.to_degrees(),
         simulated.longest_s / 60.0,
-        if task.is_limited() { "limits kept" } else { "turned as required, no limits given" },
+        if task.is_limited() { "the flags' limits kept" } else { "turned as required" },
     )
 }

@@ -1,0 +1,50 @@
+//! Which plan is taken: the best by the limits of the flags and of the spacecraft's file.
+
+use physics::spin::spinner::Spinner;
+
+use super::{
+    PlanError, Row, Task,
+    flight::fly,
+    judgement::{broken, judge},
+};
+
+/// Limits that a train breaks as it is flown, and over the range where the plan knows it.
+///
+/// # Errors
+/// A train that cannot be flown.
+pub fn broken_limits(spinner: &Spinner, task: &Task, row: &Row) -> Result<Vec<&'static str>, PlanError> {
+    let flight = fly(spinner, task, row)?;
+    Ok(broken(&judge(spinner, task, row, &flight)))
+}
+
+/// Trains that keep the limits of the flags and break the fewest of the file, in the order of `rows`. The search ends with `most`
+/// that break none.
+///
+/// # Errors
+/// None that can be flown.
+pub fn by_all_limits<'a>(
+    spinner: &Spinner,
+    task: &Task,
+    rows: &'a [Row],
+    most: usize,
+) -> Result<Vec<&'a Row>, PlanError> {
+    let (mut flown, mut failed, mut keeping) = (Vec::new(), None, 0);
+    for row in rows.iter().filter(|row| row.fits) {
+        match broken_limits(spinner, task, row) {
+            Ok(broken) => {
+                keeping += usize::from(broken.is_empty());
+                flown.push((broken.len(), row));
+            }
+            Err(error) => failed = failed.or(Some(error)),
+        }
+        if keeping == most {
+            break;
+        }
+    }
+    let fewest = flown.iter().map(|(broken, _)| *broken).min();
+    flown.retain(|(broken, _)| Some(*broken) == fewest);
+    match failed {
+        Some(error) if flown.is_empty() => Err(error),
+        _ => Ok(flown.into_iter().map(|(_, row)| row).collect()),
+    }
+}
