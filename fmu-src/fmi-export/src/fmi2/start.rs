@@ -240,7 +240,9 @@ fn converted(
 ) -> Result<Value, Misfit> {
     let misfit = || Misfit::new(given.shown(), value::allowed(description, variable));
     let value = match (&variable.kind, given) {
-        (_, SetupValue::Refused { found, allowed }) => return Err(Misfit::new(found.clone(), allowed.clone())),
+        (_, SetupValue::Refused { found, allowed }) => {
+            return Err(Misfit::new(found.clone(), allowed.clone()));
+        }
         (VariableKind::Real { .. }, SetupValue::Number(number)) => Value::Real(*number),
         (VariableKind::Real { .. }, SetupValue::Integer(number)) => Value::Real(*number as f64),
         (VariableKind::Integer { .. } | VariableKind::Enumeration { .. }, SetupValue::Integer(number)) => {

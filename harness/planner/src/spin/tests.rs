@@ -242,7 +242,8 @@ fn flags_of_one_manoeuvre_do_not_go_with_a_campaign() {
 
 #[test]
 fn the_line_of_the_best_plan_says_what_it_misses_and_how_much_it_nutates() {
-    let text = plan(&options("--angle 2")).unwrap().text;
+    // None that is as quick keeps the period variation of the file: the plan is the best of those that the flags leave.
+    let text = plan(&options("--angle 2 --max-duration 8")).unwrap().text;
     let line = text.lines().find(|line| line.starts_with("Least final nutation")).unwrap();
     for part in ["moves 1.9676 of 2.0000 deg (-1.6 %)", "peak nutation 0.14135 deg", "8.0 times the paper's"]
     {

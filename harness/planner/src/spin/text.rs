@@ -125,7 +125,10 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         chosen.peak_rad / paper.peak_rad,
     ));
     if !broken.is_empty() {
-        line(format!("No train keeps every limit of the spacecraft's file; this one breaks: {}", broken.join(", ")));
+        line(format!(
+            "No train keeps every limit of the spacecraft's file; this one breaks: {}",
+            broken.join(", ")
+        ));
     }
     simulations.into_iter().for_each(&mut line);
     line(format!(
