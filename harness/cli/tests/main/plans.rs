@@ -72,10 +72,11 @@ fn the_printed_start_values_fly_to_where_the_plan_says() {
     run(&[&pack[..], &[shown(&fmu), "--spacecraft", ace]].concat(), 0);
     let date = "2026-11-22T12:00:00 UTC";
     for (k, (status, arguments)) in [
-        // The Earth stands beyond the file's 3 deg, 4 rpm are below its 4.9 rpm.
+        (0, vec!["--date", date, "--earth", "70,20", "--from", "251.5,-21.5", "--target", "248.8,-18.5"]),
+        // The Earth stands beyond the file's 3 deg, so strong a thruster nutates too much, 4 rpm are below its 4.9 rpm.
         (1, vec!["--date", date, "--from", "245,-22", "--target", "249,-18", "--max-nutation", "0.04"]),
         (
-            0,
+            1,
             vec![
                 "--sun",
                 "237,-20",
