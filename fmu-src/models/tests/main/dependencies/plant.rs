@@ -361,7 +361,6 @@ fn measure(text: &str, rounds: usize, shapes: bool) {
     if text != MomentumPlant::DEFAULT_SETUP {
         bench = bench.with_shown(&Plant::new(MomentumPlant::DEFAULT_SETUP));
     }
-    look_at_choices(&mut bench, &mut RandomNumbers(12), shapes);
     let mut random = RandomNumbers(11);
     let mut flown = 0;
     for round in 0..rounds {
@@ -445,6 +444,7 @@ fn measure(text: &str, rounds: usize, shapes: bool) {
             break;
         }
     }
+    look_at_choices(&mut bench, &mut random, shapes);
     assert!(flown > 20, "{flown} flown");
     bench.judge();
 }
