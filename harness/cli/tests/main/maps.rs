@@ -418,7 +418,21 @@ fn what_cannot_be_mapped_is_refused_by_name() {
                  optics = \"foil\"\n";
     fs::write(&bare, plate).unwrap();
     let told = run(&[&["map", shown(&bare)][..], &template].concat(), 0);
-    assert!(told.contains("15 deg of azimuth, 13 deg of elevation either way, paper 000's"), "{told}");
+    assert!(told.contains("Sun keep-in zone: none") && told.contains("least of all"), "{told}");
+    assert!(!told.contains("in the zone") && !told.contains("the keep-in zone"), "{told}");
+    let (lines, svg) = (room.path().join("lines.csv"), room.path().join("bare.svg"));
+    let files = ["--lines", shown(&lines), "--output", shown(&svg)];
+    run(&[&["map", shown(&bare)][..], &template[..4], &files].concat(), 0);
+    assert!(!fs::read_to_string(lines).unwrap().contains("zone"));
+    assert!(!fs::read_to_string(svg).unwrap().contains("keep-in"));
+    for zone in [["--zone", "20deg,10deg"], ["--set", "keepIn.azimuth=20deg"]] {
+        let told = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
+        assert!(told.contains("Sun keep-in zone: 20 deg of azimuth") && told.contains("in the zone"), "{told}");
+    }
+    // As the flight has it.
+    let ignored = ["--zone", "180deg,90deg"];
+    let told = run(&[&["map", MESSENGER][..], &template, &ignored].concat(), 0);
+    assert!(told.contains("Sun keep-in zone: none"), "{told}");
     let refused = run(&[&["map", shown(&bare)][..], &template, &["--panel-offset", "50deg"]].concat(), 1);
     assert!(refused.contains("--panel-offset") && refused.contains("no panel"), "{refused}");
 }
