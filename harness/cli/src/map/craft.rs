@@ -120,8 +120,7 @@ impl Craft {
             azimuth_rad.zip(elevation_rad).map(|(azimuth_rad, elevation_rad)| [azimuth_rad, elevation_rad]);
         // Everywhere is what the plant makes of a file without a zone.
         let everywhere_rad = [core::f64::consts::PI, core::f64::consts::FRAC_PI_2];
-        let zone_rad =
-            arguments.zone.or(flown_zone_rad).filter(|zone_rad| *zone_rad != everywhere_rad);
+        let zone_rad = arguments.zone.or(flown_zone_rad).filter(|zone_rad| *zone_rad != everywhere_rad);
         if zone_rad.is_some_and(|zone_rad| zone_rad.contains(&0.0)) {
             let what = "keepIn.azimuth, keepIn.elevation: found 0 deg, allowed: more";
             return Err(format!("{file}: {what}: see --set and --zone").into());

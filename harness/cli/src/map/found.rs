@@ -81,9 +81,8 @@ impl Found {
     ) -> Result<Self, Error> {
         let quarter = steps.0 as usize;
         let sphere = Mapped::new(craft, source, SPHERE_DEG, [4 * quarter, 2 * quarter])?;
-        let of_zone = |zone_rad: [f64; 2]| {
-            Mapped::new(craft, source, zone_rad.map(f64::to_degrees), ZONE_STEPS)
-        };
+        let of_zone =
+            |zone_rad: [f64; 2]| Mapped::new(craft, source, zone_rad.map(f64::to_degrees), ZONE_STEPS);
         let zone = craft.zone_rad.map(of_zone).transpose()?;
         let allowed = &zone.as_ref().unwrap_or(&sphere).grid;
         let mut sunlight = Sunlight::new(craft, source)?;

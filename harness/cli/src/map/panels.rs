@@ -72,15 +72,25 @@ mod tests {
     fn the_angle_follows_the_offset_from_none_on() {
         const H: f64 = 1e-6;
         let axis = turned(0.0, 1.0).panel.axis_body;
-        for (along, offset_rad) in
-            [(0.0, 0.0), (0.0, 1e-9), (0.0, 1.1), (0.0, 2.5), (0.3, 0.31), (0.3, 1.1), (-0.6, 2.0), (0.3, 0.2)]
-        {
-            let sun = (-Vector3::y() * libm::sqrt(1.0 - along * along) + axis * along).normalize();
+        for (along, offset_rad) in [
+            (0.0, 0.0),
+            (0.0, 1e-9),
+            (0.0, 1.1),
+            (0.0, 2.5),
+            (0.3, 0.31),
+            (0.3, 1.1),
+            (-0.6, 2.0),
+            (0.3, 0.2),
+        ] {
+            let sun = (-Vector3::y() * f64::sqrt(1.0 - along * along) + axis * along).normalize();
             for sign in [1.0, -1.0] {
                 let at = |offset_rad: f64| turned(offset_rad, sign).angle_rad(&sun);
                 let slope = (at(offset_rad + 2.0 * H) - at(offset_rad)) / (2.0 * H);
                 let told = turned(offset_rad + H, sign).angle_per_offset(&sun);
-                assert!((told - slope).abs() < 1e-4 * slope.abs() + 1e-9, "{along} {offset_rad}: {told} {slope}");
+                assert!(
+                    (told - slope).abs() < 1e-4 * slope.abs() + 1e-9,
+                    "{along} {offset_rad}: {told} {slope}"
+                );
             }
         }
         assert_eq!(turned(0.0, -1.0).angle_per_offset(&-Vector3::y()), -1.0);

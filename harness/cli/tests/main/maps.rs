@@ -427,7 +427,10 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     assert!(!fs::read_to_string(svg).unwrap().contains("keep-in"));
     for zone in [["--zone", "20deg,10deg"], ["--set", "keepIn.azimuth=20deg"]] {
         let told = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
-        assert!(told.contains("Sun keep-in zone: 20 deg of azimuth") && told.contains("in the zone"), "{told}");
+        assert!(
+            told.contains("Sun keep-in zone: 20 deg of azimuth") && told.contains("in the zone"),
+            "{told}"
+        );
     }
     // As the flight has it.
     let ignored = ["--zone", "180deg,90deg"];
