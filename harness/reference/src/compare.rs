@@ -13,7 +13,7 @@ pub struct Deviation {
     pub expected: String,
     /// What was found.
     pub found: String,
-    /// For a Real as a fraction of the column's largest magnitude, infinite for others.
+    /// For a Real as a fraction of the largest magnitude of the column or the vector it belongs to, infinite for others.
     pub deviation: f64,
 }
 
@@ -24,10 +24,18 @@ pub fn deviations(
     recording: &Recording,
     lines: &[usize],
 ) -> Vec<Deviation> {
+    let largest_of = |vector: &str| {
+        let columns = header.iter().enumerate().skip(1).filter(|(_, name)| vector_of(name) == vector);
+        let cells = columns.flat_map(|(index, _)| rows.iter().filter_map(move |row| row.get(index)));
+        cells
+            .filter_map(|cell| cell.parse().ok())
+            .fold(0.0_f64, |largest, value: f64| largest.max(value.abs()))
+    };
     let column_of = |(index, name): (usize, &String)| {
         let column = recording.column(name)?;
+        let largest = largest_of(vector_of(name));
         let cells: Vec<&str> = rows.iter().map(|row| row.get(index).map_or("", String::as_str)).collect();
-        worst(column, &cells, lines).map(|(row, deviation)| Deviation {
+        worst(column, &cells, lines, largest).map(|(row, deviation)| Deviation {
             name: name.clone(),
             time_s: recording.times_s.get(lines[row]).copied().unwrap_or(f64::NAN),
             expected: cells[row].to_owned(),
@@ -38,12 +46,16 @@ pub fn deviations(
     header.iter().enumerate().skip(1).filter_map(column_of).collect()
 }
 
+/// The vector that a variable is a component of, or the variable.
+fn vector_of(name: &str) -> &str {
+    name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map_or(name, |(vector, _)| vector)
+}
+
 /// The row that deviates most and by how much; `None` where all are the same.
-fn worst(column: &Column, cells: &[&str], lines: &[usize]) -> Option<(usize, f64)> {
+fn worst(column: &Column, cells: &[&str], lines: &[usize], largest: f64) -> Option<(usize, f64)> {
     let deviation: Vec<f64> = match column {
         Column::Real(values) => {
             let expected: Vec<f64> = cells.iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
-            let largest = expected.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
             let of_row = |(expected, &line): (&f64, &usize)| {
                 let error = (expected - values[line]).abs();
                 // What is no number is as far off as can be; a column of zeros is met by zeros.

@@ -32,7 +32,7 @@ pub struct Related {
 /// How results were flown and how near they are met.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
-    /// Greatest deviation, as a fraction of a column's largest magnitude.
+    /// Greatest deviation, as a fraction of the largest magnitude of a vector or scalar.
     pub tolerance: f64,
     /// The table of inputs, from the manifest.
     pub inputs: Option<String>,

@@ -11,7 +11,7 @@ use crate::{
 /// Communication steps of a reference flight.
 const STEPS: u64 = 40;
 
-/// Deviation that is allowed on another computer, as a fraction of a column's largest magnitude.
+/// Deviation that is allowed on another computer, as a fraction of the largest magnitude of a vector or scalar.
 ///
 /// Sine and cosine come from the host's mathematical library; what they differ by in their last digit grows along a flight.
 const TOLERANCE: f64 = 1e-9;
@@ -71,7 +71,7 @@ pub fn record(fmu: &Fmu, inputs: &str) -> Result<Vec<(String, Vec<u8>)>, RecordE
         role: "result".to_owned(),
         description: format!(
             "Outputs of the reference flight, {} to {} s in steps of {} s from the start values; to be met to {TOLERANCE:e} of \
-             the largest magnitude of each column",
+             the largest magnitude of each vector or scalar",
             times.start_s, stop_s, times.step_s
         ),
         flight: Some(Flight { tolerance: TOLERANCE, inputs: table.is_some().then_some(inputs_name) }),

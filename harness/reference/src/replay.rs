@@ -24,7 +24,7 @@ pub struct Replay {
     pub columns: usize,
     /// What deviates, the worst first.
     pub deviations: Vec<Deviation>,
-    /// Greatest deviation allowed, as a fraction of a column's largest magnitude.
+    /// Greatest deviation allowed, as a fraction of the largest magnitude of a vector or scalar.
     pub tolerance: f64,
     /// Whether the FMU states this tolerance.
     pub is_stated: bool,

@@ -2,7 +2,6 @@
 
 use fmi_export::{Context, Model, SetupError};
 use physics::bodies::Body;
-use physics::constants::ASTRONOMICAL_UNIT_M;
 use physics::spacecraft::Spacecraft;
 use serde::Serialize;
 
@@ -35,20 +34,5 @@ impl DisturbanceSetup {
         check_start(file, &spacecraft, DisturbanceTorque::NAME)?;
         let reported_faces = crate::common::spacecraft::reported_faces(file, &spacecraft)?;
         Ok(Self { center: center_of(&spacecraft), spacecraft, reported_faces })
-    }
-
-    /// Where the Sun stands by default: at the planet's mean distance from it.
-    pub fn sun_distance_m(&self) -> f64 {
-        match self.center {
-            Body::Mercury => 5.791e10,
-            Body::Sun => ASTRONOMICAL_UNIT_M,
-            planet => planet.data().orbit_semi_major_axis_m,
-        }
-    }
-
-    /// Where the planet stands by default: four radii away.
-    pub fn planet_position_m(&self) -> [f64; 3] {
-        let radii = self.center.data().radius_m / Body::Mercury.data().radius_m;
-        [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
     }
 }

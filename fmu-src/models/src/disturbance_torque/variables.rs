@@ -47,7 +47,7 @@ pub struct DisturbanceVariables {
 #[variables(setup = DisturbanceSetup)]
 pub struct SunVariables {
     /// From the spacecraft to the Sun, body frame.
-    #[input(unit = "m", display = "AU", start = [0.0, -setup.sun_distance_m(), 0.0])]
+    #[input(unit = "m", display = "AU", start = setup.center.usual_sun_body_m())]
     pub position_body: RealVector<3>,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", nominal = 1.0)]
@@ -59,7 +59,7 @@ pub struct SunVariables {
 #[variables(setup = DisturbanceSetup)]
 pub struct PlanetVariables {
     /// From the spacecraft to the planet's centre, body frame.
-    #[input(unit = "m", display = "km", start = setup.planet_position_m())]
+    #[input(unit = "m", display = "km", start = setup.center.usual_planet_body_m())]
     pub position_body: RealVector<3>,
     /// Whether there is a planet; without one its position does not count. By default there is unless the file's orbit.center is
     /// the Sun; the defaults of planet.* are those of that body.

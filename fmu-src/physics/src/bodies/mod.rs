@@ -81,6 +81,23 @@ impl Body {
         &BODIES[self as usize]
     }
 
+    /// Where the Sun stands for a spacecraft about this body unless somebody says otherwise, from the spacecraft in body axes, in m:
+    /// on -Y, at the planet's mean distance from it (Mercury's as paper 004 has it).
+    pub fn usual_sun_body_m(self) -> [f64; 3] {
+        let distance_m = match self {
+            Self::Mercury => 5.791e10,
+            Self::Sun => constants::ASTRONOMICAL_UNIT_M,
+            planet => planet.data().orbit_semi_major_axis_m,
+        };
+        [0.0, -distance_m, 0.0]
+    }
+
+    /// Where the planet stands likewise, in m: four radii away.
+    pub fn usual_planet_body_m(self) -> [f64; 3] {
+        let radii = self.data().radius_m / Self::Mercury.data().radius_m;
+        [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
+    }
+
     /// Whether sunlight falls on it and it casts a shadow.
     pub const fn is_planet(self) -> bool {
         !matches!(self, Self::Sun)

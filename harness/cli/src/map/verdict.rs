@@ -8,11 +8,13 @@ pub fn share(craft: &Craft) -> String {
     if downlink.share() == 0.0 {
         return "no downlinks (guided.*)".to_owned();
     }
-    format!(
-        "downlinks of {} h every {} h",
-        terminal::short((downlink.length_h * 100.0).round() / 100.0),
-        terminal::short((downlink.every_h * 100.0).round() / 100.0)
-    )
+    let [length, every] =
+        [downlink.length_h, downlink.every_h].map(|hours| terminal::short((hours * 100.0).round() / 100.0));
+    if downlink.share() < 1.0 {
+        format!("downlinks of {length} h every {every} h")
+    } else {
+        format!("downlink without pause, {length} h begun every {every} h (guided.*)")
+    }
 }
 
 /// Whether downlinks can undo the mission's mean disturbance.

@@ -48,6 +48,16 @@ impl NewKind {
     }
 }
 
+/// The text with the commands in its head for the file's own name.
+fn with_commands_of(text: &str, name: &str, own: &str) -> String {
+    const COMMAND: &str = "#   heliotorque ";
+    let line = |line: &str| match line.strip_prefix(COMMAND) {
+        Some(rest) => format!("{COMMAND}{}\n", rest.replacen(name, own, 1)),
+        None => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
+
 /// Writes the file.
 pub fn run(arguments: &New) -> Outcome {
     let (name, text) = arguments.kind.content();
@@ -59,6 +69,9 @@ pub fn run(arguments: &New) -> Outcome {
     }
     let destination = Destination::open(path, "FILE", &[])?;
     let is_stdout = destination.is_stdout();
+    let own =
+        path.file_name().filter(|_| !is_stdout).map_or_else(|| name.into(), |own| own.to_string_lossy());
+    let text = with_commands_of(text, name, &own);
     destination.fill(|file| file.write_all(text.as_bytes()))?;
     if !is_stdout {
         let next = match arguments.kind {
@@ -68,4 +81,23 @@ pub fn run(arguments: &New) -> Outcome {
         terminal::print(&format!("{0}: written; next: heliotorque {next} {0}", path.display()))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_commands_in_a_file_name_it() {
+        for kind in NewKind::value_variants() {
+            let (name, text) = kind.content();
+            assert_eq!(with_commands_of(text, name, name), text);
+            let own = with_commands_of(text, name, "mine.toml");
+            assert!(own.contains("#   heliotorque check mine.toml"), "{own}");
+            assert_eq!(
+                own.lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>(),
+                text.lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>()
+            );
+        }
+    }
 }

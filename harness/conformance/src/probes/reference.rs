@@ -37,7 +37,7 @@ pub fn flights(fmu: &Fmu) -> Findings {
         }
         for failure in failures.iter().take(SHOWN) {
             findings.push(Finding::bad(format!(
-                "{source}: {} at {} s: found {}, allowed: {} within {tolerance:e} of the column's largest magnitude{stated}",
+                "{source}: {} at {} s: found {}, allowed: {} within {tolerance:e} of the largest magnitude{stated}",
                 failure.name, failure.time_s, failure.found, failure.expected
             )));
         }

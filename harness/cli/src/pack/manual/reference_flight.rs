@@ -16,8 +16,12 @@ pub fn section(description: &Description) -> Option<Section> {
          time, names = expected[\"time\"], [name for name in expected.dtype.names if name != \"time\"]\n\
          found = simulate_fmu(\"{name}.fmu\", start_time=time[0], stop_time=time[-1], step_size=time[1] - time[0],\n    \
          output_interval=time[1] - time[0], input=read_csv(inputs) if inputs.exists() else None, output=names)\n\
-         worst = max(abs(found[name] - expected[name]).max() / (abs(expected[name]).max() or 1.0) for name in names)\n\
-         print(\"largest deviation:\", worst)\n",
+         vector = lambda name: name[:name.rindex(\"[\")] if name.endswith(\"]\") else name\n\
+         size = {{}}\n\
+         for name in names:\n    \
+         size[vector(name)] = max(size.get(vector(name), 0.0), abs(expected[name]).max())\n\
+         off = [abs(found[name] - expected[name]).max() / (size[vector(name)] or 1.0) for name in names]\n\
+         print(\"largest deviation:\", max(off))\n",
         reference::FOLDER
     );
     let content = format!(
