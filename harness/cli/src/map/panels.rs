@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn the_angle_follows_the_offset_from_none_on() {
-        const H: f64 = 1e-6;
+        const H: f64 = 1e-5;
         let axis = turned(0.0, 1.0).panel.axis_body;
         for (along, offset_rad) in [
             (0.0, 0.0),
