@@ -390,8 +390,8 @@ fn what_paper_000_states_stands_with_its_spacecraft_alone() {
         (shipped("messenger-thermal.toml"), true),
         (shipped("messenger-full.toml"), true),
     ] {
-        let fmu = at("Craft.fmu");
-        let pack = ["pack", "--library", shown(&library), "--model", "MomentumPlant", "--force"];
+        let fmu = at(&format!("{}.fmu", file.file_stem().unwrap().display()));
+        let pack = ["pack", "--library", shown(&library), "--model", "MomentumPlant"];
         run(&[&pack[..], &["--spacecraft", shown(&file), "--output", shown(&fmu)]].concat(), 0);
         let text = run(&["info", shown(&fmu), "--coefficients"], 0);
         assert!(text.contains("(this spacecraft)"), "{text}");
