@@ -139,7 +139,7 @@ fn units(description: &Description, variable: &ScalarVariable) -> Vec<String> {
 /// Reads `text` as a value of `variable`.
 ///
 /// Reals are in the variable's unit, or carry a suffix: the unit itself or one of its display units
-/// (`5deg`, `2.54 cm`). Enumerations take the item's name or number, Booleans `true`, `false`, `1`, `0`.
+/// (`5deg`, `2.54 cm`). Enumerations take the item's number or name, in any case where that is unique, Booleans `true`, `false`, `1`, `0`.
 pub fn read(description: &Description, variable: &ScalarVariable, text: &str) -> Result<Value, Misfit> {
     let text = text.trim();
     let misfit = || Misfit::new(format!("{text:?}"), allowed(description, variable));
@@ -152,19 +152,23 @@ pub fn read(description: &Description, variable: &ScalarVariable, text: &str) ->
             _ => Err(Misfit::new(format!("{text:?}"), "true, false, 1, 0")),
         },
         VariableKind::String { .. } => Ok(Value::Text(text.to_owned())),
-        VariableKind::Enumeration { .. } => {
-            let by_name = items(description, variable).iter().find(|item| item.name == text);
-            match by_name {
-                Some(item) => Ok(Value::Integer(item.value)),
-                None => text.parse().map(Value::Integer).map_err(|_| {
-                    let items = items(description, variable).iter().map(|item| item.name.as_str());
-                    let near = similar(text, items);
-                    let hint = near.first().map(|near| format!(" (did you mean {near:?}?)"));
-                    Misfit { found: format!("{text:?}{}", hint.unwrap_or_default()), ..misfit() }
-                }),
-            }
-        }
+        VariableKind::Enumeration { .. } => match item_named(items(description, variable), text) {
+            Some(item) => Ok(Value::Integer(item.value)),
+            None => text.parse().map(Value::Integer).map_err(|_| {
+                let items = items(description, variable).iter().map(|item| item.name.as_str());
+                let near = similar(text, items);
+                let hint = near.first().map(|near| format!(" (did you mean {near:?}?)"));
+                Misfit { found: format!("{text:?}{}", hint.unwrap_or_default()), ..misfit() }
+            }),
+        },
     }
+}
+
+/// The item of this name, otherwise the only one whose name differs in case alone.
+fn item_named<'a>(items: &'a [EnumerationItem], name: &str) -> Option<&'a EnumerationItem> {
+    let mut in_any_case = items.iter().filter(|item| item.name.eq_ignore_ascii_case(name));
+    let only = in_any_case.next().filter(|_| in_any_case.next().is_none());
+    items.iter().find(|item| item.name == name).or(only)
 }
 
 fn read_real(description: &Description, variable: &ScalarVariable, text: &str) -> Result<f64, Misfit> {
@@ -320,5 +324,24 @@ pub fn set_start(variable: &mut ScalarVariable, value: &Value) {
         (VariableKind::Boolean { start, .. }, Value::Boolean(value)) => *start = Some(*value),
         (VariableKind::String { start, .. }, Value::Text(value)) => *start = Some(value.clone()),
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Items by name.
+    use super::*;
+
+    #[test]
+    fn an_item_is_named_in_any_case_where_that_is_unique() {
+        let items: Vec<EnumerationItem> = ["mercury", "sunOffset", "SUNOFFSET", "Sun"]
+            .into_iter()
+            .zip(1..)
+            .map(|(name, value)| EnumerationItem { name: name.to_owned(), value, description: None })
+            .collect();
+        let found = |name: &str| item_named(&items, name).map(|item| item.value);
+        assert_eq!(["Mercury", "MERCURY", "sun"].map(found), [Some(1), Some(1), Some(4)]);
+        assert_eq!(["sunOffset", "SUNOFFSET"].map(found), [Some(2), Some(3)]);
+        assert_eq!(["sunoffset", "mercur", ""].map(found), [None; 3]);
     }
 }

@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::{
     args::{Arguments, Command, SchemaKind},
-    check, completions, draw, ephemeris, info, interrupt, manual, map, new,
+    check, completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
     pack, plan, run as simulation, study, wire,
 };
@@ -20,13 +20,23 @@ const EPHEMERIS_SCHEMA: &str = include_str!("../../../fmu-src/resources/ephemeri
 
 /// Parses the arguments and runs the command.
 pub fn run() -> Outcome {
-    let command = Arguments::parse().command;
+    let mut command = Arguments::parse().command;
     match command {
         // A child is ended by its parent.
         Command::Probe(_) | Command::RunInChild(_) => {}
         // What was recorded until then is written.
         Command::Run(_) => interrupt::listen(true)?,
         _ => interrupt::listen(false)?,
+    }
+    let read = match &mut command {
+        Command::Info(arguments) => Some(&mut arguments.fmu),
+        Command::Check(arguments) => Some(&mut arguments.subject),
+        Command::Run(arguments) => Some(&mut arguments.fmu),
+        Command::Map(arguments) => Some(&mut arguments.craft),
+        _ => None,
+    };
+    if let Some(file) = read {
+        *file = home::found(std::mem::take(file));
     }
     match command {
         Command::Info(arguments) => info::run(&arguments),

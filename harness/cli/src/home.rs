@@ -33,6 +33,19 @@ pub fn fmu(model: &str) -> PathBuf {
     dist().join(format!("{model}.fmu"))
 }
 
+/// The file itself; a shipped FMU or system in place of one that is not there, named alone or in `dist`.
+pub fn found(file: PathBuf) -> PathBuf {
+    let is_shipped = file.parent().is_some_and(|folder| folder == Path::new("") || folder == Path::new(DIST));
+    let shipped = file.file_name().filter(|_| is_shipped && !file.exists()).map(|name| dist().join(name));
+    match shipped.filter(|shipped| shipped.is_file()) {
+        Some(shipped) => {
+            terminal::note(&format!("{} is not here: {}", file.display(), shipped.display()));
+            shipped
+        }
+        None => file,
+    }
+}
+
 fn library_in(folder: &Path) -> PathBuf {
     let (prefix, suffix) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     folder.join(format!("{prefix}heliotorque{suffix}"))

@@ -11,7 +11,7 @@ use files::{Destination, Entries};
 use loader::Fmu;
 use systems::{Experiment, SSD_FILE, Wired};
 
-use crate::{args::Wire, outcome::Outcome};
+use crate::{args::Wire, home, outcome::Outcome};
 
 /// The system's name where no file gives one.
 const DEFAULT_NAME: &str = "System";
@@ -23,6 +23,8 @@ pub fn run(arguments: &Wire) -> Outcome {
         return Err("an SSP is a ZIP archive, which is not written to a terminal: see --output".into());
     }
     let named: Vec<(String, PathBuf)> = arguments.fmus.iter().map(|text| named(text)).collect();
+    let named = named.into_iter().map(|(name, file)| (name, home::found(file)));
+    let named: Vec<(String, PathBuf)> = named.collect();
     let mut components = Vec::with_capacity(named.len());
     for (name, file) in &named {
         let fmu = Fmu::open(file)?;

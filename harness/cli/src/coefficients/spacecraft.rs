@@ -4,6 +4,7 @@ use loader::{Error, Fmu, Instance, Value};
 use model_description::Causality;
 
 use super::wheels;
+
 /// The monomials of paper 000's eq 3, in the order of the FMU's columns.
 const TERMS: [&str; 9] = ["x", "y", "z", "x y", "x z", "y z", "x^2", "y^2", "z^2"];
 

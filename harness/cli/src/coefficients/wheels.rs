@@ -6,6 +6,7 @@
 //! (Markley et al., "Maximum torque and momentum envelopes for reaction-wheel arrays", JGCD 33, 2010).
 
 use loader::{Error, Fmu, Value};
+use physics::spacecraft::{MESSENGER_TOML, Spacecraft};
 
 use super::instance::started;
 
@@ -14,7 +15,16 @@ const PAPER_THRESHOLDS_N_M_S: [(f64, f64); 3] = [(4.0, 4.0), (8.0, 5.5), (12.0, 
 
 type Vector = [f64; 3];
 
-/// What the wheels guarantee: as they are, and were each as large as the paper's.
+/// Whether the FMU holds the spacecraft that paper 000 is about, by its name in the file.
+fn is_messenger(fmu: &Fmu) -> bool {
+    let file = fmu.folder().join("resources").join("spacecraft.toml");
+    let Ok(text) = files::read_text(&file) else { return false };
+    let name = |text: &str| Spacecraft::from_toml("", text).map(|it| it.name).unwrap_or_default();
+    let messenger = name(MESSENGER_TOML);
+    name(&text).strip_prefix(&messenger).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+}
+
+/// What the wheels guarantee: as they are, and of MESSENGER, were each as large as the paper's.
 pub fn table(fmu: &Fmu, sets: &[(String, Value)]) -> Result<String, Error> {
     let count = (1..).take_while(|number| fmu.find(&format!("wheel[{number}].capacity")).is_some()).count();
     let names: Vec<String> = (1..=count).map(|number| format!("wheel[{number}].capacity")).collect();
@@ -29,16 +39,22 @@ pub fn table(fmu: &Fmu, sets: &[(String, Value)]) -> Result<String, Error> {
         let axes = axes.as_deref().unwrap_or_default();
         format!("{:.4}", least_load_threshold_n_m_s(axes, capacities_n_m_s))
     };
-    let mut table = terminal::table(&[
+    let is_messenger = is_messenger(fmu);
+    let header = [
         "wheel capacity [N.m.s]",
         "smallest norm [N.m.s]",
         "least greatest load [N.m.s]",
         "paper 000 states [N.m.s]",
-    ]);
+    ];
+    let columns = if is_messenger { header.len() } else { header.len() - 1 };
+    let mut table = terminal::table(&header[..columns]);
     let guaranteed_n_m_s = instance.get_real("dump.guaranteedThreshold")?;
     let as_is = format!("{} (this spacecraft)", distinct.join(", "));
-    table.add_row([as_is, format!("{guaranteed_n_m_s:.4}"), least_load(&capacities_n_m_s), String::new()]);
-    for (capacity_n_m_s, stated_n_m_s) in PAPER_THRESHOLDS_N_M_S {
+    let mut cells =
+        vec![as_is, format!("{guaranteed_n_m_s:.4}"), least_load(&capacities_n_m_s), String::new()];
+    cells.truncate(columns);
+    table.add_row(cells);
+    for (capacity_n_m_s, stated_n_m_s) in PAPER_THRESHOLDS_N_M_S.into_iter().filter(|_| is_messenger) {
         let mut sets = sets.to_vec();
         sets.extend(names.iter().map(|name| (name.clone(), Value::Real(capacity_n_m_s))));
         let guaranteed_n_m_s = started(fmu, &sets)?.get_real("dump.guaranteedThreshold")?;
@@ -63,9 +79,9 @@ pub fn table(fmu: &Fmu, sets: &[(String, Value)]) -> Result<String, Error> {
         "Dump threshold the {count} wheels guarantee: whatever body components stay within it, none saturates\n\
          (0 unless they span all directions). By smallest norm, as the FMU shares momentum (dump.guaranteedThreshold),\n\
          and by the allocation whose greatest load is least, the most any sharing allows.\n\
-         In use: dump.threshold = {} N.m.s, {verdict}.\n\
-         Paper 000's are MESSENGER's; it does not print the axes.\n{table}",
-        thresholds.join(", ")
+         In use: dump.threshold = {} N.m.s, {verdict}.\n{}{table}",
+        thresholds.join(", "),
+        if is_messenger { "Paper 000's are MESSENGER's; it does not print the axes.\n" } else { "" }
     ))
 }
 

@@ -5,7 +5,7 @@ mod labels;
 pub mod options;
 mod pane;
 pub mod pen;
-mod scene;
+pub mod scene;
 mod sheet;
 pub mod surface;
 pub mod vector;

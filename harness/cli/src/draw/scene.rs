@@ -39,6 +39,12 @@ pub struct Scene {
     pub remarks: Vec<&'static str>,
 }
 
+/// A panel as texts name it: `panel +X`, whether or not its own name says that it is one.
+pub fn panel_called(name: &str) -> String {
+    let says_so = name.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("panel"));
+    if says_so { name.to_owned() } else { format!("panel {name}") }
+}
+
 impl Scene {
     /// A spacecraft with its panels at these angles (by index, in rad), which default to what its file says.
     pub fn of_spacecraft(spacecraft: &Spacecraft, angles_rad: &[Option<f64>]) -> Self {
@@ -64,7 +70,7 @@ impl Scene {
         parts.extend(panels.iter().enumerate().map(|(k, panel)| {
             let angle_deg = (angle_rad(k).to_degrees() * 10.0).round() / 10.0;
             let what = format!("{}, at {} deg", area(panel.area_m2), terminal::short(angle_deg + 0.0));
-            Part::new(format!("P{}", k + 1), &format!("panel {}", panel.name), what)
+            Part::new(format!("P{}", k + 1), &panel_called(&panel.name), what)
         }));
         let axes = panels.iter().enumerate().filter_map(|(k, panel)| {
             let of_panel =
@@ -203,4 +209,22 @@ fn nozzle(throat_m: Vector, jet: Vector, length_m: f64, part: usize) -> Vec<Surf
     let sides = (0..SIDES).map(|k| vec![throat_m, rim(k + 1), rim(k)]);
     let all = sides.chain([(0..SIDES).map(rim).collect()]);
     all.filter_map(|corners| Surface::facet(corners, Finish::Nozzle, part)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panel_is_called_one_once() {
+        for (name, called) in [
+            ("+X", "panel +X"),
+            ("panel +X", "panel +X"),
+            ("Panel", "Panel"),
+            ("pan", "panel pan"),
+            ("wing \u{e4}", "panel wing \u{e4}"),
+        ] {
+            assert_eq!(panel_called(name), called);
+        }
+    }
 }

@@ -8,7 +8,7 @@ use model_description::{Description, VariableKind, value};
 use nalgebra::Vector3;
 use physics::{
     bodies::Body,
-    constants::{ASTRONOMICAL_UNIT_M as AU_M, DEG_RAD},
+    constants::ASTRONOMICAL_UNIT_M as AU_M,
     spacecraft::{Panel, PanelControl, Spacecraft},
 };
 
@@ -25,8 +25,6 @@ type Failure = Box<dyn std::error::Error>;
 const MODEL: &str = "DisturbanceTorque";
 /// The model whose parameters say how it is flown.
 const FLOWN: &str = "MomentumPlant";
-/// Paper 000's Sun keep-in zone, azimuth and elevation.
-const PAPER_ZONE_RAD: [f64; 2] = [15.0 * DEG_RAD, 13.0 * DEG_RAD];
 
 /// How downlinks share the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,10 +48,8 @@ pub struct Craft {
     pub fmu: Fmu,
     pub panels: Vec<Turned>,
     pub distance_m: f64,
-    /// Greatest azimuth and elevation.
-    pub zone_rad: [f64; 2],
-    /// Whether the zone is the paper's, as the file names none.
-    pub is_paper_zone: bool,
+    /// Greatest azimuth and elevation of the Sun keep-in zone; `None` without one.
+    pub zone_rad: Option<[f64; 2]>,
     pub downlink: Downlink,
     /// Panels that MomentumPlant leaves out, which DisturbanceTorque cannot.
     pub panels_left_out: bool,
@@ -120,12 +116,11 @@ impl Craft {
         };
         let [azimuth_rad, elevation_rad] =
             ["keepIn.azimuth", "keepIn.elevation"].map(|name| real(&flown, name));
-        let file_zone_rad =
+        let flown_zone_rad =
             azimuth_rad.zip(elevation_rad).map(|(azimuth_rad, elevation_rad)| [azimuth_rad, elevation_rad]);
         // Everywhere is what the plant makes of a file without a zone.
         let everywhere_rad = [core::f64::consts::PI, core::f64::consts::FRAC_PI_2];
-        let file_zone_rad = file_zone_rad.filter(|zone_rad| *zone_rad != everywhere_rad);
-        let zone_rad = arguments.zone.or(file_zone_rad);
+        let zone_rad = arguments.zone.or(flown_zone_rad).filter(|zone_rad| *zone_rad != everywhere_rad);
         if zone_rad.is_some_and(|zone_rad| zone_rad.contains(&0.0)) {
             let what = "keepIn.azimuth, keepIn.elevation: found 0 deg, allowed: more";
             return Err(format!("{file}: {what}: see --set and --zone").into());
@@ -135,8 +130,7 @@ impl Craft {
             fmu,
             panels,
             distance_m,
-            zone_rad: zone_rad.unwrap_or(PAPER_ZONE_RAD),
-            is_paper_zone: zone_rad.is_none(),
+            zone_rad,
             downlink: downlink(&default_flown, &flown),
             panels_left_out: panels_left_out(&flown),
             threshold_n_m_s: [1, 2, 3]

@@ -44,8 +44,9 @@ pub struct Attainable {
 /// Everything found.
 pub struct Found {
     pub sphere: Mapped,
-    pub zone: Mapped,
-    /// Where the whole torque is least in the zone.
+    /// The keep-in zone, if there is one.
+    pub zone: Option<Mapped>,
+    /// Where the whole torque is least in the zone, without one anywhere.
     pub least: (Angles, Vector3<f64>),
     /// Torque with the Sun on -Y.
     pub ahead_n_m: Vector3<f64>,
@@ -80,19 +81,22 @@ impl Found {
     ) -> Result<Self, Error> {
         let quarter = steps.0 as usize;
         let sphere = Mapped::new(craft, source, SPHERE_DEG, [4 * quarter, 2 * quarter])?;
-        let zone = Mapped::new(craft, source, craft.zone_rad.map(f64::to_degrees), ZONE_STEPS)?;
+        let of_zone =
+            |zone_rad: [f64; 2]| Mapped::new(craft, source, zone_rad.map(f64::to_degrees), ZONE_STEPS);
+        let zone = craft.zone_rad.map(of_zone).transpose()?;
+        let allowed = &zone.as_ref().unwrap_or(&sphere).grid;
         let mut sunlight = Sunlight::new(craft, source)?;
-        let least = balance::least(&mut sunlight, &zone.grid)?;
+        let least = balance::least(&mut sunlight, allowed)?;
         let (ahead_n_m, worths) = worth::find(&mut sunlight, &craft.panels)?;
-        let attainable = Attainable::new(craft, &zone.grid, &ahead_n_m, mission);
+        let attainable = Attainable::new(craft, allowed, &ahead_n_m, mission);
         Ok(Self { sphere, zone, least, ahead_n_m, worths, attainable })
     }
 }
 
 impl Attainable {
-    fn new(craft: &Craft, zone: &Grid, ahead_n_m: &Vector3<f64>, mission: Option<Mission>) -> Self {
+    fn new(craft: &Craft, allowed: &Grid, ahead_n_m: &Vector3<f64>, mission: Option<Mission>) -> Self {
         let share = craft.downlink.share();
-        let points = zone.nodes().map(|(_, load)| TARGETED.map(|axis| load.torque_n_m[axis]));
+        let points = allowed.nodes().map(|(_, load)| TARGETED.map(|axis| load.torque_n_m[axis]));
         let added_n_m = Region::hull(points).scaled(share, TARGETED.map(|axis| -share * ahead_n_m[axis]));
         let light = mission.as_ref().map_or(1.0, |mission| mission.mean_light(craft.distance_m));
         let mean_added_n_m = added_n_m.scaled(light, [0.0; 2]);

@@ -39,8 +39,8 @@ pub struct Map {
     /// Angle between cells and Sun for every panel held by Sun offset, in deg or rad: 70deg; otherwise the file's
     #[arg(long, value_name = "ANGLE", value_parser = offset, allow_hyphen_values = true)]
     pub panel_offset: Option<f64>,
-    /// Greatest azimuth and elevation of the Sun keep-in zone, in deg or rad: 15deg,13deg; otherwise the file's, without one
-    /// 15deg,13deg
+    /// Greatest azimuth and elevation of the Sun keep-in zone, in deg or rad: 15deg,13deg; otherwise that of
+    /// MomentumPlant's keepIn.azimuth and keepIn.elevation, none at 180deg,90deg
     #[arg(long, value_name = "AZIMUTH,ELEVATION", value_parser = zone, allow_hyphen_values = true)]
     pub zone: Option<[f64; 2]>,
     /// Spacing of the directions, in deg or rad, a whole part of 90 deg, at least 0.1 deg

@@ -111,7 +111,8 @@ fn lines(found: &Found) -> String {
         let (azimuth, elevation) = (number(azimuth_deg), number(elevation_deg));
         text.push_str(&format!("{region},{axis},{line},{azimuth},{elevation}\n"));
     };
-    for (region, mapped) in [("all", &found.sphere), ("zone", &found.zone)] {
+    let zone = found.zone.iter().map(|zone| ("zone", zone));
+    for (region, mapped) in core::iter::once(("all", &found.sphere)).chain(zone) {
         for (lines, axis) in mapped.lines.iter().zip(AXES) {
             for (index, line) in lines.iter().enumerate() {
                 line.places_deg.iter().for_each(|place_deg| row(region, axis, index + 1, *place_deg));

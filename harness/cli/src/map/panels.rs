@@ -40,16 +40,60 @@ impl Turned {
         }
     }
 
-    /// How the angle changes with the offset: cos(tilt) = cos(offset) / s, s being the length of the Sun's direction in the
-    /// panel's plane of rotation; 0 where the offset cannot be kept.
+    /// How the angle changes with the offset o: cos(tilt) = cos(o) / sqrt(1 - a^2), a being the Sun's part along the axis, so
+    /// d tilt / d o = sin(o) / sqrt(sin(o)^2 - a^2), 1 with the axis across the Sun; 0 where the offset cannot be kept.
     pub fn angle_per_offset(&self, sun: &Vector3<f64>) -> f64 {
+        /// The axis is across the Sun.
+        const ACROSS: f64 = 1e-12;
         let Rule::SunOffset { offset_rad, tilt_sign } = self.rule else { return 0.0 };
-        let in_plane = sun.cross(&self.panel.axis_body).norm();
-        let cos_tilt = offset_rad.cos() / in_plane;
-        if cos_tilt.abs() < 1.0 {
-            tilt_sign * offset_rad.sin() / (in_plane * (1.0 - cos_tilt * cos_tilt).sqrt())
+        let (across, along) = (offset_rad.sin().abs(), sun.dot(&self.panel.axis_body).abs());
+        if along < ACROSS {
+            tilt_sign
+        } else if across > along {
+            tilt_sign * across / (across * across - along * along).sqrt()
         } else {
             0.0
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The rate against differences of the angle itself, and where there is none.
+    use super::*;
+    use physics::spacecraft::{MESSENGER_TOML, Spacecraft};
+
+    fn turned(offset_rad: f64, tilt_sign: f64) -> Turned {
+        let panel = Spacecraft::from_toml("", MESSENGER_TOML).unwrap().panels.swap_remove(0);
+        Turned { panel, rule: Rule::SunOffset { offset_rad, tilt_sign } }
+    }
+
+    #[test]
+    fn the_angle_follows_the_offset_from_none_on() {
+        const H: f64 = 1e-5;
+        let axis = turned(0.0, 1.0).panel.axis_body;
+        for (along, offset_rad) in [
+            (0.0, 0.0),
+            (0.0, 1e-9),
+            (0.0, 1.1),
+            (0.0, 2.5),
+            (0.3, 0.31),
+            (0.3, 1.1),
+            (-0.6, 2.0),
+            (0.3, 0.2),
+        ] {
+            let sun = (-Vector3::y() * f64::sqrt(1.0 - along * along) + axis * along).normalize();
+            for sign in [1.0, -1.0] {
+                let at = |offset_rad: f64| turned(offset_rad, sign).angle_rad(&sun);
+                let slope = (at(offset_rad + 2.0 * H) - at(offset_rad)) / (2.0 * H);
+                let told = turned(offset_rad + H, sign).angle_per_offset(&sun);
+                assert!(
+                    (told - slope).abs() < 1e-4 * slope.abs() + 1e-9,
+                    "{along} {offset_rad}: {told} {slope}"
+                );
+            }
+        }
+        assert_eq!(turned(0.0, -1.0).angle_per_offset(&-Vector3::y()), -1.0);
+        assert_eq!(turned(0.0, 1.0).angle_per_offset(&axis), 0.0, "every angle gives 90 deg");
     }
 }

@@ -35,7 +35,7 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
     );
     let mut pen = Pen::new(WIDTH, HEAD + 3.0 * ROW + LAST_ROW, &title);
     pen.text((LEFT, 36.0), 20.0, "start", &format!("fill=\"{INK}\" font-weight=\"bold\""), &title);
-    legend(&mut pen);
+    legend(&mut pen, found.zone.is_some());
     for (axis, name) in NAMES.into_iter().enumerate() {
         let top = HEAD + ROW * axis as f64;
         let heading = format!("fill=\"{INK}\" font-weight=\"bold\"");
@@ -46,14 +46,18 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
             &heading,
             &format!("About {name}, all directions of the Sun"),
         );
-        pen.text((ZONE_LEFT, top - 7.0), 14.0, "start", &heading, &format!("About {name}, keep-in zone"));
         let sphere = frame(&found.sphere, LEFT, top, 2.0 * HEIGHT_OF_PLOT);
         torque(&mut pen, &found.sphere, sphere, axis, [60.0, 30.0]);
-        outline(&mut pen, sphere, craft);
-        let zone = frame(&found.zone, ZONE_LEFT, top, ZONE_WIDTH);
-        let steps = found.zone.grid.limits_deg.map(|limit_deg| round_up(limit_deg / 3.5));
-        torque(&mut pen, &found.zone, zone, axis, steps);
-        least(&mut pen, zone, found);
+        let (Some(limits_rad), Some(zone)) = (craft.zone_rad, &found.zone) else {
+            least(&mut pen, sphere, found);
+            continue;
+        };
+        outline(&mut pen, sphere, limits_rad);
+        pen.text((ZONE_LEFT, top - 7.0), 14.0, "start", &heading, &format!("About {name}, keep-in zone"));
+        let in_zone = frame(zone, ZONE_LEFT, top, ZONE_WIDTH);
+        let steps = zone.grid.limits_deg.map(|limit_deg| round_up(limit_deg / 3.5));
+        torque(&mut pen, zone, in_zone, axis, steps);
+        least(&mut pen, in_zone, found);
     }
     downlinks(&mut pen, craft, found);
     pen.finish()
@@ -98,8 +102,8 @@ fn dashes() -> String {
 }
 
 /// The zone's border among all directions.
-fn outline(pen: &mut Pen, frame: Frame, craft: &Craft) {
-    let [a, e] = craft.zone_rad.map(f64::to_degrees);
+fn outline(pen: &mut Pen, frame: Frame, limits_rad: [f64; 2]) {
+    let [a, e] = limits_rad.map(f64::to_degrees);
     frame.line(pen, &[[-a, -e], [a, -e], [a, e], [-a, e], [-a, -e]], &dashes());
 }
 
@@ -114,7 +118,7 @@ fn cross(pen: &mut Pen, x: f64, y: f64) {
     pen.lines(strokes.iter().map(|stroke| &stroke[..]), &format!("stroke=\"{MARK}\" stroke-width=\"2.4\""));
 }
 
-fn legend(pen: &mut Pen) {
+fn legend(pen: &mut Pen, has_zone: bool) {
     let y = 60.0;
     let fill = format!("fill=\"{GREY}\"");
     pen.lines([&[(LEFT, y), (LEFT + 26.0, y)][..]], &zero_line());
@@ -122,9 +126,12 @@ fn legend(pen: &mut Pen) {
     pen.circle((LEFT + 166.0, y), 5.0, &ring());
     pen.text((LEFT + 178.0, y + 4.0), 12.0, "start", &fill, "X and Z are zero");
     cross(pen, LEFT + 308.0, y);
-    pen.text((LEFT + 321.0, y + 4.0), 12.0, "start", &fill, "whole torque is least in the zone");
-    pen.lines([&[(LEFT + 540.0, y), (LEFT + 566.0, y)][..]], &dashes());
-    pen.text((LEFT + 573.0, y + 4.0), 12.0, "start", &fill, "Sun keep-in zone");
+    let least = if has_zone { "whole torque is least in the zone" } else { "whole torque is least" };
+    pen.text((LEFT + 321.0, y + 4.0), 12.0, "start", &fill, least);
+    if has_zone {
+        pen.lines([&[(LEFT + 540.0, y), (LEFT + 566.0, y)][..]], &dashes());
+        pen.text((LEFT + 573.0, y + 4.0), 12.0, "start", &fill, "Sun keep-in zone");
+    }
     let none =
         [(LEFT + 706.0, y - 5.0), (LEFT + 726.0, y - 5.0), (LEFT + 726.0, y + 5.0), (LEFT + 706.0, y + 5.0)];
     pen.polygon(&none, &format!("fill=\"{NONE}\""));
@@ -164,8 +171,8 @@ fn downlinks(pen: &mut Pen, craft: &Craft, found: &Found) {
         );
     }
     let left = LEFT + frame.width + 40.0;
-    let mut lines =
-        vec![verdict::share(craft), "with the Sun anywhere in the zone instead of on -Y".to_owned()];
+    let anywhere = if found.zone.is_some() { "anywhere in the zone" } else { "anywhere" };
+    let mut lines = vec![verdict::share(craft), format!("with the Sun {anywhere} instead of on -Y")];
     if mean.is_some() {
         pen.circle((left + 5.0, top + 78.0), 5.0, "fill=\"#b2182b\" stroke=\"#ffffff\" stroke-width=\"1.2\"");
         lines.push(String::new());

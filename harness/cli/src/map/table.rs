@@ -19,7 +19,8 @@ const NAMES: [&str; 3] = ["X", "Y", "Z"];
 /// All of it.
 pub fn text(craft: &Craft, found: &Found, source: SourceKind) -> String {
     let mut parts = vec![head(craft, found, source)];
-    for (mapped, where_) in [(&found.sphere, "all directions"), (&found.zone, "the keep-in zone")] {
+    let zone = found.zone.iter().map(|zone| (zone, "the keep-in zone"));
+    for (mapped, where_) in core::iter::once((&found.sphere, "all directions")).chain(zone) {
         parts.push(lines(mapped, where_));
         parts.push(balances(mapped, where_));
     }
@@ -48,12 +49,14 @@ fn head(craft: &Craft, found: &Found, source: SourceKind) -> String {
         SourceKind::Solar => "sunlight",
         SourceKind::Total => "sunlight and the recoil of its heat",
     };
-    let [azimuth_deg, elevation_deg] =
-        craft.zone_rad.map(|limit_rad| terminal::short(limit_rad.to_degrees()));
-    let paper = if craft.is_paper_zone { ", paper 000's: the file names none" } else { "" };
+    let zone = craft.zone_rad.map(|limits_rad| {
+        let [azimuth, elevation] = limits_rad.map(|limit_rad| terminal::short(limit_rad.to_degrees()));
+        format!("{azimuth} deg of azimuth, {elevation} deg of elevation either way")
+    });
+    let zone = zone.unwrap_or_else(|| "none, so the Sun may stand anywhere (keepIn.*, --zone)".to_owned());
     let mut text = format!(
         "{}: torque of {what} about the centre of mass at {} AU, body frame; it goes with the inverse square of the distance.\n\
-         Sun keep-in zone: {azimuth_deg} deg of azimuth, {elevation_deg} deg of elevation either way{paper}.",
+         Sun keep-in zone: {zone}.",
         craft.name,
         terminal::short(craft.distance_m / ASTRONOMICAL_UNIT_M)
     );
@@ -73,8 +76,10 @@ fn head(craft: &Craft, found: &Found, source: SourceKind) -> String {
         table.add_row(cells);
     };
     row("Sun on -Y", [0.0; 2], found.ahead_n_m);
-    row("least in the zone", found.least.0, found.least.1);
-    for (what, mapped) in [("greatest in the zone", &found.zone), ("greatest of all", &found.sphere)] {
+    let least = if found.zone.is_some() { "least in the zone" } else { "least of all" };
+    row(least, found.least.0, found.least.1);
+    let zone = found.zone.iter().map(|zone| ("greatest in the zone", zone));
+    for (what, mapped) in zone.chain([("greatest of all", &found.sphere)]) {
         let nodes = mapped.grid.nodes().map(|(place, load)| (place, load.torque_n_m));
         if let Some((place, torque_n_m)) = nodes.max_by(|a, b| a.1.norm().total_cmp(&b.1.norm())) {
             row(what, place, torque_n_m);
@@ -179,8 +184,9 @@ fn attainable(craft: &Craft, found: &Found) -> String {
         table.add_row([format!("mean torque about {name}"), micro(low), micro(high), fixed(high * DAY_S)]);
     }
     let mut text = format!(
-        "Against the Sun on -Y, {} with the Sun elsewhere in the zone\n{table}",
-        verdict::share(craft)
+        "Against the Sun on -Y, {} with the Sun elsewhere{}\n{table}",
+        verdict::share(craft),
+        if found.zone.is_some() { " in the zone" } else { "" }
     );
     if let Some((mission, _)) = &attainable.mission {
         let [x, z] = mission.mean_torque_n_m().map(micro);

@@ -3,6 +3,8 @@
 use loader::Error;
 use nalgebra::Vector3;
 
+use crate::draw::scene::panel_called;
+
 use super::{
     panels::{Rule, Turned},
     sunlight::Sunlight,
@@ -32,7 +34,7 @@ pub fn find(sunlight: &mut Sunlight<'_>, panels: &[Turned]) -> Result<(Vector3<f
     }
     if held.len() > 1 {
         for index in held {
-            let what = format!("Sun offset of panel {}", panels[index].panel.name);
+            let what = format!("Sun offset of {}", panel_called(&panels[index].panel.name));
             found.push(per_deg(&what, sunlight.slope_by_offset(&sun, &[index])?));
         }
     }

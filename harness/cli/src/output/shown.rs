@@ -9,12 +9,18 @@ const NONE: &str = "; -1 ";
 /// The value that says so, in s.
 const NONE_S: f64 = -1.0;
 
+/// What is less than this part of a quantity's scale is the rounding of its calculation.
+pub const ROUNDING: f64 = 1e-12;
+/// The unit of angles, whose scale is 1 of it.
+pub const ANGLE_UNIT: &str = "rad";
+
 /// The variable of this name.
 pub fn find<'a>(description: &'a Description, name: &str) -> Option<&'a ScalarVariable> {
     description.variables.iter().find(|variable| variable.name == name)
 }
 
 /// A recorded number's unit and form.
+#[derive(Default)]
 pub struct Shown<'a> {
     /// The unit it is shown in.
     pub unit: &'a str,
@@ -22,13 +28,14 @@ pub struct Shown<'a> {
     offset: f64,
     may_be_none: bool,
     is_epoch: bool,
+    is_angle: bool,
 }
 
 impl<'a> Shown<'a> {
     /// Of the variable of this name.
     pub fn of(description: &'a Description, name: &str) -> Self {
         let Some(variable) = find(description, name) else {
-            return Self { unit: "", factor: 1.0, offset: 0.0, may_be_none: false, is_epoch: false };
+            return Self { unit: "", factor: 1.0, ..Self::default() };
         };
         let own = loader::unit(description, variable).unwrap_or_default();
         let says_none = variable.description.as_deref().is_some_and(|text| text.contains(NONE));
@@ -37,11 +44,13 @@ impl<'a> Shown<'a> {
         // Seconds stand beside a date.
         let display = loader::display_unit(description, variable).filter(|_| !is_epoch);
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
-        Self { unit, factor, offset, may_be_none: is_time && says_none, is_epoch }
+        let is_angle = own == ANGLE_UNIT;
+        Self { unit, factor, offset, may_be_none: is_time && says_none, is_epoch, is_angle }
     }
 
-    /// A value in the shown unit; `None` for a time that is none.
+    /// A value in the shown unit, an angle of nothing but rounding as 0; `None` for a time that is none.
     pub fn value(&self, value: f64) -> Option<f64> {
+        let value = if self.is_angle && value.abs() < ROUNDING { 0.0 } else { value };
         (!self.may_be_none || value != NONE_S).then_some(self.factor * value + self.offset)
     }
 

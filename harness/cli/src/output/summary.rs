@@ -1,11 +1,14 @@
 //! The summary of a run on the terminal, where no file is named.
 
-use std::{error::Error, path::PathBuf};
+use std::{collections::BTreeMap, error::Error, path::PathBuf};
 
 use loader::Recording;
 use model_description::Description;
 
-use super::{exporter::Exporter, shown::Shown};
+use super::{
+    exporter::Exporter,
+    shown::{ROUNDING, Shown},
+};
 
 /// Rows of the table of last values at most.
 const LAST_ROWS: usize = 24;
@@ -57,14 +60,21 @@ fn summary(described: &Description, recording: &Recording) -> String {
 /// The last value of everything recorded, a vector in a row.
 pub fn last_values(described: &Description, recording: &Recording) -> String {
     let mut rows: Vec<(&str, &str, Vec<String>)> = Vec::new();
+    let sizes = last_sizes(recording);
     for (name, column) in recording.names.iter().zip(&recording.columns) {
         let shown = Shown::of(described, name);
         let text = match column {
             loader::Column::Text(texts) => texts.last().cloned().unwrap_or_default(),
-            column => shown.text(column.numbers().last().map_or(Some(f64::NAN), |value| shown.value(*value))),
+            column => {
+                let last = column.numbers().last().copied().unwrap_or(f64::NAN);
+                // A component of nothing but rounding.
+                let least =
+                    vector_of(name).and_then(|vector| sizes.get(vector)).map_or(0.0, |size| ROUNDING * size);
+                shown.text(shown.value(if last.abs() < least { 0.0 } else { last }))
+            }
         };
-        let vector = name.strip_suffix(']').and_then(|name| name.rsplit_once('['));
-        let name = vector.map_or(name.as_str(), |(vector, _)| vector);
+        let vector = vector_of(name);
+        let name = vector.unwrap_or(name);
         match rows.last_mut() {
             Some((of, _, values)) if vector.is_some() && *of == name => values.push(text),
             _ => rows.push((name, shown.unit, vec![text])),
@@ -77,5 +87,61 @@ pub fn last_values(described: &Description, recording: &Recording) -> String {
     match rows.len().saturating_sub(LAST_ROWS) {
         0 => table.to_string(),
         more => format!("{table}\n{more} more"),
+    }
+}
+
+/// The vector that a component belongs to.
+fn vector_of(name: &str) -> Option<&str> {
+    name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map(|(vector, _)| vector)
+}
+
+/// The greatest component of every vector at the end.
+fn last_sizes(recording: &Recording) -> BTreeMap<&str, f64> {
+    let mut sizes = BTreeMap::new();
+    for (name, column) in recording.names.iter().zip(&recording.columns) {
+        if let (Some(vector), loader::Column::Real(values)) = (vector_of(name), column) {
+            let size: &mut f64 = sizes.entry(vector).or_default();
+            *size = values.last().map_or(*size, |value| size.max(value.abs()));
+        }
+    }
+    sizes
+}
+
+#[cfg(test)]
+mod tests {
+    //! Rounding is shown as 0, whatever else is small is not.
+    use super::*;
+
+    const SHIP: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="Ship" guid="{ship}">
+  <CoSimulation modelIdentifier="Ship"/>
+  <UnitDefinitions><Unit name="rad"><DisplayUnit name="deg" factor="57.3"/></Unit></UnitDefinitions>
+  <ModelVariables>
+    <ScalarVariable name="angle" valueReference="0"><Real unit="rad" displayUnit="deg"/></ScalarVariable>
+  </ModelVariables>
+  <ModelStructure/>
+</fmiModelDescription>"#;
+
+    /// The last values of these columns.
+    fn told(columns: &[(&str, f64)]) -> String {
+        let description = model_description::parse(SHIP.as_bytes()).unwrap().description;
+        let recording = Recording {
+            times_s: vec![0.0],
+            names: columns.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            units: vec![String::new(); columns.len()],
+            columns: columns.iter().map(|(_, value)| loader::Column::Real(vec![*value])).collect(),
+        };
+        last_values(&description, &recording) + &summary(&description, &recording)
+    }
+
+    #[test]
+    fn rounding_is_shown_as_nothing() {
+        assert!(!told(&[("angle", 2.8e-17)]).contains("e-"));
+        assert!(told(&[("angle", 1e-9)]).contains("5.73e-8"));
+        assert!(told(&[("lone", 1.5e-17)]).contains("1.5e-17"));
+        let vector = told(&[("torque[1]", -3e-18), ("torque[2]", 2e-5), ("torque[3]", 4e-16)]);
+        assert!(vector.contains("0, 2e-5, 4e-16"), "{vector}");
+        let small = told(&[("torque[1]", 3e-18), ("torque[2]", 2e-18)]);
+        assert!(small.contains("3e-18, 2e-18"), "{small}");
     }
 }

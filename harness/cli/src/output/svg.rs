@@ -7,7 +7,11 @@ use loader::{Column, Recording};
 use model_description::{Causality, Description};
 use studies::chart::{COLOURS, Chart, Mark, Panel, Series};
 
-use super::{exporter::Exporter, known::Known, shown::find};
+use super::{
+    exporter::Exporter,
+    known::Known,
+    shown::{ANGLE_UNIT, ROUNDING, find},
+};
 
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
@@ -104,11 +108,13 @@ fn chart(described: &Description, recording: &Recording, known: &Known) -> Drawn
             group.name == vector && group.panel.y_label == y_label && group.panel.series.len() < COLOURS.len()
         });
         let position = with_space.unwrap_or_else(|| {
-            groups.push(Group::new(vector, y_label));
+            let scale = (own == ANGLE_UNIT).then_some(factor.abs());
+            groups.push(Group::new(vector, y_label, scale));
             groups.len() - 1
         });
         groups[position].add(series, known, |value| factor * value + offset);
     }
+    groups.iter_mut().for_each(Group::still);
     let constant = leave_out_constants(&mut groups);
     if !constant.is_empty() {
         terminal::note(&format!("constant, so not drawn: {}", constant.join(", ")));
@@ -139,11 +145,14 @@ struct Group {
     panel: Panel,
     /// Marks that are drawn only near the lines.
     bounds: Vec<f64>,
+    /// What its values are large or small against; `None`: the largest of them.
+    scale: Option<f64>,
 }
 
 impl Group {
-    fn new(name: String, y_label: String) -> Self {
-        Self { name, panel: Panel { y_label, is_whole: true, ..Panel::default() }, bounds: Vec::new() }
+    fn new(name: String, y_label: String, scale: Option<f64>) -> Self {
+        let panel = Panel { y_label, is_whole: true, ..Panel::default() };
+        Self { name, panel, bounds: Vec::new(), scale }
     }
 
     fn add(&mut self, series: Series, known: &Known, shown: impl Fn(f64) -> f64) {
@@ -156,6 +165,23 @@ impl Group {
     fn values(&self) -> impl Iterator<Item = f64> {
         let points = self.panel.series.iter().flat_map(|series| &series.points);
         points.map(|(_, value)| *value).filter(|value| value.is_finite())
+    }
+
+    /// Makes lines that vary by nothing but rounding straight.
+    fn still(&mut self) {
+        let largest = self.values().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let rounding = ROUNDING * self.scale.unwrap_or(largest);
+        for series in self.panel.series.iter_mut().filter(|series| series.mark == Mark::Line) {
+            let values = || series.points.iter().map(|(_, value)| *value);
+            let (low, high) =
+                (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+            let Some(first) = values().next().filter(|_| high - low < rounding) else { continue };
+            let all_finite = values().all(f64::is_finite);
+            let value = if low.abs().max(high.abs()) < rounding { 0.0 } else { first };
+            for point in series.points.iter_mut().filter(|_| all_finite) {
+                point.1 = value;
+            }
+        }
     }
 
     fn is_constant(&self) -> bool {
@@ -277,6 +303,7 @@ mod tests {
   <ModelVariables>
     <ScalarVariable name="push[1]" valueReference="0" causality="input"><Real start="0"/></ScalarVariable>
     <ScalarVariable name="push[2]" valueReference="1" causality="input"><Real start="0"/></ScalarVariable>
+    <ScalarVariable name="angle" valueReference="2" causality="output"><Real unit="rad"/></ScalarVariable>
   </ModelVariables>
   <ModelStructure/>
 </fmiModelDescription>"#;
@@ -333,6 +360,28 @@ mod tests {
         assert_eq!(chart.panels.iter().map(|panel| panel.y_label.as_str()).collect::<Vec<_>>(), ["moves"]);
         let still = drawn_chart(&[("still[1]", real([2.0, 2.0]))], &Known::default());
         assert_eq!(still.panels.len(), 1, "nothing else is there");
+    }
+
+    #[test]
+    fn rounding_is_drawn_as_nothing() {
+        let real = |values: [f64; 3]| Column::Real(values.to_vec());
+        let labels = |columns: &[(&str, Column)]| -> Vec<String> {
+            drawn_chart(columns, &Known::default()).panels.into_iter().map(|it| it.y_label).collect()
+        };
+        let moves = || ("moves", real([0.0, 1.0, 2.0]));
+        let angle = |values| ("angle", real(values));
+        assert_eq!(labels(&[angle([9e-17, -2e-17, 4e-17]), moves()]), ["moves"]);
+        assert_eq!(labels(&[angle([1e-9, 0.0, 2e-9]), moves()]), ["angle [rad]", "moves"]);
+        assert_eq!(labels(&[("far", real([1.5e11, 1.5e11 + 1e-3, 1.5e11])), moves()]), ["moves"]);
+        // Small by itself is no rounding.
+        assert_eq!(labels(&[("tiny", real([1e-18, 2e-18, 0.0])), moves()]), ["tiny", "moves"]);
+        // Within a vector it is, and there its line is straight; so is what is drawn alone.
+        let vector = [("force[1]", real([0.0, 1e-3, 2e-3])), ("force[2]", real([1e-19, -1e-19, 0.0]))];
+        for columns in [&vector[..], &[angle([9e-17, -2e-17, 4e-17])]] {
+            let chart = drawn_chart(columns, &Known::default());
+            let last = chart.panels[0].series.last().unwrap();
+            assert!(last.points.iter().all(|(_, value)| *value == 0.0), "{:?}", last.points);
+        }
     }
 
     #[test]

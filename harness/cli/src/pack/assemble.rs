@@ -153,7 +153,7 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
     Ok(Assembled { entries, identifier, described, description, setup })
 }
 
-/// A refusal, with the model that takes the file if there is another.
+/// A refusal, with the model that takes the file if it is of another kind than this model's.
 fn with_hint(
     binary: &Binary,
     model: &str,
@@ -161,11 +161,15 @@ fn with_hint(
     text: Option<&str>,
     refusal: String,
 ) -> String {
-    let takes = |other: &Described| {
-        let reads_files = other.model != model && other.setup_file.is_some() && text.is_some();
-        reads_files && binary.describe(&other.model, file, text).is_ok()
+    let models = binary.models().unwrap_or_default();
+    let Some(own) = models.iter().find(|it| it.model == model).filter(|_| text.is_some()) else {
+        return refusal;
     };
-    match binary.models().unwrap_or_default().into_iter().find(takes) {
+    let takes = |other: &&Described| {
+        let is_other_kind = || binary.describe(&other.model, None, Some(&own.default_setup)).is_err();
+        other.setup_file.is_some() && is_other_kind() && binary.describe(&other.model, file, text).is_ok()
+    };
+    match models.iter().find(takes) {
         Some(other) => format!("{refusal}\nthis is a file of {}: see --model", other.model),
         None => refusal,
     }

@@ -53,6 +53,21 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
     works(&["info", "Ace.fmu", "--only", "burn.count"], "burn.count");
     works(&["run", "Ace.fmu", "--stop", "60", "--output", "ace.csv"], "");
     works(&["plan", "spin", "--fmu", "Ace.fmu"], "Re-simulated through Ace.fmu");
+    // A shipped FMU is found by its name, and where it stands in the project; what is here comes first.
+    fs::rename(folder.join("Guidance.fmu"), own.with_file_name("Shipped.fmu")).unwrap();
+    for name in ["Shipped.fmu", "dist/Shipped.fmu"] {
+        works(&["info", name, "--only", "keepIn.azimuth"], "Shipped.fmu is not here: ");
+        works(&["check", name, "--static"], "lib/heliotorque");
+        works(&["run", name, "--stop", "10", "--output", "flown.csv"], "lib/heliotorque");
+        works(&["wire", name, "--output", "alone.ssp"], "lib/heliotorque");
+    }
+    for name in ["other/Shipped.fmu", "../dist/Shipped.fmu", "Absent.fmu"] {
+        let (status, told) = run_in(&folder, &program, &["info", name]);
+        assert!(status == Some(1) && told.contains(name) && !told.contains("is not here"), "{told}");
+    }
+    fs::write(folder.join("Shipped.fmu"), "not an archive").unwrap();
+    let (status, told) = run_in(&folder, &program, &["info", "Shipped.fmu"]);
+    assert!(status == Some(1) && !told.contains("is not here"), "{told}");
     // What stands in the folder by chance is not taken.
     fs::create_dir(folder.join("dist")).unwrap();
     fs::write(folder.join("dist/MomentumPlant.fmu"), "not an archive").unwrap();

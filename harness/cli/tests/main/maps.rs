@@ -254,6 +254,31 @@ fn a_degree_is_worth_what_differences_say() {
 }
 
 #[test]
+fn a_degree_off_the_sun_is_worth_something_from_the_sun_on() {
+    let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
+    let fmu = Fmu::open(&fmu_path).unwrap();
+    let map = [MESSENGER, "--template", shown(&fmu_path), "--distance", "0.3", "--step", "10deg"];
+    let mut torque = Torque::of(&fmu);
+    // With the Sun on -Y, across their axes, the offset is the angle itself, to the side of the tilt.
+    let h_deg = 0.05;
+    let mut at = |angle_deg: f64| torque.at(0.0, 0.0, 0.3 * AU_M, &[angle_deg.to_radians(), 0.0]);
+    let (plus, minus) = (at(h_deg), at(-h_deg));
+    for (tilt, sign) in [("positive", 1.0), ("negative", -1.0)] {
+        let tilted = format!("panel[1].tilt={tilt}");
+        let printed =
+            mapped(&[&map[..], &["--no-picture", "--panel-offset", "0deg", "--set", &tilted]].concat());
+        let what = "Sun offset of panel +X";
+        let line = printed.lines().find_map(|line| line.trim_start().strip_prefix(what)).unwrap();
+        let told: Vec<f64> = line.split_whitespace().map(|cell| cell.parse().unwrap()).collect();
+        for axis in 0..3 {
+            let slope = sign * (plus[axis] - minus[axis]) / (2.0 * h_deg);
+            assert!((told[axis] - slope * 1e6).abs() < 1e-4, "{tilt} {axis}: {told:?}, {slope:e}");
+        }
+        assert!(told.iter().any(|value| value.abs() > 0.01), "{printed}");
+    }
+}
+
+#[test]
 fn torque_goes_with_the_inverse_square_and_follows_the_options() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let csv = |more: &[&str]| {
@@ -393,7 +418,24 @@ fn what_cannot_be_mapped_is_refused_by_name() {
                  optics = \"foil\"\n";
     fs::write(&bare, plate).unwrap();
     let told = run(&[&["map", shown(&bare)][..], &template].concat(), 0);
-    assert!(told.contains("15 deg of azimuth, 13 deg of elevation either way, paper 000's"), "{told}");
+    assert!(told.contains("Sun keep-in zone: none") && told.contains("least of all"), "{told}");
+    assert!(!told.contains("in the zone") && !told.contains("the keep-in zone"), "{told}");
+    let (lines, svg) = (room.path().join("lines.csv"), room.path().join("bare.svg"));
+    let files = ["--lines", shown(&lines), "--output", shown(&svg)];
+    run(&[&["map", shown(&bare)][..], &template[..4], &files].concat(), 0);
+    assert!(!fs::read_to_string(lines).unwrap().contains("zone"));
+    assert!(!fs::read_to_string(svg).unwrap().contains("keep-in"));
+    for zone in [["--zone", "20deg,10deg"], ["--set", "keepIn.azimuth=20deg"]] {
+        let told = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
+        assert!(
+            told.contains("Sun keep-in zone: 20 deg of azimuth") && told.contains("in the zone"),
+            "{told}"
+        );
+    }
+    // As the flight has it.
+    let ignored = ["--zone", "180deg,90deg"];
+    let told = run(&[&["map", MESSENGER][..], &template, &ignored].concat(), 0);
+    assert!(told.contains("Sun keep-in zone: none"), "{told}");
     let refused = run(&[&["map", shown(&bare)][..], &template, &["--panel-offset", "50deg"]].concat(), 1);
     assert!(refused.contains("--panel-offset") && refused.contains("no panel"), "{refused}");
 }
