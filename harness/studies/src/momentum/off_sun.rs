@@ -206,7 +206,6 @@ fn fly(fmu: &Fmu, label: &str) -> Result<Flown, StudyError> {
     }
     let mut case = Case::new(label, STOP_S, STEP_S)
         .integer("attitude.source", 1)
-        .boolean("shadowing.enabled", true)
         .boolean("gravityGradient.enabled", false)
         .integer("momentum.convention", 1);
     for axis in 1..=3 {
