@@ -52,7 +52,11 @@ pub fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, s
     for (_, output) in momentum.by_source.all() {
         table.output(output, dumped, knowns![]);
     }
-    table.output(momentum.target_clamped, &inputs.management, knowns![&start.guidance, v.start.q]);
+    table.output(
+        momentum.target_clamped,
+        &inputs.management,
+        knowns![&start.guidance, v.start.q, v.start.rate],
+    );
     table.output(dump.count, to_target, exceeded);
     table.output(dump.last_time, dumped, exceeded);
     table.output(dump.closest, to_target, knowns![]);
@@ -124,7 +128,7 @@ pub fn wheels_and_control(
     }
     let tracked = &knowns![&inputs.attitude, &inputs.sensors].only_if(can_control);
     let command = knowns![v.command.kind, v.command.q, v.command.error];
-    let error = knowns![&start.begun, &start.guided, command, &start.measured_attitude];
+    let error = knowns![&start.begun, &start.guided, v.start.rate, command, &start.measured_attitude];
     table.output(control.error, tracked, error.only_if(can_control));
     let rate_jumps = inputs.weighed_panels.clone().only_if(can_control);
     table.output(control.settled, knowns![tracked, rate_jumps], settled);

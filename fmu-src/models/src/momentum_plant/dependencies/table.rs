@@ -117,9 +117,11 @@ fn light_and_loads(
     let linear = &knowns![fitted, v.solver.dynamics_step, v.start.rate];
     let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, linear];
     let solar = &knowns![by_sun, shade];
-    let albedo = &knowns![&start.attitude, reflected, shade, linear];
-    let infrared = &knowns![&start.attitude, radiated, shade, linear];
-    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.recoil.enabled];
+    // Planet light and heat change enough over the interval to tell the commanded rate, too.
+    let turning = v.command.rate;
+    let albedo = &knowns![&start.attitude, reflected, shade, linear, turning];
+    let infrared = &knowns![&start.attitude, radiated, shade, linear, turning];
+    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.recoil.enabled, turning];
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
