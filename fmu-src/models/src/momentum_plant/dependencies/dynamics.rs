@@ -55,7 +55,7 @@ pub fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, s
     table.output(
         momentum.target_clamped,
         &inputs.management,
-        knowns![&start.guidance, v.start.q, v.start.rate],
+        knowns![&start.guidance, v.start.q, &start.chosen_by_momentum],
     );
     table.output(dump.count, to_target, exceeded);
     table.output(dump.last_time, dumped, exceeded);
@@ -128,7 +128,8 @@ pub fn wheels_and_control(
     }
     let tracked = &knowns![&inputs.attitude, &inputs.sensors].only_if(can_control);
     let command = knowns![v.command.kind, v.command.q, v.command.error];
-    let error = knowns![&start.begun, &start.guided, v.start.rate, command, &start.measured_attitude];
+    let error =
+        knowns![&start.begun, &start.guided, &start.chosen_by_momentum, command, &start.measured_attitude];
     table.output(control.error, tracked, error.only_if(can_control));
     let rate_jumps = inputs.weighed_panels.clone().only_if(can_control);
     table.output(control.settled, knowns![tracked, rate_jumps], settled);

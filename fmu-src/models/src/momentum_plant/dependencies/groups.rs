@@ -90,6 +90,8 @@ pub struct Start {
     pub momentum: Knowns,
     /// Momentum of body and wheels of controlled and free flight, without the inertia.
     pub turning: Knowns,
+    /// What the choice of the Sun's place follows of the momentum of body and wheels.
+    pub chosen_by_momentum: Knowns,
     /// What moves centre of mass and inertia with the panels that have a mass, but for the centre of mass itself.
     pub weight: Knowns,
     /// What the estimated attitude follows besides the true one.
@@ -162,6 +164,7 @@ impl Start {
             .only_if(panels_weigh(setup));
         let center_of_mass = knowns![v.spacecraft.center_of_mass].only_if(panels_weigh(setup));
         let wheels = wheels.collect::<Knowns>();
+        let chosen_by_momentum = knowns![v.start.rate, v.spacecraft.inertia, &wheels].only_if(can_control(v));
         let turning =
             knowns![&begun, &guided, v.attitude.source, v.start.rate, wheels, &weight, center_of_mass];
         let tracker = &v.star_tracker;
@@ -188,6 +191,7 @@ impl Start {
             panels,
             momentum,
             turning,
+            chosen_by_momentum,
             weight,
             measured_attitude,
         }

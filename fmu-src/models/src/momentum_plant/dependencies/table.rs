@@ -117,11 +117,9 @@ fn light_and_loads(
     let linear = &knowns![fitted, v.solver.dynamics_step, v.start.rate];
     let by_sun = &knowns![&start.attitude, sunlight, eclipse, shadows, linear];
     let solar = &knowns![by_sun, shade];
-    // Planet light and heat change enough over the interval to tell the commanded rate, too.
-    let turning = v.command.rate;
-    let albedo = &knowns![&start.attitude, reflected, shade, linear, turning];
-    let infrared = &knowns![&start.attitude, radiated, shade, linear, turning];
-    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.recoil.enabled, turning];
+    let albedo = &knowns![&start.attitude, reflected, shade, linear];
+    let infrared = &knowns![&start.attitude, radiated, shade, linear];
+    let recoil = &knowns![by_sun, reflected, radiated, v.thermal.recoil.enabled];
     let all = &knowns![solar, albedo, infrared, recoil];
 
     let lit = &knowns![&inputs.attitude, &inputs.panels];
@@ -184,7 +182,7 @@ fn light_and_loads(
         let lit = &knowns![&inputs.attitude, angles.collect::<Knowns>()];
         let panels = face.lit_past.iter().filter_map(|&k| start.panels.get(k)).collect::<Knowns>();
         let shadows = knowns![v.shadowing.enabled, v.shadowing.sun_disc].only_if(face.shadowed);
-        let stored = knowns![fitted].only_if(face.stores_heat);
+        let stored = linear.clone().only_if(face.stores_heat);
         let at_start = &knowns![&start.attitude, sunlight, eclipse, shadows, reflected, radiated, panels];
         table.output(plate.temperature, lit, knowns![at_start, &stored]);
         for (axis, recoils) in face.recoils_along.into_iter().enumerate() {
