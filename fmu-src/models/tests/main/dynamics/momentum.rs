@@ -45,15 +45,15 @@ fn energy_is_kept_with_locked_wheels() {
 }
 
 #[test]
-fn ten_days_of_control_add_up_to_what_guided_flight_does() {
+fn days_of_control_add_up_to_what_guided_flight_does() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let slewing: Start<'_> = &[("guided.slewRate", 2e-3)];
+    let slewing: Start<'_> = &[("guided.slewRate", 2e-3), ("control.rate", 10.0)];
     let mut controlled = fly(&named, &[CONTROLLED, GUIDANCE, slewing]);
     let h = controlled.vector("momentum.body");
     let start = [("start.momentum[1]", h.x), ("start.momentum[2]", h.y), ("start.momentum[3]", h.z)];
     let mut guided = fly(&named, &[slewing, &start]);
     let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
-    for step in 1..=2400 {
+    for step in 1..=960 {
         let time_s = 360.0 * f64::from(step);
         controlled.step_to(time_s).unwrap();
         guided.step_to(time_s).unwrap();

@@ -36,6 +36,9 @@ const CARRIERS: &[(&str, &str)] = &[
     ("momentum.targetClamped", "sun.azimuth"),
     ("momentum.targetClamped", "sun.elevation"),
     ("dump.request", "dump.target[1]"),
+    // The rate is that of what is commanded, by a scan or without.
+    ("command.rate", "command.q"),
+    ("command.rate", "scan.active"),
     // Every output that is judged with an attitude depends on the mode and on whether there is one.
     ("", "mode.active"),
     ("", "command.kind"),
@@ -56,12 +59,16 @@ fn disturb(bench: &Guide, random: &mut RandomNumbers, flight: &mut Simulation<Gu
     bench.put(&mut flight.values, "estimate.valid", random.whole(0, 1));
 }
 
-fn measure(text: &str, rounds: usize) {
-    let mut bench = Guide::new(text).with_carriers(CARRIERS).with_schedule("ephemeris.toml", FLOWN);
+fn measure(mut bench: Guide) {
+    bench = bench.with_carriers(CARRIERS).with_schedule("ephemeris.toml", FLOWN);
     let mut random = RandomNumbers(17);
     let subjects = subjects();
     let mut flown = 0;
-    for round in 0..rounds {
+    look_at_scans(&mut bench, &mut RandomNumbers(18));
+    look_at_late_burn(&mut bench, &mut RandomNumbers(19));
+    look_at_dumps(&mut bench, &mut RandomNumbers(20));
+    look_at_safe_hold(&mut bench, &mut RandomNumbers(21));
+    for round in 0..ROUNDS {
         let subject = subjects[round % subjects.len()];
         let mut values = draw(&bench, &mut random, subject);
         let turn = round / subjects.len();
@@ -100,7 +107,8 @@ fn measure(text: &str, rounds: usize) {
                 bench.put(&mut other, name, value);
                 others.push(other);
             }
-        } else {
+        } else if subject != Subject::Predictive {
+            // Forecasts cost most.
             others.push(values.clone());
             redraw(&bench, &mut random, subject, &mut others[0]);
         }
@@ -165,8 +173,6 @@ fn measure(text: &str, rounds: usize) {
             break;
         }
     }
-    look_at_scans(&mut bench, &mut random);
-    look_at_late_burn(&mut bench, &mut random);
     assert!(flown > 20, "{flown} flown");
     bench.judge();
 }
@@ -174,7 +180,7 @@ fn measure(text: &str, rounds: usize) {
 /// What drawing hardly meets: scans with aims that only another compatibility allows.
 fn look_at_scans(bench: &mut Guide, random: &mut RandomNumbers) {
     let aims = [1.0, 4.0, 8.0, 10.0, 11.0];
-    for (frame, aim) in [3, 4, 5].into_iter().flat_map(|frame| aims.map(|aim| (frame, aim))) {
+    for (frame, aim) in (1..=5).flat_map(|frame| aims.map(|aim| (frame, aim))) {
         let mut values = draw(bench, random, Subject::Scan(frame));
         for (name, value) in [
             ("keepIn.enabled", 0.0),
@@ -196,32 +202,73 @@ fn look_at_scans(bench: &mut Guide, random: &mut RandomNumbers) {
     }
 }
 
-/// What drawing hardly meets: a burn that begins at once, and whose time is up before its magnitude.
-fn look_at_late_burn(bench: &mut Guide, random: &mut RandomNumbers) {
-    let mut values = draw(bench, random, Subject::Burn);
-    for (name, value) in [
-        ("keepIn.enabled", 0.0),
-        ("hotPole.enabled", 0.0),
-        ("monitor.enabled", 0.0),
-        ("mode.request", 0.0),
-        ("burn.acceleration", 0.01),
-        ("burn.start", -1.0),
-        ("burn.timeout", 5.0),
-    ] {
-        bench.put(&mut values, name, value);
-    }
-    bench.put_vector(&mut values, "burn.deltaV", &[0.6, -0.8, 0.3]);
-    for i in 1..=3 {
-        for j in 1..=3 {
-            bench.put(&mut values, &format!("burn.profile[{i},{j}]"), 0.0);
+/// What drawing hardly meets: a downlink within reach of sunlight that begins with a dump, or almost.
+fn look_at_dumps(bench: &mut Guide, random: &mut RandomNumbers) {
+    for round in 0..12 {
+        let mut values = draw(bench, random, Subject::Momentum);
+        for (name, value) in [
+            ("keepIn.enabled", 0.0),
+            ("hotPole.enabled", 0.0),
+            ("mode.request", 0.0),
+            ("estimate.valid", 1.0),
+            ("pointing.scenario", 6.0),
+            ("momentum.targeting", 1.0),
+        ] {
+            bench.put(&mut values, name, value);
+        }
+        bench.put_vector(&mut values, "momentum.target", &random.direction().map(|x| 0.02 * x));
+        bench.put_vector(&mut values, "dump.threshold", &[0.03; 3]);
+        let mut momentum_n_m_s = random.direction().map(|x| 0.02 * x);
+        momentum_n_m_s[2 * (round % 2)] = 0.03 * random.between(0.99, 1.01);
+        bench.put_vector(&mut values, "momentum.body", &momentum_n_m_s);
+        if bench.initialize(&values, 0.0).is_some() {
+            bench.look_at_start_by(&values, 0.0, |name| {
+                name.starts_with("momentum.") || name.starts_with("dump.")
+            });
         }
     }
-    bench.look_at_start(&values, 0.0);
+}
+
+/// What drawing hardly meets: a Sun at the edge of Safe Hold's own zone.
+fn look_at_safe_hold(bench: &mut Guide, random: &mut RandomNumbers) {
+    for _ in 0..24 {
+        let values = draw(bench, random, Subject::Monitor);
+        let mut other = values.clone();
+        bench.put(&mut other, "safeHold.keepIn.elevation", 1.5);
+        for edge in bench.edges_at_start(&values, &[other], 0.0) {
+            bench.look_at_start_by(&edge, 0.0, |name| name.starts_with("safeHold."));
+        }
+    }
+}
+
+/// What drawing hardly meets: a burn that begins at once, and whose time is up before its magnitude or after.
+fn look_at_late_burn(bench: &mut Guide, random: &mut RandomNumbers) {
+    for acceleration_m_s2 in [0.01, 2.0] {
+        let mut values = draw(bench, random, Subject::Burn);
+        for (name, value) in [
+            ("keepIn.enabled", 0.0),
+            ("hotPole.enabled", 0.0),
+            ("monitor.enabled", 0.0),
+            ("mode.request", 0.0),
+            ("burn.acceleration", acceleration_m_s2),
+            ("burn.start", -1.0),
+            ("burn.timeout", 5.0),
+        ] {
+            bench.put(&mut values, name, value);
+        }
+        bench.put_vector(&mut values, "burn.deltaV", &[0.6, -0.8, 0.3]);
+        for i in 1..=3 {
+            for j in 1..=3 {
+                bench.put(&mut values, &format!("burn.profile[{i},{j}]"), 0.0);
+            }
+        }
+        bench.look_at_start(&values, 0.0);
+    }
 }
 
 #[test]
 fn guidance_shipped() {
-    measure(Guidance::DEFAULT_SETUP, ROUNDS);
+    measure(Guide::new(Guidance::DEFAULT_SETUP));
 }
 
 /// Instruments that look elsewhere.
@@ -230,5 +277,6 @@ fn guidance_with_other_instruments() {
     let instruments = "\n[[instruments]]\nname = \"aside\"\nboresight = [0.6, 0.0, 0.8]\n\
                        [[instruments]]\nname = \"down\"\nboresight = [0.0, 0.6, 0.8]\n\
                        [[instruments]]\nname = \"sunward\"\nboresight = [0.0, -1.0, 0.0]\n";
-    measure(&format!("{}{instruments}", super::spacecraft::ALL), ROUNDS);
+    let bench = Guide::new(&format!("{}{instruments}", super::spacecraft::ALL));
+    measure(bench.with_shown(&Guide::new(Guidance::DEFAULT_SETUP)));
 }

@@ -65,7 +65,6 @@ pub fn subjects() -> Vec<Subject> {
         Subject::Momentum,
         Subject::Predictive,
         Subject::Momentum,
-        Subject::Predictive,
         Subject::Generic,
         Subject::Monitor,
         Subject::Generic,
