@@ -30,6 +30,13 @@ def _path(variable):
     return pathlib.Path(value)
 
 
+def pytest_collection_modifyitems(items):
+    """A worker has all tests of a file, and one all that share the studies."""
+    for item in items:
+        group = "studies" if "studied" in item.fixturenames else item.path.name
+        item.add_marker(pytest.mark.xdist_group(group))
+
+
 @pytest.fixture(scope="session")
 def dist():
     return _path("HELIOTORQUE_DIST")

@@ -44,11 +44,23 @@ pub fn all() -> Outcome {
         .envs(environment.clone())
         .envs(locale::environment()?))?;
     guide::test(environment.clone())?;
-    run(command(python::interpreter()?)
-        .args(["-m", "pytest", "-q", "tests/python"])
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .envs(environment))?;
+    python(environment)?;
     c_client(&built)
+}
+
+/// Runs the tests in Python on up to four processes; the one that builds and packs anew after all that read what is there.
+fn python(environment: Vec<(&'static str, PathBuf)>) -> Outcome {
+    const INSTALLATION: &str = "tests/python/test_install.py";
+    let pytest = |arguments: &[&str]| {
+        run(command(python::interpreter()?)
+            .args(["-m", "pytest", "-q"])
+            .args(arguments)
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .envs(environment.clone()))
+    };
+    let several = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
+    pytest(&[&several[..], &["--ignore", INSTALLATION, "tests/python"]].concat())?;
+    pytest(&[INSTALLATION])
 }
 
 /// An FMU whose library others built: FMPy's container around our plant.
