@@ -1,6 +1,7 @@
 //! Building the library and the command line.
 
 use std::path::PathBuf;
+use std::process::Command;
 
 use crate::shell::{self, cargo, root, run, target};
 
@@ -14,9 +15,9 @@ pub struct Built {
     pub probe: PathBuf,
 }
 
-/// Builds the shared library (whole-program optimised), the probe and the command line.
+/// Builds the shared library, the probe and the command line.
 pub fn build() -> Result<Built, String> {
-    run(&mut cargo(&["build", "--locked", "--profile", "fmu", "-p", "component"]))?;
+    run(&mut library())?;
     run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "-p", "probe"]))?;
     let library = |folder: &str, name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
@@ -27,6 +28,11 @@ pub fn build() -> Result<Built, String> {
         library: library("fmu", "heliotorque"),
         probe: library("release", "probe"),
     })
+}
+
+/// Builds the shared library, whole-program optimised.
+pub fn library() -> Command {
+    cargo(&["build", "--locked", "--profile", "fmu", "-p", "component"])
 }
 
 /// The environment in which tests find what was built.

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Child, Command};
 
 /// What a task ends with; the text says what went wrong.
 pub type Outcome = Result<(), String>;
@@ -49,6 +49,36 @@ pub fn run(command: &mut Command) -> Outcome {
     eprintln!("+ {shown}");
     let status = command.status().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("`{shown}` ended with {status}")) }
+}
+
+/// A program that runs beside this one; it ends with it.
+pub struct Beside {
+    child: Child,
+    shown: String,
+}
+
+impl Beside {
+    /// Starts it.
+    pub fn start(command: &mut Command) -> Result<Self, String> {
+        let shown = show(command);
+        eprintln!("+ {shown} &");
+        let child = command.spawn().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+        Ok(Self { child, shown })
+    }
+
+    /// Waits for its end and expects success.
+    pub fn finish(mut self) -> Outcome {
+        let status = self.child.wait().map_err(|error| format!("`{}`: {error}", self.shown))?;
+        if status.success() { Ok(()) } else { Err(format!("`{}` ended with {status}", self.shown)) }
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // Nothing is left to end of one that was waited for.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
 }
 
 /// Runs to the end, expects success, gives what it printed.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built};
-use crate::shell::{Outcome, cargo, command, need, root, run};
+use crate::shell::{Beside, Outcome, cargo, command, need, root, run};
 use crate::{dist, guide, locale, python, shell};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
@@ -15,6 +15,8 @@ pub fn all() -> Outcome {
         run(&mut cargo(&["fmt", "--all", "--check"]))?;
         guide::check_format()?;
     }
+    // Most of it is optimised on one core: lints and the tests' own build go on beside it.
+    let library = Beside::start(&mut build::library())?;
     if shell::output(&mut cargo(&["clippy", "--version"])).is_ok() {
         run(&mut cargo(&[
             "clippy",
@@ -34,15 +36,16 @@ pub fn all() -> Outcome {
     } else {
         eprintln!("skipped: lints (no `cargo clippy` on this machine)");
     }
+    let tests = ["test", "--locked", "--release", "--workspace", "--all-features"];
+    run(cargo(&tests).arg("--no-run"))?;
+    library.finish()?;
     let built = dist::dist()?;
     let mut environment = build::test_environment(&built).to_vec();
     environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
     if std::env::var_os(DRAWS).is_none() {
         environment.push((DRAWS, "20040803".into()));
     }
-    run(cargo(&["test", "--locked", "--release", "--workspace", "--all-features"])
-        .envs(environment.clone())
-        .envs(locale::environment()?))?;
+    run(cargo(&tests).envs(environment.clone()).envs(locale::environment()?))?;
     guide::test(environment.clone())?;
     python(environment)?;
     c_client(&built)

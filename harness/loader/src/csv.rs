@@ -27,22 +27,27 @@ pub fn read_rows(from: impl Read) -> Result<Vec<Vec<String>>, csv::Error> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_header(recording: &Recording, to: &mut dyn Write) -> io::Result<()> {
+pub fn write_header(recording: &Recording, columns: usize, to: &mut dyn Write) -> io::Result<()> {
     write!(to, "time")?;
-    for name in &recording.names {
+    for name in recording.names.iter().take(columns) {
         write!(to, ",{}", csv_field(name))?;
     }
     writeln!(to)
 }
 
-/// Writes these rows.
+/// Writes these rows of the first columns.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_rows(recording: &Recording, rows: Range<usize>, to: &mut dyn Write) -> io::Result<()> {
+pub fn write_rows(
+    recording: &Recording,
+    columns: usize,
+    rows: Range<usize>,
+    to: &mut dyn Write,
+) -> io::Result<()> {
     for row in rows {
         write_real(recording.times_s.get(row).copied().unwrap_or(f64::NAN), to)?;
-        for column in &recording.columns {
+        for column in recording.columns.iter().take(columns) {
             write!(to, ",")?;
             write_value(column, row, to)?;
         }
@@ -97,8 +102,8 @@ mod tests {
             columns: vec![Column::Real(values.clone()), Column::Text(vec!["x,y".to_owned(); values.len()])],
         };
         let mut bytes = Vec::new();
-        write_header(&recording, &mut bytes).unwrap();
-        write_rows(&recording, 0..values.len(), &mut bytes).unwrap();
+        write_header(&recording, recording.columns.len(), &mut bytes).unwrap();
+        write_rows(&recording, recording.columns.len(), 0..values.len(), &mut bytes).unwrap();
         let text = String::from_utf8(bytes).unwrap();
         assert!(text.starts_with("time,a,\"b,\"\"c\"\"\"\n"), "{text}");
         for (line, value) in text.lines().skip(1).zip(values) {

@@ -61,6 +61,16 @@ impl Recording {
         only
     }
 
+    /// The first columns, at the same times.
+    pub fn leading(&self, columns: usize) -> Self {
+        Self {
+            times_s: self.times_s.clone(),
+            names: self.names.iter().take(columns).cloned().collect(),
+            units: self.units.iter().take(columns).cloned().collect(),
+            columns: self.columns.iter().take(columns).cloned().collect(),
+        }
+    }
+
     /// The column of a variable.
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.names.iter().position(|candidate| candidate == name).map(|index| &self.columns[index])

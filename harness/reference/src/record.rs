@@ -84,8 +84,9 @@ pub fn record(fmu: &Fmu, inputs: &str) -> Result<Vec<(String, Vec<u8>)>, RecordE
 fn csv(recording: &Recording) -> Vec<u8> {
     let mut text = Vec::new();
     // A vector takes whatever is written.
-    let _ = loader::csv::write_header(recording, &mut text);
-    let _ = loader::csv::write_rows(recording, 0..recording.times_s.len(), &mut text);
+    let columns = recording.columns.len();
+    let _ = loader::csv::write_header(recording, columns, &mut text);
+    let _ = loader::csv::write_rows(recording, columns, 0..recording.times_s.len(), &mut text);
     text
 }
 

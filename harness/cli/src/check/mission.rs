@@ -32,7 +32,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let run = Run::of(arguments.subject.clone(), arguments.template.clone());
     let flown = Flown::of(&run)?;
     let (subject, _packed) = flown.open()?;
-    let Settings { times, positions, plots, limits, .. } = Settings::of(&subject, &flown, None)?;
+    let Settings { times, columns, plots, limits, .. } = Settings::of(&subject, &flown, None)?;
     let short = terminal::short;
     let begin = flown.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
@@ -43,7 +43,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         span(times.stop_s - times.start_s),
         times.steps(),
         short(times.step_s),
-        count(positions.len(), "variable"),
+        count(columns, "variable"),
         count(plots.len(), "picture"),
         count(limits.len(), "limit"),
     ))

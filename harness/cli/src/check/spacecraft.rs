@@ -16,6 +16,8 @@ use crate::{
     args::Check,
     outcome::Outcome,
     pack::{
+        assemble::{Parts, assemble},
+        reference_flight,
         source::{Source, common_keys},
         without_effect::{can_read_map, unused_map},
     },
@@ -54,6 +56,13 @@ pub fn run(arguments: &Check) -> Outcome {
     // Each model takes its own kind of file; one that takes this one is enough.
     if let Some(described) = taken {
         let description = model_description::parse(described.xml.as_bytes())?.description;
+        // What passes here can be packed, and an FMU that cannot fly is not.
+        let parts =
+            Parts { spacecraft: Some(&arguments.subject), model: Some(&described.model), ..Parts::default() };
+        let assembled = assemble(&source, &parts)?;
+        if let Err(reason) = reference_flight(&assembled.entries, &described.reference_inputs) {
+            return refused(&file, &described, &format!("{file}: {reason}"));
+        }
         let variables = description.variables.len();
         let model = &described.model;
         terminal::print(&format!(

@@ -14,15 +14,17 @@ const ROWS_AT_ONCE: usize = 64;
 /// A table that grows.
 pub struct Csv {
     file: Growing,
+    /// How many of the recording's columns it has, the first ones.
+    columns: usize,
     /// Rows in the file; `None` before the header.
     rows: Option<usize>,
     bytes: Vec<u8>,
 }
 
 impl Csv {
-    /// Writes into an empty file.
-    pub fn new(file: Growing) -> Self {
-        Self { file, rows: None, bytes: Vec::new() }
+    /// Writes the first `columns` into an empty file.
+    pub fn new(file: Growing, columns: usize) -> Self {
+        Self { file, columns, rows: None, bytes: Vec::new() }
     }
 }
 
@@ -32,14 +34,14 @@ impl Exporter for Csv {
         let text = |error: io::Error| error.to_string();
         if self.rows.is_none() && rows > 0 {
             self.bytes.clear();
-            csv::write_header(recording, &mut self.bytes).map_err(text)?;
+            csv::write_header(recording, self.columns, &mut self.bytes).map_err(text)?;
             self.file.append(&self.bytes)?;
             self.rows = Some(0);
         }
         while let Some(from) = self.rows.filter(|from| *from < rows) {
             let to = rows.min(from + ROWS_AT_ONCE);
             self.bytes.clear();
-            csv::write_rows(recording, from..to, &mut self.bytes).map_err(text)?;
+            csv::write_rows(recording, self.columns, from..to, &mut self.bytes).map_err(text)?;
             self.file.append(&self.bytes)?;
             self.rows = Some(to);
         }

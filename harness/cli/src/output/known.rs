@@ -25,7 +25,7 @@ const BOUNDS: [(&str, &str); 4] = [
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     names: BTreeMap<String, String>,
-    bounds: BTreeMap<String, Vec<f64>>,
+    bounds: BTreeMap<String, (&'static str, f64)>,
     limits: BTreeMap<String, Vec<f64>>,
 }
 
@@ -45,12 +45,12 @@ impl Known {
             }
             for variable in &described.variables {
                 let Some(own) = variable.name.strip_prefix(prefix.as_str()) else { continue };
-                let bound = BOUNDS
-                    .iter()
-                    .find_map(|(quantity, bound)| Some(bound.replace('*', number_in(own, quantity)?)));
-                let value = bound.and_then(|bound| value(described, sets, &format!("{prefix}{bound}")));
-                if let Some(value) = value.filter(|value| *value > 0.0) {
-                    known.bounds.insert(variable.name.clone(), vec![-value, value]);
+                let bound = BOUNDS.iter().find_map(|(quantity, bound)| {
+                    let named = bound.replace('*', number_in(own, quantity)?);
+                    Some((bound_label(bound), value(described, sets, &format!("{prefix}{named}"))?))
+                });
+                if let Some(bound) = bound.filter(|(_, value)| *value > 0.0) {
+                    known.bounds.insert(variable.name.clone(), bound);
                 }
             }
         }
@@ -72,14 +72,23 @@ impl Known {
         self.names.get(&variable[..end]).map(String::as_str)
     }
 
-    /// The values that a variable is held against, in its unit.
-    pub fn bounds(&self, variable: &str) -> &[f64] {
-        self.bounds.get(variable).map_or(&[], Vec::as_slice)
+    /// What a variable is held against either way: what it is, and its value in the variable's unit.
+    pub fn bound(&self, variable: &str) -> Option<(&'static str, f64)> {
+        self.bounds.get(variable).copied()
     }
 
     /// The limits that the mission sets it, in its unit.
     pub fn limits(&self, variable: &str) -> &[f64] {
         self.limits.get(variable).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// What the picture calls a bound: `dump.threshold` for `dump.threshold[*]`, `capacity` for `wheel[*].capacity`.
+fn bound_label(bound: &'static str) -> &'static str {
+    match bound.split_once("[*]") {
+        Some((vector, "")) => vector,
+        Some((_, quantity)) => quantity.trim_start_matches('.'),
+        None => bound,
     }
 }
 
@@ -173,11 +182,13 @@ mod tests {
         assert_eq!(known.name("p.wheel[1].speed"), Some(craft.wheels[0].name.as_str()));
         assert_eq!(known.name("p.plate[7].temperature"), Some("lid"));
         assert_eq!(known.name("p.momentum.body[2]"), None);
-        assert_eq!(known.bounds("p.momentum.body[2]"), [-4.0, 4.0]);
-        assert_eq!(known.bounds("p.wheel[1].speed"), [0.0; 0]);
+        assert_eq!(known.bound("p.momentum.body[2]"), Some(("dump.threshold", 4.0)));
+        assert_eq!(known.bound("p.wheel[1].speed"), None);
+        assert_eq!(bound_label("wheel[*].capacity"), "capacity");
+        assert_eq!(bound_label("keepIn.azimuth"), "keepIn.azimuth");
         assert_eq!(known.limits("p.wheel[1].speed"), [3.0]);
         let set = [("p.dump.threshold[2]".to_owned(), Value::Real(7.0))];
         let set = Known::of(&parts, fmu.description(), &set, &[]);
-        assert_eq!(set.bounds("p.momentum.body[2]"), [-7.0, 7.0]);
+        assert_eq!(set.bound("p.momentum.body[2]"), Some(("dump.threshold", 7.0)));
     }
 }

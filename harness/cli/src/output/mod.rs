@@ -17,7 +17,7 @@ use files::Destination;
 use loader::Recording;
 use model_description::Description;
 
-use crate::args::Run;
+use crate::{args::Run, run::settings::Settings};
 use csv::Csv;
 use exporter::Exporter;
 use summary::{Summary, last_values};
@@ -25,6 +25,7 @@ use svg::Svg;
 
 pub use known::Known;
 pub use shown::Shown;
+pub use svg::is_lit_fraction;
 pub use svg_path::{check_path as check_svg_path, is_svg_path};
 
 /// A picture of a run.
@@ -45,12 +46,20 @@ pub struct Outputs {
     files: Vec<PathBuf>,
     /// Whether the last values are told: without a file the summary has them.
     says_last: bool,
+    /// How many of the recording's columns were asked for, the first ones; more is for the pictures.
+    columns: usize,
 }
 
 impl Outputs {
     /// The outputs that the arguments name, and pictures, their files opened; without any, a summary on the terminal.
     /// `inputs` are not written over.
-    pub fn open(arguments: &Run, plots: &[Plot], known: &Known, inputs: &[&Path]) -> Result<Self, String> {
+    pub fn open(
+        arguments: &Run,
+        Settings { plots, columns, .. }: &Settings,
+        known: &Known,
+        inputs: &[&Path],
+    ) -> Result<Self, String> {
+        let columns = *columns;
         let csv = arguments.output.as_deref().map(|path| Destination::open(path, "--output", inputs));
         let csv = csv.transpose()?;
         let mut pictures: Vec<Destination> = Vec::new();
@@ -74,7 +83,7 @@ impl Outputs {
         let says_last = !arguments.quiet && (csv.is_some() || !pictures.is_empty());
         let mut exporters: Vec<Box<dyn Exporter>> = Vec::new();
         if let Some(csv) = csv {
-            exporters.push(Box::new(Csv::new(csv.grow(inputs)?)));
+            exporters.push(Box::new(Csv::new(csv.grow(inputs)?, columns)));
         }
         for (svg, plot) in pictures.into_iter().zip(plots) {
             exporters.push(Box::new(Svg::new(svg, plot.names.clone(), known.clone())));
@@ -82,7 +91,7 @@ impl Outputs {
         if exporters.is_empty() && !arguments.quiet {
             exporters.push(Box::new(Summary));
         }
-        Ok(Self { exporters, files, says_last })
+        Ok(Self { exporters, files, says_last, columns })
     }
 
     /// Shows every output the recording so far.
@@ -94,7 +103,7 @@ impl Outputs {
     pub fn finish(self, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
         self.exporters.into_iter().try_for_each(|output| output.finish(described, recording))?;
         if self.says_last {
-            terminal::note(&last_values(described, recording));
+            terminal::note(&last_values(described, &recording.leading(self.columns)));
             for file in &self.files {
                 terminal::note(&format!("wrote {}", file.display()));
             }

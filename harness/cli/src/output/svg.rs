@@ -53,6 +53,9 @@ impl Svg {
         for panel in &mut chart.chart.panels {
             panel.shades.clone_from(&eclipses);
         }
+        if let Some(first) = chart.chart.panels.first_mut().filter(|_| !eclipses.is_empty()) {
+            first.shade_label = "eclipse".to_owned();
+        }
         Ok(chart.chart.to_svg()?)
     }
 }
@@ -143,8 +146,8 @@ const AXES: [&str; 4] = ["x", "y", "z", "w"];
 struct Group {
     name: String,
     panel: Panel,
-    /// Marks that are drawn only near the lines.
-    bounds: Vec<f64>,
+    /// Marks that are drawn only near the lines, with what they are.
+    bounds: Vec<(&'static str, f64)>,
     /// What its values are large or small against; `None`: the largest of them.
     scale: Option<f64>,
 }
@@ -156,7 +159,9 @@ impl Group {
     }
 
     fn add(&mut self, series: Series, known: &Known, shown: impl Fn(f64) -> f64) {
-        self.bounds.extend(known.bounds(&series.label).iter().map(|value| shown(*value)));
+        if let Some((what, value)) = known.bound(&series.label) {
+            self.bounds.extend([-value, value].map(|value| (what, shown(value))));
+        }
         self.panel.marks.extend(known.limits(&series.label).iter().map(|value| shown(*value)));
         self.panel.is_whole &= series.mark == Mark::Steps;
         self.panel.series.push(series);
@@ -203,8 +208,13 @@ impl Group {
             .values()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
         let reach = (high - low).max(low.abs()).max(high.abs());
-        let near = self.bounds.iter().copied().filter(|mark| *mark > low - reach && *mark < high + reach);
-        self.panel.marks.extend(near);
+        let is_near = |mark: &f64| *mark > low - reach && *mark < high + reach;
+        let near: Vec<_> = self.bounds.iter().copied().filter(|(_, mark)| is_near(mark)).collect();
+        let limit = (!self.panel.marks.is_empty()).then_some("limit");
+        let mut labels: Vec<&str> = near.iter().map(|(what, _)| *what).chain(limit).collect();
+        labels.dedup();
+        self.panel.mark_label = labels.join(", ");
+        self.panel.marks.extend(near.iter().map(|(_, mark)| mark));
         self.panel.marks.sort_by(f64::total_cmp);
         self.panel.marks.dedup();
         let is_vector = self.is_vector();
@@ -257,8 +267,9 @@ fn leave_out_constants(groups: &mut Vec<Group>) -> Vec<String> {
 
 /// When the Sun was not whole, where the recording says so, in units of so many seconds.
 fn eclipses(recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
-    let is_lit_fraction = |name: &String| name == LIT_FRACTION || name.ends_with(&format!(".{LIT_FRACTION}"));
-    let Some(position) = recording.names.iter().position(is_lit_fraction) else { return Vec::new() };
+    let Some(position) = recording.names.iter().position(|name| is_lit_fraction(name)) else {
+        return Vec::new();
+    };
     let lit = recording.columns[position].numbers();
     let mut spans: Vec<(f64, f64)> = Vec::new();
     let mut since = None;
@@ -277,8 +288,11 @@ fn eclipses(recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
     spans
 }
 
-/// The part of the Sun's disc that is seen.
-const LIT_FRACTION: &str = "sun.litFraction";
+/// Whether a variable is the part of the Sun's disc that is seen.
+pub fn is_lit_fraction(name: &str) -> bool {
+    const LIT_FRACTION: &str = "sun.litFraction";
+    name.strip_suffix(LIT_FRACTION).is_some_and(|part| part.is_empty() || part.ends_with('.'))
+}
 
 /// The columns worth drawing: no texts, and no inputs that nobody used, unless there is nothing else.
 fn drawn<'a>(described: &Description, recording: &'a Recording) -> Vec<(&'a str, &'a Column)> {

@@ -25,17 +25,15 @@ use crate::{args::Pack, draw, mission::Mission, outcome::Outcome};
 use assemble::{Assembled, Parts, assemble};
 use source::Source;
 
-/// Adds the reference flight of the FMU that these files make. An FMU that cannot fly it is not written.
-fn add_reference_flight(entries: &mut Entries, inputs: &str) -> Result<(), Box<dyn Error>> {
+/// Paths within an archive with what stands there.
+type Contents = Vec<(String, Vec<u8>)>;
+
+/// The files of the reference flight of the FMU that these files make; an error where it cannot fly it.
+pub fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
     let folder = Scratch::new("heliotorque-")?;
     entries.write_below(folder.path())?;
     let fmu = Fmu::open(folder.path())?;
-    let flight = reference::record(&fmu, inputs)
-        .map_err(|error| format!("the FMU is not written: {}", loader::Error::chain(&error)))?;
-    for (path, content) in flight {
-        entries.add(&path, content)?;
-    }
-    Ok(())
+    Ok(reference::record(&fmu, inputs).map_err(|error| loader::Error::chain(&error))?)
 }
 
 /// Packs the FMU.
@@ -65,7 +63,11 @@ pub fn run(arguments: &Pack) -> Outcome {
     if let Some(png) = picture::png(&setup) {
         entries.add("model.png", png)?;
     }
-    add_reference_flight(&mut entries, &described.reference_inputs)?;
+    let flight = reference_flight(&entries, &described.reference_inputs)
+        .map_err(|error| format!("the FMU is not written: {error}"))?;
+    for (path, content) in flight {
+        entries.add(&path, content)?;
+    }
 
     let bytes = entries.to_zip()?;
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{identifier}.fmu")));

@@ -9,7 +9,7 @@ use super::{flown::Flown, subject::Subject};
 use crate::{
     epoch,
     mission::{self, Limit, Resolved},
-    output::Plot,
+    output::{self, Plot},
 };
 
 /// What the arguments mean for an FMU or a system.
@@ -22,6 +22,8 @@ pub struct Settings {
     pub inputs: Option<InputTable>,
     /// What is recorded.
     pub positions: Vec<usize>,
+    /// How many of these were asked for, the first ones; more is for the pictures.
+    pub columns: usize,
     /// Pictures.
     pub plots: Vec<Plot>,
     /// What the run is judged by.
@@ -52,7 +54,7 @@ impl Settings {
         let named = |positions: &[usize]| -> Vec<String> {
             positions.iter().map(|&position| described.variables[position].name.clone()).collect()
         };
-        let plots: Vec<Plot> = match (&arguments.plot, mission) {
+        let mut plots: Vec<Plot> = match (&arguments.plot, mission) {
             (Some(path), _) => vec![Plot { path: path.clone(), names: None, option: "--plot" }],
             (None, Some(mission)) => {
                 let plots = mission.plots.iter().zip(&resolved.plots);
@@ -75,11 +77,26 @@ impl Settings {
             let position = described.variables.iter().position(|variable| variable.name == *name);
             positions.extend(position.filter(|position| !positions.contains(position)));
         }
+        let columns = positions.len();
+        // Pictures shade eclipses, whatever they show.
+        let lit: Vec<usize> = loader::outputs(described)
+            .into_iter()
+            .filter(|position| output::is_lit_fraction(&described.variables[*position].name))
+            .filter(|position| !positions.contains(position))
+            .collect();
+        if !plots.is_empty() && !lit.is_empty() {
+            let shown = named(&positions);
+            plots.iter_mut().for_each(|plot| {
+                plot.names.get_or_insert_with(|| shown.clone());
+            });
+            positions.extend(lit);
+        }
         Ok(Self {
             times,
             sets,
             inputs: inputs.or(resolved.inputs),
             positions,
+            columns,
             plots,
             limits: resolved.limits,
         })

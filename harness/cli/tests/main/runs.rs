@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{built, packed, run, shown};
+use crate::{built, library, packed, run, shown};
 
 fn csv(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let mut reader = csv::Reader::from_path(path).unwrap();
@@ -69,6 +69,33 @@ fn a_simulation_leaves_csv_and_a_picture() {
         !svg.contains("output.vector") && text.contains("constant, so not drawn: output.vector"),
         "{text}"
     );
+}
+
+#[test]
+fn a_picture_shades_eclipses_and_names_limits_that_nobody_recorded() {
+    let Some(library) = library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let at = |name: &str| scratch.path().join(name);
+    let (fmu, table, picture) = (at("Plant.fmu"), at("out.csv"), at("out.svg"));
+    run(&["pack", "--library", shown(&library), "--model", "MomentumPlant", "--output", shown(&fmu)], 0);
+    // An orbit in the plane of the Sun, low enough to have the planet before it at every turn.
+    let sets = ["orbit.semiMajorAxis=4000km", "orbit.eccentricity=0.1", "orbit.inclination=0"];
+    let drawn = |method: &str, record: &str| {
+        let mut arguments = vec!["run", shown(&fmu), "--stop", "1d", "--step", "60s", "--record", record];
+        arguments.extend(sets.iter().chain(&[method]).flat_map(|set| ["--set", *set]));
+        arguments.extend(["--output", shown(&table), "--plot", shown(&picture)]);
+        let told = run(&arguments, 0);
+        assert!(!told.contains("litFraction"), "{told}");
+        let (header, _) = csv(&table);
+        assert_eq!(header[..2], ["time", "momentum.body[1]"]);
+        assert!(header.iter().all(|name| name != "sun.litFraction"), "{header:?}");
+        fs::read_to_string(&picture).unwrap()
+    };
+    let shaded = drawn("eclipse.method=discs", "momentum.body,sun.elevation");
+    assert!(shaded.contains("eclipse") && shaded.contains("keepIn.elevation"));
+    assert!(!shaded.contains("litFraction"));
+    let lit = drawn("eclipse.method=off", "momentum.body,sun.elevation");
+    assert!(!lit.contains("eclipse") && lit.contains("keepIn.elevation"));
 }
 
 #[test]

@@ -4,8 +4,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{
-    series::{Mark, Panel, Series},
-    style::{Area, COLOURS, Drawn, FINE, FONT, INK, LEFT, RIGHT, WIDTH, Y_AXIS_WIDTH, pixel},
+    series::{Mark, Panel},
+    style::{Area, COLOURS, Drawn, FINE, FONT, INK, LEFT, QUIET, RIGHT, SHADE, WIDTH, Y_AXIS_WIDTH, pixel},
 };
 
 /// Height of a row in drawing units.
@@ -26,55 +26,97 @@ pub(super) fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
     let style = (FONT, 13 * FINE).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
     let mut y = pixel(ROW_HEIGHT / 2);
     for row in rows(panel) {
-        let width: i32 = row.iter().map(|(_, series)| entry_width(series)).sum();
+        let width: i32 = row.iter().map(Entry::width).sum();
         let mut x = pixel(WIDTH - RIGHT) - width + BETWEEN;
-        for (index, series) in row {
-            let colour = COLOURS[index % COLOURS.len()];
-            match series.mark {
-                Mark::Line | Mark::Steps => {
-                    area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], colour.stroke_width(3 * FINE)))?;
-                }
-                Mark::Dashed => {
-                    for from in [x, x + SWATCH - DASH] {
-                        let dash = [(from, y), (from + DASH, y)];
-                        area.draw(&PathElement::new(dash, colour.stroke_width(3 * FINE)))?;
-                    }
-                }
-                Mark::Rings => {
-                    area.draw(&Circle::new((x + SWATCH / 2, y), 5 * UNITS, colour.stroke_width(FINE)))?
-                }
-                Mark::Dots => area.draw(&Circle::new((x + SWATCH / 2, y), 4 * UNITS, colour.filled()))?,
-            }
-            area.draw_text(&series.label, &style, (x + SWATCH + GAP, y))?;
-            x += entry_width(series);
+        for entry in row {
+            entry.swatch.draw(area, x, y)?;
+            area.draw_text(entry.label, &style, (x + SWATCH + GAP, y))?;
+            x += entry.width();
         }
         y += pixel(ROW_HEIGHT);
     }
     Ok(())
 }
 
-/// The labelled series with their places, row by row.
-fn rows(panel: &Panel) -> Vec<Vec<(usize, &Series)>> {
+/// What stands before a label.
+#[derive(Clone, Copy)]
+enum Swatch {
+    /// A series by its place and how it is drawn.
+    Series(usize, Mark),
+    /// The dashed lines of marked values.
+    Marks,
+    /// Shaded spans.
+    Shades,
+}
+
+impl Swatch {
+    /// Draws it from `x` on about the height `y`.
+    fn draw(self, area: &Area<'_>, x: i32, y: i32) -> Drawn {
+        let dashes = |pen: ShapeStyle| -> Drawn {
+            for from in [x, x + SWATCH - DASH] {
+                area.draw(&PathElement::new([(from, y), (from + DASH, y)], pen))?;
+            }
+            Ok(())
+        };
+        let colour = |index: usize| COLOURS[index % COLOURS.len()];
+        match self {
+            Self::Series(index, Mark::Line | Mark::Steps) => {
+                let pen = colour(index).stroke_width(3 * FINE);
+                area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], pen))?;
+            }
+            Self::Series(index, Mark::Dashed) => dashes(colour(index).stroke_width(3 * FINE))?,
+            Self::Series(index, Mark::Rings) => {
+                area.draw(&Circle::new((x + SWATCH / 2, y), 5 * UNITS, colour(index).stroke_width(FINE)))?;
+            }
+            Self::Series(index, Mark::Dots) => {
+                area.draw(&Circle::new((x + SWATCH / 2, y), 4 * UNITS, colour(index).filled()))?;
+            }
+            Self::Marks => dashes(QUIET.stroke_width(FINE))?,
+            Self::Shades => {
+                let corners = [(x, y - SWATCH / 3), (x + SWATCH, y + SWATCH / 3)];
+                area.draw(&Rectangle::new(corners, SHADE.filled()))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A label with what stands before it.
+struct Entry<'a> {
+    swatch: Swatch,
+    label: &'a str,
+}
+
+impl Entry<'_> {
+    /// Width in drawing units, with the space to the next one.
+    fn width(&self) -> i32 {
+        SWATCH + GAP + text_width(self.label) + BETWEEN
+    }
+}
+
+/// Everything with a label, row by row.
+fn rows(panel: &Panel) -> Vec<Vec<Entry<'_>>> {
+    let series = panel.series.iter().enumerate();
+    let series = series.map(|(k, it)| (Swatch::Series(k, it.mark), it.label.as_str()));
+    let others = [(Swatch::Marks, panel.mark_label.as_str()), (Swatch::Shades, panel.shade_label.as_str())];
+    let entries = series.chain(others).filter(|(_, label)| !label.is_empty());
     let width_available = pixel(WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT);
-    let (mut rows, mut used): (Vec<Vec<(usize, &Series)>>, i32) = (Vec::new(), 0);
-    for (index, series) in panel.series.iter().enumerate().filter(|(_, series)| !series.label.is_empty()) {
-        let width = entry_width(series);
+    let (mut rows, mut used): (Vec<Vec<Entry<'_>>>, i32) = (Vec::new(), 0);
+    for (swatch, label) in entries {
+        let entry = Entry { swatch, label };
+        let width = entry.width();
         match rows.last_mut() {
             Some(row) if used + width - BETWEEN <= width_available => {
-                row.push((index, series));
+                row.push(entry);
                 used += width;
             }
             _ => {
-                rows.push(vec![(index, series)]);
+                rows.push(vec![entry]);
                 used = width;
             }
         }
     }
     rows
-}
-
-fn entry_width(series: &Series) -> i32 {
-    SWATCH + GAP + text_width(&series.label) + BETWEEN
 }
 
 /// Width of a legend label in drawing units, estimated: the font is the viewer's.
@@ -93,18 +135,20 @@ fn text_width(text: &str) -> i32 {
 #[cfg(test)]
 mod tests {
     //! No entry is lost, and no row is wider than the panel.
+    use super::super::series::Series;
     use super::*;
 
     #[test]
     fn long_legends_take_several_rows() {
         let series = (1..=9).map(|k| Series::line(format!("plate[{k}].temperature"), vec![])).collect();
-        let panel = Panel { series, ..Panel::default() };
+        let panel = Panel { series, mark_label: "limit".to_owned(), ..Panel::default() };
         let rows = rows(&panel);
         assert!(rows.len() > 1 && height(&panel) == ROW_HEIGHT * rows.len() as u32);
-        let shown: Vec<usize> = rows.iter().flatten().map(|(index, _)| *index).collect();
-        assert_eq!(shown, (0..9).collect::<Vec<_>>());
+        let shown: Vec<&str> = rows.iter().flatten().map(|entry| entry.label).collect();
+        let labels = panel.series.iter().map(|series| series.label.as_str());
+        assert_eq!(shown, labels.chain(["limit"]).collect::<Vec<_>>());
         for row in rows {
-            let width: i32 = row.iter().map(|(_, series)| entry_width(series)).sum();
+            let width: i32 = row.iter().map(Entry::width).sum();
             assert!(width - BETWEEN <= pixel(WIDTH - LEFT - Y_AXIS_WIDTH - RIGHT));
         }
         assert_eq!(height(&Panel::default()), 0);

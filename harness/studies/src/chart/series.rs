@@ -80,8 +80,12 @@ pub struct Panel {
     pub y_range: Option<(f64, f64)>,
     /// Values marked by a dashed horizontal line, such as limits.
     pub marks: Vec<f64>,
+    /// What the legend says of them; empty: nothing.
+    pub mark_label: String,
     /// Spans of the horizontal axis that are shaded, such as eclipses.
     pub shades: Vec<(f64, f64)>,
+    /// What the legend says of them; empty: nothing.
+    pub shade_label: String,
     /// Whether only whole numbers are ticks.
     pub is_whole: bool,
 }

@@ -24,6 +24,9 @@ fn sample() -> Chart {
                     Series::line("momentum.body[3]", line(0.7, -0.6)),
                 ],
                 marks: vec![4.0, -4.0],
+                mark_label: "dump.threshold".to_owned(),
+                shades: vec![(10.0, 12.0)],
+                shade_label: "eclipse".to_owned(),
                 ..Panel::default()
             },
             Panel {
@@ -44,9 +47,14 @@ fn sample() -> Chart {
 #[test]
 fn a_chart_names_its_axes_and_stays_small() {
     let svg = sample().to_svg().unwrap();
-    for text in
-        ["System momentum, thruster dumps only", "time [d]", "momentum.body [N.m.s]", "torque.solar[1]"]
-    {
+    for text in [
+        "System momentum, thruster dumps only",
+        "time [d]",
+        "momentum.body [N.m.s]",
+        "torque.solar[1]",
+        "dump.threshold",
+        "eclipse",
+    ] {
         assert!(svg.contains(text), "{text} is missing");
     }
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "a coordinate is not finite");

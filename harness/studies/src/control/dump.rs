@@ -197,6 +197,7 @@ fn figure(flown: &Flown) -> Chart {
                 y_label: "momentum [N m s]".to_owned(),
                 series: components(MOMENTUM, 1.0),
                 marks: flown.dump.target_n_m_s.to_vec(),
+                mark_label: "target".to_owned(),
                 ..Panel::default()
             },
             Panel {

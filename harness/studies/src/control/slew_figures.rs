@@ -41,6 +41,7 @@ pub fn figure(flown: &Flown) -> Chart {
             series: wheels(&|sample, k| sample.wheels[k].torque_n_m),
             y_range: Some((-1.15 * torque_n_m, 1.15 * torque_n_m)),
             marks: either_way(torque_n_m),
+            mark_label: "largest".to_owned(),
             ..Panel::default()
         },
         Panel {
@@ -48,6 +49,7 @@ pub fn figure(flown: &Flown) -> Chart {
             series: wheels(&|sample, k| sample.wheels[k].momentum_n_m_s),
             y_range: Some((-1.15 * capacity_n_m_s, 1.15 * capacity_n_m_s)),
             marks: either_way(capacity_n_m_s),
+            mark_label: "capacity".to_owned(),
             ..Panel::default()
         },
     ];

@@ -80,6 +80,7 @@ pub fn draw(
         series: chosen.iter().filter(|it| it.case.offset_in == *offset_in).map(|it| line(&it)).collect(),
         y_range: Some((-limit, limit)),
         marks: vec![-threshold_n_m_s, threshold_n_m_s],
+        mark_label: "threshold".to_owned(),
         ..Panel::default()
     };
     let chart = Chart {

@@ -161,11 +161,9 @@ fn chart(points: &[Point<'_>]) -> Chart {
             },
             Panel {
                 y_label: "Sun elevation [deg]".to_owned(),
-                series: vec![Series::line(
-                    "in the body frame; dashed: keep-in zone",
-                    over(&|p| p.sun_deg()[1]),
-                )],
+                series: vec![Series::line("in the body frame", over(&|p| p.sun_deg()[1]))],
                 marks: vec![-ZONE_DEG[1], ZONE_DEG[1]],
+                mark_label: "keep-in zone".to_owned(),
                 ..Panel::default()
             },
         ],
