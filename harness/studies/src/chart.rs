@@ -200,9 +200,6 @@ fn finished(title: &str, drawn: Drawn, svg: String, height: u32) -> Result<Strin
     Ok(format!("<svg width=\"{}\" height=\"{}\" {rest}", WIDTH / FINE, height / FINE))
 }
 
-/// Columns into which a long oscillation is gathered: two pixels each.
-const ENVELOPE_COLUMNS: usize = 400;
-
 type Plot<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Draws a series in the colour of its place; `thin` leaves the points of a piece that are drawn.
@@ -217,7 +214,7 @@ fn draw_series(
     match series.mark {
         Mark::Line => {
             for piece in pieces(&series.points) {
-                match envelope::of(piece, ENVELOPE_COLUMNS) {
+                match envelope::of(piece) {
                     Some(band) => {
                         chart.draw_series([Polygon::new(band.outline(), colour.mix(0.25))])?;
                         for edge in [band.lowest, band.greatest] {

@@ -16,6 +16,9 @@ use super::{
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
 
+/// Eclipses shaded at most; more would be stripes.
+const ECLIPSES: usize = 60;
+
 /// Time units for the horizontal axis: from how long a run on, name, seconds.
 const TIME_UNITS: [(f64, &str, f64); 4] =
     [(3.0 * 86_400.0, "d", 86_400.0), (3.0 * 3600.0, "h", 3600.0), (600.0, "min", 60.0), (0.0, "s", 1.0)];
@@ -49,7 +52,11 @@ impl Svg {
     fn draw(&self, described: &Description, recording: &Recording) -> Result<String, Box<dyn Error>> {
         let only = self.names.as_ref().map(|names| recording.only(names));
         let mut chart = chart(described, only.as_ref().unwrap_or(recording), &self.known);
-        let eclipses = eclipses(recording, chart.seconds);
+        let mut eclipses = eclipses(recording, chart.seconds);
+        if eclipses.len() > ECLIPSES {
+            terminal::note(&format!("{} eclipses, so not shaded", eclipses.len()));
+            eclipses.clear();
+        }
         for panel in &mut chart.chart.panels {
             panel.shades.clone_from(&eclipses);
         }

@@ -2,6 +2,12 @@
 
 /// Reversals in a column from which on its line cannot be told apart.
 const REVERSALS_PER_COLUMN: usize = 3;
+/// Points that a reversal of an oscillation has; noise has fewer.
+const POINTS_PER_REVERSAL: usize = 2;
+/// Part of the panel's height that the band has at least on average; a ripple on something slower stays a line.
+const HEIGHT: f64 = 0.2;
+/// Numbers of columns that are tried: of two pixels each, and of ten.
+const COLUMNS: [usize; 2] = [400, 80];
 
 /// The extremes of a line over its columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,8 +25,12 @@ impl Envelope {
     }
 }
 
-/// The envelope of a line that swings up and down several times in each of `columns` columns; `None` for any other.
-pub(super) fn of(points: &[(f64, f64)], columns: usize) -> Option<Envelope> {
+/// The envelope of a line that swings up and down several times in each column; `None` for any other.
+pub(super) fn of(points: &[(f64, f64)]) -> Option<Envelope> {
+    COLUMNS.into_iter().find_map(|columns| over(points, columns))
+}
+
+fn over(points: &[(f64, f64)], columns: usize) -> Option<Envelope> {
     let (first, last) = (points.first()?.0, points.last()?.0);
     let last_column = columns as f64 - 1.0;
     let column = |x: f64| ((x - first) / (last - first) * columns as f64).floor().min(last_column);
@@ -34,10 +44,17 @@ pub(super) fn of(points: &[(f64, f64)], columns: usize) -> Option<Envelope> {
         let rises = |window: &[(f64, f64)]| (window[1].1 - window[0].1).signum();
         let reversals =
             group.windows(3).filter(|window| rises(&window[..2]) * rises(&window[1..]) < 0.0).count();
-        dense += usize::from(reversals >= REVERSALS_PER_COLUMN);
+        let is_resolved = group.len() >= POINTS_PER_REVERSAL * reversals;
+        dense += usize::from(is_resolved && reversals >= REVERSALS_PER_COLUMN);
     }
+    let extreme =
+        |from: f64, edge: &[(f64, f64)], of: fn(f64, f64) -> f64| edge.iter().map(|(_, y)| *y).fold(from, of);
+    let range =
+        extreme(f64::NEG_INFINITY, &band.greatest, f64::max) - extreme(f64::INFINITY, &band.lowest, f64::min);
+    let heights = band.greatest.iter().zip(&band.lowest).map(|(greatest, lowest)| greatest.1 - lowest.1);
+    let is_high = heights.sum::<f64>() >= HEIGHT * range * band.lowest.len() as f64;
     // Nearly everywhere: a line with one burst of oscillation stays a line.
-    (10 * dense > 9 * band.lowest.len() && band.lowest.len() > 10).then_some(band)
+    (is_high && 10 * dense > 9 * band.lowest.len() && band.lowest.len() > 10).then_some(band)
 }
 
 #[cfg(test)]
@@ -52,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_decaying_oscillation_is_drawn_by_its_extremes() {
-        let envelope = of(&line(100_000, |x| (-x).exp() * (1e4 * x).sin()), 400).unwrap();
+        let envelope = of(&line(100_000, |x| (-x).exp() * (1e4 * x).sin())).unwrap();
         for &(x, greatest) in &envelope.greatest {
             assert!((greatest / (-x).exp() - 1.0).abs() < 0.01, "{x}: {greatest}");
         }
@@ -60,14 +77,18 @@ mod tests {
             assert!((lowest / (-x).exp() + 1.0).abs() < 0.01, "{x}: {lowest}");
         }
         assert_eq!(envelope.outline().len(), 2 * envelope.lowest.len());
+        // Two hundred orbits in as many hundredths of a panel.
+        let slow = of(&line(2_000, |x| (std::f64::consts::TAU * 200.0 * x).sin())).unwrap();
+        assert!(slow.greatest.iter().all(|(_, y)| (0.9..=1.0).contains(y)), "{slow:?}");
     }
 
     #[test]
     fn what_can_be_told_apart_stays_a_line() {
-        assert_eq!(of(&line(100_000, |x| (50.0 * x).sin()), 400), None);
-        assert_eq!(of(&line(1_000, |x| (1e4 * x).sin()), 400), None);
+        assert_eq!(of(&line(100_000, |x| (50.0 * x).sin())), None);
+        assert_eq!(of(&line(1_000, |x| (1e4 * x).sin())), None);
+        assert_eq!(of(&line(2_000, |x| 5.0 * x + 0.1 * (1200.0 * x).sin())), None);
         let burst = |x: f64| if (0.4..0.6).contains(&x) { (1e4 * x).sin() } else { x };
-        assert_eq!(of(&line(100_000, burst), 400), None);
-        assert_eq!(of(&[], 400), None);
+        assert_eq!(of(&line(100_000, burst)), None);
+        assert_eq!(of(&[]), None);
     }
 }
