@@ -45,10 +45,15 @@ pub fn all() -> Outcome {
     if std::env::var_os(DRAWS).is_none() {
         environment.push((DRAWS, "20040803".into()));
     }
-    run(cargo(&tests).envs(environment.clone()).envs(locale::environment()?))?;
+    let locale = locale::environment()?;
+    std::thread::scope(|scope| {
+        // It waits for one core, as some of the tests do.
+        let client = scope.spawn(|| c_client(&built));
+        run(cargo(&tests).envs(environment.clone()).envs(locale))?;
+        client.join().map_err(|_| "the C client's thread panicked".to_owned())?
+    })?;
     guide::test(environment.clone())?;
-    python(environment)?;
-    c_client(&built)
+    python(environment)
 }
 
 /// Runs the tests in Python on up to four processes; the one that builds and packs anew after all that read what is there.

@@ -38,7 +38,7 @@ pub fn run(arguments: &Run) -> Outcome {
     subject.check_libraries()?;
     let described = subject.description();
     let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
-    let mut outputs = Outputs::open(arguments, &settings, &known, &flown.reads())?;
+    let mut outputs = Outputs::open(arguments, &settings.plots, settings.columns, &known, &flown.reads())?;
     let Settings { times, positions, limits, .. } = settings;
     let mut judge = Judge::new(limits);
     let mut collector = Collector::new(described, &positions);

@@ -13,9 +13,11 @@ use crate::draw::pen::{GREY, INK, Pen};
 
 const WIDTH: f64 = 1150.0;
 const HEAD: f64 = 96.0;
-/// Of an axis with title, numbers and label.
-const ROW: f64 = 344.0;
+/// Title, numbers and label of an axis, with the space around them.
+const AROUND_PLOT: f64 = 80.0;
 const HEIGHT_OF_PLOT: f64 = 264.0;
+/// Without a zone beside it.
+const HEIGHT_OF_ONLY_PLOT: f64 = 448.0;
 const LEFT: f64 = 76.0;
 const ZONE_LEFT: f64 = 766.0;
 const ZONE_WIDTH: f64 = 310.0;
@@ -33,11 +35,13 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
         craft.name,
         terminal::short((craft.distance_m / AU_M * 1e4).round() / 1e4)
     );
-    let mut pen = Pen::new(WIDTH, HEAD + 3.0 * ROW + LAST_ROW, &title);
+    let height = if found.zone.is_some() { HEIGHT_OF_PLOT } else { HEIGHT_OF_ONLY_PLOT };
+    let row = height + AROUND_PLOT;
+    let mut pen = Pen::new(WIDTH, HEAD + 3.0 * row + LAST_ROW, &title);
     pen.text((LEFT, 36.0), 20.0, "start", &format!("fill=\"{INK}\" font-weight=\"bold\""), &title);
     legend(&mut pen, found.zone.is_some());
     for (axis, name) in NAMES.into_iter().enumerate() {
-        let top = HEAD + ROW * axis as f64;
+        let top = HEAD + row * axis as f64;
         let heading = format!("fill=\"{INK}\" font-weight=\"bold\"");
         pen.text(
             (LEFT, top - 7.0),
@@ -46,7 +50,7 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
             &heading,
             &format!("About {name}, all directions of the Sun"),
         );
-        let sphere = frame(&found.sphere, LEFT, top, 2.0 * HEIGHT_OF_PLOT);
+        let sphere = frame(&found.sphere, (LEFT, top), [2.0 * height, height]);
         torque(&mut pen, &found.sphere, sphere, axis, [60.0, 30.0]);
         let (Some(limits_rad), Some(zone)) = (craft.zone_rad, &found.zone) else {
             least(&mut pen, sphere, found);
@@ -54,19 +58,19 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
         };
         outline(&mut pen, sphere, limits_rad);
         pen.text((ZONE_LEFT, top - 7.0), 14.0, "start", &heading, &format!("About {name}, keep-in zone"));
-        let in_zone = frame(zone, ZONE_LEFT, top, ZONE_WIDTH);
+        let in_zone = frame(zone, (ZONE_LEFT, top), [ZONE_WIDTH, height]);
         let steps = zone.grid.limits_deg.map(|limit_deg| round_up(limit_deg / 3.5));
         torque(&mut pen, zone, in_zone, axis, steps);
         least(&mut pen, in_zone, found);
     }
-    downlinks(&mut pen, craft, found);
+    downlinks(&mut pen, HEAD + 3.0 * row, craft, found);
     pen.finish()
 }
 
-/// A plot as wide as allowed and as high as its angles ask.
-fn frame(mapped: &Mapped, left: f64, top: f64, width: f64) -> Frame {
+/// A plot as wide and as high as allowed, by its angles.
+fn frame(mapped: &Mapped, (left, top): (f64, f64), [width, height]: [f64; 2]) -> Frame {
     let [azimuth_deg, elevation_deg] = mapped.grid.limits_deg;
-    let scale = (width / azimuth_deg).min(HEIGHT_OF_PLOT / elevation_deg);
+    let scale = (width / azimuth_deg).min(height / elevation_deg);
     let (width, height) = (scale * azimuth_deg, scale * elevation_deg);
     Frame { left, top, width, height, x: [-azimuth_deg, azimuth_deg], y: [-elevation_deg, elevation_deg] }
 }
@@ -139,8 +143,7 @@ fn legend(pen: &mut Pen, has_zone: bool) {
 }
 
 /// Disturbances that downlinks can undo, the mission's mean among them.
-fn downlinks(pen: &mut Pen, craft: &Craft, found: &Found) {
-    let top = HEAD + 3.0 * ROW;
+fn downlinks(pen: &mut Pen, top: f64, craft: &Craft, found: &Found) {
     let attainable = &found.attainable;
     // A disturbance is undone by its opposite.
     let undone = attainable.mean_added_n_m.scaled(-MICRO, [0.0; 2]);

@@ -17,7 +17,7 @@ use files::Destination;
 use loader::Recording;
 use model_description::Description;
 
-use crate::{args::Run, run::settings::Settings};
+use crate::args::Run;
 use csv::Csv;
 use exporter::Exporter;
 use summary::{Summary, last_values};
@@ -52,14 +52,14 @@ pub struct Outputs {
 
 impl Outputs {
     /// The outputs that the arguments name, and pictures, their files opened; without any, a summary on the terminal.
-    /// `inputs` are not written over.
+    /// Tables have the first `columns` of what is recorded; `inputs` are not written over.
     pub fn open(
         arguments: &Run,
-        Settings { plots, columns, .. }: &Settings,
+        plots: &[Plot],
+        columns: usize,
         known: &Known,
         inputs: &[&Path],
     ) -> Result<Self, String> {
-        let columns = *columns;
         let csv = arguments.output.as_deref().map(|path| Destination::open(path, "--output", inputs));
         let csv = csv.transpose()?;
         let mut pictures: Vec<Destination> = Vec::new();
