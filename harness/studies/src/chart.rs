@@ -212,9 +212,10 @@ fn draw_series(
     let colour = COLOURS[index % COLOURS.len()];
     let finite = || series.points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
     match series.mark {
-        Mark::Line => {
+        Mark::Line | Mark::Curve => {
             for piece in pieces(&series.points) {
-                match envelope::of(piece) {
+                let band = if series.mark == Mark::Line { envelope::of(piece) } else { None };
+                match band {
                     Some(band) => {
                         chart.draw_series([Polygon::new(band.outline(), colour.mix(0.25))])?;
                         for edge in [band.lowest, band.greatest] {

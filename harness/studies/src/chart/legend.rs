@@ -60,7 +60,7 @@ impl Swatch {
         };
         let colour = |index: usize| COLOURS[index % COLOURS.len()];
         match self {
-            Self::Series(index, Mark::Line | Mark::Steps) => {
+            Self::Series(index, Mark::Line | Mark::Curve | Mark::Steps) => {
                 let pen = colour(index).stroke_width(3 * FINE);
                 area.draw(&PathElement::new([(x, y), (x + SWATCH, y)], pen))?;
             }

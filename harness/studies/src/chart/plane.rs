@@ -134,7 +134,7 @@ impl PlaneChart {
         }
         for (index, series) in panel.series.iter().enumerate() {
             let points = match series.mark {
-                Mark::Line | Mark::Dashed | Mark::Steps => window.line(&series.points),
+                Mark::Line | Mark::Curve | Mark::Dashed | Mark::Steps => window.line(&series.points),
                 Mark::Dots | Mark::Rings => window.dots(&series.points),
             };
             draw_series(&mut chart, index, &Series { points, ..series.clone() }, <[(f64, f64)]>::to_vec)?;

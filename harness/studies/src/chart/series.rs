@@ -6,6 +6,8 @@ pub enum Mark {
     /// Straight lines from point to point.
     #[default]
     Line,
+    /// The same, drawn as it is however often it swings up and down.
+    Curve,
     /// Dots.
     Dots,
     /// Rings, in which the dots of another series can sit.
@@ -31,6 +33,11 @@ impl Series {
     /// A line through `points`.
     pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self { label: label.into(), points, mark: Mark::Line }
+    }
+
+    /// A line through `points` that is compared with another and so never drawn as an envelope.
+    pub fn curve(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark: Mark::Curve }
     }
 
     /// Dots at `points`.

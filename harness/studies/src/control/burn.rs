@@ -188,7 +188,7 @@ fn quaternion_chart(flown: &Flown) -> Chart {
     let panel = |i: usize| {
         let label = |text: &str| if i == 0 { text.to_owned() } else { String::new() };
         Panel {
-            y_label: format!("q{} [1]", i + 1),
+            y_label: format!("q{}", i + 1),
             series: vec![
                 Series::line(label("estimated"), points(&|sample| sample.estimate_q[i])),
                 Series {

@@ -113,19 +113,21 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
         x_label: "time [s]".to_owned(),
         panels: vec![
             Panel {
-                y_label: "mode [1]".to_owned(),
+                y_label: "mode".to_owned(),
                 series: vec![line("1 Operational, 2 Safe Hold, 3 Earth Acquisition", &|it| {
                     f64::from(it.mode)
                 })],
-                y_range: Some((0.0, 4.0)),
+                y_range: Some((0.5, 3.5)),
+                is_whole: true,
                 ..Panel::default()
             },
             Panel {
-                y_label: "command [1]".to_owned(),
+                y_label: "command".to_owned(),
                 series: vec![line("1 attitude, 2 error quaternion, 3 rate only", &|sample| {
                     f64::from(sample.command_kind)
                 })],
-                y_range: Some((0.0, 4.0)),
+                y_range: Some((0.5, 3.5)),
+                is_whole: true,
                 ..Panel::default()
             },
             Panel {
@@ -135,13 +137,14 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
             },
             Panel { y_label: "rate [deg/s]".to_owned(), series: rates, ..Panel::default() },
             Panel {
-                y_label: "valid [1]".to_owned(),
+                y_label: "valid".to_owned(),
                 series: vec![
                     line("estimated attitude", &|sample| flag(sample.is_attitude_known)),
                     dashed(line("sensed Sun", &|sample| flag(sample.is_sun_sensed))),
                     line("link with the Earth", &|sample| flag(sample.has_link)),
                 ],
                 y_range: Some((-0.15, 1.15)),
+                is_whole: true,
                 ..Panel::default()
             },
         ],

@@ -56,12 +56,13 @@ pub fn figure(flown: &Flown) -> Chart {
     if matches!(slew.event, Event::Dumped(..) | Event::Threshold(..)) {
         let full = |sample: &Sample| sample.wheels.iter().filter(|wheel| wheel.is_saturated).count() as f64;
         panels.push(Panel {
-            y_label: "number [1]".to_owned(),
+            y_label: "number".to_owned(),
             series: vec![
                 line("wheels at capacity", &full),
                 line("dump active", &|sample| f64::from(u8::from(sample.is_dumping))),
             ],
             y_range: Some((-0.3, limits.axes.len() as f64 + 0.3)),
+            is_whole: true,
             ..Panel::default()
         });
     }

@@ -291,7 +291,7 @@ fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
     let signed = |q: &[f64; 4], i: usize| sign(samples, q) * q[i];
     let mut panels: Vec<Panel> = (0..4)
         .map(|i| Panel {
-            y_label: format!("q{} [1]", i + 1),
+            y_label: format!("q{}", i + 1),
             series: vec![
                 over_time("commanded", samples, true, |sample| signed(&sample.command_q, i)),
                 Series {

@@ -146,9 +146,10 @@ fn chart(points: &[Point<'_>]) -> Chart {
         x_label: "time since periapsis [h]".to_owned(),
         panels: vec![
             Panel {
-                y_label: "solutions [1]".to_owned(),
+                y_label: "solutions".to_owned(),
                 series: line(&|point| point.solutions.len() as f64),
                 y_range: Some((-0.2, 2.2)),
+                is_whole: true,
                 ..Panel::default()
             },
             Panel {

@@ -197,7 +197,7 @@ fn over_time(label: &str, flown: &Flown, value: impl Fn(&Sample) -> f64) -> Seri
 
 fn quaternion_chart(flown: &Flown) -> Chart {
     let panel = |i: usize| Panel {
-        y_label: format!("q{} [1]", i + 1),
+        y_label: format!("q{}", i + 1),
         series: vec![over_time(if i == 0 { "commanded" } else { "" }, flown, |sample| sample.q[i])],
         ..Panel::default()
     };

@@ -96,7 +96,10 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
         panels.push(Panel {
             y_label: "nutation [deg]".to_owned(),
             series: vec![
-                Series::line(case.label.clone(), simulated.times_s.iter().copied().zip(degrees(0)).collect()),
+                Series::curve(
+                    case.label.clone(),
+                    simulated.times_s.iter().copied().zip(degrees(0)).collect(),
+                ),
                 Series::dashed("linear theory", simulated.times_s.iter().copied().zip(degrees(1)).collect()),
                 Series::dashed(
                     format!("envelope {:.4} deg", found.envelope_deg),
