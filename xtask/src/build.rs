@@ -18,7 +18,7 @@ pub struct Built {
 /// Builds the shared library, the probe and the command line.
 pub fn build() -> Result<Built, String> {
     run(&mut library())?;
-    run(&mut programs())?;
+    run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "-p", "probe"]))?;
     let library = |folder: &str, name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
         target().join(folder).join(file)
@@ -33,11 +33,6 @@ pub fn build() -> Result<Built, String> {
 /// Builds the shared library, whole-program optimised.
 pub fn library() -> Command {
     cargo(&["build", "--locked", "--profile", "fmu", "-p", "component"])
-}
-
-/// Builds the probe and the command line.
-pub fn programs() -> Command {
-    cargo(&["build", "--locked", "--release", "-p", "heliotorque", "-p", "probe"])
 }
 
 /// The environment in which tests find what was built.

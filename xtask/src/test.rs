@@ -15,7 +15,7 @@ pub fn all() -> Outcome {
         run(&mut cargo(&["fmt", "--all", "--check"]))?;
         guide::check_format()?;
     }
-    // Most of it is optimised on one core: lints and the programs' build go on beside it.
+    // Most of it is optimised on one core: lints and the tests' own build go on beside it.
     let library = Beside::start(&mut build::library())?;
     if shell::output(&mut cargo(&["clippy", "--version"])).is_ok() {
         run(&mut cargo(&[
@@ -36,7 +36,8 @@ pub fn all() -> Outcome {
     } else {
         eprintln!("skipped: lints (no `cargo clippy` on this machine)");
     }
-    run(&mut build::programs())?;
+    let tests = ["test", "--locked", "--release", "--workspace", "--all-features"];
+    run(cargo(&tests).arg("--no-run"))?;
     library.finish()?;
     let built = dist::dist()?;
     let mut environment = build::test_environment(&built).to_vec();
@@ -48,9 +49,7 @@ pub fn all() -> Outcome {
     std::thread::scope(|scope| {
         // It waits for one core, as some of the tests do.
         let client = scope.spawn(|| c_client(&built));
-        run(cargo(&["test", "--locked", "--release", "--workspace", "--all-features"])
-            .envs(environment.clone())
-            .envs(locale))?;
+        run(cargo(&tests).envs(environment.clone()).envs(locale))?;
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
     guide::test(environment.clone())?;
