@@ -13,7 +13,7 @@ mod variables;
 use proc_macro::TokenStream;
 use syn::{DeriveInput, parse_macro_input};
 
-/// Declares the fields of a struct as FMI variables: implements `fmi_export::Variables`.
+/// Declares the fields of a struct as FMI variables: implements `fmi_export::Variables` and `fmi_export::Section`.
 ///
 /// `#[variables(setup = Type)]` on the struct names the type `setup` has in expressions; without it the
 /// struct serves every setup type. Expressions may use `setup: &Type` and `index: usize`, the 0-based

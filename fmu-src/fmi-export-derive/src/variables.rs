@@ -20,6 +20,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let mut names = Vec::new();
     let mut statements = Vec::new();
     let mut members = Vec::new();
+    let mut parts = Vec::new();
     for (position, (ident, field)) in fields.iter().enumerate() {
         let binding = Ident::new(&format!("field_{position}"), Span::mixed_site());
         let Some(attribute) = errors.take(attribute::of_field(ident, &field.attrs)) else { continue };
@@ -32,11 +33,15 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
         let ty = &field.ty;
         statements.extend(call.map(|call| quote! { let #binding: #ty = #call?; }));
         members.push(quote! { #ident: #binding });
+        parts.push(match &attribute {
+            FieldAttribute::Declaration(_) => quote! { .and(self.#ident) },
+            FieldAttribute::Group(_) => quote! { .and(&self.#ident) },
+        });
     }
     errors.finish()?;
 
     let struct_name = &input.ident;
-    let (_, type_generics, where_clause) = input.generics.split_for_impl();
+    let (own_generics, type_generics, where_clause) = input.generics.split_for_impl();
     let mut generics = input.generics.clone();
     let setup = match setup {
         Some(ty) => quote! { #ty },
@@ -58,6 +63,13 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
                 let _ = (&*#scope, setup, index);
                 #(#statements)*
                 ::core::result::Result::Ok(Self { #(#members),* })
+            }
+        }
+
+        #[automatically_derived]
+        impl #own_generics ::fmi_export::Section for #struct_name #type_generics #where_clause {
+            fn section(&self) -> ::fmi_export::Knowns {
+                ::fmi_export::Knowns::default()#(#parts)*
             }
         }
     })

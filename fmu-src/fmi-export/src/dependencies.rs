@@ -1,10 +1,9 @@
 //! What outputs and unknowns of initialization depend on, by handles.
 //!
-//! A model writes one row an unknown:
+//! A model writes one row a group of unknowns; whole sections of variables may stand on either side:
 //!
 //! ```ignore
-//! let attitude = knowns![v.command.kind, v.command.q];
-//! table.output(v.attitude.q, &attitude, knowns![&attitude, v.start.q]);
+//! table.output(&v.attitude, &v.command, knowns![&v.start, &v.orbit]);
 //! ```
 
 use std::collections::BTreeMap;
@@ -27,6 +26,9 @@ macro_rules! knowns {
 }
 
 impl Knowns {
+    /// No variable.
+    pub(crate) const NONE: Self = Self([const { Vec::new() }; Element::TABLES]);
+
     /// With `other` as well.
     #[must_use]
     pub fn and(mut self, other: impl Into<Self>) -> Self {
@@ -92,6 +94,24 @@ impl From<&Knowns> for Knowns {
     }
 }
 
+/// A group of declared variables as a set; derived with `#[derive(Variables)]`.
+pub trait Section {
+    /// All its variables, whatever their causality.
+    fn section(&self) -> Knowns;
+}
+
+impl<T: Section> Section for Vec<T> {
+    fn section(&self) -> Knowns {
+        self.iter().map(Section::section).collect()
+    }
+}
+
+impl<T: Section> From<&T> for Knowns {
+    fn from(group: &T) -> Self {
+        group.section()
+    }
+}
+
 macro_rules! from_scalar {
     ($($handle:ty),*) => { $(
         impl From<$handle> for Knowns {
@@ -122,7 +142,9 @@ impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Knowns {
     }
 }
 
-/// The two lists of a model. Every output that is not constant has a row, and so has every calculated parameter.
+/// The two lists of a model. Every output that is not constant has a row, and so has every calculated parameter. Sections may
+/// stand on either side: of unknowns the outputs and calculated parameters count, of `at_steps` the inputs, of `at_start` the
+/// parameters with `initial="exact"`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Dependencies {
     at_steps: BTreeMap<Element, Knowns>,
@@ -135,38 +157,37 @@ impl Dependencies {
         Self::default()
     }
 
-    /// An output, every element of it alike. `at_steps` are the inputs whose change at a communication point tc changes
-    /// the output at tc + h by something that does not vanish as h goes to 0; what acts through an integrated state is
-    /// left out. `at_start` are the inputs and the parameters with `initial="exact"` that change its value after
-    /// initialization.
+    /// Outputs, every element alike. `at_steps` are the inputs whose change at a communication point tc can change an output
+    /// at tc + h by something that does not vanish as h goes to 0; what acts through an integrated state is left out. The same
+    /// inputs and the parameters `at_start` can change the value after initialization.
     pub fn output(
         &mut self,
-        output: impl Into<Knowns>,
+        outputs: impl Into<Knowns>,
         at_steps: impl Into<Knowns>,
         at_start: impl Into<Knowns>,
     ) {
-        let output = output.into();
-        insert(&mut self.at_steps, &output, &at_steps.into());
-        insert(&mut self.at_start, &output, &at_start.into());
+        let outputs = outputs.into();
+        insert(&mut self.at_steps, &outputs, &at_steps.into());
+        insert(&mut self.at_start, &outputs, &at_start.into());
     }
 
-    /// A calculated parameter, every element of it alike; `at_start` as for an output.
-    pub fn calculated(&mut self, parameter: impl Into<Knowns>, at_start: impl Into<Knowns>) {
-        insert(&mut self.at_start, &parameter.into(), &at_start.into());
+    /// Calculated parameters, every element alike, and the parameters they are calculated from.
+    pub fn calculated(&mut self, parameters: impl Into<Knowns>, at_start: impl Into<Knowns>) {
+        insert(&mut self.at_start, &parameters.into(), &at_start.into());
     }
 
-    /// What each output depends on at the end of a step.
+    /// The inputs that count for each output.
     pub(crate) fn at_steps(&self) -> &BTreeMap<Element, Knowns> {
         &self.at_steps
     }
 
-    /// What each output and calculated parameter depends on after initialization.
+    /// The parameters that count for each output and calculated parameter after initialization.
     pub(crate) fn at_start(&self) -> &BTreeMap<Element, Knowns> {
         &self.at_start
     }
 }
 
-/// Rows given twice add up: an element may have more than its vector.
+/// Rows given twice add up: an element may have more than its group.
 fn insert(rows: &mut BTreeMap<Element, Knowns>, unknowns: &Knowns, knowns: &Knowns) {
     for unknown in unknowns.elements() {
         rows.entry(unknown).or_default().extend(knowns);

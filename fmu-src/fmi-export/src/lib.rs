@@ -19,7 +19,7 @@ mod runtime;
 pub mod time;
 pub mod variables;
 
-pub use dependencies::{Dependencies, Knowns};
+pub use dependencies::{Dependencies, Knowns, Section};
 pub use fmi_export_derive::{Enumeration, Variables};
 pub use fmi2::{Entry, Library};
 pub use model::{

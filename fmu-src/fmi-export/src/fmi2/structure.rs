@@ -1,6 +1,6 @@
 //! From a model's dependencies to `ModelStructure` (FMI 2.0.5, 2.2.8).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use model_description::{Causality, Initial, ModelStructure, ScalarVariable, Unknown, Variability, rules};
 
@@ -10,7 +10,7 @@ use crate::variables::Element;
 
 /// The structure of a co-simulation FMU with these variables.
 ///
-/// The error names an unknown without a row, a row without an unknown, or a known that the standard does not admit.
+/// Of each set counts what the standard admits. The error names an unknown without a row, or a handle that is no variable's.
 pub(crate) fn structure(
     dependencies: &Dependencies,
     variables: &[ScalarVariable],
@@ -23,19 +23,27 @@ pub(crate) fn structure(
         indices.resize(indices.len().max(place + 1), None);
         indices[place] = Some(index);
     }
-    let lists = Lists { variables, keys: &keys, index_of: &index_of };
-    let mut structure = rules::structure(variables);
-    let input = |v: &ScalarVariable| v.causality == Causality::Input;
-    let exact = |v: &ScalarVariable| {
-        input(v) || v.causality == Causality::Parameter && rules::effective_initial(v) == Some(Initial::Exact)
+    let is_input: Vec<bool> = variables.iter().map(|it| it.causality == Causality::Input).collect();
+    let is_exact_parameter = |it: &ScalarVariable| {
+        it.causality == Causality::Parameter && rules::effective_initial(it) == Some(Initial::Exact)
     };
-    lists.fill(&mut structure.outputs, dependencies.at_steps(), &input, "an input")?;
-    lists.fill(
-        &mut structure.initial_unknowns,
-        dependencies.at_start(),
-        &exact,
-        "an input or a parameter with initial exact",
-    )?;
+    let is_exact_parameter = variables.iter().map(is_exact_parameter).collect();
+    let lists = Lists { variables, keys: &keys, index_of: &index_of, is_input, is_exact_parameter };
+    let mut structure = rules::structure(variables);
+    for unknown in &mut structure.outputs {
+        let inputs = lists.row(unknown, dependencies.at_steps())?;
+        unknown.dependencies = Some(lists.indices(inputs, &lists.is_input)?);
+    }
+    for unknown in &mut structure.initial_unknowns {
+        let parameters = lists.row(unknown, dependencies.at_start())?;
+        let mut indices = lists.indices(parameters, &lists.is_exact_parameter)?;
+        if variables[unknown.index as usize - 1].causality == Causality::Output {
+            let inputs = lists.row(unknown, dependencies.at_steps())?;
+            indices.extend(lists.indices(inputs, &lists.is_input)?);
+            indices.sort_unstable();
+        }
+        unknown.dependencies = Some(indices);
+    }
     Ok(structure)
 }
 
@@ -45,67 +53,34 @@ struct Lists<'a> {
     keys: &'a [Option<Element>],
     /// By table and place.
     index_of: &'a [Vec<Option<u32>>; Element::TABLES],
+    is_input: Vec<bool>,
+    is_exact_parameter: Vec<bool>,
 }
 
+const NOTHING: &Knowns = &Knowns::NONE;
+
 impl Lists<'_> {
-    /// Gives every unknown its `dependencies`; `dependenciesKind` stays absent, which stands for `dependent`.
-    fn fill(
+    /// The row of an unknown, nothing for a constant.
+    fn row<'r>(
         &self,
-        unknowns: &mut [Unknown],
-        rows: &BTreeMap<Element, Knowns>,
-        admitted: &dyn Fn(&ScalarVariable) -> bool,
-        rule: &str,
-    ) -> Result<(), String> {
-        let mut left: BTreeSet<&Element> = rows.keys().collect();
-        let is_admitted: Vec<bool> = self.variables.iter().map(admitted).collect();
-        let nothing = Knowns::default();
-        // Elements of one array often depend on the same.
-        let mut previous: Option<(&Knowns, Vec<u32>)> = None;
-        for unknown in unknowns {
-            let at = unknown.index as usize - 1;
-            let (variable, key) = (&self.variables[at], self.keys[at].as_ref());
-            let row = key.and_then(|key| rows.get(key));
-            if let Some(key) = key {
-                left.remove(key);
-            }
-            let knowns = match row {
-                Some(knowns) => knowns,
-                None if variable.variability == Variability::Constant => &nothing,
-                None => {
-                    return Err(format!("`{}` has no row in the model's dependencies", variable.name));
-                }
-            };
-            let indices = match previous.take() {
-                Some((same, indices)) if same == knowns => indices,
-                _ => self.indices(variable, knowns, &is_admitted, rule)?,
-            };
-            unknown.dependencies = Some(indices.clone());
-            previous = Some((knowns, indices));
-        }
-        // An exact output is no unknown of initialization; its row says so by an empty list.
-        left.retain(|key| rows.get(key).is_some_and(|knowns| knowns.len() > 0));
-        let Some(extra) = left.first() else { return Ok(()) };
-        let name = &self.variables[self.index(**extra)? as usize - 1].name;
-        Err(format!("the model's dependencies have a row for `{name}`, which is no unknown there"))
+        unknown: &Unknown,
+        rows: &'r BTreeMap<Element, Knowns>,
+    ) -> Result<&'r Knowns, String> {
+        let at = unknown.index as usize - 1;
+        let variable = &self.variables[at];
+        let row = self.keys[at].and_then(|key| rows.get(&key));
+        let row = row.or_else(|| (variable.variability == Variability::Constant).then_some(NOTHING));
+        row.ok_or_else(|| format!("`{}` has no row in the model's dependencies", variable.name))
     }
 
-    /// The indices of what an unknown depends on, ascending.
-    fn indices(
-        &self,
-        unknown: &ScalarVariable,
-        knowns: &Knowns,
-        is_admitted: &[bool],
-        rule: &str,
-    ) -> Result<Vec<u32>, String> {
+    /// The indices of what of a set is admitted, ascending. `dependenciesKind` stays absent, which stands for `dependent`.
+    fn indices(&self, knowns: &Knowns, is_admitted: &[bool]) -> Result<Vec<u32>, String> {
         let mut indices = Vec::with_capacity(knowns.len());
         for known in knowns.elements() {
             let index = self.index(known)?;
-            let at = index as usize - 1;
-            if !is_admitted[at] {
-                let (unknown, known) = (&unknown.name, &self.variables[at].name);
-                return Err(format!("`{unknown}` depends on `{known}`, allowed: {rule}"));
+            if is_admitted[index as usize - 1] {
+                indices.push(index);
             }
-            indices.push(index);
         }
         // Ascending within each table already, which the stable sort makes use of.
         indices.sort();
@@ -205,7 +180,7 @@ mod tests {
         // label 1, flag 2, force 3 to 5, one 6, count 7, size 8, exact 9
         let outputs = [(6, vec![]), (7, vec![2]), (8, vec![3, 4, 5]), (9, vec![2])];
         assert_eq!(lists(&structure.outputs), outputs);
-        assert_eq!(lists(&structure.initial_unknowns), [(7, vec![1, 4]), (8, vec![1, 2, 3, 4, 5])]);
+        assert_eq!(lists(&structure.initial_unknowns), [(7, vec![1, 2]), (8, vec![1, 3, 4, 5])]);
     }
 
     #[test]
@@ -224,16 +199,29 @@ mod tests {
         assert_eq!(error, "`count` has no row in the model's dependencies");
     }
 
+    /// Sections hold variables of every causality.
     #[test]
-    fn what_no_list_admits_is_named() {
-        let found = refusal(|table, v| table.output(v.size, v.parameter, knowns![]));
-        assert_eq!(found, "`size` depends on `label`, allowed: an input");
-        let found = refusal(|table, v| table.output(v.size, knowns![], v.count));
-        assert_eq!(found, "`size` depends on `count`, allowed: an input or a parameter with initial exact");
-        let found = refusal(|table, v| table.output(v.flag, v.force, knowns![]));
-        assert_eq!(found, "the model's dependencies have a row for `flag`, which is no unknown there");
-        let found = refusal(|table, v| table.calculated(v.exact, v.force));
-        assert_eq!(found, "the model's dependencies have a row for `exact`, which is no unknown there");
+    fn what_a_list_does_not_admit_is_passed_over() {
+        let (variables, handles) = declared();
+        let plain = structure(&table(&handles), &variables).unwrap();
+        let mut table = table(&handles);
+        table.output(handles.size, handles.parameter, handles.count);
+        table.output(handles.flag, handles.force, knowns![]);
+        table.calculated(handles.exact, handles.force);
+        assert_eq!(structure(&table, &variables).unwrap(), plain);
+    }
+
+    #[test]
+    fn what_acts_in_steps_acts_at_the_start() {
+        let (variables, handles) = declared();
+        let mut table = Dependencies::new();
+        table.output(knowns![handles.count, handles.size, handles.exact], handles.force, handles.parameter);
+        let structure = structure(&table, &variables).unwrap();
+        assert_eq!(structure.initial_unknowns[0].dependencies, Some(vec![1, 3, 4, 5]));
+    }
+
+    #[test]
+    fn a_handle_of_no_variable_is_named() {
         let found = refusal(|table, v| table.output(v.size, Real(77), v.force));
         assert_eq!(found, "the model's dependencies name Real(77), which is no element of a variable");
     }

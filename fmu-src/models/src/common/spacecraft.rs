@@ -1,8 +1,6 @@
 //! What several models read from their spacecraft alike.
 
-use std::collections::BTreeSet;
-
-use fmi_export::{Failure, Knowns, RealMatrix, RealVector, SetupError, Values};
+use fmi_export::{Failure, RealMatrix, SetupError, Values};
 use nalgebra::Matrix3;
 use physics::momentum::WheelArray;
 use physics::radiation::SolarModel;
@@ -76,14 +74,6 @@ pub struct ReportedFace {
     pub name: String,
     /// The panel it belongs to, if to one.
     pub panel: Option<usize>,
-    /// Whether another surface can shadow it, or the face it shares heat with.
-    pub shadowed: bool,
-    /// The panels whose angle changes its light and heat: its own, and those that can shadow it.
-    pub lit_past: BTreeSet<usize>,
-    /// Whether its recoil can push along each body axis.
-    pub recoils_along: [bool; 3],
-    /// Whether it stores heat.
-    pub stores_heat: bool,
 }
 
 /// The faces reported one by one, none unless the file asks for that.
@@ -93,64 +83,6 @@ pub fn reported_faces(file: &str, spacecraft: &Spacecraft) -> Result<Vec<Reporte
     }
     let model = DisturbanceModel::new(spacecraft, &Options::default())
         .map_err(|error| SetupError(format!("{file}: {error}")))?;
-    let faces = model.face_names().zip(model.face_panels()).enumerate();
-    let reported = |(face, (name, panel)): (usize, (String, Option<usize>))| {
-        let shadowers = model.shadowers(face);
-        ReportedFace {
-            name,
-            panel,
-            shadowed: !shadowers.is_empty(),
-            lit_past: shadowers.into_iter().chain([panel]).flatten().collect(),
-            recoils_along: [0, 1, 2].map(|axis| model.recoils_along(face, axis)),
-            stores_heat: model.face_stores_heat(face),
-        }
-    };
-    Ok(faces.map(reported).collect())
-}
-
-/// Whether the file describes the shade in both shapes, so that a shape can be chosen.
-pub fn has_both_shapes(spacecraft: &Spacecraft) -> bool {
-    let both = [spacecraft::SunshadeModel::Plates, spacecraft::SunshadeModel::Cylinder];
-    spacecraft.sunshade.as_ref().is_some_and(|shade| both.into_iter().all(|shape| shade.has(shape)))
-}
-
-/// Whether any surface can shadow another.
-pub fn can_shadow(spacecraft: &Spacecraft) -> bool {
-    DisturbanceModel::new(spacecraft, &Options::default()).is_ok_and(|model| model.can_shadow())
-}
-
-/// Elements of an inertia that a gravity gradient's torque about `axis` does not pass by: all but its own moment.
-pub fn inertia_about_others(inertia: RealMatrix<3, 3>, axis: usize) -> Knowns {
-    let all = (0..9).map(|i| (i / 3, i % 3)).filter(|&at| at != (axis, axis));
-    all.map(|(row, column)| inertia.element(row, column)).collect()
-}
-
-/// Elements of an inertia that count for the momentum along `axis`: its row, and its column, which is the same.
-pub fn inertia_along(inertia: RealMatrix<3, 3>, axis: usize) -> Knowns {
-    (0..3).flat_map(|i| [inertia.element(axis, i), inertia.element(i, axis)]).collect()
-}
-
-/// Components of a centre of mass that count for a torque about `axis`: those across it.
-pub fn across(center_of_mass: RealVector<3>, axis: usize) -> Knowns {
-    (0..3).filter(|&i| i != axis).map(|i| center_of_mass.element(i)).collect()
-}
-
-/// Whether a panel's angle changes its force along a body axis beyond how much light falls on it: not if it turns about
-/// that axis and shadows nothing.
-pub fn turns_out_of(spacecraft: &Spacecraft, panel: usize, axis: usize) -> bool {
-    spacecraft.panels.get(panel).is_some_and(|panel| {
-        panel.axis_body[axis].abs() < 1.0 || panel.polygon.is_some() && can_shadow(spacecraft)
-    })
-}
-
-/// Whether the shade's shape changes its recoil along a body axis.
-pub fn shape_recoils_along(spacecraft: &Spacecraft, axis: usize) -> bool {
-    has_both_shapes(spacecraft) && spacecraft.sunshade.as_ref().is_some_and(|shade| shade.faces_along(axis))
-}
-
-/// Whether a face that stores heat can be shadowed: it radiates over all of itself then, otherwise from where it is lit.
-pub fn stores_heat_in_shadow(spacecraft: &Spacecraft) -> bool {
-    DisturbanceModel::new(spacecraft, &Options::default()).is_ok_and(|model| {
-        (0..model.face_count()).any(|face| model.face_stores_heat(face) && !model.shadowers(face).is_empty())
-    })
+    let faces = model.face_names().zip(model.face_panels());
+    Ok(faces.map(|(name, panel)| ReportedFace { name, panel }).collect())
 }

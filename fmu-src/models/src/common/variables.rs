@@ -1,6 +1,6 @@
 //! Groups of variables that several models have.
 
-use fmi_export::{Boolean, Choice, Failure, Integer, Knowns, Real, Values, Variables, knowns};
+use fmi_export::{Boolean, Choice, Failure, Integer, Real, Values, Variables};
 use physics::bodies::Body;
 use physics::bodies::surface::{self, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
@@ -79,11 +79,6 @@ impl SolarVariables {
         } else {
             SunLight::Distance { flux_w_m2: values.real(self.at_1_au.flux) }
         }
-    }
-
-    /// All of them.
-    pub fn knowns(&self) -> Knowns {
-        knowns![self.at_1_au.flux, self.fixed_pressure, self.pressure]
     }
 }
 
@@ -168,20 +163,6 @@ pub struct EllipseVariables {
     /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::ellipse(*setup).true_anomaly_rad)]
     pub true_anomaly: Real,
-}
-
-impl EllipseVariables {
-    /// All of them.
-    pub fn knowns(&self) -> Knowns {
-        knowns![
-            self.semi_major_axis,
-            self.eccentricity,
-            self.inclination,
-            self.ascending_node,
-            self.periapsis_argument,
-            self.true_anomaly,
-        ]
-    }
 }
 
 /// The value of a parameter, or the body's `own` where it was left at `default`, the start value of the description.

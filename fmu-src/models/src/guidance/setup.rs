@@ -3,13 +3,11 @@
 use std::sync::Arc;
 
 use fmi_export::{Context, Model, SetupError};
-use nalgebra::Vector3;
 use physics::bodies::Body;
 use physics::environment::flown::FlownEphemeris;
-use physics::guidance::nominal_thrust::NominalThrust;
 use physics::guidance::timeline::Timeline;
 use physics::momentum::WheelArray;
-use physics::spacecraft::{Spacecraft, SunKeepIn, ThrusterSet};
+use physics::spacecraft::{Spacecraft, SunKeepIn};
 use serde::Serialize;
 
 use crate::common::center::target_of;
@@ -71,19 +69,6 @@ impl GuidanceSetup {
         use core::f64::consts::FRAC_PI_2;
         let half = SunKeepIn { azimuth_rad: FRAC_PI_2, elevation_rad: FRAC_PI_2 };
         self.spacecraft.sun_keep_in.map_or(half, |zone| zone.within(&half))
-    }
-
-    /// Whether another set of thrusters has another nominal direction, and another nominal acceleration.
-    pub fn thrust_differs(&self) -> [bool; 2] {
-        use ThrusterSet::{C22, Lva, Mono4};
-        let of = |set| NominalThrust::new(&self.spacecraft, set, Vector3::from([0.0; 3]));
-        let [none, others @ ..] = [None, Some(Lva), Some(C22), Some(Mono4)].map(of);
-        let any =
-            |differs: fn(&NominalThrust, &NominalThrust) -> bool| others.iter().any(|it| differs(it, &none));
-        [
-            any(|a, b| a.direction_body != b.direction_body),
-            any(|a, b| a.acceleration_m_s2 != b.acceleration_m_s2),
-        ]
     }
 
     /// The greatest number of an instrument.

@@ -3,13 +3,11 @@
 use std::sync::Arc;
 
 use fmi_export::{Context, Failure, Model, SetupError};
-use nalgebra::Vector3;
 use physics::bodies::Body;
 use physics::environment::flown::FlownEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PreparedSpacecraft};
-use physics::radiation::TorquePolynomial;
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
@@ -88,41 +86,17 @@ impl PlantSetup {
         })
     }
 
-    /// The shade's torque polynomials in the shapes the file describes, with the centre of mass at the origin and a metre
-    /// along each axis from it.
-    pub fn polynomials(&self) -> ShadePolynomials {
-        let shapes = [SunshadeModel::Plates, SunshadeModel::Cylinder];
-        ShadePolynomials(CENTERS_OF_MASS_BODY_M.map(|center_of_mass_body_m| {
-            let of_shape =
-                |shade, shape| TorquePolynomial::of_sunshade(shade, shape, &center_of_mass_body_m).ok();
-            let shade = self.spacecraft.sunshade.iter();
-            shade
-                .flat_map(|shade| shapes.into_iter().filter_map(move |shape| of_shape(shade, shape)))
-                .collect()
-        }))
+    /// Which ways to turn the spacecraft are open.
+    pub fn open_choices(&self) -> OpenChoices {
+        OpenChoices { ideal: true, guided: true }
     }
 }
 
-const CENTERS_OF_MASS_BODY_M: [Vector3<f64>; 4] = [
-    Vector3::new(0.0, 0.0, 0.0),
-    Vector3::new(1.0, 0.0, 0.0),
-    Vector3::new(0.0, 1.0, 0.0),
-    Vector3::new(0.0, 0.0, 1.0),
-];
-
-/// Torque polynomials by centre of mass and shape.
-pub struct ShadePolynomials([Vec<TorquePolynomial>; 4]);
-
-impl ShadePolynomials {
-    /// Whether a coefficient follows the centre of mass along `axis`, in any shape; it is linear in it.
-    pub fn moves_coefficient(&self, axis: usize, row: usize, column: usize) -> bool {
-        let [at_origin, aside @ ..] = &self.0;
-        at_origin.iter().zip(&aside[axis]).any(|(one, other)| one.differs(other, row, column))
-    }
-
-    /// Whether a coefficient differs between the shade's shapes, the centre of mass anywhere.
-    pub fn shapes_differ(&self, row: usize, column: usize) -> bool {
-        let differ = |pair: &[TorquePolynomial]| pair[0].differs(&pair[1], row, column);
-        self.0.iter().any(|shapes| shapes.windows(2).any(differ))
-    }
+/// Which ways to turn the spacecraft are open.
+#[derive(Clone, Copy, Debug)]
+pub struct OpenChoices {
+    /// The attitude follows a command or guidance, and dumps take the momentum at once.
+    pub ideal: bool,
+    /// The orbit phase's own guidance sets the attitude, if only where a flight by torque begins.
+    pub guided: bool,
 }

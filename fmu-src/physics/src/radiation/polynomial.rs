@@ -30,12 +30,6 @@ pub struct TorquePolynomial {
 }
 
 impl TorquePolynomial {
-    /// Whether a coefficient is another's by more than rounding.
-    pub fn differs(&self, other: &Self, row: usize, column: usize) -> bool {
-        let greatest_m3 = self.k.iter().chain(&other.k).flatten().fold(0.0_f64, |most, k| most.max(k.abs()));
-        (self.k[row][column] - other.k[row][column]).abs() > 1e-12 * greatest_m3
-    }
-
     /// Of the sunshade in one of its forms, in the shade frame. The torque in the body frame is
     /// `dcm_body_from_shade` times it (eq 12).
     ///

@@ -79,14 +79,6 @@ pub struct Sunshade {
 }
 
 impl Sunshade {
-    /// Whether any face of the shade, in any shape, looks partly along a body axis.
-    pub fn faces_along(&self, axis: usize) -> bool {
-        let row = self.dcm_body_from_shade.row(axis);
-        // The cylinder's axis is the shade's Z.
-        self.cylinder.is_some() && (row[0] != 0.0 || row[1] != 0.0)
-            || self.plates.iter().any(|plate| row.dot(&plate.normal.transpose()) != 0.0)
-    }
-
     /// Whether the shade is described this way.
     pub fn has(&self, model: SunshadeModel) -> bool {
         match model {

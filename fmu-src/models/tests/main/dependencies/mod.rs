@@ -1,12 +1,9 @@
-//! `dependencies` are exact: every input and every exact parameter is changed at many states, and what follows at once
-//! is what the lists of `ModelStructure` say, no more and no less.
+//! What acts is declared in `ModelStructure`: at random states a known is changed, and every unknown that follows lists it.
+//! More than that may be declared; longer searches run in `cargo xtask test --long`.
 
 mod bench;
-mod disturbance;
-mod guidance;
-mod plant;
-mod plant_dynamics;
+mod draw;
+mod models;
 pub mod random;
 pub mod spacecraft;
-mod spin;
 mod variable;

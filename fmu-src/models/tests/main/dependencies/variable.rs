@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use fmi_export::model_description::{
-    Causality, Description, Initial, SimpleTypeKind, Variability, VariableKind, rules,
+    Causality, Description, Initial, SimpleTypeKind, VariableKind, rules,
 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +20,7 @@ pub struct Variable {
     /// Place in the table of its base type.
     pub slot: usize,
     pub input: bool,
-    /// An input or tunable parameter.
-    pub settable: bool,
+    /// An input, or a parameter with `initial="exact"`.
     pub exact: bool,
     pub unit: String,
     pub nominal: f64,
@@ -86,8 +85,6 @@ pub fn variables(description: &Description) -> Vec<Variable> {
             base,
             slot: *count,
             input: variable.causality == Causality::Input,
-            settable: variable.causality == Causality::Input
-                || variable.causality == Causality::Parameter && variable.variability == Variability::Tunable,
             exact: variable.causality == Causality::Input
                 || variable.causality == Causality::Parameter
                     && rules::effective_initial(variable) == Some(Initial::Exact),

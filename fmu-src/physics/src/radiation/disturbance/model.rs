@@ -130,34 +130,6 @@ impl DisturbanceModel {
         1 + faces / 8 + planet + shadows
     }
 
-    /// What can shadow a face, or the other face of its surface where heat goes from one to the other: for each such
-    /// surface the panel it is, if one.
-    pub fn shadowers(&self, face: usize) -> Vec<Option<usize>> {
-        let found = self.faces.faces.get(face).map(|found| &self.faces.surfaces[found.surface]);
-        let Some((surface, scene, outline)) =
-            found.and_then(|surface| Some((surface, self.scene.as_ref()?, surface.outline?)))
-        else {
-            return Vec::new();
-        };
-        let rear = face > surface.first_face;
-        let other = surface.thermal.conduction.is_some().then(|| scene.before(outline, !rear));
-        scene.before(outline, rear).chain(other.into_iter().flatten()).collect()
-    }
-
-    /// Whether a face's recoil can push along a body axis: its normal can have a part along it.
-    pub fn recoils_along(&self, face: usize, axis: usize) -> bool {
-        self.faces.faces.get(face).is_some_and(|face| match self.faces.normals[face.normal] {
-            Normal::Fixed(normal) => normal[axis] != 0.0,
-            Normal::Front(panel) | Normal::Rear(panel) => self.panels[panel].axis_body[axis].abs() < 1.0,
-        })
-    }
-
-    /// Whether a face stores heat.
-    pub fn face_stores_heat(&self, face: usize) -> bool {
-        let surface = self.faces.faces.get(face).map(|face| &self.faces.surfaces[face.surface]);
-        surface.is_some_and(|surface| surface.thermal.heat_capacity_j_m2_k > 0.0)
-    }
-
     /// Area of a face in m2; 0 for a face there is not.
     pub fn face_area_m2(&self, face: usize) -> f64 {
         self.faces.faces.get(face).map_or(0.0, |face| self.faces.surfaces[face.surface].area_m2)

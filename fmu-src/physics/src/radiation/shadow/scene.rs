@@ -146,12 +146,6 @@ impl ShadowScene {
         self.surfaces.iter().any(|surface| surface.before.iter().any(|list| !list.is_empty()))
     }
 
-    /// What can stand before a side of an outline: for each such surface the panel it is, if one.
-    pub fn before(&self, outline: usize, rear: bool) -> impl Iterator<Item = Option<usize>> + '_ {
-        let before = self.surfaces.get(outline).map_or(&[][..], |surface| &surface.before[usize::from(rear)]);
-        before.iter().map(|&other| self.surfaces[other].hinge.map(|hinge| hinge.panel))
-    }
-
     /// Ordered pairs in which the second surface can shadow a side of the first.
     pub fn candidate_pairs(&self) -> usize {
         self.surfaces.iter().flat_map(|surface| &surface.before).map(Vec::len).sum()

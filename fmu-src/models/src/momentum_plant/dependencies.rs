@@ -1,0 +1,156 @@
+//! What outputs and calculated parameters depend on, by groups.
+
+use fmi_export::{Dependencies, Knowns, knowns};
+
+use super::setup::PlantSetup;
+use super::variables::PlantVariables;
+
+/// Rows by groups of outputs.
+pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
+    let (inputs, parameters) = (&Inputs::of(setup, v), &Parameters::of(v));
+    let mut table = Dependencies::new();
+    motion(&mut table, v, inputs, parameters);
+    loads(&mut table, v, inputs, parameters);
+    momentum(&mut table, v, inputs, parameters);
+    actuators(&mut table, v, inputs, parameters);
+    table
+}
+
+/// Inputs by what they act on directly, over the values of `attitude.source` and `command.source` that are open.
+struct Inputs {
+    /// Where spacecraft, Sun and Earth are.
+    places: Knowns,
+    /// How the spacecraft is turned. A body that moves by torque follows the places where the flight begins, and the angles of
+    /// panels that have a mass.
+    attitude: Knowns,
+    /// Dumps of an ideal flight, which take the momentum at once.
+    dumped_at_once: Knowns,
+    /// What fails.
+    failures: Knowns,
+    /// What fires thrusters and turns wheels.
+    commanded: Knowns,
+}
+
+impl Inputs {
+    fn of(setup: &PlantSetup, v: &PlantVariables) -> Self {
+        let choice = setup.open_choices();
+        let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth];
+        let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
+        // The Sun's place in a downlink follows the momentum, and that the dump.
+        let guided = knowns![&v.panel, &v.dump].only_if(choice.guided);
+        let ideal = knowns![&v.command].only_if(choice.ideal);
+        let attitude = knowns![&places, guided, ideal, knowns![&v.panel].only_if(panels_weigh)];
+        let sensors = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
+        let wheels = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
+        Self {
+            places,
+            attitude,
+            dumped_at_once: knowns![&v.dump].only_if(choice.ideal),
+            failures: knowns![v.star_tracker.failed, v.gyro.failed, sensors, wheels],
+            commanded: knowns![&v.command, &v.dump, &v.thrust, &v.thruster, &v.wheel, &v.panel],
+        }
+    }
+}
+
+/// Parameters by section.
+struct Parameters {
+    orbit: Knowns,
+    attitude: Knowns,
+    sensors: Knowns,
+    light: Knowns,
+    momentum: Knowns,
+    actuators: Knowns,
+}
+
+impl Parameters {
+    fn of(v: &PlantVariables) -> Self {
+        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, &v.eclipse];
+        let aimed = knowns![&v.momentum, &v.solar, &v.spacecraft, &v.sunshade, &v.panel];
+        let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
+        let attitude = knowns![
+            &orbit,
+            &v.attitude,
+            &v.command,
+            &v.guided,
+            &v.keep_in,
+            aimed,
+            wheels.collect::<Knowns>(),
+        ];
+        let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
+        let light = knowns![&v.planet_light, &v.thermal, &v.shadowing, &v.gravity_gradient, &v.solver];
+        let momentum = knowns![&attitude, &v.dump];
+        Self {
+            // A dump takes propellant, which moves the centre of mass.
+            light: knowns![&momentum, &v.thruster, &v.tank, light],
+            actuators: knowns![
+                &momentum, &sensors, &v.control, &v.wheel, &v.thruster, &v.tank, &v.thrust
+            ],
+            sensors: knowns![&attitude, sensors],
+            orbit,
+            attitude,
+            momentum,
+        }
+    }
+}
+
+/// Orbit and attitude, Sun, planet and Earth as they are seen, and what sensors make of it.
+fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
+    table.output(v.epoch, knowns![], v.start.epoch);
+    let sun = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.sun.distance, v.sun.lit_fraction];
+    let earth = knowns![v.earth.position_inertial, v.earth.velocity_inertial];
+    let orbit = knowns![v.position, v.velocity, v.heliocentric.position, v.orbit.time_since_periapsis];
+    table.output(knowns![sun, earth, orbit], &inputs.places, &parameters.orbit);
+    let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
+    let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
+    let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
+    table.output(seen, &inputs.attitude, &parameters.attitude);
+    table.output(&v.panel, knowns![&inputs.attitude, &v.panel], &parameters.attitude);
+    let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid];
+    table.output(sensed, knowns![&inputs.attitude, &inputs.failures], &parameters.sensors);
+}
+
+/// Forces and torques by source, what they add up to, and faces one by one.
+fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
+    let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel];
+    let by_source = knowns![&v.torque.by_source, &v.force.by_source, &v.plate];
+    table.output(by_source, lit, &parameters.light);
+    let total = knowns![v.torque.total, v.force.total, v.force.inertial, v.acceleration];
+    let applied = knowns![v.torque.applied, v.force.applied];
+    table.output(
+        total,
+        knowns![lit, applied, &inputs.commanded, &inputs.failures],
+        knowns![&parameters.light, &parameters.actuators],
+    );
+    let shape = knowns![v.spacecraft.center_of_mass, v.sunshade.shape];
+    table.calculated(v.sunshade.coefficient, shape);
+}
+
+/// System momentum, dumps, and what they take.
+fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
+    let momentum = &parameters.momentum;
+    let dumped = &knowns![&inputs.attitude, &inputs.dumped_at_once];
+    let outputs = knowns![v.momentum.body, v.momentum.inertial, &v.momentum.by_source];
+    table.output(outputs, dumped, momentum);
+    let target = knowns![&inputs.attitude, &v.panel, &v.dump];
+    table.output(knowns![v.momentum.target_clamped], &target, momentum);
+    let spent = knowns![v.mass, &v.propellant, &v.tank, v.center_of_mass];
+    let moved = knowns![v.delta_v, v.accelerometer.delta_v];
+    table.output(knowns![spent, moved], dumped, &parameters.actuators);
+    table.output(&v.dump, target, &parameters.actuators);
+    table.calculated(v.dump.guaranteed_threshold, &v.wheel);
+}
+
+/// Wheels, thrusters, and the controller that drives them; what swings on the body starts at rest.
+fn actuators(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
+    let all = &knowns![&inputs.attitude, &inputs.commanded, &inputs.failures];
+    let fired = knowns![v.thrust.active, &v.thruster, v.torque.thruster, v.force.thruster];
+    table.output(knowns![fired, &v.control], all, &parameters.actuators);
+    for wheel in &v.wheel {
+        table.output(wheel.torque, all, &parameters.actuators);
+        // Ideal wheels hold what is left of the momentum.
+        let held = knowns![wheel.momentum, wheel.speed, wheel.saturated];
+        let dumped = knowns![&inputs.attitude, &inputs.dumped_at_once];
+        table.output(held, dumped, knowns![&parameters.momentum, &v.wheel]);
+    }
+    table.output(knowns![&v.flexible_mode, &v.slosh], &inputs.attitude, knowns![]);
+}

@@ -1,9 +1,0 @@
-//! What each output and calculated parameter depends on.
-
-mod dynamics;
-mod flexibility;
-mod groups;
-mod propulsion;
-mod table;
-
-pub use table::table;

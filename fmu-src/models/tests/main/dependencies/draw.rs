@@ -1,0 +1,95 @@
+//! Random states: options by their items, numbers by rows of ranges.
+
+use fmi_export::Model;
+
+use super::super::named_model::Tables;
+use super::bench::Bench;
+use super::random::RandomNumbers;
+use super::variable::Base;
+
+/// How a variable is drawn.
+#[derive(Clone, Copy)]
+pub enum Draw {
+    /// A vector in any direction, its length between two bounds.
+    Vector(f64, f64),
+    /// A quaternion.
+    Rotation,
+    Between(f64, f64),
+    Whole(i32, i32),
+    /// True with this share.
+    Flag(f64),
+}
+
+/// A variable, with `*` for every index of a group, how it is drawn and how often; otherwise it stays at its default.
+pub type Row = (&'static str, Draw, f64);
+
+/// Which enumerations and flags stay as they are, by the beginning of their names.
+pub type Kept = &'static [&'static str];
+
+/// Draws options and numbers.
+pub fn draw<M: Model>(bench: &mut Bench<M>, kept: Kept, rows: &[Row]) -> Tables {
+    let mut random = bench.random.clone();
+    let mut values = bench.defaults();
+    for at in 0..bench.variables.len() {
+        let variable = &bench.variables[at];
+        if !variable.exact || kept.iter().any(|beginning| variable.name.starts_with(beginning)) {
+            continue;
+        }
+        let value = match variable.base {
+            Base::Integer if !variable.items.is_empty() => {
+                let k = random.whole(0, variable.items.len() as i32 - 1) as usize;
+                f64::from(variable.items[k])
+            }
+            Base::Boolean => random.whole(0, 1),
+            _ => continue,
+        };
+        bench.write(&mut values, at, value);
+    }
+    redraw(bench, &mut random, rows, &mut values);
+    bench.random = random;
+    values
+}
+
+/// Draws numbers.
+pub fn redraw<M: Model>(bench: &Bench<M>, random: &mut RandomNumbers, rows: &[Row], values: &mut Tables) {
+    for (name, how, share) in rows {
+        for name in names(name) {
+            if random.next() < *share {
+                put(bench, random, &name, *how, values);
+            }
+        }
+    }
+}
+
+fn put<M: Model>(bench: &Bench<M>, random: &mut RandomNumbers, name: &str, how: Draw, values: &mut Tables) {
+    let mut vector = |elements: &[f64]| {
+        for (i, value) in elements.iter().enumerate() {
+            bench.put(values, &format!("{name}[{}]", i + 1), *value);
+        }
+    };
+    match how {
+        Draw::Vector(low, high) => {
+            let length = random.between(low, high);
+            vector(&random.direction().map(|x| length * x));
+        }
+        Draw::Rotation => {
+            let (axis, half) = (random.direction(), random.between(0.0, core::f64::consts::PI));
+            let [x, y, z] = axis.map(|x| x * half.sin());
+            vector(&[x, y, z, half.cos()]);
+        }
+        Draw::Between(low, high) => bench.put(values, name, random.between(low, high)),
+        Draw::Whole(low, high) => bench.put(values, name, random.whole(low, high)),
+        Draw::Flag(share) => bench.put(values, name, f64::from(u8::from(random.next() < share))),
+    }
+}
+
+/// No file of the tests has more of anything.
+const MOST: usize = 20;
+
+fn names(name: &str) -> Vec<String> {
+    if name.contains('*') {
+        (1..=MOST).map(|k| name.replace('*', &k.to_string())).collect()
+    } else {
+        vec![name.to_owned()]
+    }
+}
