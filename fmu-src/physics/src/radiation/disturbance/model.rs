@@ -130,6 +130,15 @@ impl DisturbanceModel {
         1 + faces / 8 + planet + shadows
     }
 
+    /// Refuses a model whose evaluation takes more than `limit_units` of work, of about a microsecond each.
+    ///
+    /// # Errors
+    /// [`ModelError::Work`].
+    pub fn within(self, limit_units: u32) -> Result<Self, ModelError> {
+        let found = self.evaluation_units();
+        if found > limit_units { Err(ModelError::Work { found, limit: limit_units }) } else { Ok(self) }
+    }
+
     /// What can shadow a face, or the other face of its surface where heat goes from one to the other: for each such
     /// surface the panel it is, if one.
     pub fn shadowers(&self, face: usize) -> Vec<Option<usize>> {
