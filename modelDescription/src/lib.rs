@@ -29,7 +29,7 @@ pub use description::{
 };
 pub use finding::{Code, Finding, Lines, Severity};
 #[cfg(feature = "reader")]
-pub use reader::{Parsed, ReadError, Start, Xml, parse};
+pub use reader::{MAX_BYTES, Parsed, ReadError, Start, Xml, parse};
 pub use status::Status;
 pub use validate::validate;
 pub use write::{escape, to_xml};

@@ -37,16 +37,42 @@ pub fn open(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// Longest text that [`read_text`] takes, in bytes: that of the TOML files.
+pub const MOST_TEXT_BYTES: u64 = 4 << 20;
+/// Largest table of numbers that is read, in bytes.
+pub const MOST_TABLE_BYTES: u64 = 64 << 20;
+
 /// Reads a regular file whole.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    read_at_most(path, u64::MAX)
+}
+
+/// Reads a regular file of at most so many bytes; a larger one is refused before it is read.
+pub fn read_at_most(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
+    let file = open_at_most(path, most_bytes)?;
     let mut bytes = Vec::new();
-    open(path)?.read_to_end(&mut bytes)?;
+    // It may grow while it is read.
+    if file.take(most_bytes.saturating_add(1)).read_to_end(&mut bytes)? as u64 > most_bytes {
+        return Err(too_large("more", most_bytes));
+    }
     Ok(bytes)
+}
+
+/// Opens a regular file of at most so many bytes for reading.
+pub fn open_at_most(path: &Path, most_bytes: u64) -> io::Result<File> {
+    let file = open(path)?;
+    let found = file.metadata()?.len();
+    if found > most_bytes { Err(too_large(found, most_bytes)) } else { Ok(file) }
+}
+
+fn too_large(found: impl std::fmt::Display, most_bytes: u64) -> io::Error {
+    io::Error::other(format!("found {found} bytes, allowed: at most {most_bytes}"))
 }
 
 /// Reads a text file; the error names the file, and the line that is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, String> {
-    let bytes = read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let bytes =
+        read_at_most(path, MOST_TEXT_BYTES).map_err(|error| format!("{}: {error}", path.display()))?;
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();

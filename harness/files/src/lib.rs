@@ -11,5 +11,5 @@ mod temporary;
 
 pub use destination::{Destination, Growing};
 pub use entries::Entries;
-pub use input::{kind, open, read, read_text};
+pub use input::{MOST_TABLE_BYTES, MOST_TEXT_BYTES, kind, open, open_at_most, read, read_at_most, read_text};
 pub use temporary::{Scratch, remove_temporaries};

@@ -6,6 +6,7 @@ use std::{
     path::{Component, Path, PathBuf},
 };
 
+use model_description::MAX_BYTES;
 use zip::ZipArchive;
 
 use crate::{Error, foreign};
@@ -17,20 +18,22 @@ pub struct Limits {
     pub entries: usize,
     /// Bytes of all unpacked files together.
     pub total_bytes: u64,
+    /// Bytes of an XML file in the archive's root.
+    pub description_bytes: u64,
 }
 
 impl Default for Limits {
     /// 10,000 entries and 4 GiB: far above any sane FMU, far below a full disk.
     fn default() -> Self {
-        Self { entries: 10_000, total_bytes: 4 << 30 }
+        Self { entries: 10_000, total_bytes: 4 << 30, description_bytes: MAX_BYTES as u64 }
     }
 }
 
 /// Unpacks `archive` into the existing folder `into`.
 ///
 /// Refused: a path that is absolute, leaves the folder or has a drive or backslash root; a symbolic link; an
-/// encrypted entry; the same path twice; more entries or bytes than `limits`, counted while unpacking, so
-/// that an archive which lies about its sizes gains nothing; a damaged or corrupted archive.
+/// encrypted entry; the same path twice; more entries or bytes than `limits` by the archive's own list, before
+/// anything is unpacked; an entry that holds more than the list says; a damaged or corrupted archive.
 ///
 /// Gives the paths of the entries as the archive writes them.
 pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>, Error> {
@@ -41,7 +44,20 @@ pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>
     if zip.len() > limits.entries {
         return Err(refuse(format!("{} entries, at most {} are allowed", zip.len(), limits.entries)));
     }
-    let mut left = limits.total_bytes;
+    let mut total_bytes = 0;
+    for index in 0..zip.len() {
+        let entry = zip.by_index_raw(index).map_err(|error| refuse(error.to_string()))?;
+        let (name, bytes) = (String::from_utf8_lossy(entry.name_raw()).into_owned(), entry.size());
+        if bytes > limits.description_bytes && is_description(&name) {
+            let most = limits.description_bytes;
+            return Err(refuse(format!("{name} unpacks to {bytes} bytes, at most {most} are allowed")));
+        }
+        total_bytes = bytes.saturating_add(total_bytes);
+        if total_bytes > limits.total_bytes {
+            let most = limits.total_bytes;
+            return Err(refuse(format!("unpacks to more than {most} bytes at entry {name:?}")));
+        }
+    }
     let mut names = Vec::with_capacity(zip.len());
     for index in 0..zip.len() {
         let mut entry = zip.by_index(index).map_err(|error| refuse(error.to_string()))?;
@@ -69,18 +85,27 @@ pub fn unpack(archive: &Path, into: &Path, limits: Limits) -> Result<Vec<String>
             io::ErrorKind::AlreadyExists => refuse(format!("entry {name:?} stands twice in the archive")),
             _ => Error::File { path: target.clone(), source },
         })?;
-        let written = copy(&mut entry.by_ref().take(left.saturating_add(1)), &mut output).map_err(
+        let listed = entry.size();
+        let written = copy(&mut entry.by_ref().take(listed.saturating_add(1)), &mut output).map_err(
             |error| match error {
                 CopyError::Read(error) => refuse(format!("entry {name:?}: {error}")),
                 CopyError::Write(source) => Error::File { path: target.clone(), source },
             },
         )?;
-        left = left.checked_sub(written).ok_or_else(|| {
-            refuse(format!("unpacks to more than {} bytes at entry {name:?}", limits.total_bytes))
-        })?;
+        if written > listed {
+            return Err(refuse(format!(
+                "entry {name:?} unpacks to more than the {listed} bytes it is listed with"
+            )));
+        }
         names.push(name);
     }
     Ok(names)
+}
+
+/// Whether an entry is read as XML whole: the description of an FMU or of a system, or what lies beside it.
+fn is_description(name: &str) -> bool {
+    let endings = [".xml", ".ssd", ".ssv"];
+    endings.iter().any(|ending| name.to_ascii_lowercase().ends_with(ending))
 }
 
 /// Which side of a copy failed: a damaged archive is not a full disk.

@@ -7,7 +7,7 @@ use std::{
 };
 
 use files::Scratch;
-use model_description::{CoSimulation, Description, Parsed, ScalarVariable};
+use model_description::{CoSimulation, Description, MAX_BYTES, Parsed, ScalarVariable};
 
 use crate::{
     Binary, Error,
@@ -66,7 +66,7 @@ impl Fmu {
         temporary: Option<Scratch>,
     ) -> Result<Self, Error> {
         let xml_path = folder.join("modelDescription.xml");
-        let xml = files::read(&xml_path).map_err(|error| match error.kind() {
+        let xml = files::read_at_most(&xml_path, MAX_BYTES as u64).map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => Error::Description {
                 path: source.clone(),
                 what: match temporary {

@@ -25,7 +25,8 @@ mod writer;
 pub use error::Error;
 pub use joint::Joint;
 pub use master::{FirstExchange, Master};
-pub use package::is_system;
+pub use package::{MOST_BYTES, is_system};
+pub use reader::MOST_COMPONENTS;
 pub use simulate::{Options, simulate_into};
 pub use structure::{
     Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Linear, Parameter,

@@ -11,6 +11,9 @@ use percent_encoding::percent_decode_str;
 
 use crate::{error::Error, structure::SSD_FILE};
 
+/// Largest description of a system, or set of parameters, in bytes.
+pub const MOST_BYTES: u64 = 64 << 20;
+
 /// Whether a path is that of a system and not of an FMU: an `.ssp` file, or a folder with a description of one.
 pub fn is_system(path: &Path) -> bool {
     path.extension().is_some_and(|it| it.eq_ignore_ascii_case("ssp")) || path.join(SSD_FILE).is_file()
@@ -50,7 +53,7 @@ impl Package {
     pub fn read(&self, relative: &str) -> Result<Vec<u8>, Error> {
         let refuse = |what: String| self.structure(relative, what);
         let path = self.path(relative).map_err(refuse)?;
-        files::read(&path).map_err(|error| match error.kind() {
+        files::read_at_most(&path, MOST_BYTES).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound if relative == SSD_FILE => Error::Archive {
                 path: self.source.clone(),
                 what: format!("it holds no {SSD_FILE}, so it is no system"),

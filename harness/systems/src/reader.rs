@@ -12,6 +12,8 @@ use crate::{
 
 /// Type of the annotation that holds the step, which SSP has no attribute for.
 pub const STEP_ANNOTATION: &str = "heliotorque";
+/// Most components of a system: each is an instance of its FMU.
+pub const MOST_COMPONENTS: usize = 1000;
 /// The only type of component that is simulated.
 const FMU_TYPE: &str = "application/x-fmu-sharedlibrary";
 /// The only type of parameters that is read.
@@ -86,6 +88,10 @@ fn system(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result
 fn elements(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result<(), ReadError> {
     while let Some(child) = xml.child(start)? {
         match local(&child) {
+            "Component" if structure.components.len() == MOST_COMPONENTS => {
+                let message = format!("one more component, allowed: at most {MOST_COMPONENTS}");
+                return Err(refuse(&child, message));
+            }
             "Component" => structure.components.push(component(xml, &child)?),
             "System" => {
                 let name = attribute(&child, "name").unwrap_or_default();

@@ -16,7 +16,7 @@ use crate::{Description, NamingConvention, validate};
 
 pub use error::ReadError;
 use fields::{Fields, words};
-pub use xml::{Start, Xml};
+pub use xml::{MAX_BYTES, Start, Xml};
 
 /// What was read.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use crate::finding::{Code, Finding};
 use crate::write::is_xml_char;
 
 /// Larger files are refused; the largest real ones, with a million variables, have about 300 MB.
-const MAX_BYTES: usize = 1 << 30;
+pub const MAX_BYTES: usize = 512 << 20;
 /// Deeper nesting is refused; FMI needs 6, vendor annotations a few more.
 const MAX_DEPTH: usize = 256;
 /// More attributes on one element are refused; FMI has at most 13.

@@ -38,6 +38,9 @@ impl SetupValue {
     }
 }
 
+/// Most problems that are listed: each costs a search for the name that was meant.
+const MOST_PROBLEMS: usize = 100;
+
 /// The models that a setup text serves.
 pub(crate) struct Readers<'a> {
     /// The model whose description is made.
@@ -97,7 +100,12 @@ pub(crate) fn apply(
 ) -> Result<(), String> {
     let mut problems: Vec<(Option<usize>, String)> = Vec::new();
     let mut assigned: Vec<((bool, bool), usize, Value)> = Vec::new();
+    let mut unchecked = 0;
     for entry in given {
+        if problems.len() == MOST_PROBLEMS {
+            unchecked += 1;
+            continue;
+        }
         match targets(entry, readers, description) {
             Ok(targets) => {
                 let is_element = description.variables.iter().any(|variable| variable.name == entry.name);
@@ -112,7 +120,11 @@ pub(crate) fn apply(
     }
     if !problems.is_empty() {
         problems.sort_by_key(|(line, _)| *line);
-        return Err(problems.into_iter().map(|(_, problem)| problem).collect::<Vec<_>>().join("\n"));
+        let mut lines: Vec<String> = problems.into_iter().map(|(_, problem)| problem).collect();
+        if unchecked > 0 {
+            lines.push(format!("{}: {unchecked} more start values, not checked yet", readers.file));
+        }
+        return Err(lines.join("\n"));
     }
     assigned.sort_by_key(|(rank, ..)| *rank);
     for (_, index, value) in assigned {

@@ -6,8 +6,8 @@ use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::Shadow;
 use physics::numerics::scalar::{Dual64, Scalar};
 use physics::radiation::disturbance::{
-    ActiveEffects, BySource, DisturbanceModel, Options, Parameters, PlanetLightMethod, PositionError,
-    Positions, Workspace,
+    ActiveEffects, BySource, DisturbanceModel, ModelError, Options, Parameters, PlanetLightMethod,
+    PositionError, Positions, Workspace,
 };
 use physics::radiation::grid::CellLayout;
 use physics::spacecraft::{Spacecraft, SunshadeModel};
@@ -181,8 +181,16 @@ impl Prepared {
         let shadow = variables.eclipse.read(values, surface.radius_m)?;
         let failure = |error: &dyn core::fmt::Display| Failure::new(error.to_string());
         let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
+        let model = DisturbanceModel::new(spacecraft, &options)
+            .and_then(|model| model.within(variables.solver.units(values)))
+            .map_err(|error| match error {
+                ModelError::Work { .. } => Failure::new(format!(
+                    "{error} (solver.workLimit); see planetLight.method, planetLight.belts and planetLight.nodes"
+                )),
+                _ => failure(&error),
+            })?;
         Ok(Self {
-            model: DisturbanceModel::new(spacecraft, &options).map_err(|error| failure(&error))?,
+            model,
             shadow: present.then_some(shadow),
             parameters: Parameters {
                 flux_at_1_au_w_m2: values.real(variables.solar.flux),

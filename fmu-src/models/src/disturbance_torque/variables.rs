@@ -6,7 +6,7 @@ use super::setup::DisturbanceSetup;
 use crate::common::choices::SunshadeShape;
 use crate::common::effects::{self, GravityGradientVariables, RecoilVariables, ShadowingVariables};
 use crate::common::loads::{ForceBySource, PlateVariables, TorqueBySource};
-use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVariables};
+use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVariables, WorkLimit};
 
 /// Every variable, in the order of the XML.
 #[derive(Variables)]
@@ -34,6 +34,8 @@ pub struct DisturbanceVariables {
     pub spacecraft: SpacecraftVariables,
     #[group]
     pub sunshade: SunshadeVariables,
+    #[group]
+    pub solver: WorkLimit,
     #[group]
     pub torque: TorqueVariables,
     #[group]

@@ -30,12 +30,22 @@ pub enum CellLayout {
 /// of belts has a meridian of them there.
 const ON_TERMINATOR: f64 = 1e-12;
 
-/// The planet's cells in the planet frame, for a planet of radius 1.
+/// The planet's cells in the planet frame, for a planet of radius 1: every belt with every meridian.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanetGrid {
-    cells: Vec<Cell>,
-    resolution: usize,
+    belts: Vec<Belt>,
+    /// Sine and cosine of the longitude of the cells' centres.
+    meridians: Vec<(f64, f64)>,
     map: Option<PlanetMap>,
+}
+
+/// Cells of one latitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Belt {
+    sin_latitude: f64,
+    cos_latitude: f64,
+    /// Area of one of its cells.
+    area: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +74,7 @@ pub enum GridError {
 impl PlanetGrid {
     /// Number of cells.
     pub fn cell_count(&self) -> usize {
-        self.cells.len()
+        self.belts.len() * self.meridians.len()
     }
 
     /// A grid of `resolution` belts of latitude and twice as many of longitude (n_res of the paper).
@@ -76,38 +86,44 @@ impl PlanetGrid {
             return Err(GridError::Resolution { found: resolution });
         }
         let n = resolution as f64;
-        let mut cells = Vec::with_capacity(2 * resolution * resolution);
-        for belt in 0..resolution {
+        let belts = (0..resolution).map(|belt| {
             let latitude = -FRAC_PI_2 + PI * (belt as f64 + 0.5) / n;
             let (south, north) = match layout {
                 CellLayout::Corrected => (latitude - FRAC_PI_2 / n, latitude + FRAC_PI_2 / n),
                 CellLayout::AsPrinted => (latitude, latitude + PI / n),
             };
             let area = PI / n * (north.sin() - south.sin());
-            for step in 0..2 * resolution {
-                let offset = if layout == CellLayout::Corrected { 0.5 } else { 0.0 };
-                let longitude = -PI + PI * (step as f64 + offset) / n;
-                let (sin, cos) = longitude.sin_cos();
-                let normal = Vector3::new(cos * latitude.cos(), sin * latitude.cos(), latitude.sin());
-                cells.push(Cell { normal, area });
-            }
-        }
-        Ok(Self { cells, resolution, map: None })
+            Belt { sin_latitude: latitude.sin(), cos_latitude: latitude.cos(), area }
+        });
+        let offset = if layout == CellLayout::Corrected { 0.5 } else { 0.0 };
+        let meridians = (0..2 * resolution).map(|step| (-PI + PI * (step as f64 + offset) / n).sin_cos());
+        Ok(Self { belts: belts.collect(), meridians: meridians.collect(), map: None })
     }
 
     /// Belts of latitude.
     pub fn resolution(&self) -> usize {
-        self.resolution
+        self.belts.len()
+    }
+
+    /// The cells, belt by belt from the south, in the order of a [`PlanetMap`].
+    fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
+        self.belts.iter().flat_map(|belt| {
+            self.meridians.iter().map(|(sin, cos)| {
+                let normal =
+                    Vector3::new(cos * belt.cos_latitude, sin * belt.cos_latitude, belt.sin_latitude);
+                Cell { normal, area: belt.area }
+            })
+        })
     }
 
     /// Unit normals of the cells in the planet frame, in the order of a [`PlanetMap`].
     pub fn normals(&self) -> impl Iterator<Item = Vector3<f64>> + '_ {
-        self.cells.iter().map(|cell| cell.normal)
+        self.cells().map(|cell| cell.normal)
     }
 
     /// Sum of the cells' areas over the sphere's.
     pub fn covered(&self) -> f64 {
-        self.cells.iter().map(|cell| cell.area).sum::<f64>() / (4.0 * PI)
+        self.cells().map(|cell| cell.area).sum::<f64>() / (4.0 * PI)
     }
 
     /// The cells of a map, with albedo, emissivity and temperature of their own.
@@ -157,7 +173,7 @@ impl PlanetGrid {
         let sun = planet_axes.tr_mul(&view.sun);
         let center = planet_axes.tr_mul(&view.nadir) * (view.distance_m / view.radius_m);
         let mut light = PlanetLight::dark();
-        for (index, cell) in self.cells.iter().enumerate() {
+        for (index, cell) in self.cells().enumerate() {
             let cell_normal = constant_vector::<T>(&cell.normal);
             let line_of_sight = center + cell_normal;
             let distance_squared = line_of_sight.dot(&line_of_sight);

@@ -22,6 +22,7 @@ use super::description::{
 use super::document::Document;
 use super::error::SpacecraftError;
 use super::instruments::Instrument;
+use super::limits::MOST_SURFACES;
 use super::mass::{MassProperties, PanelMass, check_inertia};
 use super::optics::Optics;
 use super::panel::{Panel, PanelControl};
@@ -112,7 +113,7 @@ impl Spacecraft {
         let (description, findings) = document.read::<Description>()?;
         let mut check = Checker::new(&document, findings);
         let surroundings = Surroundings::of(&mut check, description.thermal.as_ref());
-        let mut builder = Builder { check, materials: Materials::new(surroundings) };
+        let mut builder = Builder { check, materials: Materials::new(surroundings), surfaces: 0 };
         let spacecraft = builder.spacecraft(&description);
         builder.check.finish(spacecraft)
     }
@@ -147,6 +148,8 @@ impl Spacecraft {
 struct Builder<'d> {
     check: Checker<'d>,
     materials: Materials,
+    /// Surfaces of shapes so far.
+    surfaces: usize,
 }
 
 impl Builder<'_> {
@@ -399,22 +402,36 @@ impl Builder<'_> {
         let at = |key: &str| Place::root().key(key);
         let Description { plates, boxes, cylinders, discs, dishes, .. } = description;
         let mut found = self.list(&at("plates"), plates.as_deref(), |it, at, index, plate| {
-            (at.clone(), it.plates(at, index, plate))
+            it.counted(at, |it| it.plates(at, index, plate))
         });
         found.extend(self.list(&at("boxes"), boxes.as_deref(), |it, at, index, shape| {
-            (at.clone(), box_plates(&mut it.check, &it.materials, at, index, shape))
+            it.counted(at, |it| box_plates(&mut it.check, &it.materials, at, index, shape))
         }));
         found.extend(self.list(&at("cylinders"), cylinders.as_deref(), |it, at, index, shape| {
-            (at.clone(), cylinder_plates(&mut it.check, &it.materials, at, index, shape))
+            it.counted(at, |it| cylinder_plates(&mut it.check, &it.materials, at, index, shape))
         }));
         found.extend(self.list(&at("discs"), discs.as_deref(), |it, at, index, shape| {
-            (at.clone(), disc_plates(&mut it.check, &it.materials, at, index, shape))
+            it.counted(at, |it| disc_plates(&mut it.check, &it.materials, at, index, shape))
         }));
         found.extend(self.list(&at("dishes"), dishes.as_deref(), |it, at, index, shape| {
-            (at.clone(), dish_plates(&mut it.check, &it.materials, at, index, shape))
+            it.counted(at, |it| dish_plates(&mut it.check, &it.materials, at, index, shape))
         }));
+        if self.surfaces > MOST_SURFACES {
+            let found = "more surfaces, copies and facets of shapes among them";
+            self.check.push(&Place::root(), found, format_args!("at most {MOST_SURFACES}"));
+        }
         distinct_plates(&mut self.check, &found);
         found.into_iter().flat_map(|(_, plates)| plates).collect()
+    }
+
+    /// The plates of a shape; none beyond the most that a spacecraft may have.
+    fn counted(&mut self, at: &Place, plates: impl FnOnce(&mut Self) -> Vec<Plate>) -> (Place, Vec<Plate>) {
+        if self.surfaces > MOST_SURFACES {
+            return (at.clone(), Vec::new());
+        }
+        let plates = plates(self);
+        self.surfaces += plates.len();
+        (at.clone(), plates)
     }
 
     /// A plate with its copies.

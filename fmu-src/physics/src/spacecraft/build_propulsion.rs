@@ -7,7 +7,7 @@ use super::description::{TankDescription, ThrusterDescription};
 use super::place::Place;
 use super::spelling::nearest;
 use super::tank::{Blowdown, HYDRAZINE_KG_M3, Tank};
-use super::thruster::{MOST_THRUSTERS, Thruster, ValveTiming};
+use super::thruster::{Thruster, ValveTiming};
 use crate::constants::STANDARD_GRAVITY_M_S2;
 
 /// Pressure of a tank whose file gives none, in Pa; only its ratio counts. Assumed.
@@ -71,9 +71,6 @@ pub(super) fn thruster(
     index: usize,
     description: &ThrusterDescription,
 ) -> Thruster {
-    if index == MOST_THRUSTERS {
-        check.report(at, "one more", format_args!("at most {MOST_THRUSTERS} thrusters"));
-    }
     let mut positive = |key: &str, value: f64| check.positive(&at.key(key), value);
     let force_n = positive("force_n", description.force_n);
     let at_pressure_pa = description.at_pressure_pa.map(|value| positive("at_pressure_pa", value));

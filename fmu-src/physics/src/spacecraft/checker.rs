@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::document::Document;
 use super::error::{Problem, SpacecraftError};
 use super::place::Place;
-use super::reader::Findings;
+use super::reader::{Findings, MOST_KEPT};
 
 /// Greatest magnitude of any number in a file: keeps products of several numbers far from overflow.
 const GREATEST: f64 = 1e12;
@@ -22,6 +22,8 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 pub struct Checker<'d> {
     document: &'d Document<'d>,
     problems: Vec<Problem>,
+    /// How many more were found than are kept.
+    unlisted: usize,
     reported: BTreeSet<Place>,
     stand_ins: BTreeSet<Place>,
 }
@@ -30,7 +32,13 @@ impl<'d> Checker<'d> {
     /// Goes on with what the reading of the document found.
     pub fn new(document: &'d Document<'d>, findings: Findings) -> Self {
         let stand_ins = findings.stand_ins.into_iter().collect();
-        let mut checker = Self { document, problems: Vec::new(), reported: BTreeSet::new(), stand_ins };
+        let mut checker = Self {
+            document,
+            problems: Vec::new(),
+            unlisted: findings.unlisted,
+            reported: BTreeSet::new(),
+            stand_ins,
+        };
         for (at, found, allowed) in findings.problems {
             checker.push(&at, found, allowed);
         }
@@ -40,7 +48,12 @@ impl<'d> Checker<'d> {
     /// The value if nothing was reported, all problems in the order of their lines otherwise.
     pub fn finish<T>(mut self, value: T) -> Result<T, SpacecraftError> {
         self.problems.sort_by_key(|problem| problem.line);
-        if self.problems.is_empty() { Ok(value) } else { Err(self.document.error(self.problems)) }
+        if self.problems.is_empty() {
+            return Ok(value);
+        }
+        let mut error = self.document.error(self.problems);
+        error.unlisted += self.unlisted;
+        Err(error)
     }
 
     /// Reports one problem, unless what is judged was not written.
@@ -75,6 +88,10 @@ impl<'d> Checker<'d> {
     /// Reports one problem whatever else was found.
     pub fn push(&mut self, at: &Place, found: impl Display, allowed: impl Display) {
         self.reported.insert(at.clone());
+        if self.problems.len() >= MOST_KEPT {
+            self.unlisted += 1;
+            return;
+        }
         self.problems.push(Problem {
             line: Some(self.document.line(at)),
             key: at.to_string(),

@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Problem, SpacecraftError};
+use super::limits::{MOST_PROBLEMS, MOST_TEXT_BYTES};
 use super::place::{Part, Place};
 use super::reader::{Findings, Reader};
 
@@ -19,8 +20,14 @@ pub struct Document<'t> {
 }
 
 impl<'t> Document<'t> {
-    /// Parses the text; an error is one of TOML's grammar.
+    /// Parses the text; an error is one of TOML's grammar, or a text longer than [`MOST_TEXT_BYTES`].
     pub fn parse(file: &'t str, text: &'t str) -> Result<Self, SpacecraftError> {
+        if text.len() > MOST_TEXT_BYTES {
+            let found = format!("a text of {} bytes", text.len());
+            let allowed = format!("at most {MOST_TEXT_BYTES}");
+            let problem = Problem { line: None, key: String::new(), found, allowed };
+            return Err(SpacecraftError { file: file.to_owned(), problems: vec![problem], unlisted: 0 });
+        }
         match DeTable::parse(text) {
             Ok(root) => {
                 let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
@@ -40,6 +47,7 @@ impl<'t> Document<'t> {
                         found: format!("text that is not TOML ({message}){written}"),
                         allowed: grammar(&message).to_owned(),
                     }],
+                    unlisted: 0,
                 })
             }
         }
@@ -58,9 +66,11 @@ impl<'t> Document<'t> {
         }
     }
 
-    /// An error in this file.
-    pub fn error(&self, problems: Vec<Problem>) -> SpacecraftError {
-        SpacecraftError { file: self.file.to_owned(), problems }
+    /// An error in this file; it lists [`MOST_PROBLEMS`] and counts the rest.
+    pub fn error(&self, mut problems: Vec<Problem>) -> SpacecraftError {
+        let unlisted = problems.len().saturating_sub(MOST_PROBLEMS);
+        problems.truncate(MOST_PROBLEMS);
+        SpacecraftError { file: self.file.to_owned(), problems, unlisted }
     }
 
     /// The line, from 1, of a place, or of the innermost table around it that exists.

@@ -22,6 +22,8 @@ pub struct SpacecraftError {
     pub file: String,
     /// At least one.
     pub problems: Vec<Problem>,
+    /// How many more were found.
+    pub unlisted: usize,
 }
 
 impl fmt::Display for SpacecraftError {
@@ -42,7 +44,11 @@ impl fmt::Display for SpacecraftError {
                 write!(f, ", allowed: {}", problem.allowed)?;
             }
         }
-        Ok(())
+        match self.unlisted {
+            0 => Ok(()),
+            1 => write!(f, "\n{}: 1 more problem", self.file),
+            more => write!(f, "\n{}: {more} more problems", self.file),
+        }
     }
 }
 

@@ -38,6 +38,14 @@ impl Place {
         }
     }
 
+    /// The innermost key, unless this place is the whole file or an item of a list.
+    pub(super) fn last_key(&self) -> Option<&str> {
+        match self.0.last() {
+            Some(Part::Key(key)) => Some(key),
+            _ => None,
+        }
+    }
+
     /// Whether this place is the other one or inside of it.
     pub fn is_in(&self, other: &Self) -> bool {
         self.0.starts_with(&other.0)

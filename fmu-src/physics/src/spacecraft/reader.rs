@@ -8,14 +8,20 @@ use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
+use super::limits::{MOST_PROBLEMS, most_items};
 use super::place::Place;
 use super::spelling::nearest;
+
+/// Problems that are kept, of which the first by line are listed.
+pub(super) const MOST_KEPT: usize = 10 * MOST_PROBLEMS;
 
 /// What a reading found.
 #[derive(Default)]
 pub struct Findings {
     /// Place, what was found there and what is allowed.
     pub problems: Vec<(Place, String, String)>,
+    /// How many more were found than are kept.
+    pub unlisted: usize,
     /// Where a value stands in that nobody wrote.
     pub stand_ins: Vec<Place>,
 }
@@ -39,7 +45,7 @@ impl<'r> Reader<'r> {
     fn given<T>(&self, take: impl FnOnce(&'r DeValue<'r>) -> Option<T>, allowed: &str) -> Option<T> {
         let taken = self.value.and_then(take);
         if taken.is_none() && self.is_expected {
-            let problem = match self.value {
+            self.note(|| match self.value {
                 Some(value) => {
                     let allowed = format!("{allowed}{}", remedy(value, allowed, &self.place.split().1));
                     (self.place.clone(), shown(value), allowed)
@@ -49,15 +55,31 @@ impl<'r> Reader<'r> {
                     let allowed = format!("a value for `{key}`, which has no default");
                     (table, format!("no key `{key}`"), allowed)
                 }
-            };
-            self.note(problem);
+            });
             self.stand_in(self.place.clone());
         }
         taken
     }
 
-    fn note(&self, problem: (Place, String, String)) {
-        self.findings.borrow_mut().problems.push(problem);
+    /// Notes a problem; beyond [`MOST_KEPT`] it is counted alone, for its words cost time and memory.
+    fn note(&self, problem: impl FnOnce() -> (Place, String, String)) {
+        let mut findings = self.findings.borrow_mut();
+        if findings.problems.len() < MOST_KEPT {
+            findings.problems.push(problem());
+        } else {
+            findings.unlisted += 1;
+        }
+    }
+
+    /// Whether a list or table of this length may be read; notes a longer one.
+    fn may_have(&self, length: usize) -> bool {
+        let most = most_items(&self.place);
+        if length <= most {
+            return true;
+        }
+        self.note(|| (self.place.clone(), format!("{length} entries"), format!("at most {most}")));
+        self.stand_in(self.place.clone());
+        false
     }
 
     fn stand_in(&self, place: Place) {
@@ -78,9 +100,12 @@ impl<'r> Reader<'r> {
             if keys.contains(&key.as_ref()) {
                 continue;
             }
-            let meant = nearest(key, &absent);
-            let found = format!("the unknown key `{key}`{}", hint(meant));
-            self.note((self.place.key(key), found, keys.join(", ")));
+            // A table of thousands of unknown keys has no slips of the pen.
+            let meant = if misspelt.len() < keys.len() { nearest(key, &absent) } else { None };
+            self.note(|| {
+                let found = format!("the unknown key `{key}`{}", hint(meant));
+                (self.place.key(key), found, keys.join(", "))
+            });
             if let Some(meant) = meant {
                 self.stand_in(self.place.key(meant));
                 misspelt.push(meant);
@@ -199,15 +224,17 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         let text = self.given(DeValue::as_str, &words.join(", "));
         let known = text.and_then(|text| words.iter().find(|word| **word == text));
         if let (Some(text), None) = (text, known) {
-            let found = format!("the unknown word `{text}`{}", hint(nearest(text, words)));
-            self.note((self.place.clone(), found, words.join(", ")));
+            self.note(|| {
+                let found = format!("the unknown word `{text}`{}", hint(nearest(text, words)));
+                (self.place.clone(), found, words.join(", "))
+            });
             self.stand_in(self.place.clone());
         }
         visitor.visit_enum(known.or(words.first()).copied().unwrap_or_default().into_deserializer())
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        let list = self.given(DeValue::as_array, "a list");
+        let list = self.given(DeValue::as_array, "a list").filter(|list| self.may_have(list.len()));
         let mut items = Vec::new();
         for (i, value) in list.into_iter().flat_map(|list| list.iter()).enumerate() {
             items.push(self.inside(self.place.item(i), Some(value.get_ref()), true));
@@ -219,7 +246,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         let allowed = format!("a list of length {length}");
         let list = self.given(DeValue::as_array, &allowed);
         if let Some(list) = list.filter(|list| list.len() != length) {
-            self.note((self.place.clone(), format!("a list of length {}", list.len()), allowed));
+            self.note(|| (self.place.clone(), format!("a list of length {}", list.len()), allowed));
             self.stand_in(self.place.clone());
         }
         let mut items = Vec::new();
@@ -231,7 +258,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        let table = self.given(DeValue::as_table, "a table");
+        let table = self.given(DeValue::as_table, "a table").filter(|table| self.may_have(table.len()));
         let mut entries = Vec::new();
         for (key, value) in table.into_iter().flat_map(|table| table.iter()) {
             let key = key.get_ref().as_ref();

@@ -20,9 +20,8 @@ pub fn run(arguments: &Check) -> Outcome {
         Err(error) => {
             let problems = loader::Error::chain(error.as_ref());
             terminal::print(&problems)?;
-            let count = problems.lines().filter(|line| line.starts_with(&file)).count().max(1);
-            let plural = if count == 1 { "problem" } else { "problems" };
-            terminal::note(&format!("{file}: {count} {plural}, judged as a mission"));
+            let count = super::problem_count(&problems, &file);
+            terminal::note(&format!("{file}: {count}, judged as a mission"));
             Ok(ExitCode::FAILURE)
         }
     }

@@ -91,12 +91,9 @@ pub fn run(arguments: &Check) -> Outcome {
 /// Tells the problems that a model finds in the file.
 fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
     terminal::print(problems)?;
-    let count = problems.lines().filter(|line| line.starts_with(file)).count().max(1);
-    let plural = if count == 1 { "problem" } else { "problems" };
+    let count = super::problem_count(problems, file);
     let model = &model.model;
-    terminal::note(&format!(
-        "{file}: {count} {plural}, judged as a file of {model}, which cannot be packed with it"
-    ));
+    terminal::note(&format!("{file}: {count}, judged as a file of {model}, which cannot be packed with it"));
     Ok(ExitCode::FAILURE)
 }
 

@@ -25,10 +25,10 @@ pub fn run(arguments: &Check, text: &str) -> Outcome {
             Ok(ExitCode::SUCCESS)
         }
         Err(problems) => {
-            let count = problems.problems.len();
-            terminal::print(&problems.to_string())?;
-            let plural = if count == 1 { "problem" } else { "problems" };
-            terminal::note(&format!("{file}: {count} {plural}, judged as a timeline"));
+            let problems = problems.to_string();
+            terminal::print(&problems)?;
+            let count = super::problem_count(&problems, &file);
+            terminal::note(&format!("{file}: {count}, judged as a timeline"));
             Ok(ExitCode::FAILURE)
         }
     }

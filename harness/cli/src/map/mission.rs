@@ -48,8 +48,8 @@ impl Table {
     fn read(path: &Path) -> Result<Self, String> {
         let file = path.display().to_string();
         let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --mission");
-        let text = files::read_text(path).map_err(|error| failed(&error))?;
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let text = files::open_at_most(path, files::MOST_TABLE_BYTES).map_err(|error| failed(&error))?;
+        let mut reader = csv::Reader::from_reader(text);
         let names: Vec<String> = reader
             .headers()
             .map_err(|error| failed(&error))?

@@ -2,6 +2,7 @@
 
 use loader::{InputTable, Value};
 use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
+use physics::spacecraft::MOST_PROBLEMS;
 
 use super::file::{At, Bounds, Inputs, Mission};
 use crate::epoch;
@@ -116,7 +117,12 @@ impl<'m> Resolver<'m> {
                 self.report(at, &format!("{found}, allowed: simulation time, 0 or \"10 d\""));
             }
         }
-        for at in &self.mission.sets {
+        for (index, at) in self.mission.sets.iter().enumerate() {
+            if self.problems.len() >= MOST_PROBLEMS {
+                let left = self.mission.sets.len() - index;
+                self.report(at, &format!("found {left} more values, not checked yet"));
+                break;
+            }
             let (name, written) = &at.it;
             for (variable, value) in self.assigned(at, name, written) {
                 match loader::set_early(variable) {

@@ -127,7 +127,8 @@ fn read_table(
 ) -> Result<InputTable, Box<dyn std::error::Error>> {
     let in_file =
         |error: &dyn std::error::Error| format!("{}: {}", path.display(), loader::Error::chain(error));
-    let file = files::open(at).map_err(|error| format!("{}: see --input", in_file(&error)))?;
+    let file = files::open_at_most(at, files::MOST_TABLE_BYTES)
+        .map_err(|error| format!("{}: see --input", in_file(&error)))?;
     let mut rows = loader::csv::read_rows(file).map_err(|error| in_file(&error))?;
     let header = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
     Ok(InputTable::parse(described, &header, &rows).map_err(|error| in_file(&error))?)

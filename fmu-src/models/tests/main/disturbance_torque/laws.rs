@@ -116,6 +116,26 @@ fn impossible_geometries_are_refused_by_name() {
 }
 
 #[test]
+fn planet_light_beyond_the_work_limit_is_refused_by_name() {
+    let by_cells = |belts: i32, limit: i32| {
+        move |fmu: &mut Disturbance| {
+            fmu.put_integer("planetLight.method", 2);
+            fmu.put_integer("planetLight.belts", belts);
+            fmu.put_integer("solver.workLimit", limit);
+        }
+    };
+    for (belts, limit) in [(2000, 20_000_000), (45, 1000)] {
+        let refused = refusal(by_cells(belts, limit));
+        for word in ["solver.workLimit", "planetLight.belts", &limit.to_string()] {
+            assert!(refused.contains(word), "{refused}");
+        }
+    }
+    let mut fmu = Disturbance::messenger();
+    by_cells(45, 20_000_000)(&mut fmu);
+    fmu.start();
+}
+
+#[test]
 fn without_a_planet_only_sunlight_is_left() {
     let mut fmu = Disturbance::messenger();
     let present = fmu.at("planet.present");

@@ -20,4 +20,12 @@ pub enum ModelError {
     /// The sunshade's form.
     #[error(transparent)]
     Sunshade(#[from] NoSuchSunshade),
+    /// An evaluation that takes more work than a step may.
+    #[error("one evaluation takes {found} units of work, allowed: {limit}")]
+    Work {
+        /// Units of about a microsecond.
+        found: u32,
+        /// What was allowed.
+        limit: u32,
+    },
 }

@@ -130,6 +130,15 @@ impl DisturbanceModel {
         1 + faces / 8 + planet + shadows
     }
 
+    /// Refuses a model whose evaluation takes more than `limit_units` of work, of about a microsecond each.
+    ///
+    /// # Errors
+    /// [`ModelError::Work`].
+    pub fn within(self, limit_units: u32) -> Result<Self, ModelError> {
+        let found = self.evaluation_units();
+        if found > limit_units { Err(ModelError::Work { found, limit: limit_units }) } else { Ok(self) }
+    }
+
     /// Area of a face in m2; 0 for a face there is not.
     pub fn face_area_m2(&self, face: usize) -> f64 {
         self.faces.faces.get(face).map_or(0.0, |face| self.faces.surfaces[face.surface].area_m2)

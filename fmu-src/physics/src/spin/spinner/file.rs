@@ -217,9 +217,8 @@ impl Builder<'_> {
     }
 
     fn thrusters(&mut self, at: &Place, entries: Vec<ThrusterEntry>, exhaust_m_s: f64) -> Vec<Thruster> {
-        if entries.is_empty() || entries.len() > MOST_THRUSTERS {
-            let allowed = format!("1 to {MOST_THRUSTERS} of them");
-            self.check.report(at, format_args!("a list of {}", entries.len()), allowed);
+        if entries.is_empty() {
+            self.check.report(at, "an empty list", format_args!("1 to {MOST_THRUSTERS} of them"));
         }
         let mut thrusters: Vec<Thruster> = Vec::with_capacity(entries.len());
         let list = at;

@@ -1,0 +1,47 @@
+//! Limits on the size of TOML files: bytes, items of a list or table, problems reported.
+//!
+//! A file beyond a limit is refused before anything is computed from it, so that no file costs more than a second and
+//! 200 MB.
+
+use super::place::Place;
+use super::thruster::MOST_THRUSTERS;
+
+/// Longest text of a file, in bytes.
+pub const MOST_TEXT_BYTES: usize = 4 << 20;
+
+/// Most problems that an error lists; it counts the others.
+pub const MOST_PROBLEMS: usize = 100;
+
+/// Most surfaces of a spacecraft, copies and facets of shapes among them.
+pub const MOST_SURFACES: usize = 4000;
+
+/// Most items of a list or names of a table by its key; [`MOST_ITEMS`] of every other.
+pub const LIMITS: &[(&str, usize)] = &[
+    ("plates", 2000),
+    ("boxes", 200),
+    ("cylinders", 200),
+    ("discs", 200),
+    ("dishes", 200),
+    ("panels", 100),
+    ("wheels", 64),
+    ("tanks", 64),
+    ("thrusters", MOST_THRUSTERS),
+    ("thruster", MOST_THRUSTERS),
+    ("flexible_modes", 64),
+    ("slosh", 64),
+    ("sun_sensors", 64),
+    ("instruments", 64),
+    ("polygon_m", 1000),
+    ("start", 5000),
+    ("set", 5000),
+    ("command", 10_000),
+];
+
+/// Most items of a list or names of a table that [`LIMITS`] does not name.
+pub const MOST_ITEMS: usize = 20_000;
+
+/// Most items of the list or names of the table at a place.
+pub(super) fn most_items(at: &Place) -> usize {
+    let key = at.last_key().unwrap_or_default();
+    LIMITS.iter().find(|(name, _)| *name == key).map_or(MOST_ITEMS, |(_, most)| *most)
+}
