@@ -71,8 +71,6 @@ pub struct AttitudeDynamics {
     /// Whether thrusters control the attitude, and whether they could not give the torque asked for.
     by_thrusters: bool,
     thrusters_limited: bool,
-    /// Velocity change by thrusters that the orbit has, EME2000, in m/s.
-    in_orbit_m_s: Vector3<f64>,
     dump: Option<ConstantDump>,
     dumps: Dumps,
     spacing: DumpSpacing,
@@ -113,7 +111,6 @@ impl AttitudeDynamics {
             thrusters: ReactionControl::new(&settings.thrusters, time_s),
             by_thrusters: false,
             thrusters_limited: false,
-            in_orbit_m_s: Vector3::zeros(),
             dump: None,
             dumps: Dumps::default(),
             spacing: DumpSpacing::default(),
@@ -144,7 +141,7 @@ impl AttitudeDynamics {
             && [self.next_sample.1, self.sampled_s, self.next_guidance_s].iter().all(sound)
             && self.next_sample.0.unsigned_abs() < 1 << 60
             && (norm - 1.0).abs() < 1e-9
-            && [self.sampled.1, self.in_orbit_m_s].iter().all(vector)
+            && vector(&self.sampled.1)
             && self.estimator.is_sound()
             && attitude.is_rotation()
             && rate_body_rad_s.as_ref().is_none_or(vector)
@@ -221,6 +218,7 @@ impl AttitudeDynamics {
             let load = self.load(inputs, time_s);
             self.source_torques = self.torques_by_source(inputs, time_s);
             self.motion.advance(&settings.gyrostat, self.wheels.motors(), &load, limit_s);
+            flight.take_thrust(self.thrusters.load(), &self.motion)?;
         }
         Ok(())
     }
@@ -288,10 +286,7 @@ impl AttitudeDynamics {
             flight.propellant.mass_properties(&loaded, &settings.thrusters.tanks, time_s)
         });
         flight.configuration.left = self.left;
-        let given_m_s = self.thrusters.totals_at(&self.motion, time_s).delta_v_inertial_m_s;
-        let jump_m_s = given_m_s - self.in_orbit_m_s;
-        self.in_orbit_m_s = given_m_s;
-        flight.propagator.cut_with_jump(flight.configuration, time_s, &jump_m_s);
+        flight.propagator.cut(flight.configuration, time_s, true);
         let mut plant = flight.plant(time_s, body, work_limit);
         self.disturbance = DisturbanceInterval::build(&mut plant, time_s, limit_s)?;
         if settings.panels_have_mass || self.left.is_some() || !settings.thrusters.thrusters.is_empty() {

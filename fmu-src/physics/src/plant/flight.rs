@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::attitude::{Attitude, BodyMotion, MovingFrame};
+use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::Activity;
 use crate::momentum::{TorqueModel, Totals};
@@ -15,6 +15,7 @@ use super::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
 use super::outlook::{Outlook, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
+use super::thruster_load::ThrusterLoad;
 use super::work::Work;
 
 /// A window computed in epochs begins this near its number in flight time, in s.
@@ -115,6 +116,23 @@ impl Flight<'_> {
         self.propagator.sun_choice.chosen = chosen;
         self.configuration.attitude.set_sun_place(self.propagator.sun_choice.place());
         Ok(())
+    }
+
+    /// Thrust over the present segment of the motion moves the spacecraft off the orbit that was computed ahead.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub(super) fn take_thrust(
+        &mut self,
+        load: &ThrusterLoad,
+        motion: &GyrostatMotion,
+    ) -> Result<(), PlantError> {
+        let thrust_m_s2 = (!load.law.is_none()).then_some(|time_s: f64| {
+            motion.attitude_at(time_s).inertial_from_body(&load.acceleration_body_m_s2(time_s))
+        });
+        let (trajectory, method) = (&mut self.propagator.trajectory, self.prepared.orbit_method);
+        let span_s = [motion.start_s(), motion.end_s()];
+        Ok(trajectory.accelerate(self.configuration, method, span_s, thrust_m_s2)?)
     }
 
     /// Mass properties with the panels as they stand where the flight begins in this attitude.

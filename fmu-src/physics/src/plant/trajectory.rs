@@ -138,6 +138,12 @@ impl Trajectory {
     /// Position and velocity at the beginning of a window, which may be past.
     pub(super) fn state_at_window_start(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
         match (&self.orbit, &self.window_start) {
+            // Where thrust acts the present segment knows the way of its last interval alone.
+            (Some(orbit), Some((since_s, state)))
+                if orbit.is_deviated() && is_same_window(configuration, *since_s, time_s) =>
+            {
+                *state
+            }
             (Some(orbit), _) if time_s >= orbit.start_s() => orbit.state_at(time_s),
             (Some(_), Some((since_s, state))) if is_same_window(configuration, *since_s, time_s) => *state,
             // Before the flight began the spacecraft was on its two-body orbit.
@@ -154,13 +160,49 @@ impl Trajectory {
 
     /// Leaves the present segment, which ends at `time_s`: remembers what the next one cannot know.
     pub(super) fn leave(&mut self, configuration: &Configuration, time_s: f64) {
-        let Some(orbit) = &self.orbit else { return };
-        if let Some(window) = self.window(configuration, time_s) {
+        // What thrust has moved is remembered while it does.
+        if let Some(orbit) = self.orbit.filter(|orbit| !orbit.is_deviated()) {
+            self.remember_window(configuration, [orbit.start_s(), time_s]);
+        }
+    }
+
+    /// Keeps where the present window began, if it did within this span.
+    fn remember_window(&mut self, configuration: &Configuration, [start_s, end_s]: [f64; 2]) {
+        if let (Some(orbit), Some(window)) = (&self.orbit, self.window(configuration, end_s)) {
             let since_s = window.since_s - configuration.epoch_minus_time_s;
-            if since_s >= orbit.start_s() && since_s <= time_s {
+            if since_s >= start_s && since_s <= end_s {
                 self.window_start = Some((since_s, orbit.state_at(since_s)));
             }
         }
+    }
+
+    /// Thrust accelerates the spacecraft by `thrust_m_s2(t)`, EME2000, over `span_s` of the present segment; none = it coasts
+    /// on. An orbit that forces do not act on stays.
+    ///
+    /// # Errors
+    /// See [`OrbitIntegrationError`].
+    pub(super) fn accelerate(
+        &mut self,
+        configuration: &Configuration,
+        method: &OrbitMethod,
+        span_s: [f64; 2],
+        thrust_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
+    ) -> Result<(), OrbitIntegrationError> {
+        let (Some(mut orbit), Motion::Disturbed { gravity, feedback: true, .. }) =
+            (self.orbit, &configuration.motion)
+        else {
+            return Ok(());
+        };
+        if thrust_m_s2.is_none() && !orbit.is_deviated() {
+            return Ok(());
+        }
+        if !orbit.is_deviated() {
+            self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
+        }
+        orbit.accelerate(method, gravity, span_s, thrust_m_s2)?;
+        self.orbit = Some(orbit);
+        self.remember_window(configuration, span_s);
+        Ok(())
     }
 
     /// Forgets the orbit beyond `time_s`: what acts on the spacecraft changes there, or its velocity by `jump_m_s`, EME2000.

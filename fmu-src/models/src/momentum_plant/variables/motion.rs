@@ -88,7 +88,7 @@ pub struct OrbitVariables {
     /// Whether the Sun's tide acts on a disturbed orbit.
     #[parameter(start = true)]
     pub sun_tide: Boolean,
-    /// Whether light, heat and force.applied move the spacecraft on a disturbed orbit.
+    /// Whether light, heat, thrusters and force.applied move the spacecraft on a disturbed orbit.
     #[parameter(start = true)]
     pub radiation_feedback: Boolean,
     /// Longest integration step of a disturbed orbit; 300 s keep a revolution of the default orbit to 0.1 mm.

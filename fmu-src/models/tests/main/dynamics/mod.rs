@@ -1,5 +1,6 @@
 //! Controlled and free flight: rigid body, wheels, controller, sensors.
 
+mod burns;
 mod control;
 mod flexibility;
 mod momentum;

@@ -1,22 +1,21 @@
 //! An orbit integrated under gravity with its disturbances: the planet's flattening, the Sun's tide, and whatever
-//! acceleration the caller adds (light, heat, thrusters).
+//! acceleration the caller adds: of light and heat ahead, of thrust while it acts (`deviation`).
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::deviation::{Deviation, NODES, TERMS};
 use super::elements::{OrbitError, check_mu};
 use crate::{
     bodies::BodyData,
     constants::GM_SUN_M3_S2,
     environment::CartesianState,
-    numerics::collocation::{Collocation, IntegrationError, SegmentChain},
+    numerics::{
+        chebyshev::Segment,
+        collocation::{Collocation, IntegrationError, SegmentChain},
+    },
 };
-
-/// Nodes of a segment.
-const NODES: usize = 8;
-/// Coefficients of a segment's dense output.
-const TERMS: usize = NODES + 1;
 
 /// Flattening of the central body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -131,6 +130,8 @@ pub struct OrbitMethod(Collocation<NODES, TERMS>);
 pub struct DisturbedOrbit {
     chain: SegmentChain<6, TERMS>,
     radius_m: f64,
+    /// By thrust within the present segment; absent without.
+    deviation: Option<Deviation>,
 }
 
 impl DisturbedOrbit {
@@ -165,12 +166,14 @@ impl DisturbedOrbit {
             check("position or velocity", found, false, "finite numbers")?;
         }
         check_above(state.position_m.norm(), start_s, radius_m)?;
-        Ok(Self { chain: SegmentChain::new(segment_length_s, start_s, start), radius_m })
+        Ok(Self { chain: SegmentChain::new(segment_length_s, start_s, start), radius_m, deviation: None })
     }
 
     /// Whether it can come from an integration; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        self.chain.is_sound() && (0.0..1e100).contains(&self.radius_m)
+        self.chain.is_sound()
+            && (0.0..1e100).contains(&self.radius_m)
+            && self.deviation.as_ref().is_none_or(Deviation::is_sound)
     }
 
     /// How far the integration has come, s.
@@ -190,7 +193,45 @@ impl DisturbedOrbit {
 
     /// Position and velocity at a time of the present segment.
     pub fn state_at(&self, at_s: f64) -> CartesianState {
-        unpack(&self.chain.value(at_s))
+        let reference = self.chain.value(at_s);
+        unpack(&self.deviation.map_or(reference, |deviation| reference + deviation.value(at_s)))
+    }
+
+    /// Whether thrust has acted within the present segment.
+    pub fn is_deviated(&self) -> bool {
+        self.deviation.is_some()
+    }
+
+    /// Thrust accelerates the spacecraft by `thrust_m_s2(t)`, EME2000, smooth from `start_s` to `end_s`, within the present
+    /// segment and from where the last thrust ended or later; none = it coasts on. The Sun's tide is that of the segment.
+    ///
+    /// # Errors
+    /// [`OrbitIntegrationError`]; the orbit stays as it was.
+    pub fn accelerate(
+        &mut self,
+        method: &OrbitMethod,
+        gravity: &Gravity,
+        [start_s, end_s]: [f64; 2],
+        thrust_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
+    ) -> Result<(), OrbitIntegrationError> {
+        if end_s <= start_s || (thrust_m_s2.is_none() && self.deviation.is_none()) {
+            return Ok(());
+        }
+        // Over a deviation the tide changes by less than 1e-10 m/s2 a kilometre.
+        let gravity = Gravity { tide_mu_m3_s2: None, ..*gravity };
+        let near_m_s2 = |position_m: &Vector3<f64>| gravity.acceleration_m_s2(position_m, &Vector3::zeros());
+        let thrust_m_s2 = thrust_m_s2.map(|thrust| Segment::<3, NODES>::fit(start_s, end_s, thrust));
+        let before = self.deviation.map_or(SVector::zeros(), |deviation| deviation.value(start_s));
+        let next = Deviation::integrate(&method.0, &before, [start_s, end_s], |at_s, off_m| {
+            let reference_m = unpack(&self.chain.value(at_s)).position_m;
+            let fall = near_m_s2(&(reference_m + off_m)) - near_m_s2(&reference_m);
+            thrust_m_s2.as_ref().map_or(fall, |thrust| fall + thrust.value(at_s))
+        })?;
+        let distance_m =
+            (unpack(&self.chain.value(end_s)).position_m + unpack(&next.value(end_s)).position_m).norm();
+        check_above(distance_m, end_s, self.radius_m)?;
+        self.deviation = Some(next);
+        Ok(())
     }
 
     /// Integrates one more segment. `tide_body_m(t)` is the Sun's position relative to the central body, `extra(t, state)`
@@ -223,6 +264,9 @@ impl DisturbedOrbit {
     ) -> Result<(), OrbitIntegrationError> {
         check_mu(gravity.mu_m3_s2)?;
         let mut next = self.chain;
+        if self.deviation.is_some() {
+            next.cut(next.end_s(), pack(&self.state_at(next.end_s())));
+        }
         next.advance_to(&method.0, limit_s, |at_s, y| {
             let state = unpack(y);
             let tide_body_m =
@@ -236,7 +280,7 @@ impl DisturbedOrbit {
             let at_s = next.start_s() + (next.end_s() - next.start_s()) * f64::from(i) / 8.0;
             check_above(unpack(&next.value(at_s)).position_m.norm(), at_s, self.radius_m)?;
         }
-        self.chain = next;
+        (self.chain, self.deviation) = (next, None);
         Ok(())
     }
 
@@ -246,6 +290,7 @@ impl DisturbedOrbit {
         let mut state = self.state_at(at_s);
         state.velocity_m_s += delta_v_m_s;
         self.chain.cut(at_s, pack(&state));
+        self.deviation = None;
     }
 }
 

@@ -1,5 +1,6 @@
 //! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, disturbed motion integrated.
 
+mod deviation;
 mod disturbed;
 #[cfg(test)]
 mod disturbed_tests;

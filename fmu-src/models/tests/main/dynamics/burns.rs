@@ -1,0 +1,260 @@
+//! Burns of a body that turns, in free flight about the Earth, against an integration of position, attitude and propellant from
+//! first principles by Runge and Kutta's rule of fourth order.
+
+use models::MomentumPlant;
+use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
+
+use super::super::named_model::{NamedModel, assert_same};
+use super::{DARK, FREE, Flight, Start, fly};
+
+const MU_M3_S2: f64 = 3.986_004_355_07e14;
+const J2: f64 = 1.082_635_9e-3;
+const J2_RADIUS_M: f64 = 6.378_136_3e6;
+const EXHAUST_M_S: f64 = 220.0 * 9.80665;
+const MASS_KG: f64 = 400.0;
+
+/// A body with one engine and one tank, both anywhere, and couples of small thrusters.
+#[derive(Clone, Copy)]
+struct Craft {
+    inertia_kg_m2: [f64; 3],
+    nozzle_m: [f64; 3],
+    force_n: [f64; 3],
+    tank_m: [f64; 3],
+}
+
+impl Craft {
+    fn model(&self) -> NamedModel<MomentumPlant> {
+        let [a, b, c] = self.inertia_kg_m2;
+        let force = Vector3::from(self.force_n);
+        let direction: [f64; 3] = force.normalize().into();
+        let mut text = format!(
+            "name = \"burns\"\n[mass_properties]\nmass_kg = {MASS_KG:?}\ncenter_of_mass_m = [0.0, 0.0, 0.0]\n\
+             inertia_kg_m2 = [[{a:?}, 0.0, 0.0], [0.0, {b:?}, 0.0], [0.0, 0.0, {c:?}]]\n\
+             [optics.black]\nspecular = 0.0\ndiffuse = 0.0\n\
+             [[plates]]\narea_m2 = 1.0\ncenter_m = [0.0, 0.0, 0.0]\nnormal = [0.0, -1.0, 0.0]\noptics = \"black\"\n\
+             [[tanks]]\nposition_m = {:?}\npropellant_kg = 150.0\n\
+             [[thrusters]]\nposition_m = {:?}\ndirection = {direction:?}\nforce_n = {:?}\n\
+             specific_impulse_s = 220.0\nset = \"lva\"\n",
+            self.tank_m,
+            self.nozzle_m,
+            force.norm(),
+        );
+        for (axis, sense) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+            for side in [1.0, -1.0] {
+                let (mut at, mut force) = ([0.0; 3], [0.0; 3]);
+                at[(axis + 1) % 3] = side;
+                force[(axis + 2) % 3] = side * sense;
+                text += &format!(
+                    "[[thrusters]]\nposition_m = {at:?}\ndirection = {force:?}\nforce_n = 5.0\n\
+                     specific_impulse_s = 220.0\n"
+                );
+            }
+        }
+        NamedModel::<MomentumPlant>::with("burns.toml", &text)
+    }
+
+    fn flow_kg_s(&self) -> f64 {
+        Vector3::from(self.force_n).norm() / EXHAUST_M_S
+    }
+
+    /// Centre of mass and inertia about it with so much of the propellant gone from its tank.
+    fn left(&self, used_kg: f64) -> (Vector3<f64>, Matrix3<f64>) {
+        let tank = Vector3::from(self.tank_m);
+        let mass = MASS_KG - used_kg;
+        let center = tank * (-used_kg / mass);
+        let squared = |r: Vector3<f64>| -r.cross_matrix() * r.cross_matrix();
+        let loaded = Matrix3::from_diagonal(&Vector3::from(self.inertia_kg_m2));
+        (center, loaded - squared(tank) * used_kg - squared(center) * mass)
+    }
+}
+
+/// Position, velocity, body to inertial, J w in the body, propellant used.
+type State = SVector<f64, 14>;
+
+fn gravity_m_s2(r: Vector3<f64>) -> Vector3<f64> {
+    let (d, k) = (r.norm(), 1.5 * J2 * MU_M3_S2 * J2_RADIUS_M * J2_RADIUS_M);
+    let z = 5.0 * r.z * r.z / (d * d);
+    let flattening = Vector3::new(r.x * (z - 1.0), r.y * (z - 1.0), r.z * (z - 3.0)) * (k / d.powi(5));
+    flattening - r * (MU_M3_S2 / d.powi(3))
+}
+
+fn rates(craft: &Craft, y: &State, burns: bool) -> State {
+    let part = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
+    let (position, velocity, momentum, used_kg) = (part(0), part(3), part(10), y[13]);
+    let attitude = Quaternion::new(y[9], y[6], y[7], y[8]);
+    let (center, inertia) = craft.left(used_kg);
+    let rate = inertia.try_inverse().unwrap() * momentum;
+    let (mut acceleration, mut torque, mut flow) = (gravity_m_s2(position), Vector3::zeros(), 0.0);
+    if burns {
+        let force = Vector3::from(craft.force_n);
+        let arm = Vector3::from(craft.nozzle_m) - center;
+        flow = craft.flow_kg_s();
+        acceleration += UnitQuaternion::from_quaternion(attitude) * force / (MASS_KG - used_kg);
+        torque = arm.cross(&force) - arm.cross(&rate.cross(&arm)) * flow;
+    }
+    let turn = attitude * Quaternion::from_imag(rate) * 0.5;
+    let momentum_rate = torque - rate.cross(&momentum);
+    let mut out = State::zeros();
+    for (i, part) in [velocity, acceleration, turn.imag()].into_iter().enumerate() {
+        out.fixed_rows_mut::<3>(3 * i).copy_from(&part);
+    }
+    out[9] = turn.scalar();
+    out.fixed_rows_mut::<3>(10).copy_from(&momentum_rate);
+    out[13] = flow;
+    out
+}
+
+/// From `start` over `span_s` in steps of at most `step_s`.
+fn integrated(craft: &Craft, start: State, span_s: f64, step_s: f64, burns: bool) -> State {
+    let count = (span_s / step_s).ceil();
+    let h = span_s / count;
+    let mut y = start;
+    for _ in 0..count as usize {
+        let k1 = rates(craft, &y, burns);
+        let k2 = rates(craft, &(y + k1 * (0.5 * h)), burns);
+        let k3 = rates(craft, &(y + k2 * (0.5 * h)), burns);
+        let k4 = rates(craft, &(y + k3 * h), burns);
+        y += (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0);
+    }
+    y
+}
+
+/// At 700 km, inclined, turning at `rate`.
+fn start(craft: &Craft, rate_rad_s: [f64; 3]) -> State {
+    let radius_m = 7_071_008.4_f64;
+    let (sin, cos) = 0.9_f64.sin_cos();
+    let speed_m_s = (MU_M3_S2 / radius_m).sqrt();
+    let momentum = Vector3::from(craft.inertia_kg_m2).component_mul(&Vector3::from(rate_rad_s));
+    State::from([
+        radius_m,
+        0.0,
+        0.0,
+        0.0,
+        speed_m_s * cos,
+        speed_m_s * sin,
+        0.0,
+        0.0,
+        0.0,
+        1.0,
+        momentum.x,
+        momentum.y,
+        momentum.z,
+        0.0,
+    ])
+}
+
+fn flown<'a>(
+    named: &'a NamedModel<MomentumPlant>,
+    at: &State,
+    rate_rad_s: [f64; 3],
+    more: Start<'_>,
+) -> Flight<'a> {
+    let place: Vec<(String, f64)> = (0..3)
+        .flat_map(|i| {
+            [
+                (format!("orbit.position[{}]", i + 1), at[i]),
+                (format!("orbit.velocity[{}]", i + 1), at[i + 3]),
+                (format!("start.rate[{}]", i + 1), rate_rad_s[i]),
+                (format!("dump.threshold[{}]", i + 1), 1e9),
+            ]
+        })
+        .collect();
+    let place: Vec<(&str, f64)> = place.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    let orbit: Start<'_> =
+        &[("orbit.center", 4.0), ("orbit.source", 2.0), ("orbit.dynamics", 2.0), ("orbit.sunTide", 0.0)];
+    let mut flight = fly(named, &[FREE, DARK, orbit, &place, more]);
+    flight.set("thrust.request", 1.0);
+    flight.set("thrust.command", 1.0);
+    flight
+}
+
+/// Position in m and velocity in m/s off an integration.
+fn off(flight: &Flight<'_>, y: &State) -> [f64; 2] {
+    let at = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
+    [(flight.vector("position") - at(0)).norm(), (flight.vector("velocity") - at(3)).norm()]
+}
+
+/// Engine and tank at the centre of mass: the body turns about its axis evenly, and the thrust with it.
+const CENTRAL: Craft = Craft {
+    inertia_kg_m2: [200.0, 300.0, 400.0],
+    nozzle_m: [0.0; 3],
+    force_n: [0.0, 160.0, 120.0],
+    tank_m: [0.0; 3],
+};
+
+#[test]
+fn a_long_burn_leaves_the_spacecraft_where_continuous_thrust_does() {
+    let rate_rad_s = [1e-3, 0.0, 0.0];
+    let begin = start(&CENTRAL, rate_rad_s);
+    // 565 m/s by 200 N.
+    let burn_s = MASS_KG * (1.0 - (-565.0 / EXHAUST_M_S).exp()) / CENTRAL.flow_kg_s();
+    let burnt = integrated(&CENTRAL, begin, burn_s, 0.5, true);
+    let (turned, mass_kg) = (rate_rad_s[0] * burn_s, MASS_KG - burnt[13]);
+    assert!((EXHAUST_M_S * (MASS_KG / mass_kg).ln() - 565.0).abs() < 1e-9 && turned > 0.9);
+    let early = integrated(&CENTRAL, begin, 103.7, 0.5, true);
+    let end = integrated(&CENTRAL, burnt, 4_000.0, 0.5, false);
+    let named = CENTRAL.model();
+    for (step_s, tolerance_m) in [(10.0, 1e-2), (1.0, 1e-3), (0.1, 1e-3)] {
+        let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", step_s)]);
+        flight.set("thrust.stop", burn_s);
+        // Within an interval.
+        flight.step_to(103.7).unwrap();
+        let [early_m, early_m_s] = off(&flight, &early);
+        flight.fly_to(burn_s + 4_000.0, 100.0).unwrap();
+        let [end_m, end_m_s] = off(&flight, &end);
+        println!(
+            "solver.dynamicsStep {step_s}: {early_m:.1e} m and {early_m_s:.1e} m/s after 103.7 s, {end_m:.1e} m and \
+             {end_m_s:.1e} m/s 4000 s after the burn"
+        );
+        assert!(early_m < 1e-4 && early_m_s < 1e-6, "{early_m} {early_m_s}");
+        assert!(end_m < tolerance_m && end_m_s < 1e-5, "{end_m} {end_m_s}");
+    }
+}
+
+#[test]
+fn pulses_within_an_interval_move_the_spacecraft_when_they_are_given() {
+    let rate_rad_s = [0.05, 0.0, 0.0];
+    let begin = start(&CENTRAL, rate_rad_s);
+    let named = CENTRAL.model();
+    let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", 10.0)]);
+    flight.set("thrust.command", 0.0);
+    let (mut y, mut now_s) = (begin, 0.0);
+    for k in 0..23 {
+        let until_s = 0.7 * f64::from(k + 1);
+        let (opens_s, on_s) = (now_s + 0.113, 0.2371);
+        flight.set("thruster[1].onDelay", opens_s - now_s);
+        flight.set("thruster[1].onTime", on_s);
+        flight.step_to(until_s).unwrap();
+        y = integrated(&CENTRAL, y, opens_s - now_s, 0.01, false);
+        y = integrated(&CENTRAL, y, on_s, 0.01, true);
+        y = integrated(&CENTRAL, y, until_s - opens_s - on_s, 0.01, false);
+        now_s = until_s;
+        let [off_m, off_m_s] = off(&flight, &y);
+        assert!(off_m < 1e-6 && off_m_s < 1e-8, "at {now_s} s: {off_m} {off_m_s}");
+    }
+    assert!(flight.vector("deltaV").norm() > 2.0);
+}
+
+#[test]
+fn cutting_and_saving_change_no_bit_of_a_thrusting_orbit() {
+    let rate_rad_s = [0.03, -0.02, 0.01];
+    let craft = Craft { nozzle_m: [0.0, 0.1, -1.0], tank_m: [0.2, -0.1, 0.4], ..CENTRAL };
+    let begin = start(&craft, rate_rad_s);
+    let named = craft.model();
+    let fly_in = |step_s: f64, saves: bool| {
+        let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", 10.0)]);
+        flight.set("thrust.stop", 17.321);
+        while flight.time_s() < 33.0 {
+            let next_s = (flight.time_s() + step_s).min(33.0);
+            flight.step_to(next_s).unwrap();
+            if saves {
+                flight = flight.restored();
+            }
+        }
+        flight
+    };
+    let whole = fly_in(33.0, false);
+    for step_s in [0.33, 1.7, 10.0] {
+        assert_same(&fly_in(step_s, true), &whole);
+    }
+}
