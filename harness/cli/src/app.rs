@@ -1,12 +1,19 @@
 //! From arguments to a command and its exit status: 0 done, 1 failed or found wanting, 2 wrong usage.
 
-use std::process::ExitCode;
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 use clap::Parser;
+use terminal::Screen;
 
 use crate::{
-    args::{Arguments, Command, SchemaKind},
-    check, completions, draw, ephemeris, home, info, interrupt, manual, map, new,
+    args::{Arguments, Command, InChild, Plan, SchemaKind},
+    check,
+    child::{self, Bounds, Limits, Relayed, SMALL},
+    completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
     pack, plan, run as simulation, study, wire,
 };
@@ -20,14 +27,55 @@ const EPHEMERIS_SCHEMA: &str = include_str!("../../../fmu-src/resources/ephemeri
 
 /// Parses the arguments and runs the command.
 pub fn run() -> Outcome {
-    let mut command = Arguments::parse().command;
-    match command {
+    let command = Arguments::parse().command;
+    match &command {
         // A child is ended by its parent.
         Command::Probe(_) | Command::RunInChild(_) => {}
+        Command::InChild(InChild { output_columns, note_columns, arguments }) => {
+            let screen = Screen { output_columns: *output_columns, note_columns: *note_columns };
+            let given = [OsString::from(env!("CARGO_BIN_NAME"))].into_iter().chain(arguments.iter().cloned());
+            return child::serve(screen, || carry_out(Arguments::parse_from(given).command));
+        }
         // What was recorded until then is written.
         Command::Run(_) => interrupt::listen(true)?,
         _ => interrupt::listen(false)?,
     }
+    match loading(&command) {
+        Some(relayed) => relayed.run(std::env::args_os().skip(1)),
+        None => carry_out(command),
+    }
+}
+
+/// What a command that loads a library in its own process may take; no FMU's code runs in the program's own.
+fn loading(command: &Command) -> Option<Relayed> {
+    let shown = |path: &Path| path.display().to_string();
+    let of_call = |timeout_s: f64| Bounds { call_s: Some(timeout_s), ..Bounds::default() };
+    let of_template =
+        |template: Option<&PathBuf>| template.map_or_else(|| "the library".to_owned(), |it| shown(it));
+    let (name, bounds, limits) = match command {
+        Command::Info(it) if it.coefficients => (shown(&it.fmu), of_call(it.patience.timeout), SMALL),
+        Command::Check(it) if check::is_file(it) => {
+            // One time for all of it.
+            let bounds = Bounds { deadline: Some(check::deadline(it)), ..Bounds::default() };
+            (of_template(it.template.as_ref()), bounds, SMALL)
+        }
+        Command::Pack(it) => {
+            (of_template(it.library.as_ref().or(it.template.as_ref())), of_call(it.patience.timeout), SMALL)
+        }
+        Command::Map(it) => {
+            (shown(it.template.as_ref().unwrap_or(&it.craft)), of_call(it.patience.timeout), SMALL)
+        }
+        Command::Ephemeris(it) => (shown(&it.flown()), of_call(it.patience.timeout), Limits::default()),
+        Command::Plan(Plan::Spin(it)) => {
+            (of_template(it.options.fmu.as_ref()), of_call(it.patience.timeout), Limits::default())
+        }
+        Command::Study(it) => (it.name.clone(), of_call(it.patience.timeout), Limits::default()),
+        _ => return None,
+    };
+    Some(Relayed { name, bounds, limits })
+}
+
+fn carry_out(mut command: Command) -> Outcome {
     let read = match &mut command {
         Command::Info(arguments) => Some(&mut arguments.fmu),
         Command::Check(arguments) => Some(&mut arguments.subject),
@@ -65,5 +113,7 @@ pub fn run() -> Outcome {
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
+        Command::Assemble(arguments) => simulation::flown::assemble_into(&arguments),
+        Command::InChild(_) => Err("in-child: found another one in it, allowed: a command".into()),
     }
 }

@@ -1,6 +1,6 @@
 //! The command line's flags and their help.
 
-use std::path::PathBuf;
+use std::{ffi::OsString, path::PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -81,6 +81,48 @@ pub enum Command {
     /// Runs an FMU for `run` in a process of its own
     #[command(hide = true)]
     RunInChild(RunInChild),
+    /// Carries out a command that loads a library in a process of its own
+    #[command(hide = true)]
+    InChild(InChild),
+    /// Puts the FMU of a mission's files together for `run`
+    #[command(hide = true)]
+    Assemble(Assemble),
+}
+
+/// How long an FMU is waited for.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Patience {
+    /// Longest time that a call of the FMU's library may take, in s or with a unit; it runs in a process of its own, which is
+    /// ended then
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "60s")]
+    pub timeout: f64,
+}
+
+/// `heliotorque in-child`.
+#[derive(Debug, Args)]
+pub struct InChild {
+    /// Columns of the terminal that shows the output
+    #[arg(long)]
+    pub output_columns: Option<u16>,
+    /// Columns of the terminal that shows notes
+    #[arg(long)]
+    pub note_columns: Option<u16>,
+    /// The command
+    #[arg(last = true)]
+    pub arguments: Vec<OsString>,
+}
+
+/// `heliotorque assemble`.
+#[derive(Debug, Args)]
+pub struct Assemble {
+    /// The mission
+    pub mission: PathBuf,
+    /// The FMU whose library reads its files
+    #[arg(long)]
+    pub template: Option<PathBuf>,
+    /// An empty folder, which becomes the FMU's
+    #[arg(long)]
+    pub into: PathBuf,
 }
 
 /// `heliotorque info`.
@@ -102,6 +144,9 @@ pub struct Info {
     /// 'spacecraft.centerOfMass[3]=-2.54cm'
     #[arg(long, value_name = "NAME=VALUE", requires = "coefficients")]
     pub set: Vec<String>,
+    /// How long --coefficients waits
+    #[command(flatten)]
+    pub patience: Patience,
 }
 
 /// `heliotorque check`.
@@ -120,8 +165,8 @@ pub struct Check {
     /// For an FMU only: run the probes whose name contains this text
     #[arg(long, value_name = "TEXT", conflicts_with = "is_static")]
     pub only: Option<String>,
-    /// Longest time a probe may take, in s or with a unit
-    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "60s")]
+    /// Longest time that the whole of it may take, in s or with a unit; what it does not come to then is skipped
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "2min")]
     pub timeout: f64,
     /// Show every check, not only the findings
     #[arg(long, short)]
@@ -369,6 +414,9 @@ pub struct Pack {
     /// The FMU to write; otherwise its name with .fmu, in this folder; - is the standard output
     #[arg(long, short, value_name = "FMU")]
     pub output: Option<PathBuf>,
+    /// How long it waits
+    #[command(flatten)]
+    pub patience: Patience,
 }
 
 /// `heliotorque plan`.
@@ -376,7 +424,18 @@ pub struct Pack {
 pub enum Plan {
     /// The train of thruster pulses that turns a spinner with the least nutation
     #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
-    Spin(planner::spin::Options),
+    Spin(SpinPlan),
+}
+
+/// `heliotorque plan spin`.
+#[derive(Clone, Debug, Args)]
+pub struct SpinPlan {
+    /// What is planned
+    #[command(flatten)]
+    pub options: planner::spin::Options,
+    /// How long the FMU is waited for
+    #[command(flatten)]
+    pub patience: Patience,
 }
 
 /// `heliotorque study`.
@@ -403,6 +462,9 @@ pub struct Study {
     /// Show no progress
     #[arg(long, short)]
     pub quiet: bool,
+    /// How long an FMU is waited for
+    #[command(flatten)]
+    pub patience: Patience,
 }
 
 /// A turn with its unit, in rad; none and more than half a turn are refused.

@@ -1,7 +1,8 @@
 //! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
 
-use std::{process::ExitCode, time::Instant};
+use std::{error::Error, process::ExitCode, time::Instant};
 
+use files::Scratch;
 use loader::{Collector, Ended, LogMessage};
 
 use crate::{
@@ -21,41 +22,76 @@ pub mod subject;
 use flown::Flown;
 use input_copy::InputCopy;
 use settings::Settings;
+use subject::Subject;
+
+/// Why a run ends before its stop.
+const LOST_READER: &str = "nobody reads the standard output any more";
+
+/// A run of which everything was accepted that can be refused without the FMU's library.
+pub struct Prepared {
+    /// The arguments and the mission.
+    pub flown: Flown,
+    /// What is run.
+    pub subject: Subject,
+    /// What they mean.
+    pub settings: Settings,
+    /// Points that will be recorded.
+    pub points: u64,
+    outputs: Outputs,
+    input_copy: Option<InputCopy>,
+    // The packed FMU of a mission, as long as it is in use.
+    _packed: Option<Scratch>,
+}
+
+impl Prepared {
+    /// Opens what flies and every output.
+    ///
+    /// # Errors
+    /// Whatever is refused, by the flag or the mission's line.
+    pub fn of(arguments: &Run) -> Result<Self, Box<dyn Error>> {
+        if let Some(path) = &arguments.plot {
+            output::check_svg_path(path, "--plot")?;
+        }
+        let flown = Flown::of(arguments)?;
+        let (subject, _packed) = flown.open()?;
+        subject.check_options(&flown.run)?;
+        let input_copy = InputCopy::of(&flown.run)?;
+        let copy = input_copy.as_ref().map(InputCopy::path);
+        let settings = Settings::of(&subject, &flown, copy.as_deref())?;
+        subject.check_libraries()?;
+        let described = subject.description();
+        let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
+        let outputs = Outputs::open(&flown.run, &settings.plots, settings.columns, &known, &flown.reads())?;
+        let every = loader::steps_between_points(&settings.times, flown.run.every)?;
+        let points = settings.times.steps().div_ceil(every).saturating_add(1);
+        Collector::new(described, &settings.positions).fits(points)?;
+        Ok(Self { flown, subject, settings, points, outputs, input_copy, _packed })
+    }
+}
 
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
-    if let Some(path) = &arguments.plot {
-        output::check_svg_path(path, "--plot")?;
-    }
-    let flown = Flown::of(arguments)?;
+    let prepared = Prepared::of(arguments)?;
+    let Prepared { flown, subject, settings, points, mut outputs, input_copy, _packed } = prepared;
     let arguments = &flown.run;
-    let (subject, _packed) = flown.open()?;
-    subject.check_options(arguments)?;
-    // Everything that can be refused without the FMU's library is refused here.
-    let copy = InputCopy::of(arguments)?;
-    let input_copy = copy.as_ref().map(InputCopy::path);
-    let settings = Settings::of(&subject, &flown, input_copy.as_deref())?;
-    subject.check_libraries()?;
     let described = subject.description();
-    let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
-    let mut outputs = Outputs::open(arguments, &settings.plots, settings.columns, &known, &flown.reads())?;
-    let Settings { times, positions, limits, .. } = settings;
+    let Settings { times, positions, limits, plots, .. } = settings;
+    let is_judged = !limits.is_empty();
     let mut judge = Judge::new(limits);
     let mut collector = Collector::new(described, &positions);
-    let every = loader::steps_between_points(&times, arguments.every)?;
-    let points = times.steps().div_ceil(every).saturating_add(1);
-    collector.fits(points)?;
+    let copy = input_copy.as_ref().map(InputCopy::path);
 
     let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
     let in_child =
-        child::InChild { subject: &subject, input_copy: input_copy.as_deref(), timeout_s: arguments.timeout };
+        child::InChild { subject: &subject, input_copy: copy.as_deref(), timeout_s: arguments.timeout };
     let simulated = child::simulate(&in_child, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }
         judge.update(recording);
-        outputs.update(recording)
+        outputs.update(recording)?;
+        if outputs.has_lost_reader() { Err(LOST_READER.to_owned()) } else { Ok(()) }
     });
     let elapsed = began.elapsed();
     progress.finish_and_clear();
@@ -66,6 +102,15 @@ pub fn run(arguments: &Run) -> Outcome {
         print_log(&simulated.messages);
     }
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
+    if outputs.has_lost_reader() {
+        // Nobody is there for the rest; what is drawn and judged at the end is not, and that is no success.
+        return if plots.is_empty() && !is_judged {
+            Ok(ExitCode::SUCCESS)
+        } else {
+            let last = terminal::short(last_s);
+            Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and judgement").into())
+        };
+    }
     let ended = match simulated.outcome {
         Ok(ended) => ended,
         Err(error) => {

@@ -71,12 +71,12 @@ impl Destination {
         if let Some(part) = &part {
             check(part, inputs).map_err(|what| format!("{}: {what}: see {}", part.display(), self.option))?;
         }
-        Ok(Growing { destination: self, part, file: None })
+        Ok(Growing { destination: self, part, file: None, lost_reader: false })
     }
 
     fn replace(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         let Some(target) = &self.target else {
-            let mut out = BufWriter::new(io::stdout().lock());
+            let mut out = BufWriter::new(terminal::Output);
             return gone_reader_is_no_error(write(&mut out).and_then(|()| out.flush()));
         };
         let (temporary, _registered) = self.temporary()?;
@@ -117,6 +117,7 @@ pub struct Growing {
     destination: Destination,
     part: Option<PathBuf>,
     file: Option<File>,
+    lost_reader: bool,
 }
 
 impl Growing {
@@ -126,6 +127,11 @@ impl Growing {
             Some(part) => format!("{}: {error}: see {}", part.display(), self.destination.option),
             None => self.destination.message(&error),
         })
+    }
+
+    /// Whether the reader of the standard output went away: what is appended then goes nowhere.
+    pub fn has_lost_reader(&self) -> bool {
+        self.lost_reader
     }
 
     /// Gives the complete recording its name.
@@ -140,8 +146,10 @@ impl Growing {
 
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let Some(part) = &self.part else {
-            let mut out = io::stdout().lock();
-            return gone_reader_is_no_error(out.write_all(bytes).and_then(|()| out.flush()));
+            let mut out = terminal::Output;
+            let written = out.write_all(bytes).and_then(|()| out.flush());
+            self.lost_reader |= matches!(&written, Err(error) if error.kind() == io::ErrorKind::BrokenPipe);
+            return gone_reader_is_no_error(written);
         };
         let file = match &mut self.file {
             Some(file) => file,

@@ -1,9 +1,13 @@
-//! Temporary files and folders, removed when they are dropped and when a signal ends the program.
+//! Temporary files and folders, removed when they are dropped and when a signal ends the program; folders of a program that was
+//! killed are removed by the next one.
+//!
+//! On Unix a folder is locked as long as its program runs. One that can be locked has nobody any more.
 
 use std::{
-    fs, io, mem,
+    fs::{self, File, TryLockError},
+    io, mem,
     path::{Path, PathBuf},
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{Mutex, MutexGuard, Once, PoisonError},
     thread,
     time::Duration,
 };
@@ -61,23 +65,100 @@ impl Drop for Registered {
     }
 }
 
+/// What the names of temporary folders begin and end with; six letters and digits are between.
+const NAME: [&str; 2] = ["heliotorque-", ".scratch"];
+const LETTERS: usize = 6;
+
 /// A temporary folder.
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
     _registered: Registered,
+    // Locked; closed by the end of the program, however that comes.
+    _lock: Option<File>,
 }
 
 impl Scratch {
-    /// Makes one where the system keeps temporary files; `prefix` begins its name.
-    pub fn new(prefix: &str) -> io::Result<Self> {
-        let make = || tempfile::Builder::new().prefix(prefix).tempdir();
-        let (folder, _registered) = Registered::with(make, TempDir::path)?;
-        Ok(Self { folder, _registered })
+    /// Makes one where the system keeps temporary files, and removes those there whose program was killed.
+    ///
+    /// # Errors
+    /// No folder can be made.
+    pub fn new() -> io::Result<Self> {
+        static SWEPT: Once = Once::new();
+        SWEPT.call_once(|| sweep(&std::env::temp_dir()));
+        let [prefix, suffix] = NAME;
+        loop {
+            let make =
+                || tempfile::Builder::new().prefix(prefix).suffix(suffix).rand_bytes(LETTERS).tempdir();
+            let (folder, _registered) = Registered::with(make, TempDir::path)?;
+            let lock = lock(folder.path());
+            // Another program may have taken it for an abandoned one until it was locked.
+            if folder.path().is_dir() && !matches!(lock, Err(TryLockError::WouldBlock)) {
+                return Ok(Self { folder, _registered, _lock: lock.ok() });
+            }
+        }
     }
 
     /// Where it is.
     pub fn path(&self) -> &Path {
         self.folder.path()
+    }
+}
+
+/// The folder, locked; where folders cannot be locked, the error says so.
+fn lock(folder: &Path) -> Result<File, TryLockError> {
+    let file = File::open(folder).map_err(TryLockError::Error)?;
+    file.try_lock()?;
+    Ok(file)
+}
+
+/// Removes the folders of killed programs. What cannot be removed belongs to somebody else.
+fn sweep(temporaries: &Path) {
+    let [prefix, suffix] = NAME;
+    let is_ours = |name: &str| {
+        let letters = name.strip_prefix(prefix).and_then(|rest| rest.strip_suffix(suffix));
+        letters.is_some_and(|it| it.len() == LETTERS && it.bytes().all(|byte| byte.is_ascii_alphanumeric()))
+    };
+    for entry in fs::read_dir(temporaries).into_iter().flatten().flatten() {
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if !is_folder || !entry.file_name().to_str().is_some_and(is_ours) {
+            continue;
+        }
+        if let Ok(_locked) = lock(&entry.path()) {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    //! Folders of killed programs go, those in use and those of others stay.
+
+    use super::*;
+
+    #[test]
+    fn what_nobody_uses_is_removed_and_nothing_else() {
+        let place = tempfile::tempdir().unwrap();
+        let at = |name: &str| place.path().join(name);
+        let names = [
+            "heliotorque-aB3dE9.scratch",
+            "heliotorque-inUse1.scratch",
+            "heliotorque-aB3dE9",
+            "heliotorque-results.scratch",
+            "other-aB3dE9.scratch",
+        ];
+        for name in names {
+            fs::create_dir_all(at(name).join("deep")).unwrap();
+            fs::write(at(name).join("deep/file"), "x").unwrap();
+        }
+        fs::write(at("heliotorque-aFile0.scratch"), "x").unwrap();
+        let in_use = lock(&at(names[1])).unwrap();
+        sweep(place.path());
+        let left: Vec<bool> = names.iter().map(|name| at(name).join("deep/file").exists()).collect();
+        assert_eq!(left, [false, true, true, true, true]);
+        assert!(!at(names[0]).exists() && at("heliotorque-aFile0.scratch").exists());
+        drop(in_use);
+        sweep(place.path());
+        assert!(!at(names[1]).exists());
     }
 }

@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicU64, Ordering},
 };
 
-use model_description::call_table::Function;
+use model_description::{call_table::Function, describe};
 
 /// The words of a [`CallRecord`]: the call in progress (0: none), how many were begun, the last one begun, its
 /// arguments, which instance they are made to.
@@ -42,8 +42,10 @@ const fn is_same(one: &str, two: &str) -> bool {
     at == one.len() && at == two.len()
 }
 
-/// Loading the shared library, which is no function of the standard.
+/// Loading the shared library, and a heliotorque library's own functions: no functions of the standard.
 pub(crate) const LOADING: u64 = Function::ALL.len() as u64 + 1;
+pub(crate) const DESCRIBING: u64 = LOADING + 1;
+pub(crate) const CHECKING: u64 = LOADING + 2;
 const LOADING_TEXT: &str = "loading the shared library";
 const DO_STEP: u64 = number("fmi2DoStep");
 
@@ -105,6 +107,8 @@ pub fn recorded_calls(record: &CallRecord) -> RecordedCalls {
         [first_time, second_time].map(|time| f64::from_bits(time.load(Ordering::Relaxed)));
     let call = |number: u64| match number {
         LOADING => Some(LOADING_TEXT.to_owned()),
+        DESCRIBING => Some(describe::SYMBOL.to_owned()),
+        CHECKING => Some(describe::CHECK_SCHEDULE_SYMBOL.to_owned()),
         DO_STEP => {
             Some(format!("fmi2DoStep(currentCommunicationPoint={first_s}, communicationStepSize={second_s})"))
         }

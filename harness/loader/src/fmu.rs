@@ -51,8 +51,8 @@ impl Fmu {
         let (folder, entries, temporary) = if metadata.is_dir() {
             (std::path::absolute(&source).map_err(at_source)?, Vec::new(), None)
         } else {
-            let temporary = Scratch::new("heliotorque-")
-                .map_err(|error| Error::File { path: std::env::temp_dir(), source: error })?;
+            let temporary =
+                Scratch::new().map_err(|error| Error::File { path: std::env::temp_dir(), source: error })?;
             let entries = archive::unpack(&source, temporary.path(), archive::Limits::default())?;
             (temporary.path().to_owned(), entries, Some(temporary))
         };

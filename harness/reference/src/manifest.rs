@@ -69,7 +69,7 @@ impl Manifest {
     pub fn to_xml(&self) -> String {
         let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
              <fmiReferences\n    xmlns:fmi-ls=\"http://fmi-standard.org/fmi-ls-manifest\"\n    \
-             fmi-ls:fmi-ls-name=\"org.fmi-standard.fmi-ls-ref\"\n    fmi-ls:fmi-ls-version=\"1.0.0-alpha.1\"\n    \
+             fmi-ls:fmi-ls-name=\"org.fmi-standard.fmi-ls-ref\"\n    fmi-ls:fmi-ls-version=\"1.0.0-beta.1\"\n    \
              fmi-ls:fmi-ls-description=\"Layered Standard providing information on related files included in an FMU.\">\n"
             .to_owned();
         for related in &self.related {

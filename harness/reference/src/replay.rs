@@ -28,6 +28,8 @@ pub struct Replay {
     pub tolerance: f64,
     /// Whether the FMU states this tolerance.
     pub is_stated: bool,
+    /// Columns that are no variables of the FMU, as where one table serves FMUs of several versions of FMI.
+    pub foreign: Vec<String>,
 }
 
 impl Replay {
@@ -84,7 +86,7 @@ fn table(fmu: &Fmu, source: &str) -> Result<(Vec<String>, Vec<Vec<String>>), Str
 }
 
 fn fly(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
-    let (header, mut rows) = table(fmu, &flight.source)?;
+    let (mut header, mut rows) = table(fmu, &flight.source)?;
     let mut times_s = Vec::with_capacity(rows.len());
     for (index, row) in rows.iter().enumerate() {
         let cell = row.first().map_or("", String::as_str);
@@ -101,10 +103,19 @@ fn fly(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
         InputTable::parse(fmu.description(), &header, &rows).map_err(|error| format!("{source}: {error}"))
     });
     let inputs = inputs.transpose()?;
-    let mut record = Vec::new();
-    for name in &header[1..] {
-        record.push(fmu.position(name).ok_or_else(|| format!("the FMU has no variable {name:?}"))?);
+    let is_foreign: Vec<bool> =
+        header.iter().enumerate().map(|(column, name)| column > 0 && fmu.position(name).is_none()).collect();
+    let foreign: Vec<String> =
+        header.iter().zip(&is_foreign).filter(|(_, is)| **is).map(|(name, _)| name.clone()).collect();
+    // The table of a flight that was recorded with this FMU has its names.
+    if let Some(name) = foreign.first().filter(|_| stated.is_some()) {
+        return Err(format!("the FMU has no variable {name:?}"));
     }
+    for cells in rows.iter_mut().chain([&mut header]) {
+        let mut kept = is_foreign.iter().map(|is_foreign| !is_foreign);
+        cells.retain(|_| kept.next().unwrap_or(true));
+    }
+    let record = header[1..].iter().filter_map(|name| fmu.position(name)).collect();
     let options = Options {
         start_s: Some(start_s),
         stop_s: Some(stop_s),
@@ -140,5 +151,6 @@ fn fly(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
         deviations,
         tolerance: stated.map_or(UNSTATED_TOLERANCE, |it| it.tolerance),
         is_stated: stated.is_some(),
+        foreign,
     })
 }

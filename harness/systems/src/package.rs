@@ -38,8 +38,8 @@ impl Package {
             let folder = std::path::absolute(path).map_err(at_path)?;
             return Ok(Self { source: path.to_owned(), folder, _temporary: None });
         }
-        let temporary = Scratch::new("heliotorque-")
-            .map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
+        let temporary =
+            Scratch::new().map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
         loader::unpack(path, temporary.path(), Limits::default()).map_err(|error| match error {
             loader::Error::Archive { path, what } => Error::Archive { path, what },
             loader::Error::File { path, source } => Error::File { path, source },

@@ -3,18 +3,22 @@
 // They panic when the reader went away; `print` and `note` do not.
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+mod relay;
+
 use std::{
     borrow::Cow,
-    io::{self, IsTerminal, Write},
+    io::{self, Write},
 };
 
 use comfy_table::{ContentArrangement, Table, TableComponent, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 
+pub use relay::{Output, Relay, Screen, relay_to, screen, show_bar};
+
 /// Prints a text; a reader that went away (as `head` does) is no error.
 pub fn print(text: &str) -> io::Result<()> {
-    let mut out = io::stdout().lock();
-    match writeln!(out, "{}", plain(text)).and_then(|()| out.flush()) {
+    let line = format!("{}\n", plain(text));
+    match Output.write_all(line.as_bytes()).and_then(|()| Output.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         other => other,
     }
@@ -22,7 +26,12 @@ pub fn print(text: &str) -> io::Result<()> {
 
 /// Says something beside the output, on stderr; nobody there to read it is no error.
 pub fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{}", plain(text));
+    match relay::relay() {
+        Some(relay) => relay.note(text),
+        None => {
+            let _ = writeln!(io::stderr().lock(), "{}", plain(text));
+        }
+    }
 }
 
 /// The text with every control character but line break and tab written out, and those that turn the direction of
@@ -30,7 +39,9 @@ pub fn note(text: &str) {
 pub fn plain(text: &str) -> Cow<'_, str> {
     let is_plain = |letter: char| match letter {
         '\n' | '\t' => true,
-        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => false,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => false,
+        // Line ends of their own.
+        '\u{2028}' | '\u{2029}' => false,
         _ => !letter.is_control(),
     };
     if text.chars().all(is_plain) {
@@ -55,18 +66,19 @@ pub fn table(header: &[&str]) -> Table {
         .remove_style(TableComponent::HorizontalLines)
         .remove_style(TableComponent::MiddleIntersections)
         .set_header(header);
-    if io::stdout().is_terminal() {
-        table.set_content_arrangement(ContentArrangement::Dynamic);
+    if let Some(columns) = screen().output_columns {
+        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(columns);
     }
     table
 }
 
 /// A bar on stderr over `count` of what `unit` names; hidden with `--quiet` and where stderr is no terminal.
 pub fn progress(count: u64, unit: &str, is_quiet: bool) -> ProgressBar {
-    if is_quiet || !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(count);
+    let Some(columns) = screen().note_columns.filter(|_| !is_quiet) else { return ProgressBar::hidden() };
+    let bar = match relay::relay() {
+        Some(relay) => ProgressBar::with_draw_target(Some(count), relay::bar_target(relay, columns)),
+        None => ProgressBar::new(count),
+    };
     let template =
         format!("{{bar:40.cyan/blue}} {{percent:>3}}% of {{len}} {unit}, {{elapsed}} gone, {{eta}} to go");
     if let Ok(style) = ProgressStyle::with_template(&template) {
@@ -106,6 +118,7 @@ mod tests {
         assert_eq!(plain("\u{1b}[2Jok\r\u{7}"), "\\u{1b}[2Jok\\r\\u{7}");
         assert_eq!(plain("\u{9b}1m\u{202e}"), "\\u{9b}1m\\u{202e}");
         assert_eq!(plain("\0\u{7f}"), "\\u{0}\\u{7f}");
+        assert_eq!(plain("a\u{200f}b\u{2028}c"), "a\\u{200f}b\\u{2028}c");
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! Runs a probe in a process of its own and reads its findings.
 
-use std::ffi::OsString;
+use std::{ffi::OsString, time::Instant};
 
 use conformance::{Finding, Verdict};
 use files::Scratch;
 use loader::Fmu;
 
-use crate::child::{Bounds, ChildProcess, Limits, Link, Payload, push_text};
+use crate::child::{Bounds, ChildProcess, Link, Payload, SMALL, push_text};
 
 /// Kinds of frames: a finding, the probe's end.
 const FINDING: u8 = 1;
@@ -15,24 +15,21 @@ const FINISHED: u8 = 2;
 /// Findings of a probe at most, and the length of one in bytes.
 const FINDINGS: usize = 10_000;
 const LENGTH: usize = 1 << 14;
-/// What a probe may take of the computer: memory and printed text in bytes, open files.
-const MEMORY: u64 = 4 << 30;
-const FILES: u64 = 1024;
+/// Bytes that a probe may print.
 const PRINTED: u64 = 16 << 20;
 
-/// Runs the probe; a crash, a hang or an early end is a finding.
-pub fn run(fmu: &Fmu, probe: &str, timeout_s: f64) -> Vec<Finding> {
+/// Runs the probe until the deadline, with the whole time until then in s; a crash, a hang or an early end is a finding.
+pub fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Finding> {
     let started = || {
         // What a probe leaves when it is ended goes with this folder.
-        let scratch = Scratch::new("heliotorque-")?;
+        let scratch = Scratch::new()?;
         let arguments = [OsString::from("probe-in-child"), fmu.folder().into(), probe.into()];
         let environment: Vec<(&str, OsString)> =
             ["TMPDIR", "TMP", "TEMP"].map(|name| (name, scratch.path().into())).to_vec();
-        let limits = Limits { memory: Some(MEMORY), files: Some(FILES) };
-        Ok::<_, std::io::Error>((ChildProcess::new(arguments, limits, &environment)?, scratch))
+        Ok::<_, std::io::Error>((ChildProcess::new(arguments, SMALL, &environment)?, scratch))
     };
     match started() {
-        Ok((child, _scratch)) => supervise(child, timeout_s),
+        Ok((child, _scratch)) => supervise(child, deadline),
         Err(error) => vec![Finding::bad(format!("the probe cannot be started: {error}"))],
     }
 }
@@ -56,7 +53,7 @@ fn decode(mut payload: Payload<'_>) -> Option<Finding> {
     Some(Finding::new(verdict, payload.text()?))
 }
 
-fn supervise(child: ChildProcess, timeout_s: f64) -> Vec<Finding> {
+fn supervise(child: ChildProcess, deadline: (Instant, f64)) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut finished = false;
     let mut take = |kind: u8, payload: Payload<'_>| match kind {
@@ -72,12 +69,13 @@ fn supervise(child: ChildProcess, timeout_s: f64) -> Vec<Finding> {
         FINDING => Err(format!("it sent more than {FINDINGS} findings")),
         _ => Err("it sent what is no finding".to_owned()),
     };
-    let bounds = Bounds { time_s: Some(timeout_s), call_s: None, printed: Some(PRINTED) };
+    let bounds = Bounds { deadline: Some(deadline), call_s: None, printed: Some(PRINTED) };
     let supervised = child.supervise(bounds, &mut take, &mut |_| {}, &mut |_| Ok(()));
     match supervised.fault() {
         Some(fault) => findings.push(Finding::bad(fault)),
         None if !finished => findings.push(Finding::bad(supervised.without_result())),
         None => {}
     }
+    findings.extend(supervised.left_behind().map(Finding::note));
     findings
 }

@@ -1,15 +1,18 @@
-//! `heliotorque check mission.toml`: whether a mission can fly; nothing is flown.
+//! `heliotorque check mission.toml`: whether a mission can fly; its first step is flown.
 
-use std::process::ExitCode;
+use std::{process::ExitCode, sync::atomic::AtomicBool};
+
+use loader::Collector;
 
 use crate::{
     args::{Check, Run},
     epoch,
     outcome::Outcome,
-    run::{flown::Flown, settings::Settings},
+    run::{Prepared, settings::Settings, subject::Given},
 };
 
-/// Reads the file, packs what it names and finds every name and value in it.
+/// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then flies the
+/// first step in this process.
 pub fn run(arguments: &Check) -> Outcome {
     let file = arguments.subject.display().to_string();
     match summary(arguments) {
@@ -29,9 +32,18 @@ pub fn run(arguments: &Check) -> Outcome {
 
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let run = Run::of(arguments.subject.clone(), arguments.template.clone());
-    let flown = Flown::of(&run)?;
-    let (subject, _packed) = flown.open()?;
-    let Settings { times, columns, plots, limits, .. } = Settings::of(&subject, &flown, None)?;
+    let Prepared { flown, subject, settings, .. } = &Prepared::of(&run)?;
+    let Settings { times, columns, plots, limits, sets, inputs, positions } = settings;
+    let given = Given {
+        sets: sets.clone(),
+        inputs: inputs.as_ref(),
+        positions: positions.clone(),
+        progress: &mut |_| {},
+        // Ended after the first step.
+        cancel: &AtomicBool::new(true),
+    };
+    let mut rows = Collector::new(subject.description(), positions);
+    subject.simulate_into(&flown.run, given, &mut rows)?;
     let short = terminal::short;
     let begin = flown.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
@@ -42,7 +54,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         span(times.stop_s - times.start_s),
         times.steps(),
         short(times.step_s),
-        count(columns, "variable"),
+        count(*columns, "variable"),
         count(plots.len(), "picture"),
         count(limits.len(), "limit"),
     ))

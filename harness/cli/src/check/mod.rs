@@ -10,7 +10,10 @@ mod spacecraft;
 mod system;
 mod timeline;
 
-use std::{process::ExitCode, time::Instant};
+use std::{
+    process::ExitCode,
+    time::{Duration, Instant},
+};
 
 use conformance::{Finding, PROBES, Probe, Trial, Verdict};
 use loader::Fmu;
@@ -39,9 +42,22 @@ impl Section {
     }
 }
 
+/// Whether it is about a file that a library reads, which this process then loads.
+pub fn is_file(arguments: &Check) -> bool {
+    arguments.subject.extension().is_some_and(|extension| extension == "toml")
+}
+
+/// Longest time in s that is counted: beyond it no clock may go.
+const LONGEST_S: f64 = 1e9;
+
+/// When all of it has to be over, and the time until then in s.
+pub fn deadline(arguments: &Check) -> (Instant, f64) {
+    (Instant::now() + Duration::from_secs_f64(arguments.timeout.min(LONGEST_S)), arguments.timeout)
+}
+
 /// Checks an FMU, a system or a spacecraft and prints the report.
 pub fn run(arguments: &Check) -> Outcome {
-    if arguments.subject.extension().is_some_and(|extension| extension == "toml") {
+    if is_file(arguments) {
         return match (arguments.is_static, &arguments.only) {
             (false, None) => match ephemeris::read(&arguments.subject)? {
                 Some(read) => ephemeris::run_check(&arguments.subject, read),
@@ -106,15 +122,25 @@ pub fn run(arguments: &Check) -> Outcome {
     }
     let runnable = !arguments.is_static && fmu.co_simulation().is_ok();
     if runnable {
-        let loads = child::run(&fmu, "library", arguments.timeout);
+        let deadline = deadline(arguments);
+        let loads = child::run(&fmu, "library", deadline);
         // A library that loads leaves something to try, whatever it lacks.
         let usable = loads.first().is_some_and(|finding| finding.verdict == Verdict::Good);
         sections.push(Section { title: "library".to_owned(), findings: loads });
         if usable {
             for probe in PROBES.iter().filter(|probe| probe.name != "library").filter(is_selected) {
-                let mut findings = child::run(&fmu, probe.name, arguments.timeout);
-                for trial in conformance::trials().filter(|trial| trial.probe == probe.name) {
-                    findings.extend(try_out(&fmu, trial, arguments.timeout));
+                let trials = conformance::trials().filter(|trial| trial.probe == probe.name);
+                let mut findings = Vec::new();
+                for trial in [None].into_iter().chain(trials.map(Some)) {
+                    if Instant::now() >= deadline.0 {
+                        let what = format!("the {} s of the check are over (see --timeout)", deadline.1);
+                        findings.push(Finding::skipped(what));
+                        break;
+                    }
+                    findings.extend(match trial {
+                        None => child::run(&fmu, probe.name, deadline),
+                        Some(trial) => try_out(&fmu, trial, deadline),
+                    });
                 }
                 sections.push(Section { title: format!("{}: {}", probe.name, probe.title), findings });
             }
@@ -124,14 +150,14 @@ pub fn run(arguments: &Check) -> Outcome {
 }
 
 /// Longest wait for the answer to a call that makes no sense.
-const SENSELESS_PATIENCE_S: f64 = 5.0;
+const SENSELESS_PATIENCE: Duration = Duration::from_secs(5);
 
 /// Runs a trial; what an FMU that is lost in it leaves behind names the call.
-fn try_out(fmu: &Fmu, trial: &Trial, patience_s: f64) -> Vec<Finding> {
-    let patience_s = if trial.senseless { patience_s.min(SENSELESS_PATIENCE_S) } else { patience_s };
-    let began = Instant::now();
-    let mut findings = child::run(fmu, &trial.name(), patience_s);
-    let hung = began.elapsed().as_secs_f64() >= patience_s;
+fn try_out(fmu: &Fmu, trial: &Trial, deadline: (Instant, f64)) -> Vec<Finding> {
+    let soon = (Instant::now() + SENSELESS_PATIENCE, SENSELESS_PATIENCE.as_secs_f64());
+    let deadline = if trial.senseless && soon.0 < deadline.0 { soon } else { deadline };
+    let mut findings = child::run(fmu, &trial.name(), deadline);
+    let hung = Instant::now() >= deadline.0;
     for finding in findings.iter_mut().filter(|finding| finding.verdict == Verdict::Bad) {
         finding.text = format!("{}, {}: {}", trial.call, trial.what, finding.text);
         if trial.disputed || hung && trial.senseless {

@@ -115,8 +115,13 @@ impl Link {
 
 /// Appends a text to a payload.
 pub fn push_text(payload: &mut Vec<u64>, text: &str) {
-    payload.push(text.len() as u64);
-    payload.extend(text.as_bytes().chunks(8).map(|chunk| {
+    push_bytes(payload, text.as_bytes());
+}
+
+/// Appends bytes to a payload.
+pub fn push_bytes(payload: &mut Vec<u64>, bytes: &[u8]) {
+    payload.push(bytes.len() as u64);
+    payload.extend(bytes.chunks(8).map(|chunk| {
         let mut bytes = [0; 8];
         bytes[..chunk.len()].copy_from_slice(chunk);
         u64::from_le_bytes(bytes)
@@ -143,10 +148,14 @@ impl<'a> Payload<'a> {
 
     /// The next text.
     pub fn text(&mut self) -> Option<String> {
+        Some(String::from_utf8_lossy(&self.bytes()?).into_owned())
+    }
+
+    /// The next bytes.
+    pub fn bytes(&mut self) -> Option<Vec<u8>> {
         let length = usize::try_from(self.word()?).ok()?;
         let words = self.words(length.div_ceil(8))?;
-        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect();
-        Some(String::from_utf8_lossy(&bytes).into_owned())
+        Some(words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect())
     }
 
     /// Whether everything was read.

@@ -1,15 +1,17 @@
 //! An FMU in a process of its own: this program again, supervised from outside.
 //!
 //! Parent and child share one memory without a name. In it the child records the FMI call in progress and sends frames:
-//! rows of a recording, findings of a probe, its end. What stands there after a crash is still read. Whatever the
+//! rows of a recording, findings of a probe, what a whole command shows, its end. What stands there after a crash is still read. Whatever the
 //! FMU prints goes through pipes of its own and is never taken for a frame.
 
 mod channel;
 mod printed;
+mod relayed;
 mod supervisor;
 mod system;
 
 pub use channel::{Link, Payload, push_text};
-pub use printed::BYTES_FORWARDED;
-pub use supervisor::{Bounds, ChildProcess, EndReason, Limits};
+pub use printed::Shown;
+pub use relayed::{Relayed, is_child, serve};
+pub use supervisor::{Bounds, ChildProcess, EndReason, Limits, SMALL};
 pub use system::end_all;

@@ -6,14 +6,38 @@ use std::{
     process::{Child, Stdio},
 };
 
-/// How much of what an FMU prints is handed on.
-pub const BYTES_FORWARDED: u64 = 1 << 20;
+/// How much of what an FMU prints is shown.
+const BYTES_SHOWN: u64 = 1 << 20;
 /// Longest line that is handed on; the rest of it is a line of its own.
 const LINE: usize = 4096;
 /// Lines kept for the report of a crash.
 const LINES_KEPT: usize = 3;
 /// Read at a time, so that the parent reads the other channels too.
 const AT_ONCE: usize = 1 << 20;
+
+/// Shows what an FMU prints, up to a bound.
+pub struct Shown<'a> {
+    name: &'a str,
+    bytes: u64,
+}
+
+impl<'a> Shown<'a> {
+    /// Nothing yet; what is left out is said of `name`.
+    pub fn new(name: &'a str) -> Self {
+        Self { name, bytes: 0 }
+    }
+
+    /// Shows one more line on stderr.
+    pub fn line(&mut self, line: &str) {
+        let before = self.bytes;
+        self.bytes += line.len() as u64 + 1;
+        if self.bytes <= BYTES_SHOWN {
+            terminal::note(line);
+        } else if before <= BYTES_SHOWN {
+            terminal::note(&format!("{}: what else it prints is left out", self.name));
+        }
+    }
+}
 
 /// Both streams of a child.
 pub struct Printed {

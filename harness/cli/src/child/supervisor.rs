@@ -20,8 +20,10 @@ use crate::interrupt;
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(5)];
 /// So many words at a time are many.
 const MANY: usize = RING_WORDS / 8;
-/// How long a child that was requested to end, or has reported its end, may take.
+/// How long a child that has reported its end may take to exit.
 const GRACE: Duration = Duration::from_secs(2);
+/// How long a child that was requested to end may take: who presses Ctrl-C waits less than a second.
+const CANCEL_GRACE: Duration = Duration::from_millis(500);
 
 /// What the child's process may take of the computer.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,11 +34,14 @@ pub struct Limits {
     pub files: Option<u64>,
 }
 
+/// Enough for every FMU that is looked at and not flown long: memory in bytes, open files.
+pub const SMALL: Limits = Limits { memory: Some(4 << 30), files: Some(1024) };
+
 /// What the parent ends the child for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bounds {
-    /// Time that the child may take, in s.
-    pub time_s: Option<f64>,
+    /// When the child has to have ended, and the whole time until then, in s.
+    pub deadline: Option<(Instant, f64)>,
     /// Time that one FMI call may take, in s.
     pub call_s: Option<f64>,
     /// Bytes that it may print.
@@ -48,7 +53,7 @@ pub struct Bounds {
 pub enum EndReason {
     /// By itself.
     Ended(ExitStatus),
-    /// It took longer than it may, in s.
+    /// It ran when the whole time was over, in s.
     Hangs(f64),
     /// A call took longer than it may, in s.
     CallHangs(f64),
@@ -71,7 +76,12 @@ pub struct Supervised {
     pub calls: RecordedCalls,
     /// The last lines it printed, each after a line break.
     pub printed: String,
+    /// The processes that it left behind, which were ended.
+    pub left: Vec<String>,
 }
+
+/// Processes that are named at most.
+const NAMED: usize = 5;
 
 impl Supervised {
     /// Why it is no good end, with the call it came in; `None` for a good one.
@@ -88,6 +98,14 @@ impl Supervised {
         self.placed(&describe(&self.how))
     }
 
+    /// What it left behind, if anything.
+    pub fn left_behind(&self) -> Option<String> {
+        let named = self.left.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
+        let more = self.left.len().checked_sub(NAMED).filter(|more| *more > 0);
+        let more = more.map_or_else(String::new, |more| format!(" and {more} more"));
+        (!self.left.is_empty()).then(|| format!("left processes behind, which were ended: {named}{more}"))
+    }
+
     fn placed(&self, what: &str) -> String {
         let printed = &self.printed;
         match (&self.calls.in_progress, &self.calls.last) {
@@ -101,7 +119,7 @@ impl Supervised {
 fn describe(how: &EndReason) -> String {
     match how {
         EndReason::Ended(status) => format!("the process ended: {}", system::how(*status)),
-        EndReason::Hangs(time_s) => format!("hangs: still busy after {time_s} s (see --timeout)"),
+        EndReason::Hangs(time_s) => format!("hangs: still busy after {time_s} s in all (see --timeout)"),
         EndReason::CallHangs(time_s) => {
             format!("hangs: the call did not return within {time_s} s (see --timeout)")
         }
@@ -134,7 +152,7 @@ impl ChildProcess {
         match Printed::of(&mut child) {
             Ok(printed) => Ok(Self { child, inbox, printed }),
             Err(error) => {
-                system::end(&mut child)?;
+                let _ = system::end(&mut child)?;
                 Err(error)
             }
         }
@@ -153,12 +171,14 @@ impl ChildProcess {
         let calls = self.inbox.calls().map(loader::recorded_calls).unwrap_or_default();
         let status = system::end(&mut self.child);
         self.printed.finish(line);
-        let how = match (how, status) {
-            (Some(how), _) => how,
-            (None, Ok(status)) => EndReason::Ended(status),
-            (None, Err(error)) => EndReason::Refused(format!("the process cannot be waited for: {error}")),
+        let (how, left) = match (how, status) {
+            (how, Ok((status, left))) => (how.unwrap_or(EndReason::Ended(status)), left),
+            (Some(how), Err(_)) => (how, Vec::new()),
+            (None, Err(error)) => {
+                (EndReason::Refused(format!("the process cannot be waited for: {error}")), Vec::new())
+            }
         };
-        Supervised { how, calls, printed: self.printed.last() }
+        Supervised { how, calls, printed: self.printed.last(), left }
     }
 
     /// Until it ended by itself (`None`) or has to be ended.
@@ -169,8 +189,7 @@ impl ChildProcess {
         line: &mut dyn FnMut(&str),
         tick: &mut dyn FnMut(Option<&CallRecord>) -> Result<(), String>,
     ) -> Option<EndReason> {
-        let began = Instant::now();
-        let (mut call, mut call_began) = (None, began);
+        let (mut call, mut call_began) = (None, Instant::now());
         let (mut finished, mut cancelled) = (None::<Instant>, None::<Instant>);
         let [often, seldom] = PAUSES;
         let mut pause = often;
@@ -202,10 +221,10 @@ impl ChildProcess {
             if in_progress != call {
                 (call, call_began) = (in_progress, now);
             }
-            let is_over = |from: Instant, time_s: &f64| (now - from).as_secs_f64() > *time_s;
-            if let Some(time_s) = bounds.time_s.filter(|time_s| is_over(began, time_s)) {
+            if let Some((_, time_s)) = bounds.deadline.filter(|(deadline, _)| now > *deadline) {
                 return Some(EndReason::Hangs(time_s));
             }
+            let is_over = |from: Instant, time_s: &f64| (now - from).as_secs_f64() > *time_s;
             let in_call = call.is_some();
             if let Some(time_s) = bounds.call_s.filter(|time_s| in_call && is_over(call_began, time_s)) {
                 return Some(EndReason::CallHangs(time_s));
@@ -220,7 +239,7 @@ impl ChildProcess {
                 self.inbox.cancel();
                 cancelled = Some(now);
             }
-            if cancelled.is_some_and(|from| now - from > GRACE) {
+            if cancelled.is_some_and(|from| now - from > CANCEL_GRACE) {
                 return Some(EndReason::Interrupted);
             }
             std::thread::sleep(pause);

@@ -1,11 +1,18 @@
-//! What only the operating system does: process groups, limits, ends of processes.
+//! What only the operating system does: process groups, orphans, limits, ends of processes.
+//!
+//! On Linux this process takes over what a child leaves behind, also in a session of its own (PR_SET_CHILD_SUBREAPER): once the
+//! child has ended, its descendants are children of this process, which ends them one generation after the other.
 
 use std::{
     fs::File,
     io, mem,
     process::{Child, Command, ExitStatus},
     sync::{Mutex, MutexGuard, PoisonError},
+    time::Duration,
 };
+
+/// How long the end of what a child left behind is waited for.
+const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Groups of children that run now.
 static GROUPS: Mutex<Vec<u32>> = Mutex::new(Vec::new());
@@ -23,29 +30,127 @@ pub fn spawn(command: &mut Command) -> io::Result<Child> {
     }
     // Held meanwhile, so that a signal finds every child.
     let mut groups = groups();
+    orphans::adopt();
     let child = command.spawn()?;
     groups.push(child.id());
     Ok(child)
 }
 
-/// Ends a child with its whole group and takes its exit status.
-pub fn end(child: &mut Child) -> io::Result<ExitStatus> {
+/// Ends a child with all that it started and takes its exit status; also gives the processes that it left behind.
+pub fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
     let mut groups = groups();
-    // While it is not waited for, its number is nobody else's.
-    end_group(child.id());
-    groups.retain(|group| *group != child.id());
-    // It may have ended by itself.
+    // It may have ended by itself. While it is not waited for, its number is nobody else's.
     let _ = child.kill();
-    child.wait()
+    wait_for_end(child);
+    groups.retain(|group| *group != child.id());
+    let left = orphans::end(PATIENCE, |number| number == child.id() || groups.contains(&number));
+    end_group(child.id());
+    Ok((child.wait()?, left))
 }
 
-/// Ends every child with its group; the program ends next, and whoever starts another one waits for that end.
+/// Ends every child with all that it started; the program ends next, and whoever starts another one waits for that end.
 pub fn end_all() {
     let mut groups = groups();
-    for group in groups.drain(..) {
-        end_group(group);
+    let leaders = mem::take(&mut *groups);
+    leaders.iter().for_each(|leader| end_group(*leader));
+    if !leaders.is_empty() {
+        orphans::end(PATIENCE, |_| false);
     }
     mem::forget(groups);
+}
+
+/// Waits until a child that was killed has ended, without taking its exit status.
+fn wait_for_end(child: &Child) {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+        if let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
+            let _ = waitid(WaitId::Pid(pid), WaitIdOptions::EXITED | WaitIdOptions::NOWAIT);
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = child;
+}
+
+/// Processes that lost their parent, a child of this one.
+#[cfg(target_os = "linux")]
+mod orphans {
+    use std::{
+        collections::BTreeMap,
+        fs,
+        sync::OnceLock,
+        thread,
+        time::{Duration, Instant},
+    };
+
+    use rustix::process::{Pid, Signal, WaitOptions, getpid, kill_process, set_child_subreaper, waitpid};
+
+    /// Between two looks at the processes.
+    const PAUSE: Duration = Duration::from_millis(1);
+
+    /// Children that this process had before it started any: those of the shell that it took the place of.
+    static FOREIGN: OnceLock<Vec<u32>> = OnceLock::new();
+
+    /// From now on orphans become children of this process.
+    pub fn adopt() {
+        FOREIGN.get_or_init(|| children().into_keys().collect());
+        // Without it they end with their group.
+        let _ = set_child_subreaper(Some(getpid()));
+    }
+
+    /// Ends orphans until there are none and gives them; children that `is_own` tells are left alone.
+    pub fn end(patience: Duration, is_own: impl Fn(u32) -> bool) -> Vec<String> {
+        let began = Instant::now();
+        let mut found = BTreeMap::new();
+        let foreign = FOREIGN.get().map_or(&[][..], Vec::as_slice);
+        loop {
+            let orphans: Vec<(u32, String)> = children()
+                .into_iter()
+                .filter(|(number, _)| !is_own(*number) && !foreign.contains(number))
+                .collect();
+            if orphans.is_empty() || began.elapsed() > patience {
+                break;
+            }
+            for (number, name) in orphans {
+                if let Some(pid) = i32::try_from(number).ok().and_then(Pid::from_raw) {
+                    let _ = kill_process(pid, Signal::KILL);
+                    let _ = waitpid(Some(pid), WaitOptions::NOHANG);
+                }
+                found.entry(number).or_insert(name);
+            }
+            thread::sleep(PAUSE);
+        }
+        found.into_iter().map(|(number, name)| format!("{number} ({name})")).collect()
+    }
+
+    /// The children of this process that run, by number, with their names.
+    fn children() -> BTreeMap<u32, String> {
+        let own = getpid().as_raw_nonzero().get().to_string();
+        let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
+        let child = |number: u32| {
+            let stat = fs::read(format!("/proc/{number}/stat")).ok()?;
+            let stat = String::from_utf8_lossy(&stat);
+            // `number (name) state parent ...`; a name may hold anything.
+            let (head, tail) = stat.rsplit_once(')')?;
+            let (_, name) = head.split_once('(')?;
+            let mut tail = tail.split_ascii_whitespace();
+            let runs = !matches!(tail.next()?, "Z" | "X");
+            (runs && tail.next()? == own).then(|| (number, name.to_owned()))
+        };
+        entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok()).filter_map(child).collect()
+    }
+}
+
+/// Elsewhere what a child leaves behind ends with its group.
+#[cfg(not(target_os = "linux"))]
+mod orphans {
+    use std::time::Duration;
+
+    pub fn adopt() {}
+
+    pub fn end(_patience: Duration, _is_own: impl Fn(u32) -> bool) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 #[cfg(unix)]

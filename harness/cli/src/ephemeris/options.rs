@@ -7,7 +7,7 @@ use physics::environment::{dates, flown::FlownTarget};
 
 #[cfg(feature = "spk")]
 use super::kernel::KernelOptions;
-use crate::{home, values::span};
+use crate::{args::Patience, home, values::span};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -71,6 +71,9 @@ pub struct Ephemeris {
     /// Show no progress and no report
     #[arg(long, short)]
     pub quiet: bool,
+    /// How long the FMU is waited for
+    #[command(flatten)]
+    pub patience: Patience,
 }
 
 /// `--bodies`.

@@ -98,7 +98,7 @@ impl Craft {
         }
         let described = binary.describe(MODEL, Some(&file), Some(&text))?;
         let flown = describe(FLOWN, &text)?;
-        let folder = Scratch::new("heliotorque-")?;
+        let folder = Scratch::new()?;
         write_fmu(folder.path(), &template, &described, &text)?;
         let fmu = Fmu::open(folder.path())?;
         let spacecraft = Spacecraft::from_toml(&file, &text).map_err(|error| error.to_string())?;

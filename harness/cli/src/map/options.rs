@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::{draw::options::angle, home};
+use crate::{args::Patience, draw::options::angle, home};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -73,6 +73,9 @@ pub struct Map {
     /// Print no table
     #[arg(long, short)]
     pub quiet: bool,
+    /// How long it waits
+    #[command(flatten)]
+    pub patience: Patience,
 }
 
 impl Map {

@@ -48,6 +48,10 @@ impl Exporter for Csv {
         Ok(())
     }
 
+    fn has_lost_reader(&self) -> bool {
+        self.file.has_lost_reader()
+    }
+
     fn finish(
         mut self: Box<Self>,
         _described: &Description,

@@ -12,6 +12,11 @@ pub trait Exporter {
         Ok(())
     }
 
+    /// Whether nobody is there any more to read what it writes.
+    fn has_lost_reader(&self) -> bool {
+        false
+    }
+
     /// Writes the complete recording and gives the file its name.
     fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>>;
 

@@ -99,6 +99,11 @@ impl Outputs {
         self.exporters.iter_mut().try_for_each(|output| output.update(recording))
     }
 
+    /// Whether the reader of the standard output went away.
+    pub fn has_lost_reader(&self) -> bool {
+        self.exporters.iter().any(|output| output.has_lost_reader())
+    }
+
     /// Completes every output and says what was written and the last values.
     pub fn finish(self, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
         self.exporters.into_iter().try_for_each(|output| output.finish(described, recording))?;

@@ -30,7 +30,7 @@ type Contents = Vec<(String, Vec<u8>)>;
 
 /// The files of the reference flight of the FMU that these files make; an error where it cannot fly it.
 pub fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
-    let folder = Scratch::new("heliotorque-")?;
+    let folder = Scratch::new()?;
     entries.write_below(folder.path())?;
     let fmu = Fmu::open(folder.path())?;
     Ok(reference::record(&fmu, inputs).map_err(|error| loader::Error::chain(&error))?)

@@ -9,8 +9,8 @@ use crate::{args::Plan, home, outcome::Outcome};
 
 /// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
 pub fn run(arguments: &Plan) -> Outcome {
-    let Plan::Spin(options) = arguments;
-    let mut options = options.clone();
+    let Plan::Spin(arguments) = arguments;
+    let mut options = arguments.options.clone();
     if options.spacecraft.is_none() && options.fmu.is_none() && options.campaign.is_none() {
         options.fmu = home::installed().map(|_| home::fmu("SpinPlant")).filter(|fmu| fmu.is_file());
     }

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     args::RunInChild,
-    child::{BYTES_FORWARDED, Bounds, ChildProcess, EndReason, Limits, Link, Payload, push_text},
+    child::{Bounds, ChildProcess, EndReason, Limits, Link, Payload, Shown, push_text},
     outcome::Outcome,
 };
 
@@ -76,23 +76,18 @@ pub fn simulate(
     };
     let mut inbox = Inbox::new(collector, points);
     let inbox_cell = std::cell::RefCell::new(&mut inbox);
-    let mut forwarded = 0;
+    let mut shown = Shown::new(subject.name());
     let supervised = child.supervise(
-        Bounds { time_s: None, call_s: timeout_s, printed: None },
+        Bounds { call_s: timeout_s, ..Bounds::default() },
         &mut |kind, payload| inbox_cell.borrow_mut().take(kind, payload),
-        &mut |line| {
-            let before = forwarded;
-            forwarded += line.len() as u64 + 1;
-            if forwarded <= BYTES_FORWARDED {
-                terminal::note(line);
-            } else if before <= BYTES_FORWARDED {
-                terminal::note(&format!("{}: what else it prints is left out", subject.name()));
-            }
-        },
+        &mut |line| shown.line(line),
         &mut |calls| tick(inbox_cell.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
     );
     let Inbox { outcome, messages, .. } = inbox;
     let name = supervised.calls.instance.map_or_else(|| subject.name().to_owned(), |it| subject.named(it));
+    if let Some(left) = supervised.left_behind() {
+        terminal::note(&format!("{name}: {left}"));
+    }
     let fault = supervised.fault().map(|fault| format!("{name}: {fault}"));
     let outcome = match (outcome, &supervised.how) {
         (Some(outcome), EndReason::Refused(why)) => outcome.and(Err(why.clone())),

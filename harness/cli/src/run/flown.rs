@@ -1,23 +1,25 @@
 //! What a run flies: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
 
-use std::{
-    error::Error,
-    path::{Path, PathBuf},
-};
+use std::{error::Error, ffi::OsString, path::Path, process::ExitCode};
 
 use files::Scratch;
 use loader::Fmu;
 
 use crate::{
-    args::Run,
+    args::{Assemble, Run},
+    child::{self, Bounds, Relayed, SMALL},
     mission::{Craft, Inputs, Mission},
+    outcome::Outcome,
     pack::{
-        assemble::{Assembled, Parts, assemble},
+        assemble::{Parts, assemble},
         source::Source,
     },
 };
 
 use super::subject::Subject;
+
+/// Longest time in s that a call may take in which a library reads a mission's files, where --timeout says nothing.
+const PACKING_S: f64 = 60.0;
 
 /// A run as it is meant.
 pub struct Flown {
@@ -61,8 +63,31 @@ impl Flown {
             }
             return Ok((Subject::open(path)?, None));
         }
-        let (folder, _) = packed(mission, self.run.template.as_deref())?;
+        let folder = self.packed(mission)?;
         Ok((Subject::Fmu(Fmu::open(folder.path())?), Some(folder)))
+    }
+
+    /// The FMU of the mission's files, in a temporary folder.
+    fn packed(&self, mission: &Mission) -> Result<Scratch, Box<dyn Error>> {
+        let failed = |error: std::io::Error| format!("{}: {error}", std::env::temp_dir().display());
+        let folder = Scratch::new().map_err(failed)?;
+        let template = self.run.template.as_deref();
+        if child::is_child() {
+            assemble_files(mission, template, folder.path())?;
+            return Ok(folder);
+        }
+        let name = template.map_or_else(|| "the library".to_owned(), |path| path.display().to_string());
+        let bounds = Bounds { call_s: Some(self.run.timeout.unwrap_or(PACKING_S)), ..Bounds::default() };
+        let mut arguments = vec![OsString::from("assemble"), mission.file.clone().into()];
+        let mut option = |name: &str, path: &Path| {
+            let mut option = OsString::from(name);
+            option.push(path);
+            arguments.push(option);
+        };
+        option("--into=", folder.path());
+        template.iter().for_each(|template| option("--template=", template));
+        Relayed { name, bounds, limits: SMALL }.run(arguments)?;
+        Ok(folder)
     }
 
     /// The files that are read, so not written over.
@@ -72,16 +97,18 @@ impl Flown {
     }
 }
 
-/// The FMU of a mission's files, in a temporary folder.
-pub fn packed(mission: &Mission, template: Option<&Path>) -> Result<(Scratch, Assembled), Box<dyn Error>> {
+/// Puts the FMU of a mission's files together in a folder.
+pub fn assemble_into(arguments: &Assemble) -> Outcome {
+    assemble_files(&Mission::read(&arguments.mission)?, arguments.template.as_deref(), &arguments.into)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn assemble_files(mission: &Mission, template: Option<&Path>, into: &Path) -> Result<(), Box<dyn Error>> {
     let name = identifier(&mission.file);
     let parts = Parts { name: name.as_deref(), ..Parts::default() }.with_files_of(mission)?;
-    let source = Source::open(template, None)?;
-    let assembled = assemble(&source, &parts)?;
-    let failed = |path: PathBuf, error: std::io::Error| format!("{}: {error}", path.display());
-    let folder = Scratch::new("heliotorque-").map_err(|error| failed(std::env::temp_dir(), error))?;
-    assembled.entries.write_below(folder.path()).map_err(|error| failed(folder.path().to_owned(), error))?;
-    Ok((folder, assembled))
+    let assembled = assemble(&Source::open(template, None)?, &parts)?;
+    assembled.entries.write_below(into).map_err(|error| format!("{}: {error}", into.display()))?;
+    Ok(())
 }
 
 /// A name for the FMU, from its mission's file.

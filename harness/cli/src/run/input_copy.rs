@@ -20,7 +20,7 @@ impl InputCopy {
             return Ok(None);
         }
         let text = |error: io::Error| format!("standard input: {error}: see --input");
-        let copy = Self(Scratch::new("heliotorque-").map_err(text)?);
+        let copy = Self(Scratch::new().map_err(text)?);
         let mut file = File::create_new(copy.path()).map_err(text)?;
         io::copy(&mut io::stdin().lock(), &mut file).map_err(text)?;
         Ok(Some(copy))

@@ -1,4 +1,5 @@
-/* An FMU that misbehaves: what it does is chosen by -DBEHAVIOUR=..., where by -DIN_STEP or -DIN_INSTANTIATE.
+/* An FMU that misbehaves: what it does is chosen by -DBEHAVIOUR=..., where by -DAT_LOADING, -DIN_DESCRIBE,
+   -DIN_INSTANTIATE or -DIN_STEP.
    One Real output x with reference 0, which is the time; steps from 3 s on do the behaviour. */
 #define _GNU_SOURCE
 #include <fcntl.h>
@@ -24,6 +25,7 @@
 #define STAINS 12
 #define ABORTS 13
 #define FAILS 14
+#define DETACHES 15
 
 typedef void *Component;
 typedef void (*Logger)(void *, const char *, int, const char *, const char *, ...);
@@ -74,6 +76,15 @@ static int behaviour(void) {
         }
         _exit(0);
     }
+    case DETACHES:
+        /* A daemon: in a session of its own, its parent gone. */
+        if (fork() == 0) {
+            setsid();
+            if (fork() == 0) { for (;;) sleep(1000); }
+            _exit(0);
+        }
+        usleep(100000);
+        break;
     case RETURNS_TWICE: if (fork() < 0) abort(); break;
     case STAINS:
         printf("\033[2Jcleared\a\n");
@@ -86,6 +97,14 @@ static int behaviour(void) {
 
 #ifdef AT_LOADING
 __attribute__((constructor)) static void at_loading(void) { behaviour(); }
+#endif
+
+#ifdef IN_DESCRIBE
+int fmi_export_describe(const char *model, const char *file, const char *setup, void *context, void *receive) {
+    (void)model; (void)file; (void)setup; (void)context; (void)receive;
+    behaviour();
+    return 1;
+}
 #endif
 
 const char *fmi2GetTypesPlatform(void) { return "default"; }

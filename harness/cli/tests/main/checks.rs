@@ -328,3 +328,29 @@ fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
     let text = run(&["run", shown(&folder)], 1);
     assert_eq!(text.matches("resources").count(), 1, "{text}");
 }
+
+#[test]
+fn a_reference_table_with_names_of_another_fmi_is_a_note_and_the_rest_is_compared() {
+    const REFERENCE: &str = "extra/org.fmi-standard.fmi-ls-ref";
+    const LIST: &str =
+        "<fmiReferences><Related type=\"text/csv\" source=\"ref.csv\" role=\"result\"/></fmiReferences>";
+    let Some((_room, fmu)) = packed("AllTypes") else { return };
+    let folder = changed(&fmu, "modelName", "modelName");
+    let reference = folder.path().join(REFERENCE);
+    let check = |table: &str, status: i32| {
+        fs::create_dir_all(&reference).unwrap();
+        fs::write(reference.join("fmi-ls-manifest.xml"), LIST).unwrap();
+        fs::write(reference.join("ref.csv"), table).unwrap();
+        run(&["check", shown(folder.path()), "--only", "reference"], status)
+    };
+    let name = "role.outputConstant";
+    let text = check(&format!("time,{name},Float32_output,Int8_output\n0,42,1,1\n1,42,1,1\n"), 0);
+    assert!(
+        text.contains("2 of 3 columns are no variables of this FMU") && text.contains("\"Float32_output\""),
+        "{text}"
+    );
+    assert!(text.contains("1 to note, 0 wrong"), "{text}");
+    // What it has is compared.
+    let text = check(&format!("time,{name},Int8_output\n0,41,1\n1,41,1\n"), 1);
+    assert!(text.contains(&format!("ref.csv: {name} at 1 s: found 42, allowed: 41")), "{text}");
+}

@@ -11,7 +11,7 @@ use std::{
 
 use tempfile::TempDir;
 
-use crate::{heliotorque, shown, text};
+use crate::{built, heliotorque, run, shown, text};
 
 const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="Hostile" guid="{hostile}">
@@ -96,6 +96,109 @@ fn start_to_file(scratch: &TempDir, mut command: Command) -> Output {
     output.stdout = fs::read(out).unwrap();
     output.stderr = fs::read(err).unwrap();
     output
+}
+
+/// Commands that load the library of an FMU in this folder, all but `run` and `check` of the FMU itself; an FMU of each of the
+/// models stands there, with the library of the hostile one. `None` where there are none.
+fn commands_that_load(scratch: &TempDir) -> Option<Vec<Vec<String>>> {
+    let dist = built("HELIOTORQUE_DIST")?;
+    let at = |name: &str| scratch.path().join(name);
+    let platform = loader::platform_folders()[0];
+    let library = |fmu: &str, name: &str| {
+        at(fmu).join("binaries").join(platform).join(format!("{name}{}", std::env::consts::DLL_SUFFIX))
+    };
+    for name in ["MomentumPlant", "SpinPlant"] {
+        let folder = at(&format!("{name}.fmu"));
+        fs::create_dir(&folder).unwrap();
+        loader::unpack(&dist.join(format!("{name}.fmu")), &folder, loader::Limits::default()).unwrap();
+        fs::copy(library("fmu", "Hostile"), library(&format!("{name}.fmu"), name)).unwrap();
+    }
+    run(&["new", "spacecraft", shown(&at("my.toml"))], 0);
+    run(&["new", "mission", shown(&at("m.toml"))], 0);
+    let places = [
+        ("PLANT", at("MomentumPlant.fmu")),
+        ("SPIN", at("SpinPlant.fmu")),
+        ("LIBRARY", library("fmu", "Hostile")),
+        ("CRAFT", at("my.toml")),
+        ("MISSION", at("m.toml")),
+        ("FOLDER", scratch.path().to_owned()),
+        ("OUT", at("out")),
+        ("PICTURE", at("out.svg")),
+    ];
+    let lines = [
+        "pack --template PLANT --output OUT",
+        "pack --library LIBRARY --model M --output OUT",
+        "pack --mission MISSION --template PLANT --output OUT",
+        "map PLANT --output PICTURE",
+        "map CRAFT --template PLANT --output PICTURE",
+        "info PLANT --coefficients",
+        "check CRAFT --template PLANT",
+        "check MISSION --template PLANT",
+        "run MISSION --template PLANT --output OUT",
+        "ephemeris PLANT --start 2011-04-06TDB --stop 2011-05-06TDB --output OUT",
+        "plan spin --fmu SPIN",
+        "study momentum/table2 --dist FOLDER --output OUT",
+    ];
+    let place = |word: &str| {
+        let found = places.iter().find(|(name, _)| *name == word);
+        found.map_or_else(|| word.to_owned(), |(_, path)| shown(path).to_owned())
+    };
+    Some(lines.map(|line| line.split(' ').map(place).collect()).to_vec())
+}
+
+#[test]
+fn no_command_loads_a_library_in_its_own_process() {
+    for (behaviour, expected) in [
+        ("EXITS", "loading the shared library: the process ended: it exited with status 0"),
+        ("LIES", "loading the shared library: the process ended: it exited with status 0"),
+        ("CRASHES", "loading the shared library: the process ended: signal 11 (segmentation fault)"),
+        ("ABORTS", "loading the shared library: the process ended: signal 6 (abort)"),
+        ("SLEEPS", "hangs: "),
+        ("PRINTS", "hangs: "),
+    ] {
+        let Some(scratch) = hostile(behaviour, "AT_LOADING") else { return };
+        let Some(commands) = commands_that_load(&scratch) else { return };
+        for words in commands {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            let mut command = heliotorque(&[&words[..], &["--timeout", "0.4s"]].concat());
+            command.env("TMPDIR", scratch.path().join("tmp")).stdin(Stdio::null());
+            let output = start_to_file(&scratch, command);
+            let printed = text(&output);
+            assert_eq!(output.status.code(), Some(1), "{behaviour}, {words:?}: {printed}");
+            let named =
+                printed.lines().filter(|line| line.contains("heliotorque: ") && line.contains(expected));
+            assert_eq!(named.count(), 1, "{behaviour}, {words:?}: {printed}");
+            assert!(printed.len() < 3 << 20, "{behaviour}, {words:?}: {} bytes", printed.len());
+            for name in ["out", "out.svg"] {
+                assert!(!scratch.path().join(name).exists(), "{behaviour}, {words:?}");
+            }
+            nothing_left(&scratch);
+        }
+    }
+}
+
+#[test]
+fn a_library_that_hangs_or_exits_while_it_describes_its_models_is_named_with_the_call() {
+    for (behaviour, expected) in [
+        ("SLEEPS", "hangs: the call did not return within 0.3 s (see --timeout)"),
+        ("EXITS", "the process ended"),
+    ] {
+        let Some(scratch) = hostile(behaviour, "IN_DESCRIBE") else { return };
+        let fmu = scratch.path().join("fmu");
+        for name in ["pack", "map"] {
+            let more: &[&str] = if name == "pack" { &["--template", shown(&fmu)] } else { &[shown(&fmu)] };
+            let mut command = heliotorque(&[&[name, "--timeout", "0.3s"], more].concat());
+            command.env("TMPDIR", scratch.path().join("tmp")).stdin(Stdio::null());
+            let output = start_to_file(&scratch, command);
+            let printed = text(&output);
+            assert_eq!(output.status.code(), Some(1), "{behaviour}, {name}: {printed}");
+            assert!(
+                printed.contains(&format!("fmi_export_describe: {expected}")),
+                "{behaviour}, {name}: {printed}"
+            );
+            nothing_left(&scratch);
+        }
+    }
 }
 
 /// No temporary file, and no process that works in or on this folder.
@@ -205,8 +308,8 @@ fn a_check_outlives_every_fmu_and_leaves_nothing() {
         ),
         ("CRASHES", "IN_STEP", "segmentation fault"),
         ("CRASHES", "AT_LOADING", "loading the shared library: the process ended"),
-        ("SLEEPS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
-        ("SPINS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s (see --timeout)"),
+        ("SLEEPS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s in all (see --timeout)"),
+        ("SPINS", "IN_INSTANTIATE", "fmi2Instantiate: hangs: still busy after 1 s in all (see --timeout)"),
         // Of 64 MiB each, with those of the process itself 4 GiB.
         ("ALLOCATES", "IN_INSTANTIATE", "it could allocate 6"),
         ("LIES", "IN_INSTANTIATE", "fmi2Instantiate: the process ended: it exited with status 0"),
@@ -272,7 +375,13 @@ fn signals_end_what_hangs_and_leave_nothing() {
                 std::thread::sleep(Duration::from_millis(5));
             }
             signal(&child, signal_name);
+            let raised = Instant::now();
             let output = wait(child);
+            assert!(
+                raised.elapsed() < Duration::from_secs(1),
+                "{name}, {signal_name}: {:?}",
+                raised.elapsed()
+            );
             let printed = text(&output);
             assert_eq!(output.status.code(), Some(130), "{name}, {signal_name}: {printed}");
             nothing_left(&scratch);
@@ -286,6 +395,107 @@ fn signals_end_what_hangs_and_leave_nothing() {
             }
         }
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_daemon_that_an_fmu_leaves_behind_is_ended_and_named() {
+    const LEFT: &str = "left processes behind, which were ended: ";
+    let Some(scratch) = hostile("DETACHES", "IN_STEP") else { return };
+    let table = scratch.path().join("a.csv");
+    let printed = ended(&scratch, "run", &["--output", shown(&table)], 0);
+    assert!(printed.contains(&format!("Hostile: {LEFT}")) && printed.contains("(heliotorque)"), "{printed}");
+    assert_eq!(rows(&table).len(), 11);
+
+    let Some(scratch) = hostile("DETACHES", "IN_INSTANTIATE") else { return };
+    let printed = ended(&scratch, "check", &["--only", "simulation", "--timeout", "20s"], 0);
+    assert!(printed.contains(&format!("note    {LEFT}")), "{printed}");
+
+    let Some(scratch) = hostile("DETACHES", "AT_LOADING") else { return };
+    let fmu = scratch.path().join("fmu");
+    let mut command = heliotorque(&["pack", "--template", shown(&fmu)]);
+    command.env("TMPDIR", scratch.path().join("tmp")).stdin(Stdio::null());
+    let printed = text(&start_to_file(&scratch, command));
+    assert!(printed.contains(LEFT), "{printed}");
+    nothing_left(&scratch);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_ends_a_daemon_too() {
+    for (name, place) in [("run", "IN_STEP"), ("check", "IN_INSTANTIATE")] {
+        let Some(scratch) = hostile("DETACHES", place) else { return };
+        let more: &[&str] =
+            if name == "run" { &["--stop", "40000000", "--record", "x", "--every", "1h"] } else { &[] };
+        let child = start(command(&scratch, name, more));
+        let began = Instant::now();
+        while processes(scratch.path()).len() < 3 {
+            assert!(began.elapsed() < LONG, "it does not begin");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        signal(&child, "TERM");
+        let output = wait(child);
+        assert_eq!(output.status.code(), Some(130), "{name}: {}", text(&output));
+        nothing_left(&scratch);
+    }
+}
+
+#[test]
+fn one_time_bounds_the_whole_check() {
+    let Some(scratch) = hostile("SLEEPS", "IN_INSTANTIATE") else { return };
+    let began = Instant::now();
+    let printed = ended(&scratch, "check", &["--timeout", "2s"], 1);
+    assert!(began.elapsed() < Duration::from_secs(6), "{:?}", began.elapsed());
+    assert!(printed.contains("still busy after 2 s in all (see --timeout)"), "{printed}");
+    assert!(printed.contains("skipped the 2 s of the check are over (see --timeout)"), "{printed}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn temporary_folders_of_a_killed_program_are_removed_by_the_next() {
+    let Some(scratch) = hostile("SLEEPS", "IN_INSTANTIATE") else { return };
+    let temporaries = || fs::read_dir(scratch.path().join("tmp")).unwrap().count();
+    let mut child = start(command(&scratch, "check", &["--only", "simulation"]));
+    let began = Instant::now();
+    while processes(scratch.path()).len() < 2 {
+        assert!(began.elapsed() < LONG, "it does not begin");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    // One that runs keeps its own.
+    let _ = text(&wait(start(command(&scratch, "check", &["--only", "simulation", "--timeout", "0.2s"]))));
+    assert_eq!(temporaries(), 1);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(temporaries(), 1);
+    ended(&scratch, "check", &["--only", "simulation", "--timeout", "0.2s"], 1);
+}
+
+#[test]
+fn a_run_ends_when_the_reader_of_its_output_goes() {
+    let Some(scratch) = hostile("FAILS", "NOWHERE") else { return };
+    // Minutes, if nobody ends it.
+    let endless = ["--stop", "60000000", "--output", "-", "--quiet"];
+    let began = Instant::now();
+    let mut child = start(command(&scratch, "run", &endless));
+    let mut line = String::new();
+    let mut reader = std::io::BufReader::new(child.stdout.take().unwrap());
+    std::io::BufRead::read_line(&mut reader, &mut line).unwrap();
+    assert_eq!(line, "time,x\n");
+    drop(reader);
+    let output = wait(child);
+    assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
+    assert_eq!((output.status.code(), text(&output)), (Some(0), String::new()));
+    nothing_left(&scratch);
+    // A picture that is not drawn is no success.
+    let picture = scratch.path().join("a.svg");
+    let mut child = start(command(&scratch, "run", &[&endless[..], &["--plot", shown(&picture)]].concat()));
+    drop(child.stdout.take());
+    let output = wait(child);
+    assert!(
+        text(&output).contains("nobody reads the standard output any more: the run ends at"),
+        "{output:?}"
+    );
+    assert!(output.status.code() == Some(1) && !picture.exists());
 }
 
 #[cfg(target_os = "linux")]
@@ -326,6 +536,21 @@ fn what_an_fmu_says_moves_no_cursor() {
     fs::write(scratch.path().join("fmu/modelDescription.xml"), xml).unwrap();
     let printed = ended(&scratch, "info", &[], 0);
     assert!(printed.contains("\\u{9b}2J") && !printed.contains(is_control), "{printed:?}");
+}
+
+#[test]
+fn what_a_template_prints_moves_no_cursor() {
+    let Some(scratch) = hostile("STAINS", "AT_LOADING") else { return };
+    let Some(commands) = commands_that_load(&scratch) else { return };
+    for words in commands {
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let mut command = heliotorque(&words);
+        command.env("TMPDIR", scratch.path().join("tmp")).stdin(Stdio::null());
+        let printed = text(&start_to_file(&scratch, command));
+        let is_control = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
+        assert!(printed.contains("\\u{1b}[2Jcleared\\u{7}"), "{words:?}: {printed}");
+        assert!(!printed.contains(is_control), "{words:?}: {printed:?}");
+    }
 }
 
 /// Both components are the same FMU; the first one is stepped first.

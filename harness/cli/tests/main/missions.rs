@@ -251,3 +251,41 @@ fn the_missions_of_the_examples_fly() {
         }
     }
 }
+
+/// What `check` and `run` say of a mission that both refuse.
+fn refused(folder: &Path, name: &str) -> String {
+    let template = ["--template", "template.fmu"];
+    let (status, checked) = said(folder, &[&["check", name], &template[..]].concat());
+    assert_eq!(status, Some(1), "{name}: {checked}");
+    let (status, told) = said(folder, &[&["run", name], &template[..]].concat());
+    assert_eq!(status, Some(1), "{name}: {told}");
+    let reason = told.lines().find_map(|line| line.strip_prefix("heliotorque: ")).unwrap();
+    // The call is made at the same place by both.
+    assert!(checked.contains(reason.trim_start_matches("m: ")), "{name}: {checked}\n{told}");
+    told
+}
+
+#[test]
+fn a_mission_that_cannot_run_is_refused_by_check_for_the_same_reason() {
+    let Some(scratch) = hangar() else { return };
+    let folder = scratch.path();
+    for (change, expected) in [
+        (("stop = \"2011-04-06T02:00:00 UTC\"", "stop = \"9999999 d\""), "(--every)"),
+        (("output = \"out.csv\"", "output = \"no/such/out.csv\""), "there is no folder"),
+        (("output = \"out.csv\"", "output = \"m.toml\""), "an input too"),
+        (
+            ("file = \"momentum.svg\"", "file = \"out.svg\"\n[[plot]]\nfile = \"out.svg\""),
+            "one file cannot take two",
+        ),
+        // What only the FMU knows.
+        (("[set]", "[set]\n\"orbit.eccentricity\" = 0.99"), "the periapsis at 101365 m lies inside Mercury"),
+    ] {
+        fs::write(
+            folder.join("m.toml"),
+            MISSION.replace(change.0, change.1).replace("every = \"30 min\"", ""),
+        )
+        .unwrap();
+        let told = refused(folder, "m.toml");
+        assert!(told.contains(expected), "{expected}: {told}");
+    }
+}

@@ -23,7 +23,17 @@ pub fn flights(fmu: &Fmu) -> Findings {
                 continue;
             }
         };
-        let reference::Replay { source, rows, columns, tolerance, is_stated, .. } = &replay;
+        let reference::Replay { source, rows, columns, tolerance, is_stated, foreign, .. } = &replay;
+        if let Some(first) = foreign.first() {
+            let (count, all) = (foreign.len(), foreign.len() + columns);
+            findings.push(Finding::note(format!(
+                "{source}: {count} of {all} columns are no variables of this FMU and are left out, {first:?} the first; a table for FMUs \
+                 of several versions of FMI has such names"
+            )));
+        }
+        if *columns == 0 {
+            continue;
+        }
         let worst = match replay.deviations.first() {
             Some(worst) => format!("the largest deviation {:.1e}", worst.deviation),
             None => "no deviation".to_owned(),

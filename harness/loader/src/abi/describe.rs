@@ -8,6 +8,7 @@ use std::{
 use model_description::describe::{CHECK_SCHEDULE_SYMBOL, CheckSchedule, Describe, SYMBOL, kind};
 
 use super::binary::Binary;
+use crate::call_record;
 
 /// A model in a heliotorque library.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -99,6 +100,7 @@ impl Binary {
         let schedule = c_text(Some(schedule))?;
         let (schedule_file, text) = (c_text(Some(schedule_file))?, c_text(Some(text))?);
         let (code, received) = collected(|context| {
+            let _under_way = call_record::enter(call_record::CHECKING);
             // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
             unsafe {
                 function(
@@ -132,6 +134,7 @@ impl Binary {
         })?;
         let (model, file, setup) = (c_text(model)?, c_text(file)?, c_text(setup)?);
         let (code, received) = collected(|context| {
+            let _under_way = call_record::enter(call_record::DESCRIBING);
             // SAFETY: texts and list are valid during the call, which is the only time `receive` is called.
             unsafe { function(pointer(&model), pointer(&file), pointer(&setup), context, Some(receive)) }
         });

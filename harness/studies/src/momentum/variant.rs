@@ -51,7 +51,7 @@ impl Variant {
         let file = Path::new("resources").join("spacecraft.toml");
         let text = edited(&files::read_text(&template.folder().join(&file))?, edits)?;
         let described = template.binary()?.describe(&model, Some("spacecraft.toml"), Some(&text))?;
-        let folder = Scratch::new("heliotorque-")?;
+        let folder = Scratch::new()?;
         copy(&template.folder().join("binaries"), &folder.path().join("binaries"))?;
         fs::create_dir(folder.path().join("resources"))?;
         fs::write(folder.path().join(&file), text)?;
