@@ -211,6 +211,15 @@ impl Gyrostat {
         self.inertia_body_kg_m2 * rate_body_rad_s + self.along_axes(rotors_n_m_s)
     }
 
+    /// First and second term of the rate's series without torque on body and rotors, body frame, in rad/s2 and rad/s3:
+    /// w' = J^-1 (m x w), m' = m x w, with the body rate w in rad/s, the total momentum m in N m s and J the carrier's inertia.
+    pub fn torque_free_rate_terms(&self, rate: &Vector3<f64>, momentum: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        let Some(inverse) = self.carrier_body_kg_m2.try_inverse() else { return [Vector3::zeros(); 2] };
+        let momentum_rate = momentum.cross(rate);
+        let slope = inverse * momentum_rate;
+        [slope, inverse * (momentum_rate.cross(rate) + momentum.cross(&slope)) * 0.5]
+    }
+
     /// Inverse of the inertia that body and held rotors have alone, without what swings, in 1/(kg m2).
     pub(super) fn inverse_inertia<'a>(
         &self,

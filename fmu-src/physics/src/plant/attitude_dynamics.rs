@@ -279,7 +279,6 @@ impl AttitudeDynamics {
         work_limit: u32,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
-        let limit_s = next_multiple_s(time_s, settings.grid_s);
         let used_kg = flight.propellant.total_used_kg(time_s);
         self.left = (used_kg > 0.0).then(|| {
             let loaded = flight.configuration.loaded();
@@ -287,8 +286,16 @@ impl AttitudeDynamics {
         });
         flight.configuration.left = self.left;
         flight.propagator.cut(flight.configuration, time_s, true);
-        let mut plant = flight.plant(time_s, body, work_limit);
-        self.disturbance = DisturbanceInterval::build(&mut plant, time_s, limit_s)?;
+        // A controller's torque lasts for a sample, and holds the rate.
+        let rate_terms_body = match &settings.control {
+            Some(_) => [Vector3::zeros(); 2],
+            None => {
+                let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
+                settings.gyrostat.torque_free_rate_terms(&body.rate_body_rad_s, &momentum_body)
+            }
+        };
+        let mut plant = flight.turning_plant(time_s, body, rate_terms_body, work_limit);
+        self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
         if settings.panels_have_mass || self.left.is_some() || !settings.thrusters.thrusters.is_empty() {
             let instant = plant.instant(time_s);
             self.mass = plant.mass_properties(&instant);

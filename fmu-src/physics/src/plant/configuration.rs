@@ -62,8 +62,29 @@ impl AttitudeSource {
 pub struct DynamicAttitude {
     /// The attitude now, going on at the present rate.
     pub motion: Command,
+    /// How that rate changes: the first and second term of its series, in rad/s2 and rad/s3.
+    pub rate_terms_body: [Vector3<f64>; 2],
     /// The orbit phase's own guidance; absent where commands come from elsewhere.
     pub guided: Option<Guided>,
+}
+
+impl DynamicAttitude {
+    /// Body frame and rate at `time_s`: the turn by the rate w + b t + c t^2 is w t + b t^2 / 2 + c t^3 / 3 + (w x b) t^3 / 12 +
+    /// (w x c) t^4 / 12 to the fourth order (Magnus).
+    pub fn frame_at(&self, time_s: f64) -> MovingFrame {
+        let [slope, curve] = self.rate_terms_body;
+        if slope == Vector3::zeros() && curve == Vector3::zeros() {
+            return self.motion.frame_at(time_s);
+        }
+        let (rate, elapsed_s) = (self.motion.rate_body_rad_s, time_s - self.motion.since_s);
+        let square = elapsed_s * elapsed_s;
+        let straight = rate * elapsed_s + (slope / 2.0 + curve * (elapsed_s / 3.0)) * square;
+        let bent = rate.cross(&(slope + curve * elapsed_s)) * (square * elapsed_s / 12.0);
+        MovingFrame {
+            inertial_from_body: self.motion.attitude.turned(straight + bent).inertial_from_body(),
+            rate_body_rad_s: rate + (slope + curve * elapsed_s) * elapsed_s,
+        }
+    }
 }
 
 /// A commanded attitude, turning on at a constant rate.

@@ -201,6 +201,11 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         self.kinematics.configuration.light.pressure_pa(instant.sun_distance_m)
     }
 
+    /// What the fit of light, heat and disturbances may leave out, relative to the largest force and torque.
+    pub(super) fn disturbance_tolerance(&self) -> f64 {
+        self.kinematics.configuration.light_and_heat.tolerance
+    }
+
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
         self.kinematics.trajectory.time_since_periapsis_s(self.kinematics.configuration, time_s)

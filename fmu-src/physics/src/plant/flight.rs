@@ -155,13 +155,25 @@ impl Flight<'_> {
         body: &BodyMotion,
         work_limit: u32,
     ) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
+        self.turning_plant(time_s, body, [Vector3::zeros(); 2], work_limit)
+    }
+
+    /// The same, its rate changing by these terms of its series, in rad/s2 and rad/s3.
+    pub(super) fn turning_plant(
+        &mut self,
+        time_s: f64,
+        body: &BodyMotion,
+        rate_terms_body: [Vector3<f64>; 2],
+        work_limit: u32,
+    ) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
         let motion = Command {
             attitude: Attitude::from_unit(body.attitude),
             rate_body_rad_s: body.rate_body_rad_s,
             since_s: time_s,
         };
         let guided = self.configuration.attitude.guided().copied();
-        self.configuration.attitude = AttitudeSource::Dynamic(DynamicAttitude { motion, guided });
+        self.configuration.attitude =
+            AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided });
         self.as_configured(work_limit)
     }
 

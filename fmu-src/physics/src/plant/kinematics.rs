@@ -13,7 +13,7 @@ use crate::numerics::events::first_event;
 use crate::numerics::intervals::first_change_s;
 use crate::numerics::spacing::spacing;
 
-use super::configuration::{AttitudeSource, Command, Configuration};
+use super::configuration::{AttitudeSource, Configuration};
 use super::error::PlantError;
 use super::geometry::Geometry;
 use super::instant::{Instant, Regime};
@@ -127,8 +127,8 @@ impl<'a> Kinematics<'a> {
 
     /// Body frame and rate, and the form of the law they come from.
     fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> LawAt {
-        let held = |command: &Command| LawAt {
-            frame: command.frame_at(time_s),
+        let held = |frame: MovingFrame| LawAt {
+            frame,
             window_since_s: f64::NEG_INFINITY,
             downlink: false,
             slewing: false,
@@ -147,8 +147,8 @@ impl<'a> Kinematics<'a> {
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
                 }
             }
-            AttitudeSource::Commanded(command) => held(command),
-            AttitudeSource::Dynamic(dynamic) => held(&dynamic.motion),
+            AttitudeSource::Commanded(command) => held(command.frame_at(time_s)),
+            AttitudeSource::Dynamic(dynamic) => held(dynamic.frame_at(time_s)),
         }
     }
 

@@ -19,7 +19,11 @@ use super::work::Cost;
 /// No segment is shortened below this, in s: kinks where a face turns dark end here.
 const SHORTEST_S: f64 = 1.0;
 /// Torque is resolved as if the largest force had at least this arm, in m: on a symmetric body there is none.
-const LEAST_ARM_M: f64 = 0.01;
+pub(super) const LEAST_ARM_M: f64 = 0.01;
+/// By how much the body turns within a segment at most, in rad: its nodes see every side of it.
+const LONGEST_TURN_RAD: f64 = 3.0;
+/// A segment in which the body turns by more, in rad, may be shorter than [`SHORTEST_S`].
+const SHORTEST_TURN_RAD: f64 = 0.1;
 
 /// Builds the radiation segments of a flight whose spacecraft has these panels.
 pub(super) struct RadiationBuilder<'r, 'a> {
@@ -92,8 +96,10 @@ impl RadiationBuilder<'_, '_> {
             segment.end_k.clear();
         }
         // Written so that a NaN from restored bytes is the shortest.
-        let longest_s = segment.next_longest_s.max(SHORTEST_S);
-        let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, SHORTEST_S);
+        let rate_rad_s = self.kinematics.instant(start_s).frame.rate_body_rad_s.norm();
+        let shortest_s = SHORTEST_S.min(SHORTEST_TURN_RAD / rate_rad_s);
+        let longest_s = segment.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s).max(shortest_s);
+        let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, shortest_s);
         interval.end_at(self.kinematics.smooth_until(start_s, interval.end_s()));
         let series = loop {
             self.kinematics.spend_units(Cost::Light, light.segment_units(stores), start_s)?;

@@ -307,7 +307,8 @@ fn attitude(
     let guides_itself = dynamics::guides_itself(context, values);
     if dynamics::is_dynamic(context, values) {
         let guided = if guides_itself { Some(guided()?) } else { None };
-        return Ok(plant::AttitudeSource::Dynamic(DynamicAttitude { motion: state.command, guided }));
+        let (motion, rate_terms_body) = (state.command, [Vector3::from([0.0; 3]); 2]);
+        return Ok(plant::AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided }));
     }
     if guides_itself {
         guided().map(plant::AttitudeSource::Guided)

@@ -80,8 +80,9 @@ pub struct SolverVariables {
     /// shortened until it holds.
     #[parameter(unit = "1", min = 1e-12, max = 1.0, start = 1e-5)]
     pub disturbance_tolerance: Real,
-    /// In controlled and free flight, over how long force and torque of all effects are taken as linear in time, the body
-    /// turning on at its present rate; intervals end at its multiples and where light changes abruptly.
+    /// In controlled and free flight, over how long at most force and torque of all effects are taken as linear in time, the
+    /// body turning on as it does; intervals end at its multiples, where light changes abruptly, and sooner where the body turns
+    /// fast, until the disturbance tolerance holds.
     #[parameter(unit = "s", min = 1e-3, max = 600.0, start = 1.0)]
     pub dynamics_step: Real,
     #[group(name = "")]

@@ -7,6 +7,7 @@ mod momentum;
 mod panels;
 mod refusals;
 mod sensors;
+mod spin_light;
 mod thrusters;
 
 use models::MomentumPlant;
