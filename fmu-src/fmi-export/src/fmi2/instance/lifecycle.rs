@@ -117,7 +117,7 @@ impl Instance {
         self.forget_last_step();
         self.state.copy_from(&InstanceState::new(&self.start));
         self.logger.reset();
-        self.warned = 0;
+        self.said = 0;
         self.earliest_s = f64::NEG_INFINITY;
         Ok(())
     }
@@ -126,8 +126,9 @@ impl Instance {
     pub(crate) fn warn_of_early_state(&mut self, time_s: f64) {
         let earliest_s = self.earliest_s;
         if time_s < earliest_s {
-            self.warn_once(
+            self.log_once(
                 once::EARLY_STATE,
+                Status::Warning,
                 format_args!(
                     "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {earliest_s:?} s"
                 ),

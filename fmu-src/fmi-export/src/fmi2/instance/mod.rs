@@ -41,7 +41,7 @@ pub(crate) struct Instance {
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
     /// Which of the messages in [`once`] were logged.
-    warned: u8,
+    said: u8,
     /// No FMU state before this time will be set, by `noSetFMUStatePriorToCurrentPoint`.
     earliest_s: f64,
     /// Spare memory for [`InstanceState::at_last_step`].
@@ -69,7 +69,7 @@ impl Instance {
             start,
             digest,
             logger,
-            warned: 0,
+            said: 0,
             earliest_s: f64::NEG_INFINITY,
             poisoned: false,
         }
@@ -133,12 +133,12 @@ impl Instance {
         }
     }
 
-    /// Logs a warning the first time only.
+    /// Logs a message the first time only. What importers do every day is an event, `Status::Ok`.
     #[cold]
-    pub(super) fn warn_once(&mut self, what: u8, message: core::fmt::Arguments<'_>) {
-        if self.warned & what == 0 {
-            self.warned |= what;
-            self.logger.log(Status::Warning, message);
+    pub(super) fn log_once(&mut self, what: u8, status: Status, message: core::fmt::Arguments<'_>) {
+        if self.said & what == 0 {
+            self.said |= what;
+            self.logger.log(status, message);
         }
     }
 

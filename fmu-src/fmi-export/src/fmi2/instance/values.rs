@@ -7,7 +7,7 @@ use crate::fmi2::access::{
 use crate::fmi2::instance::state::copy_values;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
-use model_description::BaseType;
+use model_description::{BaseType, Status};
 use model_description::call_table::{Function, State};
 
 /// `fmi2GetXXX` of a base type whose values are plain.
@@ -61,7 +61,7 @@ macro_rules! setter {
                     differs |= $differs(stored, value);
                 }
                 if lenient {
-                    self.warn_of_input_before_initialization();
+                    self.note_input_before_initialization();
                 }
                 if BaseType::$base as u8 == BaseType::Real as u8 && self.state.mode != State::StepComplete {
                     self.note_tolerance(references);
@@ -162,7 +162,7 @@ impl Instance {
     fn reading_needs_preparation(&self) -> bool {
         match self.state.mode {
             State::StepComplete => {
-                self.state.at_last_step.is_some() && self.warned & once::OUTPUT_AFTER_SET == 0
+                self.state.at_last_step.is_some() && self.said & once::OUTPUT_AFTER_SET == 0
             }
             State::InitializationMode => true,
             _ => false,
@@ -182,8 +182,9 @@ impl Instance {
         let only_given = all & SET_BY_IMPORTER != 0;
         if self.state.mode == State::StepComplete {
             if !only_given {
-                self.warn_once(
+                self.log_once(
                     once::OUTPUT_AFTER_SET,
+                    Status::Ok,
                     format_args!(
                         "outputs are read after a set and before the next step: they belong to the last communication point"
                     ),
@@ -192,8 +193,9 @@ impl Instance {
             return Ok(());
         }
         if all & GET_INITIALIZATION == 0 {
-            self.warn_once(
+            self.log_once(
                 once::READ_IN_INITIALIZATION,
+                Status::Ok,
                 format_args!(
                     "variables that are neither outputs nor InitialUnknowns are read in Initialization Mode: the standard does not allow it, answered all the same"
                 ),
@@ -223,9 +225,10 @@ impl Instance {
     }
 
     #[cold]
-    fn warn_of_input_before_initialization(&mut self) {
-        self.warn_once(
+    fn note_input_before_initialization(&mut self) {
+        self.log_once(
             once::INPUT_BEFORE_INITIALIZATION,
+            Status::Ok,
             format_args!(
                 "inputs are set before Initialization Mode: the standard does not allow it, accepted all the same"
             ),
