@@ -99,10 +99,11 @@ pub fn begin(
     let limit = settings.work_limit;
     if let Some(mut shown) = state.dynamics.take() {
         let mut flight = flight(context, state, &mut configuration, &acting, &manager)?;
+        let mut work = flight.begin_work(limit);
         stretch
             .with_inputs(|inputs| {
                 let silent = &mut |_: &DumpEvent| {};
-                shown.take_due(&mut settings, &mut flight, inputs, limit, silent)
+                shown.take_due(&mut settings, &mut flight, inputs, &mut work, silent)
             })
             .map_err(outputs::failure)?;
         state.dynamics = Some(shown);
