@@ -42,7 +42,9 @@ impl Category {
     /// The category's description.
     pub const fn description(self) -> &'static str {
         match self {
-            Self::Events => "events inside the model, with their times, and what an importer does beyond the standard",
+            Self::Events => {
+                "events inside the model, with their times, and what an importer does beyond the standard"
+            }
             Self::Warning => "something odd that the simulation goes on with; logged always",
             Self::Discard => "values or steps that were not accepted; logged always",
             Self::Error => "calls that failed; logged always",
@@ -243,7 +245,7 @@ mod tests {
     fn events_wait_to_be_asked_for_and_the_rest_always_passes() {
         const REST: [&str; 3] = ["logStatusWarning", "logStatusDiscard", "logStatusError"];
         let (logger, lines) = logger(false);
-        let mut assert_events = |expected: bool| {
+        let assert_events = |expected: bool| {
             log_all(&logger);
             let found = categories(&lines);
             assert_eq!(found.iter().any(|it| it == "logEvents"), expected, "{found:?}");

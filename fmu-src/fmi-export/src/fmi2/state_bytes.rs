@@ -12,7 +12,7 @@ use crate::runtime::{ErasedState, unencodable};
 use model_description::call_table::{Function, State};
 
 const MARK: [u8; 8] = *b"FMUSTATE";
-const LAYOUT: u32 = 2;
+const LAYOUT: u32 = 3;
 const HEADER: usize = 8 + 4 + 16 + 8 + 8;
 
 /// A saved instance.

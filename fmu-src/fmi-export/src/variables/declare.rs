@@ -67,7 +67,8 @@ impl Declare {
     }
 
     /// What was declared.
-    pub fn finish(self) -> Interface {
+    pub fn finish(mut self) -> Interface {
+        self.interface.start.mark_none();
         self.interface
     }
 

@@ -6,7 +6,7 @@ use std::cell::Cell;
 
 use fmi_export::model_description::Status::Ok;
 
-use super::{described, fresh, reference};
+use super::{fresh, reference};
 
 struct Counting;
 

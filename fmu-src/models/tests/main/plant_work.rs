@@ -110,8 +110,8 @@ fn a_step_that_passed_passes_after_its_state_was_restored_elsewhere() {
                 continue;
             }
             let mut elsewhere = flight.with_state(&flight.state_bytes()).unwrap();
-            let [here, there] =
-                [&mut flight, &mut elsewhere].map(|it| it.step_to(start_s + step_s).map_err(|e| e.to_string()));
+            let [here, there] = [&mut flight, &mut elsewhere]
+                .map(|it| it.step_to(start_s + step_s).map_err(|e| e.to_string()));
             assert_eq!(here, there, "attitude.source {source}, solver.workLimit {limit}");
             *(if here.is_ok() { &mut passed } else { &mut refused }) += 1;
         }

@@ -67,7 +67,7 @@ impl Instance {
     /// The tolerance of the experiment becomes the value of the model's parameter, unless the master set that: so it is
     /// read, saved and restored like any value.
     fn take_tolerance(&mut self, tolerance: Option<f64>) {
-        let Some(at) = self.tolerance.filter(|_| !self.state.tolerance_set) else { return };
+        let Some(at) = self.tolerance.filter(|at| !self.state.values.is_set(*at)) else { return };
         let default = self.start.real(at);
         let limits =
             self.access.real_limits.get(references::index(BaseType::Real, references::of(at))).copied();
@@ -91,6 +91,7 @@ impl Instance {
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
         self.guard(Function::ExitInitializationMode)?;
         self.initialize_if_needed()?;
+        self.runtime.settle_parameters(&mut self.state.values, &self.logger);
         self.allocate_spare();
         Ok(())
     }

@@ -9,6 +9,8 @@ pub(crate) mod state;
 pub(crate) mod stepping;
 mod values;
 
+use std::sync::Arc;
+
 use crate::fmi2::access::AccessTable;
 use crate::fmi2::description::Prepared;
 use crate::fmi2::logger::Logger;
@@ -37,7 +39,7 @@ pub(crate) struct Instance {
     pub(super) state: InstanceState,
     pub(super) runtime: Box<dyn Runtime>,
     pub(super) access: AccessTable,
-    pub(super) start: Values,
+    pub(super) start: Arc<Values>,
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
     /// Which of the messages in [`once`] were logged.
@@ -60,7 +62,7 @@ impl Instance {
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
         Self {
-            spare: start.clone(),
+            spare: Values::clone(&start),
             directions: Default::default(),
             tolerance: runtime.tolerance(),
             state,

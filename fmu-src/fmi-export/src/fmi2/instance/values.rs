@@ -7,8 +7,8 @@ use crate::fmi2::access::{
 use crate::fmi2::instance::state::copy_values;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
-use model_description::{BaseType, Status};
 use model_description::call_table::{Function, State};
+use model_description::{BaseType, Status};
 
 /// `fmi2GetXXX` of a base type whose values are plain.
 macro_rules! getter {
@@ -44,6 +44,7 @@ macro_rules! setter {
                 let needed = self.settable_flag();
                 let (mut lenient, mut differs) = (false, false);
                 let table = &self.state.values.$table;
+                let set = &self.state.values.set[BaseType::$base as usize];
                 let flags = self.access.flags(BaseType::$base);
                 for (&reference, value) in references.iter().zip(values) {
                     let index = references::index(BaseType::$base, reference);
@@ -58,20 +59,20 @@ macro_rules! setter {
                         lenient = true;
                     }
                     $check(&self.access, reference, value)?;
-                    differs |= $differs(stored, value);
+                    differs |= $differs(stored, value) || !set.is_set(index);
                 }
                 if lenient {
                     self.note_input_before_initialization();
                 }
-                if BaseType::$base as u8 == BaseType::Real as u8 && self.state.mode != State::StepComplete {
-                    self.note_tolerance(references);
-                }
                 if differs {
                     self.before_change();
                     let table = &mut self.state.values.$table;
+                    let set = &mut self.state.values.set[BaseType::$base as usize];
                     for (&reference, value) in references.iter().zip(values) {
-                        if let Some(stored) = table.get_mut(references::index(BaseType::$base, reference)) {
+                        let index = references::index(BaseType::$base, reference);
+                        if let Some(stored) = table.get_mut(index) {
                             $write(stored, value);
+                            set.mark(index);
                         }
                     }
                 }
@@ -204,7 +205,7 @@ impl Instance {
         if only_given { Ok(()) } else { self.initialize_if_needed() }
     }
 
-    /// Called when a set is about to write a different value.
+    /// Called when a set is about to write a different value, or one for the first time.
     #[inline]
     fn before_change(&mut self) {
         match self.state.mode {
@@ -216,12 +217,6 @@ impl Instance {
             }
             _ => {}
         }
-    }
-
-    /// A tolerance parameter that the master sets takes precedence over the experiment's tolerance.
-    #[cold]
-    fn note_tolerance(&mut self, references: &[u32]) {
-        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&references::of(at)));
     }
 
     #[cold]

@@ -174,7 +174,7 @@ impl<M: Model> Bench<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, log: &Silent }
+        Context { setup: &self.setup, variables: &self.handles, start: &self.start, log: &Silent }
     }
 
     fn at(&self, name: &str) -> usize {
@@ -237,14 +237,14 @@ impl<M: Model> Bench<M> {
     }
 
     pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Simulation<M>> {
-        let mut values = tables.back();
+        let mut values = tables.marked_where_other_than(&self.start).back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
         Some(Simulation { values: Tables::of(&values), state, time_s: start_s, changed: false })
     }
 
     /// Why a start is refused.
     pub fn refusal(&self, tables: &Tables, start_s: f64) -> String {
-        M::initialize(&self.context(), &mut tables.back(), start_s)
+        M::initialize(&self.context(), &mut tables.marked_where_other_than(&self.start).back(), start_s)
             .err()
             .map_or_else(String::new, |e| e.to_string())
     }
