@@ -2,8 +2,10 @@
 
 use client::{InProcess, Names, StatePointer};
 use fmi_export::Status;
+use model_description::{Causality, VariableKind};
 
-use super::support::{fresh, names, ok};
+use crate::scenarios::{Scenario, Simulation};
+use crate::support::{SHIPPED, description, fresh, names, ok};
 
 const MODEL: &str = "MomentumPlant";
 const VENUS: i32 = 3;
@@ -99,5 +101,79 @@ fn parameters_that_follow_read_back_once_initialized() {
         assert_eq!(real(&mut instance, &names, "planet.radius"), 6_051.8e3);
         assert_eq!(real(&mut instance, &names, "orbit.semiMajorAxis"), 3.0 * 6_051.8e3);
         assert_eq!(instance.set_real(&[radius], &[1.0]), Status::Error);
+    }
+}
+
+/// Every input and parameter without a closer limit says 1e100 either way, discards what is beyond it, and a state that was
+/// written is read whatever was set within.
+#[test]
+fn what_may_be_set_can_be_saved() {
+    for model in SHIPPED {
+        let description = description(model);
+        let (mut refused, mut saved) = (0, 0);
+        for variable in &description.variables {
+            let is_given = matches!(variable.causality, Causality::Input | Causality::Parameter);
+            let VariableKind::Real { attributes, .. } = &variable.kind else { continue };
+            if !is_given {
+                continue;
+            }
+            let limits = [attributes.min, attributes.max].map(|limit| limit.unwrap_or(f64::NAN));
+            assert!(limits.iter().all(|limit| limit.abs() <= 1e100), "{model} {} {limits:?}", variable.name);
+            // One element stands for its array, and for all panels, wheels and thrusters.
+            if variable.name.contains(['2', '3', '4', '5', '6', '7', '8', '9']) {
+                continue;
+            }
+            let reference = [variable.value_reference];
+            let mut instance = fresh(model);
+            assert_eq!(
+                instance.set_real(&reference, &[limits[1].next_up()]),
+                Status::Discard,
+                "{}",
+                variable.name
+            );
+            ok(instance.set_real(&reference, &limits[1..]));
+            if instance.start(0.0, None) != Status::Ok || instance.do_step(0.0, 10.0) != Status::Ok {
+                refused += 1;
+                continue;
+            }
+            let mut state = StatePointer::null();
+            ok(instance.get_state(&mut state));
+            let (status, bytes) = instance.serialize(&state);
+            if status == Status::Ok {
+                let (status, _state) = fresh(model).deserialize(&bytes);
+                assert_eq!(status, Status::Ok, "{model} {} = {:?}", variable.name, limits[1]);
+                saved += 1;
+            }
+        }
+        assert!(saved > refused, "{model}: {saved} saved, {refused} refused");
+    }
+}
+
+/// Angles and shares that cannot be anything else say so, and keep to it in every scenario.
+#[test]
+fn outputs_keep_within_the_limits_they_state() {
+    for scenario in Scenario::ALL {
+        let description = description(scenario.model());
+        let limited: Vec<_> = description
+            .variables
+            .iter()
+            .filter(|variable| variable.causality == Causality::Output)
+            .filter_map(|variable| match &variable.kind {
+                VariableKind::Real { attributes, .. } => Some((variable, attributes.min?, attributes.max?)),
+                _ => None,
+            })
+            .collect();
+        if ["MomentumPlant", "Guidance", "SpinPlant"].contains(&scenario.model()) {
+            assert!(limited.len() >= 4, "{}", scenario.model());
+        }
+        let mut simulation = Simulation::new(scenario);
+        for _ in 0..200 {
+            simulation.step();
+            for (variable, min, max) in &limited {
+                let mut value = [f64::NAN];
+                ok(simulation.instance.get_real(&[variable.value_reference], &mut value));
+                assert!((*min..=*max).contains(&value[0]), "{} = {:?}", variable.name, value[0]);
+            }
+        }
     }
 }

@@ -336,8 +336,12 @@ pub struct About {
     pub author: String,
     /// Version of the model; empty: not stated.
     pub version: String,
+    /// Who holds the copyright, and since when; empty: not stated.
+    pub copyright: String,
     /// Licence of the model in one line; empty: not stated.
     pub license: String,
+    /// The tool that generates the FMU, with its version; empty: this exporter.
+    pub tool: String,
 }
 
 /// A start value that a setup gives to a variable.

@@ -38,6 +38,8 @@ pub(crate) trait Runtime: Send {
     fn restore(&mut self, saved: &ErasedState) -> Result<(), Failure>;
     /// Whether a saved state holds one, that is, was taken after initialization.
     fn is_initialized(&self, saved: &ErasedState) -> bool;
+    /// Whether [`Runtime::decode`] would take what is saved.
+    fn check(&self, saved: &ErasedState) -> Result<(), Failure>;
     /// Bytes that [`Runtime::encode`] needs.
     fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure>;
     /// Writes a saved state into `bytes` and says how many it took.
@@ -136,6 +138,13 @@ impl<M: Model> Runtime for Typed<M> {
 
     fn is_initialized(&self, saved: &ErasedState) -> bool {
         Self::own(saved).is_ok_and(Option::is_some)
+    }
+
+    fn check(&self, saved: &ErasedState) -> Result<(), Failure> {
+        match Self::own(saved)? {
+            Some(state) => M::check_state(&self.setup, state),
+            None => Ok(()),
+        }
     }
 
     fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure> {

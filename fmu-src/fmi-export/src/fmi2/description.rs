@@ -93,8 +93,10 @@ pub(crate) fn prepare<M: Model>(
         description: text(&about.description),
         author: text(&about.author),
         version: text(&about.version),
+        copyright: text(&about.copyright),
         license: text(&about.license),
-        generation_tool: Some(concat!("fmi-export ", env!("CARGO_PKG_VERSION")).to_owned()),
+        generation_tool: text(&about.tool)
+            .or_else(|| Some(concat!("fmi-export ", env!("CARGO_PKG_VERSION")).to_owned())),
         variable_naming: NamingConvention::Structured,
         co_simulation: Some(co_simulation::<M>(&scalars)),
         types: interface.enumerations.iter().map(simple_type).collect(),

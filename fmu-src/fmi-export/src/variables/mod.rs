@@ -12,7 +12,7 @@ mod variable;
 /// The standard's words for roles, which are the same in FMI 2.0 and 3.0.
 pub use model_description::{Causality, Initial, Variability};
 
-pub use declare::{Declare, DeclareError, RealSpec, ScalarSpec};
+pub use declare::{Declare, DeclareError, GREATEST_SET, RealSpec, ScalarSpec};
 pub use handle::{Boolean, Choice, Elements, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 pub use interface::Interface;
 pub(crate) use values::SetBits;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
 use crate::fmi2::problem::StateMismatch;
 use crate::model::InputDerivative;
-use crate::variables::{SetBits, Values};
+use crate::variables::{GREATEST_SET, SetBits, Values};
 use model_description::call_table::State;
 
 /// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
@@ -111,7 +111,7 @@ impl InstanceState {
                 .copied()
                 .unwrap_or(0);
             let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
-            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !value.is_finite() {
+            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !(value.abs() <= GREATEST_SET) {
                 return Err(content(format!(
                     "input derivative {value:?} of order {order} for Real value reference {reference}"
                 )));

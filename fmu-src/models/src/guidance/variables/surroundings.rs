@@ -83,10 +83,10 @@ pub struct SunVariables {
     #[input(start = false)]
     pub sensed_valid: Boolean,
     /// Azimuth of the Sun in the commanded body frame, from -Y toward +X.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
     pub azimuth: Real,
     /// Elevation of the Sun in the commanded body frame, positive toward -Z.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2)]
     pub elevation: Real,
 }
 
@@ -100,7 +100,7 @@ pub struct EarthVariables {
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
     pub velocity: RealVector<3>,
     /// Angle between Sun and Earth as seen from the spacecraft.
-    #[output(discrete, unit = "rad", display = "deg")]
+    #[output(discrete, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI)]
     pub sun_separation: Real,
 }
 
