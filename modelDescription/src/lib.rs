@@ -10,6 +10,7 @@ mod description;
 mod document;
 mod finding;
 pub mod functions;
+pub mod labels;
 pub mod names;
 #[cfg(feature = "reader")]
 mod reader;

@@ -57,7 +57,8 @@ def test_every_plate_says_which_surface_it_is(orbiter):
     for surface in surfaces["plates"] + surfaces["panels"]:
         expected += [surface["name"]] + [f"{surface['name']}, rear"] * ("rear_optics" in surface)
     variables = read_model_description(orbiter).modelVariables
-    found = [variable.start for variable in variables if re.fullmatch(r"plate\[\d+\]\.name", variable.name)]
+    plates = [variable for variable in variables if re.fullmatch(r"plate\[\d+\]\.temperature", variable.name)]
+    found = [plate.description.rsplit(": ", 1)[0] for plate in plates]
     assert found == expected and len(set(found)) == len(found)
 
 

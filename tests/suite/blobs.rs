@@ -287,5 +287,5 @@ fn states_of_other_models_and_other_setups_are_refused() {
     let _ = target.instance.take_messages();
     assert_eq!(target.instance.deserialize(&later).0, Status::Error);
     let messages = target.instance.take_messages();
-    assert!(messages[0].text.contains("layout version 3, this library reads 2"), "{messages:?}");
+    assert!(messages[0].text.contains("layout version 4, this library reads 3"), "{messages:?}");
 }

@@ -17,6 +17,7 @@ mod plant;
 mod public_names;
 mod reference;
 mod scenarios;
+mod set_values;
 mod shared_library;
 mod sources;
 mod states;

@@ -85,3 +85,13 @@ fn both_copies_of_a_library_serve_their_own_states() {
         assert_eq!(instance.get_real("output.integral").unwrap(), number as f64 + 1.0);
     }
 }
+
+/// The symbols that importers look up stand in the dynamic table; the others are of no use to them.
+#[test]
+fn the_shipped_library_is_stripped() {
+    let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
+    let bytes = fs::read(library).unwrap();
+    let holds = |name: &[u8]| bytes.windows(name.len()).any(|window| window == name);
+    assert!(holds(b".dynsym\0") && holds(b"fmi2DoStep\0"));
+    assert!(!holds(b".symtab\0"), "the shipped library holds a symbol table");
+}

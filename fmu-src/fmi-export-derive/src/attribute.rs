@@ -112,15 +112,16 @@ fn group(attribute: &Attribute) -> syn::Result<Group> {
 }
 
 /// The setup type of `#[variables(setup = Type)]`.
-pub fn setup_type(attributes: &[Attribute]) -> syn::Result<Option<Type>> {
-    let mut setup = None;
+pub fn of_struct(attributes: &[Attribute]) -> syn::Result<(Option<Type>, Option<Expr>)> {
+    let (mut setup, mut label) = (None, None);
     for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("variables")) {
         each_item(attribute, |item, word| match word {
             "setup" => once(&mut setup, item, value),
-            _ => Err(item.error(format!("unknown item `{word}`; allowed: setup = Type"))),
+            "label" => once(&mut label, item, value),
+            _ => Err(item.error(format!("unknown item `{word}`; allowed: setup = Type, label = expression"))),
         })?;
     }
-    Ok(setup)
+    Ok((setup, label))
 }
 
 /// The name of `#[enumeration(name = "...")]`.

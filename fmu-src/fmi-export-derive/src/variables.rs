@@ -14,7 +14,7 @@ use crate::source::{Errors, camel_from_snake, description};
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let fields = named_fields(input)?;
     let mut errors = Errors::default();
-    let setup = errors.take(attribute::setup_type(&input.attrs)).flatten();
+    let (setup, label) = errors.take(attribute::of_struct(&input.attrs)).unwrap_or_default();
     // Hygienic: an expression of the user's must not see the builder.
     let scope = Ident::new("scope", Span::mixed_site());
     let mut names = Vec::new();
@@ -40,6 +40,10 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     }
     errors.finish()?;
 
+    let label = label.map(|label| {
+        let borrowed = quote_spanned! { label.span()=> ::core::convert::AsRef::<str>::as_ref(&#label) };
+        quote! { #scope.label(#borrowed); }
+    });
     let struct_name = &input.ident;
     let (own_generics, type_generics, where_clause) = input.generics.split_for_impl();
     let mut generics = input.generics.clone();
@@ -61,6 +65,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
                 index: usize,
             ) -> ::core::result::Result<Self, ::fmi_export::DeclareError> {
                 let _ = (&*#scope, setup, index);
+                #label
                 #(#statements)*
                 ::core::result::Result::Ok(Self { #(#members),* })
             }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::variables::{Boolean, Choice, Element, Integer, Real, RealMatrix, RealVector, Text};
+use crate::variables::{Boolean, Choice, Element, Elements, Integer, Real, RealMatrix, RealVector, Text};
 
 /// A set of scalar variables of any type: for each table of values one bit a place, in words up to the last that is not
 /// zero.
@@ -68,7 +68,7 @@ impl Knowns {
         }
     }
 
-    fn span(first: Element, count: usize) -> Self {
+    fn span(Elements { first, count }: Elements) -> Self {
         let mut set = Self::default();
         let words = &mut set.0[first.table()];
         for place in (first.place()..).take(count) {
@@ -116,7 +116,7 @@ macro_rules! from_scalar {
     ($($handle:ty),*) => { $(
         impl From<$handle> for Knowns {
             fn from(handle: $handle) -> Self {
-                Self::span(handle.into(), 1)
+                Self::span(handle.into())
             }
         }
     )* };
@@ -126,19 +126,19 @@ from_scalar!(Real, Integer, Boolean, Text);
 
 impl<E> From<Choice<E>> for Knowns {
     fn from(handle: Choice<E>) -> Self {
-        Self::span(handle.into(), 1)
+        Self::span(handle.into())
     }
 }
 
 impl<const N: usize> From<RealVector<N>> for Knowns {
     fn from(handle: RealVector<N>) -> Self {
-        Self::span(Element::Real(handle.0), N)
+        Self::span(handle.into())
     }
 }
 
 impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Knowns {
     fn from(handle: RealMatrix<R, C>) -> Self {
-        Self::span(Element::Real(handle.0), R * C)
+        Self::span(handle.into())
     }
 }
 

@@ -28,6 +28,6 @@ pub use model::{
 };
 pub use model_description::{self, BaseType, Status};
 pub use variables::{
-    Boolean, Choice, Declare, DeclareError, Element, Enumeration, Integer, Interface, Real, RealMatrix,
-    RealVector, Text, Values, Variables,
+    Boolean, Choice, Declare, DeclareError, Element, Elements, Enumeration, Given, Integer, Interface, Real,
+    RealMatrix, RealVector, Text, Values, Variables,
 };

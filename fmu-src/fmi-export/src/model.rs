@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::dependencies::Dependencies;
-use crate::variables::{Real, RealVector, Values, Variables};
+use crate::variables::{Elements, Given, Real, RealVector, Values, Variables};
 
 /// A co-simulation model.
 ///
@@ -87,6 +87,10 @@ pub trait Model: Sized + 'static {
         state: &mut Self::State,
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure>;
+
+    /// Writes the parameters that the importer left to the model as they act, so that they read back. Called once, when
+    /// initialization ends: [`Model::initialize`] may run again before, and goes by what was set.
+    fn settle_parameters(_context: &Context<'_, Self>, _values: &mut Values) {}
 
     /// Checks a length or index inside a decoded state against the setup; an error refuses the blob.
     fn check_state(_setup: &Self::Setup, _state: &Self::State) -> Result<(), Failure> {
@@ -183,8 +187,17 @@ pub struct Context<'a, M: Model> {
     pub setup: &'a M::Setup,
     /// The variable handles.
     pub variables: &'a M::Variables,
+    /// The start values of this FMU; what is set of them the setup gave.
+    pub start: &'a Values,
     /// Where events (dumps, eclipse edges ...) are reported; off costs nothing.
     pub log: &'a dyn Log,
+}
+
+impl<M: Model> Context<'_, M> {
+    /// Which variables of a group the user gave a value.
+    pub fn given<'v>(&'v self, values: &'v Values, group: &[Elements]) -> Given<'v> {
+        Given::among(values, self.start, group)
+    }
 }
 
 /// Receives a model's messages.
@@ -323,8 +336,12 @@ pub struct About {
     pub author: String,
     /// Version of the model; empty: not stated.
     pub version: String,
+    /// Who holds the copyright, and since when; empty: not stated.
+    pub copyright: String,
     /// Licence of the model in one line; empty: not stated.
     pub license: String,
+    /// The tool that generates the FMU, with its version; empty: this exporter.
+    pub tool: String,
 }
 
 /// A start value that a setup gives to a variable.

@@ -1,6 +1,7 @@
 //! The model inside an instance, with its type erased: setup, handles, state.
 
 use std::any::Any;
+use std::sync::Arc;
 
 use crate::model::{Context, Failure, Log, Model, SetupError, Step, StepEnd};
 use crate::variables::{Real, Values};
@@ -13,6 +14,8 @@ pub(crate) trait Runtime: Send {
     /// Takes a schedule, before anything else is called.
     fn take_schedule(&mut self, schedule: &str, file: &str, text: &str) -> Result<(), SetupError>;
     fn initialize(&mut self, values: &mut Values, start_s: f64, log: &dyn Log) -> Result<(), Failure>;
+    /// Writes parameters as they act.
+    fn settle_parameters(&self, values: &mut Values, log: &dyn Log);
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
     /// Whether the model knows how fast its outputs change.
     fn has_output_rates(&self) -> bool;
@@ -35,6 +38,8 @@ pub(crate) trait Runtime: Send {
     fn restore(&mut self, saved: &ErasedState) -> Result<(), Failure>;
     /// Whether a saved state holds one, that is, was taken after initialization.
     fn is_initialized(&self, saved: &ErasedState) -> bool;
+    /// Whether [`Runtime::decode`] would take what is saved.
+    fn check(&self, saved: &ErasedState) -> Result<(), Failure>;
     /// Bytes that [`Runtime::encode`] needs.
     fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure>;
     /// Writes a saved state into `bytes` and says how many it took.
@@ -49,12 +54,13 @@ pub(crate) trait Runtime: Send {
 pub(crate) struct Typed<M: Model> {
     pub(crate) setup: M::Setup,
     pub(crate) variables: M::Variables,
+    pub(crate) start: Arc<Values>,
     pub(crate) state: Option<M::State>,
 }
 
 impl<M: Model> Typed<M> {
     fn context<'a>(&'a self, log: &'a dyn Log) -> Context<'a, M> {
-        Context { setup: &self.setup, variables: &self.variables, log }
+        Context { setup: &self.setup, variables: &self.variables, start: &self.start, log }
     }
 
     fn own(saved: &ErasedState) -> Result<&Option<M::State>, Failure> {
@@ -72,8 +78,12 @@ impl<M: Model> Runtime for Typed<M> {
         Ok(())
     }
 
+    fn settle_parameters(&self, values: &mut Values, log: &dyn Log) {
+        M::settle_parameters(&self.context(log), values);
+    }
+
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure> {
-        let context = Context { setup: &self.setup, variables: &self.variables, log };
+        let context = Context { setup: &self.setup, variables: &self.variables, start: &self.start, log };
         let state = self.state.as_mut().ok_or_else(not_initialized)?;
         M::step(&context, values, state, step)
     }
@@ -128,6 +138,13 @@ impl<M: Model> Runtime for Typed<M> {
 
     fn is_initialized(&self, saved: &ErasedState) -> bool {
         Self::own(saved).is_ok_and(Option::is_some)
+    }
+
+    fn check(&self, saved: &ErasedState) -> Result<(), Failure> {
+        match Self::own(saved)? {
+            Some(state) => M::check_state(&self.setup, state),
+            None => Ok(()),
+        }
     }
 
     fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure> {

@@ -1,6 +1,7 @@
 //! From a model and its setup to the `modelDescription.xml`, the GUID and the parts of an instance.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use model_description::{
     CoSimulation, DefaultExperiment, Description, EnumerationItem, NamingConvention, RealAttributes,
@@ -59,7 +60,7 @@ pub fn description_of<M: Model>(file: &str, setup_text: &str) -> Result<Descript
 pub(crate) struct Prepared {
     pub(crate) description: Description,
     pub(crate) access: AccessTable,
-    pub(crate) start: Values,
+    pub(crate) start: Arc<Values>,
     pub(crate) runtime: Box<dyn Runtime>,
     pub(crate) digest: Uuid,
 }
@@ -92,8 +93,10 @@ pub(crate) fn prepare<M: Model>(
         description: text(&about.description),
         author: text(&about.author),
         version: text(&about.version),
+        copyright: text(&about.copyright),
         license: text(&about.license),
-        generation_tool: Some(concat!("fmi-export ", env!("CARGO_PKG_VERSION")).to_owned()),
+        generation_tool: text(&about.tool)
+            .or_else(|| Some(concat!("fmi-export ", env!("CARGO_PKG_VERSION")).to_owned())),
         variable_naming: NamingConvention::Structured,
         co_simulation: Some(co_simulation::<M>(&scalars)),
         types: interface.enumerations.iter().map(simple_type).collect(),
@@ -112,11 +115,14 @@ pub(crate) fn prepare<M: Model>(
     let readers = Readers::new(M::NAME, file, others);
     start::apply(&M::start_values(&setup), &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
+    // Which of them the setup gave stands in the setup.
+    let start = Arc::new(interface.start.clone());
+    interface.start.mark_none();
     let digest = digest_of::<M>(&interface, &dependencies, &about, &setup)?;
     description.guid = format!("{{{digest}}}");
     let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
-    let runtime = Box::new(Typed::<M> { setup, variables, state: None });
-    Ok(Prepared { description, access, start: interface.start, runtime, digest })
+    let runtime = Box::new(Typed::<M> { setup, variables, start: Arc::clone(&start), state: None });
+    Ok(Prepared { description, access, start, runtime, digest })
 }
 
 /// The elements of every variable, in order, with their start values.

@@ -14,9 +14,9 @@ use model_description::Status;
 pub enum Category {
     /// What happens in the model: dumps, eclipse edges, pulses.
     Events,
-    /// Something unusual that does not stop the instance.
+    /// Something unusual that does not stop the instance; always logged.
     Warning,
-    /// A value or a step was not accepted.
+    /// A value or a step was not accepted; always logged.
     Discard,
     /// A call failed; always logged.
     Error,
@@ -42,9 +42,11 @@ impl Category {
     /// The category's description.
     pub const fn description(self) -> &'static str {
         match self {
-            Self::Events => "events inside the model, with their times",
-            Self::Warning => "something odd that the simulation goes on with",
-            Self::Discard => "values or steps that were not accepted",
+            Self::Events => {
+                "events inside the model, with their times, and what an importer does beyond the standard"
+            }
+            Self::Warning => "something odd that the simulation goes on with; logged always",
+            Self::Discard => "values or steps that were not accepted; logged always",
             Self::Error => "calls that failed; logged always",
             Self::All => "all messages",
         }
@@ -104,7 +106,7 @@ pub struct Logger {
 }
 
 impl Logger {
-    /// A logger for `instance_name`; with `logging_on` false only errors are reported.
+    /// A logger for `instance_name`; with `logging_on` false events are not reported.
     pub fn new(sink: Box<dyn LogSink>, instance_name: &CStr, logging_on: bool) -> Self {
         let initially = if logging_on { Category::All.bit() } else { 0 };
         Self {
@@ -126,7 +128,7 @@ impl Logger {
         });
     }
 
-    /// Enables no category (errors still pass).
+    /// Enables no category; what is always logged still passes.
     pub(crate) fn enable_nothing(&self) {
         self.enabled.set(0);
     }
@@ -136,11 +138,12 @@ impl Logger {
         self.enabled.set(self.initially);
     }
 
-    /// Whether a message with this status is sent.
+    /// Whether a message with this status is sent. Only events wait to be asked for: importers show the reason of a value that
+    /// was not accepted nowhere else, and turn debug logging off by default.
     #[inline]
     pub fn is_enabled(&self, status: Status) -> bool {
         let category = Category::of_status(status);
-        matches!(category, Category::Error) || self.enabled.get() & category.bit() != 0
+        category != Category::Events || self.enabled.get() & category.bit() != 0
     }
 
     /// Sends a message in the category of `status`; formats nothing if that is off.
@@ -239,25 +242,26 @@ mod tests {
     }
 
     #[test]
-    fn categories_are_honoured_and_errors_always_pass() {
+    fn events_wait_to_be_asked_for_and_the_rest_always_passes() {
+        const REST: [&str; 3] = ["logStatusWarning", "logStatusDiscard", "logStatusError"];
         let (logger, lines) = logger(false);
-        log_all(&logger);
-        assert_eq!(categories(&lines), ["logStatusError"]);
+        let assert_events = |expected: bool| {
+            log_all(&logger);
+            let found = categories(&lines);
+            assert_eq!(found.iter().any(|it| it == "logEvents"), expected, "{found:?}");
+            assert_eq!(found[usize::from(expected)..], REST);
+        };
+        assert_events(false);
         logger.enable(true, []);
-        log_all(&logger);
-        assert_eq!(
-            categories(&lines),
-            ["logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError"]
-        );
+        assert_events(true);
         logger.enable(true, [Category::Events]);
-        log_all(&logger);
-        assert_eq!(categories(&lines), ["logEvents", "logStatusError"]);
+        assert_events(true);
+        logger.enable(true, [Category::Discard]);
+        assert_events(false);
         logger.enable(true, [Category::All]);
-        log_all(&logger);
-        assert_eq!(categories(&lines).len(), 4);
+        assert_events(true);
         logger.enable(false, [Category::Events]);
-        log_all(&logger);
-        assert_eq!(categories(&lines), ["logStatusError"]);
+        assert_events(false);
     }
 
     #[test]
@@ -269,6 +273,6 @@ mod tests {
             }
         }
         let (logger, _) = logger(false);
-        logger.log(Status::Discard, format_args!("{PanicsWhenFormatted}"));
+        logger.log(Status::Ok, format_args!("{PanicsWhenFormatted}"));
     }
 }

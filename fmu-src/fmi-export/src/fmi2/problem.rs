@@ -6,6 +6,7 @@ use model_description::BaseType;
 
 use crate::Failure;
 use crate::fmi2::access::AccessTable;
+use crate::variables::GREATEST_SET;
 use model_description::Status;
 use model_description::call_table::{Access, Function, State, allowed};
 
@@ -30,8 +31,8 @@ pub(crate) enum Problem {
     NoBoolean { reference: u32, value: i32 },
     /// A String that is not UTF-8.
     NoText { reference: u32 },
-    /// An input derivative that is not finite.
-    DerivativeNotFinite { reference: u32, value: f64 },
+    /// An input derivative beyond [`GREATEST_SET`], or not finite.
+    DerivativeOutOfRange { reference: u32, value: f64 },
     /// A seed of a directional derivative that is not finite.
     SeedNotFinite { reference: u32, value: f64 },
     /// A Real that the model computed, and what it depends on where that is declared.
@@ -110,6 +111,9 @@ pub enum StateMismatch {
     /// Damaged.
     #[error("the FMU state is damaged: its checksum does not match")]
     Checksum,
+    /// Of a flight with numbers that no simulation can go on with.
+    #[error("the FMU state cannot be written, because it could not be read: {0}")]
+    Unreadable(String),
     /// Well sealed, but its content makes no sense for this model.
     #[error("the FMU state is damaged: {0}")]
     Content(String),
@@ -123,7 +127,7 @@ impl Problem {
             | Self::IntegerOutOfRange { .. }
             | Self::NoBoolean { .. }
             | Self::NoText { .. }
-            | Self::DerivativeNotFinite { .. }
+            | Self::DerivativeOutOfRange { .. }
             | Self::NoStatus { .. } => Status::Discard,
             Self::Terminated(_) => Status::Discard,
             Self::UnknownCategory { .. } => Status::Warning,
@@ -263,10 +267,11 @@ impl fmt::Display for Explained<'_> {
             Problem::NoText { reference } => {
                 write!(f, "{} was set to text that is not UTF-8", self.named(BaseType::String, *reference))
             }
-            Problem::DerivativeNotFinite { reference, value } => write!(
+            Problem::DerivativeOutOfRange { reference, value } => write!(
                 f,
-                "a derivative of {} was set to {value:?}, allowed is any finite value",
-                self.named(BaseType::Real, *reference)
+                "a derivative of {} was set to {value:?}, allowed is {:?} to {GREATEST_SET:?}",
+                self.named(BaseType::Real, *reference),
+                -GREATEST_SET
             ),
             Problem::SeedNotFinite { reference, value } => write!(
                 f,

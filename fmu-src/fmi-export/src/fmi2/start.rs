@@ -131,7 +131,7 @@ pub(crate) fn apply(
         let position = position_in_table(&description.variables, index);
         if let Some(variable) = description.variables.get_mut(index) {
             value::set_start(variable, &value);
-            start.set(position, value);
+            start.give(position, value);
         }
     }
     Ok(())

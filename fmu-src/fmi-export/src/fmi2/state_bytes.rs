@@ -12,7 +12,7 @@ use crate::runtime::{ErasedState, unencodable};
 use model_description::call_table::{Function, State};
 
 const MARK: [u8; 8] = *b"FMUSTATE";
-const LAYOUT: u32 = 2;
+const LAYOUT: u32 = 3;
 const HEADER: usize = 8 + 4 + 16 + 8 + 8;
 
 /// A saved instance.
@@ -64,6 +64,8 @@ impl Instance {
     /// `fmi2SerializeFMUstate`: `bytes` must hold [`Instance::serialized_size`]; what lies beyond is kept.
     pub(crate) fn serialize(&self, saved: &SavedState, bytes: &mut [u8]) -> Result<(), Problem> {
         self.guard(Function::SerializeFmuState)?;
+        // What is written can be read: better refused now than when the flight is gone.
+        self.runtime.check(&saved.model).map_err(|failure| StateMismatch::Unreadable(failure.to_string()))?;
         let (given, needed) = (bytes.len(), self.size(saved)?);
         let Some((header, payload)) =
             bytes.get_mut(..needed).and_then(|all| all.split_at_mut_checked(HEADER))

@@ -3,12 +3,16 @@
 use core::marker::PhantomData;
 use std::collections::BTreeSet;
 
-use model_description::{Causality, units};
+use model_description::{Causality, labels::LABEL_END, units};
 
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 use super::interface::Interface;
 use super::variable::{Element, Kind, Role, Variable};
+
+/// Magnitude up to which every Real may be set that declares no limit itself, in its unit. Beyond, products of what was set are
+/// soon no finite numbers, and saved states would hold what no simulation can go on with.
+pub const GREATEST_SET: f64 = 1e100;
 
 /// Why a declaration is wrong; names the variable.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -56,6 +60,8 @@ pub struct ScalarSpec<'a> {
 #[derive(Debug, Default)]
 pub struct Declare {
     prefix: String,
+    /// What the group being declared is called, with what separates it from descriptions.
+    label: String,
     names: BTreeSet<String>,
     interface: Interface,
 }
@@ -67,7 +73,8 @@ impl Declare {
     }
 
     /// What was declared.
-    pub fn finish(self) -> Interface {
+    pub fn finish(mut self) -> Interface {
+        self.interface.start.mark_none();
         self.interface
     }
 
@@ -78,13 +85,20 @@ impl Declare {
         declare: impl FnOnce(&mut Self) -> Result<T, DeclareError>,
     ) -> Result<T, DeclareError> {
         let outer = self.prefix.len();
+        let label = self.label.clone();
         if !name.is_empty() {
             self.prefix.push_str(name);
             self.prefix.push('.');
         }
         let result = declare(self);
         self.prefix.truncate(outer);
+        self.label = label;
         result
+    }
+
+    /// Begins every description of the group being declared with what the user calls it: `label: description`.
+    pub fn label(&mut self, label: &str) {
+        self.label = format!("{label}{LABEL_END}");
     }
 
     /// Declares `count` groups `prefix.name[1].` to `prefix.name[count].`
@@ -196,7 +210,11 @@ impl Declare {
         dimensions: &[usize],
         start: Option<&[f64]>,
     ) -> Result<u32, DeclareError> {
-        let RealSpec { name, description, role, unit, display_unit, min, max, nominal } = *spec;
+        let RealSpec { name, description, role, unit, display_unit, mut min, mut max, nominal } = *spec;
+        if matches!(role.causality, Causality::Input | Causality::Parameter) {
+            min = min.or(Some(-GREATEST_SET));
+            max = max.or(Some(GREATEST_SET));
+        }
         let first = if dimensions.is_empty() { name.to_owned() } else { first_element(name, dimensions) };
         let known = units::find(unit)
             .ok_or_else(|| self.error(&first, format!("unit `{unit}` is not in the unit table")))?;
@@ -253,7 +271,7 @@ impl Declare {
     fn variable(&self, spec: &ScalarSpec<'_>, dimensions: &[usize], first: Element, kind: Kind) -> Variable {
         Variable {
             name: format!("{}{}", self.prefix, spec.name),
-            description: spec.description.to_owned(),
+            description: format!("{}{}", self.label, spec.description),
             role: spec.role,
             dimensions: dimensions.to_vec(),
             first,

@@ -7,6 +7,21 @@ use serde::{Deserialize, Serialize};
 
 use super::variable::{Element, EnumerationType};
 
+/// Scalars that follow one another in the table of their type: what a handle stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Elements {
+    pub(crate) first: Element,
+    pub(crate) count: usize,
+}
+
+impl Elements {
+    /// Their places in the table.
+    pub(crate) fn places(self) -> core::ops::Range<usize> {
+        let first = self.first.place() as usize;
+        first..first + self.count
+    }
+}
+
 macro_rules! scalar_handle {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
@@ -16,6 +31,12 @@ macro_rules! scalar_handle {
         impl From<$name> for Element {
             fn from(handle: $name) -> Self {
                 Self::$name(handle.0)
+            }
+        }
+
+        impl From<$name> for Elements {
+            fn from(handle: $name) -> Self {
+                Self { first: handle.into(), count: 1 }
             }
         }
     };
@@ -88,6 +109,24 @@ impl<E> Copy for Choice<E> {}
 impl<E> From<Choice<E>> for Element {
     fn from(handle: Choice<E>) -> Self {
         Self::Integer(handle.0)
+    }
+}
+
+impl<E> From<Choice<E>> for Elements {
+    fn from(handle: Choice<E>) -> Self {
+        Self { first: handle.into(), count: 1 }
+    }
+}
+
+impl<const N: usize> From<RealVector<N>> for Elements {
+    fn from(handle: RealVector<N>) -> Self {
+        Self { first: Element::Real(handle.0), count: N }
+    }
+}
+
+impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Elements {
+    fn from(handle: RealMatrix<R, C>) -> Self {
+        Self { first: Element::Real(handle.0), count: R * C }
     }
 }
 

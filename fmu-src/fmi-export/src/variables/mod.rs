@@ -12,10 +12,11 @@ mod variable;
 /// The standard's words for roles, which are the same in FMI 2.0 and 3.0.
 pub use model_description::{Causality, Initial, Variability};
 
-pub use declare::{Declare, DeclareError, RealSpec, ScalarSpec};
-pub use handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
+pub use declare::{Declare, DeclareError, GREATEST_SET, RealSpec, ScalarSpec};
+pub use handle::{Boolean, Choice, Elements, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 pub use interface::Interface;
-pub use values::Values;
+pub(crate) use values::SetBits;
+pub use values::{Given, Values};
 pub use variable::{Element, EnumerationType, Item, Kind, Role, Variable};
 
 /// A group of declared variables; derived with `#[derive(Variables)]`.

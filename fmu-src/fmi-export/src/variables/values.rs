@@ -3,20 +3,95 @@
 use model_description::value::Value;
 use serde::{Deserialize, Serialize};
 
-use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
+use super::handle::{Boolean, Choice, Elements, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
+use super::variable::Element;
 
-/// The values of every variable of one instance, by type and place.
+/// The values of every variable of one instance, by type and place, and which of them somebody set.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Values {
     pub(crate) reals: Vec<f64>,
     pub(crate) integers: Vec<i32>,
     pub(crate) booleans: Vec<bool>,
     pub(crate) strings: Vec<String>,
+    /// By the order of these tables.
+    pub(crate) set: [SetBits; Element::TABLES],
+}
+
+/// Of every place of a table one bit: whether its value was set.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct SetBits(Vec<u64>);
+
+impl SetBits {
+    /// Words for a table of this length.
+    pub(crate) const fn words(length: usize) -> usize {
+        length.div_ceil(u64::BITS as usize)
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline]
+    pub(crate) fn is_set(&self, place: usize) -> bool {
+        let word = self.0.get(place / u64::BITS as usize).copied().unwrap_or(0);
+        word >> (place % u64::BITS as usize) & 1 == 1
+    }
+
+    #[inline]
+    pub(crate) fn mark(&mut self, place: usize) {
+        if let Some(word) = self.0.get_mut(place / u64::BITS as usize) {
+            *word |= 1 << (place % u64::BITS as usize);
+        }
+    }
+
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.0.clone_from(&other.0);
+    }
 }
 
 impl Values {
-    /// Writes the value at a place in the table of its type.
-    pub(crate) fn set(&mut self, position: usize, value: Value) {
+    /// The number of values of each table.
+    pub(crate) fn lengths(&self) -> [usize; Element::TABLES] {
+        [self.reals.len(), self.integers.len(), self.booleans.len(), self.strings.len()]
+    }
+
+    /// Nothing is set yet.
+    pub(crate) fn mark_none(&mut self) {
+        let lengths = self.lengths();
+        for (bits, length) in self.set.iter_mut().zip(lengths) {
+            bits.0.clear();
+            bits.0.resize(SetBits::words(length), 0);
+        }
+    }
+
+    /// Whether the importer set the variable, of an array any element, be it to the value it had. Of the start values: whether
+    /// the setup gave it.
+    pub fn is_set(&self, variable: impl Into<Elements>) -> bool {
+        let elements = variable.into();
+        elements.places().any(|place| self.set[elements.first.table()].is_set(place))
+    }
+
+    /// Whether the importer set every element of the variable to what it is in `start`.
+    fn repeats(&self, start: &Self, elements: Elements) -> bool {
+        let table = elements.first.table();
+        let is_start = |place: usize| match elements.first {
+            Element::Real(_) => self.reals[place].to_bits() == start.reals[place].to_bits(),
+            Element::Integer(_) => self.integers[place] == start.integers[place],
+            Element::Boolean(_) => self.booleans[place] == start.booleans[place],
+            Element::Text(_) => self.strings[place] == start.strings[place],
+        };
+        elements.places().all(|place| self.set[table].is_set(place) && is_start(place))
+    }
+
+    /// Writes the value that a setup gives at a place in the table of its type.
+    pub(crate) fn give(&mut self, position: usize, value: Value) {
+        let table = match value {
+            Value::Real(_) => 0,
+            Value::Integer(_) => 1,
+            Value::Boolean(_) => 2,
+            Value::Text(_) => 3,
+        };
+        self.set[table].mark(position);
         match value {
             Value::Real(value) => self.reals[position] = value,
             Value::Integer(value) => self.integers[position] = value,
@@ -103,5 +178,98 @@ impl Values {
     /// Writes a choice.
     pub fn set_choice<E: Enumeration>(&mut self, handle: Choice<E>, value: E) {
         self.integers[handle.0 as usize] = value.value();
+    }
+}
+
+/// Which variables of a group the user gave a value, be it the start value: in the setup or by a set. Where the importer set every
+/// variable of the group to its start value, as tools do that write all of them, its sets say nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Given<'a> {
+    values: &'a Values,
+    start: &'a Values,
+    by_importer: bool,
+}
+
+impl<'a> Given<'a> {
+    /// Of the variables of `group`; `start` are the start values.
+    pub fn among(values: &'a Values, start: &'a Values, group: &[Elements]) -> Self {
+        let by_importer = !group.iter().all(|&elements| values.repeats(start, elements));
+        Self { values, start, by_importer }
+    }
+
+    /// Whether the user gave this one, of an array any element.
+    pub fn has(&self, variable: impl Into<Elements>) -> bool {
+        let elements = variable.into();
+        self.start.is_set(elements) || (self.by_importer && self.values.is_set(elements))
+    }
+
+    /// The value of a Real that the user gave, else `own`.
+    pub fn real_or(&self, variable: Real, own: f64) -> f64 {
+        if self.has(variable) { self.values.real(variable) } else { own }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Who gave a value, where its start value is among those that may be given.
+    use super::*;
+
+    const GROUP: [Elements; 2] =
+        [Elements { first: Element::Real(0), count: 2 }, Elements { first: Element::Integer(0), count: 1 }];
+
+    /// Two Reals, an Integer, and one Real that the setup may give.
+    fn start(by_setup: bool) -> Values {
+        let mut start = Values { reals: vec![1.0, 2.0, 3.0], integers: vec![7], ..Values::default() };
+        start.mark_none();
+        if by_setup {
+            start.give(1, Value::Real(2.5));
+        }
+        start
+    }
+
+    fn set_real(values: &mut Values, place: usize, value: f64) {
+        values.reals[place] = value;
+        values.set[0].mark(place);
+    }
+
+    fn fresh(start: &Values) -> Values {
+        let mut values = start.clone();
+        values.mark_none();
+        values
+    }
+
+    #[test]
+    fn a_value_set_to_its_start_value_is_given() {
+        let start = start(false);
+        let mut values = fresh(&start);
+        set_real(&mut values, 1, 2.0);
+        let given = Given::among(&values, &start, &GROUP);
+        assert_eq!([0, 1, 2].map(|at| given.has(Real(at))), [false, true, false]);
+        assert!(given.has(RealVector::<2>(0)) && !given.has(Integer(0)));
+        assert_eq!([0, 1].map(|at| given.real_or(Real(at), 9.0)), [9.0, 2.0]);
+    }
+
+    #[test]
+    fn a_group_that_is_written_throughout_is_given_only_if_one_differs() {
+        let start = start(false);
+        let mut values = fresh(&start);
+        set_real(&mut values, 0, 1.0);
+        set_real(&mut values, 1, 2.0);
+        values.set[1].mark(0);
+        assert!(!Given::among(&values, &start, &GROUP).has(Real(0)));
+        values.integers[0] = 8;
+        assert!(Given::among(&values, &start, &GROUP).has(Real(0)));
+    }
+
+    #[test]
+    fn what_the_setup_gives_is_given_whoever_writes_it() {
+        let start = start(true);
+        let mut values = fresh(&start);
+        assert!(Given::among(&values, &start, &GROUP).has(Real(1)));
+        set_real(&mut values, 0, 1.0);
+        set_real(&mut values, 1, 2.5);
+        values.set[1].mark(0);
+        let given = Given::among(&values, &start, &GROUP);
+        assert_eq!([0, 1].map(|at| given.has(Real(at))), [false, true]);
     }
 }

@@ -232,7 +232,7 @@ fn roles_and_attributes_reach_the_table() {
     assert_eq!(attributes.display_unit.as_deref(), Some("deg"));
     assert_eq!(attributes.nominal, Some(0.5));
     let VariableKind::Real { attributes, .. } = &find(&table, "mass").kind else { panic!() };
-    assert_eq!((attributes.min, attributes.max), (Some(0.0), None));
+    assert_eq!((attributes.min, attributes.max), (Some(0.0), Some(1e100)));
     let VariableKind::Integer { min, max, .. } = find(&table, "count").kind else { panic!() };
     assert_eq!((min, max), (Some(-1), Some(100)));
 }

@@ -6,7 +6,7 @@ use std::cell::Cell;
 
 use fmi_export::model_description::Status::Ok;
 
-use super::{described, fresh, reference};
+use super::{fresh, reference};
 
 struct Counting;
 
@@ -86,12 +86,21 @@ fn get_set_and_step_do_not_allocate() {
 }
 
 #[test]
-fn a_discarded_set_costs_nothing_when_nobody_listens() {
-    let (mut instance, _) = super::started("AllTypes");
-    let input = [reference(&described("AllTypes"), "input.real")];
+fn an_event_costs_nothing_when_nobody_listens() {
+    let (mut instance, description) = super::started("AllTypes");
+    let input = [reference(&description, "input.boolean")];
     assert_eq!(instance.set_debug_logging(false, &[]), Ok);
-    let count = counted(|| {
-        assert_eq!(instance.set_real(&input, &[f64::NAN]), fmi_export::model_description::Status::Discard);
-    });
-    assert_eq!(count, 0);
+    assert_eq!(instance.set_boolean(&input, &[1]), Ok);
+    let mut point_s = 0.0;
+    let mut step = || {
+        point_s += 1.0;
+        assert_eq!(instance.do_step(point_s - 1.0, 1.0), Ok);
+    };
+    step();
+    let quiet = counted(&mut step);
+    assert_eq!(instance.set_boolean(&input, &[0]), Ok);
+    assert_eq!(instance.do_step(point_s, 1.0), Ok);
+    assert_eq!(instance.set_boolean(&input, &[1]), Ok);
+    let eventful = counted(|| assert_eq!(instance.do_step(point_s + 1.0, 1.0), Ok));
+    assert_eq!((quiet, eventful), (0, 0));
 }

@@ -44,7 +44,8 @@ fn wrong_orders_and_variables_are_refused() {
         ("input.real", largest + 1, 1.0, Error, "order is 171"),
         ("input.real", i32::MAX, 1.0, Error, "order is"),
         ("input.real", largest, 1.0, Ok, ""),
-        ("input.real", 1, f64::NAN, Discard, "any finite value"),
+        ("input.real", 1, f64::NAN, Discard, "-1e100 to 1e100"),
+        ("input.real", 2, -1.1e100, Discard, "-1e100 to 1e100"),
         ("input.discreteReal", 1, 1.0, Error, "is no continuous Real input"),
         ("tunable.real", 1, 1.0, Error, "is no continuous Real input"),
     ] {

@@ -196,7 +196,7 @@ pub enum ScienceRule {
 }
 
 enumeration_of! {
-    /// Central body.
+    /// Central body. 5 is kept free for the Moon, which cannot be one yet.
     OrbitCenter(Body) {
         /// Mercury.
         mercury = 1 => Mercury,

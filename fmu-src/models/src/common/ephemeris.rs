@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fmi_export::{Failure, SetupError, Values};
+use fmi_export::{Failure, Given, SetupError};
 use physics::bodies::Body;
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::flown::{FlownEphemeris, FlownTarget};
@@ -34,14 +34,14 @@ pub fn check_start(epoch_s: f64) -> Result<(), Failure> {
     )))
 }
 
-/// The planet on the ellipse of `ephemeris.source` kepler; `described` is the body of the start values.
+/// The planet on the ellipse of `ephemeris.source` kepler.
 pub fn kepler(
     ellipse: &EllipseVariables,
-    values: &Values,
-    [described, body]: [Body; 2],
+    given: Given<'_>,
+    body: Body,
     epoch_s: f64,
 ) -> Result<KeplerPlanet, Failure> {
-    KeplerPlanet::new(ellipse.read(values, described, body), epoch_s)
+    KeplerPlanet::new(ellipse.read(given, body), epoch_s)
         .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
 }
 

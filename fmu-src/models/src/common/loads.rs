@@ -1,6 +1,6 @@
 //! What acts on the spacecraft, by source, and its faces one by one.
 
-use fmi_export::{Real, RealVector, Text, Variables};
+use fmi_export::{Real, RealVector, Variables};
 use physics::radiation::Effect;
 
 use super::spacecraft::ReportedFace;
@@ -69,11 +69,8 @@ pub struct ForceBySource {
 /// One face of a plate or panel, in the file's order: plates, sunshade, panels, the rear after the front. There if the
 /// FMU was packed with per-plate outputs.
 #[derive(Variables)]
-#[variables(setup = Vec<ReportedFace>)]
+#[variables(setup = Vec<ReportedFace>, label = setup[index].name)]
 pub struct PlateVariables {
-    /// Name of its surface in the spacecraft's file.
-    #[output(constant, start = setup[index].name.as_str())]
-    pub name: Text,
     /// Temperature.
     #[output(unit = "K", nominal = 300.0)]
     pub temperature: Real,

@@ -17,7 +17,9 @@ pub fn about() -> About {
     About {
         author: "the heliotorque authors".to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        copyright: "Copyright (c) 2026 the heliotorque authors".to_owned(),
         license: "MIT OR Apache-2.0".to_owned(),
+        tool: concat!("heliotorque ", env!("CARGO_PKG_VERSION")).to_owned(),
         ..About::default()
     }
 }

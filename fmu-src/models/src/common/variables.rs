@@ -1,10 +1,12 @@
 //! Groups of variables that several models have.
 
-use fmi_export::{Boolean, Choice, Failure, Integer, Real, Values, Variables};
+use fmi_export::{
+    Boolean, Choice, Elements, Failure, Given, Integer, Knowns, Real, Values, Variables, knowns,
+};
 use physics::bodies::Body;
 use physics::bodies::surface::{self, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
-use physics::environment::orbit::Elements;
+use physics::environment::orbit::Elements as KeplerElements;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
@@ -34,6 +36,45 @@ pub struct SurfaceVariables {
 }
 
 impl SurfaceVariables {
+    /// All of them.
+    pub fn group(&self) -> [Elements; 5] {
+        [
+            self.absorptivity.into(),
+            self.diffuse_reflectivity.into(),
+            self.emissivity.into(),
+            self.night_temperature.into(),
+            self.day_temperature.into(),
+        ]
+    }
+
+    /// The surface of a planet of this radius, of what is not given `own`.
+    pub fn read_or(
+        &self,
+        values: &Values,
+        given: Given<'_>,
+        radius_m: f64,
+        own: &PlanetSurface,
+    ) -> PlanetSurface {
+        let day_temperature = values.choice(self.day_temperature).filter(|_| given.has(self.day_temperature));
+        PlanetSurface {
+            radius_m,
+            absorptivity: given.real_or(self.absorptivity, own.absorptivity),
+            diffuse_reflectivity: given.real_or(self.diffuse_reflectivity, own.diffuse_reflectivity),
+            emissivity: given.real_or(self.emissivity, own.emissivity),
+            night_temperature_k: given.real_or(self.night_temperature, own.night_temperature_k),
+            day_temperature: day_temperature.map_or(own.day_temperature, |it| it.0),
+        }
+    }
+
+    /// Writes this surface, but for its radius.
+    pub fn write(&self, values: &mut Values, surface: &PlanetSurface) {
+        values.set_real(self.absorptivity, surface.absorptivity);
+        values.set_real(self.diffuse_reflectivity, surface.diffuse_reflectivity);
+        values.set_real(self.emissivity, surface.emissivity);
+        values.set_real(self.night_temperature, surface.night_temperature_k);
+        values.set_choice(self.day_temperature, DayTemperature(surface.day_temperature));
+    }
+
     /// The surface of a planet of this radius; not checked yet.
     pub fn read(&self, values: &Values, radius: Real) -> PlanetSurface {
         PlanetSurface {
@@ -165,10 +206,18 @@ pub struct EllipseVariables {
     pub true_anomaly: Real,
 }
 
-/// The value of a parameter, or the body's `own` where it was left at `default`, the start value of the description.
-pub fn followed(values: &Values, parameter: Real, default: f64, own: f64) -> f64 {
-    let value = values.real(parameter);
-    if value == default { own } else { value }
+impl EllipseVariables {
+    /// All of them.
+    pub fn knowns(&self) -> Knowns {
+        knowns![
+            self.semi_major_axis,
+            self.eccentricity,
+            self.inclination,
+            self.ascending_node,
+            self.periapsis_argument,
+            self.true_anomaly,
+        ]
+    }
 }
 
 impl GuidedVariables {
@@ -218,18 +267,39 @@ impl GuidedVariables {
 }
 
 impl EllipseVariables {
-    /// Elements of a body's own ellipse about the Sun, in the ecliptic of J2000; `described` is the body of the start values.
-    pub fn read(&self, values: &Values, described: Body, body: Body) -> Elements {
-        let (default, own) = (center::ellipse(described), center::ellipse(body));
-        let followed =
-            |parameter, of: fn(&Elements) -> f64| followed(values, parameter, of(&default), of(&own));
-        Elements {
-            semi_major_axis_m: followed(self.semi_major_axis, |it| it.semi_major_axis_m),
-            eccentricity: followed(self.eccentricity, |it| it.eccentricity),
-            inclination_rad: followed(self.inclination, |it| it.inclination_rad),
-            ascending_node_rad: followed(self.ascending_node, |it| it.ascending_node_rad),
-            periapsis_argument_rad: followed(self.periapsis_argument, |it| it.periapsis_argument_rad),
-            true_anomaly_rad: values.real(self.true_anomaly),
+    /// They follow the planet together.
+    pub fn group(&self) -> [Elements; 6] {
+        [
+            self.semi_major_axis,
+            self.eccentricity,
+            self.inclination,
+            self.ascending_node,
+            self.periapsis_argument,
+            self.true_anomaly,
+        ]
+        .map(Elements::from)
+    }
+
+    /// Elements of the planet's ellipse about the Sun, in the ecliptic of J2000: those that are given, else the body's own.
+    pub fn read(&self, given: Given<'_>, body: Body) -> KeplerElements {
+        let own = center::ellipse(body);
+        KeplerElements {
+            semi_major_axis_m: given.real_or(self.semi_major_axis, own.semi_major_axis_m),
+            eccentricity: given.real_or(self.eccentricity, own.eccentricity),
+            inclination_rad: given.real_or(self.inclination, own.inclination_rad),
+            ascending_node_rad: given.real_or(self.ascending_node, own.ascending_node_rad),
+            periapsis_argument_rad: given.real_or(self.periapsis_argument, own.periapsis_argument_rad),
+            true_anomaly_rad: given.real_or(self.true_anomaly, own.true_anomaly_rad),
         }
+    }
+
+    /// Writes these elements.
+    pub fn write(&self, values: &mut Values, elements: &KeplerElements) {
+        values.set_real(self.semi_major_axis, elements.semi_major_axis_m);
+        values.set_real(self.eccentricity, elements.eccentricity);
+        values.set_real(self.inclination, elements.inclination_rad);
+        values.set_real(self.ascending_node, elements.ascending_node_rad);
+        values.set_real(self.periapsis_argument, elements.periapsis_argument_rad);
+        values.set_real(self.true_anomaly, elements.true_anomaly_rad);
     }
 }

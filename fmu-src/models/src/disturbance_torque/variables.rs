@@ -52,7 +52,7 @@ pub struct SunVariables {
     #[input(unit = "m", display = "AU", start = setup.center.usual_sun_body_m())]
     pub position_body: RealVector<3>,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
-    #[output(unit = "1", nominal = 1.0)]
+    #[output(unit = "1", min = 0.0, max = 1.0, nominal = 1.0)]
     pub lit_fraction: Real,
 }
 

@@ -157,6 +157,10 @@ impl Model for Guidance {
         Ok(StepEnd::at(step.end_s))
     }
 
+    fn settle_parameters(context: &Plan<'_>, values: &mut Values) {
+        inputs::settle(context, values);
+    }
+
     fn check_state(_setup: &GuidanceSetup, state: &State) -> Result<(), Failure> {
         if state.system.is_sound()
             && state.dumps.is_sound()

@@ -165,6 +165,10 @@ impl Model for MomentumPlant {
         Ok(StepEnd::at(step.end_s))
     }
 
+    fn settle_parameters(context: &Plan<'_>, values: &mut Values) {
+        inputs::settle(context, values);
+    }
+
     fn tolerance(variables: &PlantVariables) -> Option<Real> {
         Some(variables.solver.tolerance)
     }

@@ -147,3 +147,85 @@ fn values_that_are_set_are_flown() {
     plant.fly(0.0, &given).unwrap();
     assert_eq!(plant.warnings(), [""; 0]);
 }
+
+const VENUS: (&str, f64) = ("orbit.center", 3.0);
+
+/// The values that orbit, planet and ephemeris start with in the shipped plant.
+fn start_values_of_groups(description: &Description) -> Vec<(&str, f64)> {
+    let of_group = |name: &str| ["orbit.", "planet.", "ephemeris."].iter().any(|it| name.starts_with(it));
+    let parameters = description.variables.iter().filter(|variable| {
+        variable.causality == fmi_export::model_description::Causality::Parameter && of_group(&variable.name)
+    });
+    let names = parameters.map(|variable| variable.name.as_str());
+    names.filter(|name| *name != VENUS.0).map(|name| (name, start(description, name))).collect()
+}
+
+/// 0.74 is the eccentricity of the start values, about Mercury.
+#[test]
+fn a_value_that_is_set_counts_also_where_it_is_the_start_value() {
+    let plant = NamedModel::<MomentumPlant>::shipped();
+    let axis = ("orbit.semiMajorAxis", 6e7);
+    let (left, set) = (plant.fly(0.0, &[VENUS, axis]).unwrap(), [VENUS, axis, ("orbit.eccentricity", 0.74)]);
+    assert!((left.vector("position").norm() / 6e7 - 1.0).abs() < 1e-12);
+    let set = plant.fly(0.0, &set).unwrap();
+    // From periapsis, at a (1 - e).
+    assert!((set.vector("position").norm() / (6e7 * 0.26) - 1.0).abs() < 1e-12);
+    let said = plant.warnings();
+    assert!(said[0].contains("orbit.eccentricity") && !said[1].contains("orbit.eccentricity"), "{said:?}");
+}
+
+/// Tools that write every parameter write start values; the centre is what somebody chose.
+#[test]
+fn a_group_of_which_everything_is_written_follows_the_center_still() {
+    let description = described::<MomentumPlant>(MomentumPlant::DEFAULT_SETUP);
+    let everything = start_values_of_groups(&description);
+    assert!(everything.len() > 25, "{everything:?}");
+    let plant = NamedModel::<MomentumPlant>::shipped();
+    let mut alone = plant.fly(0.0, &[VENUS]).unwrap();
+    let mut written = plant.fly(0.0, &[&everything[..], &[VENUS]].concat()).unwrap();
+    alone.step_to(7_200.0).unwrap();
+    written.step_to(7_200.0).unwrap();
+    for name in ["position", "velocity", "torque.total"] {
+        assert_eq!(alone.vector(name), written.vector(name), "{name}");
+    }
+    // One of them another than its start value: what is written of its group counts, of others not.
+    let other: Vec<_> = everything
+        .iter()
+        .map(|&(name, value)| (name, if name == "planet.radius" { 6e6 } else { value }))
+        .collect();
+    let other = plant.fly(0.0, &[&other[..], &[VENUS]].concat()).unwrap();
+    assert_eq!(other.real("planet.j2"), start(&description, "planet.j2"));
+    assert_eq!(other.real("orbit.eccentricity"), 0.0);
+}
+
+/// What acts reads back, for every body, within the limits of what may be set.
+#[test]
+fn what_follows_the_center_reads_back() {
+    let sailer = NamedModel::<MomentumPlant>::with("my.toml", SAILER);
+    let guidance = NamedModel::<Guidance>::with("my.toml", SAILER);
+    for center in ["sun", "mercury", "venus", "earth", "mars", "jupiter"] {
+        let (plant, target) =
+            (described::<MomentumPlant>(&about(center)), described::<Guidance>(&about(center)));
+        let flight = sailer.fly(0.0, &[("orbit.center", start(&plant, "orbit.center"))]).unwrap();
+        let of_center = start_values_of_groups(&plant);
+        for (name, expected) in of_center.iter().filter(|(name, _)| *name != "orbit.source") {
+            let is_real = !["orbit.frame", "planet.dayTemperature"].contains(name);
+            let limits = sailer.given().into_iter().find(|it| it.0 == *name).unwrap();
+            if limits.2 {
+                assert!(is_real || f64::from(flight.integer(name)) == *expected, "{center} {name}");
+            } else {
+                assert_eq!(flight.real(name), *expected, "{center} {name}");
+                assert!((limits.1.0..=limits.1.1).contains(expected), "{center} {name} {expected}");
+            }
+        }
+        if center == "sun" {
+            continue;
+        }
+        let seen = guidance.fly(0.0, &[("target.planet", start(&target, "target.planet"))]).unwrap();
+        for name in
+            ["planet.radii[3]", "planet.primeMeridian", "planet.rotationRate", "ephemeris.semiMajorAxis"]
+        {
+            assert_eq!(seen.real(name), start(&target, name), "{center} {name}");
+        }
+    }
+}

@@ -100,11 +100,12 @@ impl<M: Model> NamedModel<M> {
                 varies: variable.variability == Variability::Continuous,
             }
         });
-        let names = names.collect();
         // Start values for another model are no names that this one alone knows.
         let described = description_of::<M>(file, text);
         let start =
             described.map_or_else(|_| interface.start.clone(), |it| with_file_starts(&interface.start, &it));
+        let names: Vec<Named> = names.collect();
+        let start = marked::<M>(&start, &setup, &names);
         Self { names, setup, handles, start, warnings: Warnings::default() }
     }
 
@@ -143,16 +144,19 @@ impl<M: Model> NamedModel<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, log: &self.warnings }
+        Context { setup: &self.setup, variables: &self.handles, start: &self.start, log: &self.warnings }
     }
 
     /// A flight from `start_s` with these start values.
     pub fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<NamedInstance<'_, M>, Failure> {
-        let mut values = self.start.clone();
+        let mut tables = Tables::of(&self.start);
+        tables.set.iter_mut().flatten().for_each(|word| *word = 0);
+        let mut values = tables.back();
         for (name, value) in sets {
             self.set(&mut values, name, *value);
         }
         let state = M::initialize(&self.context(), &mut values, start_s)?;
+        M::settle_parameters(&self.context(), &mut values);
         Ok(NamedInstance { named: self, values, state, time_s: start_s, before: None })
     }
 
@@ -166,8 +170,22 @@ impl<M: Model> NamedModel<M> {
             Kind::Boolean => tables.booleans[found.reference] = value != 0.0,
             Kind::Text => panic!("{name} is text"),
         }
+        tables.mark(found);
         *values = tables.back();
     }
+}
+
+/// Start values of which those of the setup's file are marked as given.
+fn marked<M: Model>(start: &Values, setup: &M::Setup, names: &[Named]) -> Values {
+    let mut tables = Tables::of(start);
+    let given: Vec<_> = M::start_values(setup);
+    let for_this = given.iter().filter(|it| it.model.as_ref().is_none_or(|model| model == M::NAME));
+    for entry in for_this {
+        let is_meant =
+            |it: &&Named| it.name == entry.name || it.name.starts_with(&format!("{}[", entry.name));
+        names.iter().filter(is_meant).for_each(|it| tables.mark(it));
+    }
+    tables.back()
 }
 
 /// Start values with those of the setup's file.
@@ -197,11 +215,34 @@ pub struct Tables {
     pub integers: Vec<i32>,
     pub booleans: Vec<bool>,
     pub strings: Vec<String>,
+    /// One bit a place of each table: whether its value was set.
+    pub set: [Vec<u64>; 4],
 }
 
 impl Tables {
     pub fn of(values: &Values) -> Self {
         postcard::from_bytes(&postcard::to_stdvec(values).unwrap()).unwrap()
+    }
+
+    /// The same, set by an importer that sets what is other than the start values.
+    pub fn marked_where_other_than(&self, start: &Values) -> Self {
+        fn mark<T: PartialEq>(bits: &mut [u64], values: &[T], start: &[T]) {
+            bits.fill(0);
+            for (at, _) in values.iter().zip(start).enumerate().filter(|(_, (value, start))| value != start) {
+                bits[at / 64] |= 1 << (at % 64);
+            }
+        }
+        let (mut marked, start) = (self.clone(), Self::of(start));
+        let [reals, integers, booleans, strings] = &mut marked.set;
+        mark(reals, &self.reals, &start.reals);
+        mark(integers, &self.integers, &start.integers);
+        mark(booleans, &self.booleans, &start.booleans);
+        mark(strings, &self.strings, &start.strings);
+        marked
+    }
+
+    fn mark(&mut self, variable: &Named) {
+        self.set[variable.kind as usize][variable.reference / 64] |= 1 << (variable.reference % 64);
     }
 
     pub fn back(&self) -> Values {

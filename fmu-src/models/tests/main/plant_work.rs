@@ -84,6 +84,41 @@ fn what_asks_for_too_much_is_named_with_how_far_it_came() {
     assert_eq!(asked(&[limit], 86_400.0), Ok(86_400.0));
 }
 
+/// Light and heat of a controlled flight are paid from the same budget as its motion, and the message tells that budget.
+#[test]
+fn light_and_heat_of_a_controlled_flight_count() {
+    let plain = [("attitude.source", 3.0), ("command.source", 2.0), ("solver.workLimit", 20_000.0)];
+    let lit = [("planetLight.enabled", 1.0), ("thermal.enabled", 1.0), ("solver.disturbanceStep", 0.05)];
+    assert_eq!(asked(&plain, 60.0), Ok(60.0));
+    let text = asked(&[&plain[..], &lit[..]].concat(), 60.0).unwrap_err();
+    for words in ["than the 20000 units", "solver.workLimit = 20000", "light and heat", "came to"] {
+        assert!(text.contains(words), "{text}");
+    }
+}
+
+/// What a step may cost does not depend on what its instance computed before.
+#[test]
+fn a_step_that_passed_passes_after_its_state_was_restored_elsewhere() {
+    let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
+    let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
+    let (mut passed, mut refused) = (0, 0);
+    for (source, start_s, step_s) in [(1.0, 40_000.0, 1e6), (3.0, 20.0, 40.0)] {
+        for limit in (0..24).map(|k| (1_000.0 * 1.4_f64.powi(k)).round()) {
+            let sets = [("attitude.source", source), ("command.source", 2.0), ("solver.workLimit", limit)];
+            let Ok(mut flight) = named.fly(0.0, &sets) else { continue };
+            if flight.fly_to(start_s, start_s / 10.0).is_err() {
+                continue;
+            }
+            let mut elsewhere = flight.with_state(&flight.state_bytes()).unwrap();
+            let [here, there] = [&mut flight, &mut elsewhere]
+                .map(|it| it.step_to(start_s + step_s).map_err(|e| e.to_string()));
+            assert_eq!(here, there, "attitude.source {source}, solver.workLimit {limit}");
+            *(if here.is_ok() { &mut passed } else { &mut refused }) += 1;
+        }
+    }
+    assert!(passed > 4 && refused > 4, "{passed} {refused}");
+}
+
 #[test]
 fn a_mercury_year_with_every_effect_is_far_within_the_default() {
     let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");

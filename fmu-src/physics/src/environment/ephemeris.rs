@@ -81,6 +81,27 @@ pub struct Ephemeris {
     mars: TwoLayers,
     jupiter: TwoLayers,
     earth: Slots<3, EARTH_TERMS>,
+    entered: [Entered; Body::ALL.len()],
+}
+
+/// The long segments that a count of work has seen, whatever is held of them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Entered {
+    /// One of even and one of odd number, as [`Slots`] hold them.
+    numbers: [Option<i64>; 2],
+    /// How many were entered after the first one.
+    count: u64,
+}
+
+impl Entered {
+    fn enter(&mut self, number: i64) {
+        let is_first = self.numbers == [None; 2];
+        let slot = &mut self.numbers[(number & 1) as usize];
+        if *slot != Some(number) {
+            *slot = Some(number);
+            self.count += u64::from(!is_first);
+        }
+    }
 }
 
 impl Ephemeris {
@@ -89,6 +110,7 @@ impl Ephemeris {
     /// The velocity is the derivative of the position, within 0.01 m/s, or 0.5 m/s for the Earth. Beyond
     /// [`VALID_EPOCH_S`] the series loses its meaning; an epoch that is not finite gives NaN.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
+        self.entered[body as usize].enter((epoch_s / LONG_S).floor() as i64);
         let (position_m, velocity_m_s) = match body {
             Body::Sun => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
             Body::Mercury => self.mercury.state(epoch_s, &MERCURY),
@@ -103,10 +125,23 @@ impl Ephemeris {
         CartesianState { position_m, velocity_m_s }
     }
 
-    /// How often VSOP87 itself was evaluated so far, which takes some 100 to 200 microseconds each time.
+    /// Begins a count of work: of each body the segment that is asked for first counts as held.
+    pub fn count_from_here(&mut self) {
+        for entered in &mut self.entered {
+            entered.numbers = [None; 2];
+        }
+    }
+
+    /// How often VSOP87 itself, which takes some 100 to 200 microseconds each time, would have been evaluated so far by an
+    /// ephemeris that held nothing but the first segment of each count: by what is asked for alone, so that an ephemeris with a
+    /// past and a new one count alike.
     pub fn evaluations(&self) -> u64 {
-        let elements = self.mercury.elements.fits + self.venus.elements.fits;
-        ELEMENT_TERMS as u64 * elements + EARTH_TERMS as u64 * self.earth.fits
+        let terms = |body| match body {
+            Body::Sun => 0,
+            Body::Earth => EARTH_TERMS as u64,
+            Body::Mercury | Body::Venus | Body::Mars | Body::Jupiter => ELEMENT_TERMS as u64,
+        };
+        Body::ALL.iter().map(|&body| terms(body) * self.entered[body as usize].count).sum()
     }
 
     /// The position alone, see [`Ephemeris::state`].
@@ -119,8 +154,6 @@ impl Ephemeris {
 #[derive(Clone, Debug, Default)]
 struct Slots<const D: usize, const N: usize> {
     held: [Option<(i64, Segment<D, N>)>; 2],
-    /// How many were fitted so far.
-    fits: u64,
 }
 
 impl<const D: usize, const N: usize> Slots<D, N> {
@@ -135,9 +168,7 @@ impl<const D: usize, const N: usize> Slots<D, N> {
         if slot.as_ref().is_some_and(|(held, _)| *held != number) {
             *slot = None;
         }
-        let fits = &mut self.fits;
         let (_, segment) = slot.get_or_insert_with(|| {
-            *fits += 1;
             let start_s = number as f64 * length_s;
             (number, Segment::fit(start_s, start_s + length_s, function))
         });
@@ -384,6 +415,27 @@ mod tests {
             (nearest, farthest) = (nearest.min(distance), farthest.max(distance));
         }
         assert!((nearest - 0.307_5).abs() < 1e-4 && (farthest - 0.466_7).abs() < 1e-4);
+    }
+
+    #[test]
+    fn work_is_counted_by_what_is_asked_for_alone() {
+        let epochs: Vec<f64> = (0..60).map(|i| f64::from(i * 7919 % 60) * 5.3 * DAY_S - 1e8).collect();
+        let mut used = Ephemeris::default();
+        for &epoch_s in &epochs {
+            let mut fresh = Ephemeris::default();
+            used.count_from_here();
+            let before = used.evaluations();
+            for days in [0.0, 3.0, 40.0, 0.0, 71.0, 40.0] {
+                for body in Body::ALL {
+                    let at_s = epoch_s + days * DAY_S;
+                    assert_eq!(used.state(body, at_s), fresh.state(body, at_s));
+                }
+                assert_eq!(used.evaluations() - before, fresh.evaluations());
+            }
+            // 40 and 71 days later are other segments than the first, for five planets.
+            let planets = 4 * ELEMENT_TERMS as u64 + EARTH_TERMS as u64;
+            assert!((2 * planets..=4 * planets).contains(&fresh.evaluations()), "{}", fresh.evaluations());
+        }
     }
 
     #[test]

@@ -29,7 +29,7 @@ use super::flight::Flight;
 use super::outlook::StartMomentum;
 use super::reaction_control::ReactionControl;
 use super::wheel_control::WheelControl;
-use super::work::{Cost, WorkExceeded};
+use super::work::{Cost, Work};
 
 /// Guidance is sampled at whole multiples of this, in s.
 const GUIDANCE_INTERVAL_S: f64 = 1.0;
@@ -200,16 +200,12 @@ impl AttitudeDynamics {
         mut report: impl FnMut(&DumpEvent),
     ) -> Result<(), PlantError> {
         self.go_on(settings, flight);
-        let mut left = settings.work_limit;
+        let mut work = flight.begin_work(settings.work_limit);
         let units = if settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
-            left = left.checked_sub(units).ok_or(WorkExceeded {
-                limit: settings.work_limit,
-                reached_s: time_s,
-                most: Cost::Segment,
-            })?;
-            self.take_due(settings, flight, inputs, left, &mut report)?;
+            work.spend(Cost::Segment, units, flight.ephemeris.evaluations(), time_s)?;
+            self.take_due(settings, flight, inputs, &mut work, &mut report)?;
             let edge_s = self.thrusters.next_edge_s(&settings.thrusters, flight.propellant);
             let mut limit_s = self.next_sample.1.min(self.disturbance.end_s()).min(edge_s);
             if let Some(dump) = &self.dump {
@@ -235,7 +231,7 @@ impl AttitudeDynamics {
         settings: &mut DynamicsSettings,
         flight: &mut Flight<'_>,
         inputs: &DynamicsInputs<'_>,
-        work_limit: u32,
+        work: &mut Work,
         report: &mut impl FnMut(&DumpEvent),
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
@@ -258,10 +254,10 @@ impl AttitudeDynamics {
         if sample_due || grid_due {
             let body = self.motion.at(&settings.gyrostat, time_s);
             if grid_due {
-                self.begin_interval(settings, flight, &body, work_limit)?;
+                self.begin_interval(settings, flight, &body, work)?;
             }
             if sample_due {
-                self.sample(settings, flight, inputs, &body, work_limit, report)?;
+                self.sample(settings, flight, inputs, &body, work, report)?;
                 self.thrusters.take_edges(&settings.thrusters, flight.propellant, time_s);
             }
         }
@@ -276,7 +272,7 @@ impl AttitudeDynamics {
         settings: &mut DynamicsSettings,
         flight: &mut Flight<'_>,
         body: &BodyMotion,
-        work_limit: u32,
+        work: &mut Work,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let used_kg = flight.propellant.total_used_kg(time_s);
@@ -294,8 +290,9 @@ impl AttitudeDynamics {
                 settings.gyrostat.torque_free_rate_terms(&body.rate_body_rad_s, &momentum_body)
             }
         };
-        let mut plant = flight.turning_plant(time_s, body, rate_terms_body, work_limit);
+        let mut plant = flight.turning_plant(time_s, body, rate_terms_body, *work);
         self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
+        *work = plant.work(time_s)?;
         if settings.panels_have_mass || self.left.is_some() || !settings.thrusters.thrusters.is_empty() {
             let instant = plant.instant(time_s);
             self.mass = plant.mass_properties(&instant);
@@ -313,7 +310,7 @@ impl AttitudeDynamics {
         flight: &mut Flight<'_>,
         inputs: &DynamicsInputs<'_>,
         body: &BodyMotion,
-        work_limit: u32,
+        work: &mut Work,
         report: &mut impl FnMut(&DumpEvent),
     ) -> Result<(), PlantError> {
         let (number, time_s) = (self.next_sample.0, self.motion.end_s());
@@ -342,7 +339,7 @@ impl AttitudeDynamics {
         );
         let Some(control) = &settings.control else { return Ok(()) };
         let tracked = match inputs.tracked {
-            Tracked::Guidance => Tracked::Attitude(self.guided(flight, body, time_s, work_limit)?),
+            Tracked::Guidance => Tracked::Attitude(self.guided(flight, body, time_s, work)?),
             tracked => tracked,
         };
         let target = match tracked {
@@ -396,7 +393,7 @@ impl AttitudeDynamics {
         flight: &mut Flight<'_>,
         body: &BodyMotion,
         time_s: f64,
-        work_limit: u32,
+        work: &mut Work,
     ) -> Result<Command, PlantError> {
         if let Some(command) = self.guidance
             && time_s < self.next_guidance_s - tolerance_s(time_s)
@@ -410,9 +407,8 @@ impl AttitudeDynamics {
             delta_v_inertial_m_s: body.delta_v_inertial_m_s,
         };
         let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        let mut work = flight.work(work_limit);
-        flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none(), &mut work)?;
-        let guided = flight.plant(time_s, body, work_limit).guided_attitude(time_s);
+        flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none(), work)?;
+        let guided = flight.plant(time_s, body, *work).guided_attitude(time_s);
         let held =
             Command { attitude: self.estimate.attitude, rate_body_rad_s: Vector3::zeros(), since_s: time_s };
         let command = guided.map_or(held, |guided| Command {
@@ -574,7 +570,7 @@ impl AttitudeDynamics {
     ) -> Evaluation {
         flight.configuration.left = self.left;
         let left_kg = flight.configuration.mass_kg - flight.propellant.total_used_kg(time_s);
-        let mut plant = flight.plant(time_s, body, u32::MAX);
+        let mut plant = flight.plant_at(time_s, body);
         let instant = plant.instant(time_s);
         let mass = MassProperties { mass_kg: left_kg, ..plant.mass_properties(&instant) };
         let mut loads = self.disturbance.loads_at(time_s);

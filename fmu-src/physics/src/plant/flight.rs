@@ -143,19 +143,29 @@ impl Flight<'_> {
             momentum_inertial_n_m_s: Vector3::zeros(),
             delta_v_inertial_m_s: Vector3::zeros(),
         };
-        let mut plant = self.plant(time_s, &body, u32::MAX);
+        let mut plant = self.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
         plant.mass_properties(&instant)
     }
 
-    /// The plant with the body as it turns now.
+    /// The plant with the body as it turns now, where work is not counted.
+    pub(super) fn plant_at(
+        &mut self,
+        time_s: f64,
+        body: &BodyMotion,
+    ) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
+        let work = Work::new(u32::MAX, self.ephemeris.evaluations());
+        self.plant(time_s, body, work)
+    }
+
+    /// The plant with the body as it turns now, the step having cost this much.
     pub(super) fn plant(
         &mut self,
         time_s: f64,
         body: &BodyMotion,
-        work_limit: u32,
+        work: Work,
     ) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
-        self.turning_plant(time_s, body, [Vector3::zeros(); 2], work_limit)
+        self.turning_plant(time_s, body, [Vector3::zeros(); 2], work)
     }
 
     /// The same, its rate changing by these terms of its series, in rad/s2 and rad/s3.
@@ -164,7 +174,7 @@ impl Flight<'_> {
         time_s: f64,
         body: &BodyMotion,
         rate_terms_body: [Vector3<f64>; 2],
-        work_limit: u32,
+        work: Work,
     ) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
         let motion = Command {
             attitude: Attitude::from_unit(body.attitude),
@@ -174,12 +184,12 @@ impl Flight<'_> {
         let guided = self.configuration.attitude.guided().copied();
         self.configuration.attitude =
             AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided });
-        self.as_configured(work_limit)
+        self.after(work)
     }
 
     /// The plant in the attitude of its configuration, at the beginning of a step.
     pub(super) fn as_configured(&mut self, work_limit: u32) -> Plant<'_, &dyn Fn(f64) -> ExternalLoad> {
-        let work = self.work(work_limit);
+        let work = Work::new(work_limit, self.ephemeris.evaluations());
         self.after(work)
     }
 
@@ -196,8 +206,9 @@ impl Flight<'_> {
         )
     }
 
-    /// Nothing spent of `limit` units of about a microsecond.
-    pub(super) fn work(&self, limit: u32) -> Work {
+    /// A step begins: nothing spent of `limit` units of about a microsecond.
+    pub fn begin_work(&mut self, limit: u32) -> Work {
+        self.ephemeris.count_from_here();
         Work::new(limit, self.ephemeris.evaluations())
     }
 }

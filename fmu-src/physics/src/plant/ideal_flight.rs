@@ -58,7 +58,7 @@ impl IdealFlight<'_, '_> {
         let frame = plant.instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let given = StartMomentum::Body(momentum_body_n_m_s);
-        let mut work = self.flight.work(self.work_limit);
+        let mut work = self.flight.begin_work(self.work_limit);
         self.flight.choose_sun_place(time_s, &totals, given, true, &mut work)?;
         let mut plant = self.flight.as_configured(self.work_limit);
         plant.prepare(time_s, time_s)?;
@@ -86,7 +86,7 @@ impl IdealFlight<'_, '_> {
     pub fn advance(&mut self, time_s: f64, mut report: impl FnMut(&DumpEvent)) -> Result<(), PlantError> {
         let settings = self.flight.configuration.momentum;
         let mut dumped_s = None;
-        let mut work = self.flight.work(self.work_limit);
+        let mut work = self.flight.begin_work(self.work_limit);
         loop {
             let mut plant = self.flight.after(work);
             let stop = self.integrator.advance_to_stop(&mut plant, &settings, time_s, dumped_s)?;

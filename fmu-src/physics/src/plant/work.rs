@@ -71,12 +71,12 @@ impl Work {
     /// One evaluation of VSOP87.
     const EVALUATION_UNITS: u64 = 200;
 
-    /// Nothing spent of `limit` units; the ephemeris has evaluated its theory this often so far.
+    /// Nothing spent of `limit` units; the ephemeris counts this many evaluations of its theory so far.
     pub fn new(limit: u32, evaluations: u64) -> Self {
         Self { spent: numerics::work::Work::new(limit), evaluations }
     }
 
-    /// Counts `units`, the flight having come to `time_s`, and what the ephemeris has evaluated meanwhile.
+    /// Counts `units`, the flight having come to `time_s`, and what the ephemeris counts by now.
     ///
     /// # Errors
     /// More was spent than may be.

@@ -7,7 +7,7 @@ use std::{
 };
 
 use loader::Value;
-use model_description::{Description, ScalarVariable, VariableKind};
+use model_description::{Description, labels};
 use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
 
 use super::shown::find;
@@ -54,11 +54,8 @@ impl Known {
                 }
             }
         }
-        for variable in &described.variables {
-            if let (Some(counted), Some(name)) = (variable.name.strip_suffix(".name"), text(variable)) {
-                known.names.insert(counted.to_owned(), name.to_owned());
-            }
-        }
+        let labels = labels::of_groups(described).into_iter();
+        known.names.extend(labels.map(|(group, label)| (group.to_owned(), label.to_owned())));
         for limit in limits {
             let values = [limit.min, limit.max].into_iter().flatten();
             known.limits.entry(limit.name.clone()).or_default().extend(values);
@@ -113,13 +110,6 @@ fn value(described: &Description, sets: &[(String, Value)], name: &str) -> Optio
     }
 }
 
-fn text(variable: &ScalarVariable) -> Option<&str> {
-    match &variable.kind {
-        VariableKind::String { start, .. } => start.as_deref().filter(|name| !name.is_empty()),
-        _ => None,
-    }
-}
-
 /// Panels, wheels, thrusters and tanks of the spacecraft in an FMU's resources, if there is one.
 fn names_in(folder: &Path) -> Vec<(String, String)> {
     let Ok(entries) = fs::read_dir(folder.join("resources")) else { return Vec::new() };
@@ -161,7 +151,8 @@ mod tests {
     <ScalarVariable name="p.dump.threshold[2]" valueReference="0" causality="parameter" variability="fixed"><Real start="4"/></ScalarVariable>
     <ScalarVariable name="p.momentum.body[2]" valueReference="1" causality="output"><Real/></ScalarVariable>
     <ScalarVariable name="p.wheel[1].speed" valueReference="2" causality="output"><Real/></ScalarVariable>
-    <ScalarVariable name="p.plate[7].name" valueReference="3" causality="parameter" variability="fixed"><String start="lid"/></ScalarVariable>
+    <ScalarVariable name="p.plate[7].temperature" valueReference="3" causality="output" description="lid: Temperature."><Real/></ScalarVariable>
+    <ScalarVariable name="p.plate[7].force[1]" valueReference="4" causality="output" description="lid: Force of sunlight."><Real/></ScalarVariable>
   </ModelVariables>
   <ModelStructure/>
 </fmiModelDescription>"#;

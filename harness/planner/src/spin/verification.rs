@@ -3,7 +3,7 @@
 use core::f64::consts::FRAC_PI_2;
 
 use loader::{Column, Fmu, Value};
-use model_description::VariableKind;
+use model_description::labels;
 use physics::spin::{
     forecast::{ForecastCase, Timing},
     nutation::Spin,
@@ -221,14 +221,14 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
 
 /// The FMU's thruster of that number must be the one the plan is for.
 fn check_name(fmu: &Fmu, task: &Task, number: i32) -> Result<(), PlanError> {
-    let variable = format!("thruster[{number}].name");
-    let found = match fmu.find(&variable).map(|variable| &variable.kind) {
-        Some(VariableKind::String { start: Some(name), .. }) if *name == task.thruster => return Ok(()),
-        Some(VariableKind::String { start: Some(name), .. }) => format!("\"{name}\""),
-        _ => "missing".to_owned(),
+    let thruster = format!("thruster[{number}]");
+    let found = match labels::of_groups(fmu.description()).get(thruster.as_str()) {
+        Some(name) if *name == task.thruster => return Ok(()),
+        Some(name) => format!("\"{name}\""),
+        None => "missing".to_owned(),
     };
     Err(PlanError::Verify(format!(
-        "its {variable} is {found}, the plan is for \"{}\": it was packed for another spacecraft",
+        "its {thruster} is {found}, the plan is for \"{}\": it was packed for another spacecraft",
         task.thruster
     )))
 }

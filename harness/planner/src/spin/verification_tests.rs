@@ -125,7 +125,7 @@ fn a_plan_that_the_fmu_runs_otherwise_breaks_its_promise() {
     // Other thrusters than planned for: the FMU names those it has.
     let firing = Firing::Thruster { number: 1, opposite: None };
     let error = verify(&fmu, &Task { firing, ..task.clone() }, &row, 1).unwrap_err().to_string();
-    assert!(error.contains("thruster[1].name is \"IA\"") && error.contains("IIIR"), "{error}");
+    assert!(error.contains("thruster[1] is \"IA\"") && error.contains("IIIR"), "{error}");
     let couple = Task { firing: Firing::Group("axial couple I-IV".into()), ..task.clone() };
     assert!(broken(&couple).contains("the move misses by 26"), "{}", broken(&couple));
     let mut tight = task.clone();

@@ -1,7 +1,8 @@
 //! The whole spacecraft in sunlight: force and torque over the sphere of Sun directions, and its momentum within the keep-in zone
 //! against that of shade and panels alone, surface by surface.
 
-use loader::{Fmu, Value};
+use loader::Fmu;
+use model_description::labels;
 
 use super::sphere::{self, Lit};
 use crate::case::Case;
@@ -231,16 +232,10 @@ fn three(name: &str) -> Vec<String> {
 }
 
 /// Names of the surfaces that are reported one by one.
-fn surfaces(fmu: &Fmu) -> Result<Vec<String>, loader::Error> {
-    let mut instance = loader::Instance::new(fmu, fmu.name(), &loader::InstanceOptions::default())?;
-    instance.setup_experiment(None, 0.0, None)?;
-    instance.enter_initialization_mode()?;
-    let mut names = Vec::new();
-    while let Some(position) = fmu.position(&format!("plate[{}].name", names.len() + 1)) {
-        let value = instance.get_variable(&fmu.description().variables[position])?;
-        names.push(if let Value::Text(name) = value { name } else { String::new() });
-    }
-    Ok(names)
+fn surfaces(fmu: &Fmu) -> Vec<String> {
+    let labels = labels::of_groups(fmu.description());
+    let label = |number: usize| labels.get(format!("plate[{number}]").as_str()).copied();
+    (1..).map_while(label).map(str::to_owned).collect()
 }
 
 /// Sum of forces at equal steps, by the trapezoid rule, in N s.

@@ -228,11 +228,11 @@ pub struct ChannelVariables {
     /// Number of the channel.
     #[parameter(start = i32::try_from(index).unwrap_or(i32::MAX).saturating_add(1))]
     pub number: Integer,
-    /// Output over input.
-    #[parameter(tunable, unit = "1", start = setup.channel[index].gain)]
+    /// Output over input; any finite number, so that their product need not be one.
+    #[parameter(tunable, unit = "1", min = f64::MIN, max = f64::MAX, start = setup.channel[index].gain)]
     pub gain: Real,
     /// Input of the channel.
-    #[input(unit = "m", start = 1.0)]
+    #[input(unit = "m", min = f64::MIN, max = f64::MAX, start = 1.0)]
     pub input: Real,
     /// Gain times input, at the communication point.
     #[output(unit = "m")]

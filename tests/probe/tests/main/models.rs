@@ -42,7 +42,12 @@ impl<M: Model> Run<M> {
     }
 
     fn call<T>(&mut self, call: impl FnOnce(&Context<'_, M>, &mut Values) -> T) -> T {
-        let context = Context { setup: &self.setup, variables: &self.variables, log: &Silent };
+        let context = Context {
+            setup: &self.setup,
+            variables: &self.variables,
+            start: &self.interface.start,
+            log: &Silent,
+        };
         call(&context, &mut self.values)
     }
 

@@ -6,7 +6,7 @@ use crate::fmi2::instance::state::MAX_INPUT_DERIVATIVE_ORDER;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
 use crate::model::InputDerivative;
-use crate::variables::Real;
+use crate::variables::{GREATEST_SET, Real};
 use model_description::BaseType;
 use model_description::call_table::{Function, State};
 
@@ -22,8 +22,9 @@ impl Instance {
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             self.require(reference, INPUT | CONTINUOUS, INPUT | CONTINUOUS, "continuous Real input")?;
             check_order(order, MAX_INPUT_DERIVATIVE_ORDER)?;
-            if !value.is_finite() {
-                return Err(Problem::DerivativeNotFinite { reference, value });
+            // Written so that a NaN is refused too.
+            if !(value.abs() <= GREATEST_SET) {
+                return Err(Problem::DerivativeOutOfRange { reference, value });
             }
         }
         let kept = &mut self.state.input_derivatives;

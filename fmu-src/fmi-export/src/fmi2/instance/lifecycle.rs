@@ -67,7 +67,7 @@ impl Instance {
     /// The tolerance of the experiment becomes the value of the model's parameter, unless the master set that: so it is
     /// read, saved and restored like any value.
     fn take_tolerance(&mut self, tolerance: Option<f64>) {
-        let Some(at) = self.tolerance.filter(|_| !self.state.tolerance_set) else { return };
+        let Some(at) = self.tolerance.filter(|at| !self.state.values.is_set(*at)) else { return };
         let default = self.start.real(at);
         let limits =
             self.access.real_limits.get(references::index(BaseType::Real, references::of(at))).copied();
@@ -91,6 +91,7 @@ impl Instance {
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
         self.guard(Function::ExitInitializationMode)?;
         self.initialize_if_needed()?;
+        self.runtime.settle_parameters(&mut self.state.values, &self.logger);
         self.allocate_spare();
         Ok(())
     }
@@ -117,7 +118,7 @@ impl Instance {
         self.forget_last_step();
         self.state.copy_from(&InstanceState::new(&self.start));
         self.logger.reset();
-        self.warned = 0;
+        self.said = 0;
         self.earliest_s = f64::NEG_INFINITY;
         Ok(())
     }
@@ -126,8 +127,9 @@ impl Instance {
     pub(crate) fn warn_of_early_state(&mut self, time_s: f64) {
         let earliest_s = self.earliest_s;
         if time_s < earliest_s {
-            self.warn_once(
+            self.log_once(
                 once::EARLY_STATE,
+                Status::Warning,
                 format_args!(
                     "fmi2SetFMUstate: goes back to {time_s:?} s, although noSetFMUStatePriorToCurrentPoint was fmi2True at {earliest_s:?} s"
                 ),

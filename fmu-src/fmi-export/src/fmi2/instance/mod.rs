@@ -9,6 +9,8 @@ pub(crate) mod state;
 pub(crate) mod stepping;
 mod values;
 
+use std::sync::Arc;
+
 use crate::fmi2::access::AccessTable;
 use crate::fmi2::description::Prepared;
 use crate::fmi2::logger::Logger;
@@ -37,11 +39,11 @@ pub(crate) struct Instance {
     pub(super) state: InstanceState,
     pub(super) runtime: Box<dyn Runtime>,
     pub(super) access: AccessTable,
-    pub(super) start: Values,
+    pub(super) start: Arc<Values>,
     pub(super) digest: uuid::Uuid,
     pub(super) logger: Logger,
     /// Which of the messages in [`once`] were logged.
-    warned: u8,
+    said: u8,
     /// No FMU state before this time will be set, by `noSetFMUStatePriorToCurrentPoint`.
     earliest_s: f64,
     /// Spare memory for [`InstanceState::at_last_step`].
@@ -60,7 +62,7 @@ impl Instance {
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
         Self {
-            spare: start.clone(),
+            spare: Values::clone(&start),
             directions: Default::default(),
             tolerance: runtime.tolerance(),
             state,
@@ -69,7 +71,7 @@ impl Instance {
             start,
             digest,
             logger,
-            warned: 0,
+            said: 0,
             earliest_s: f64::NEG_INFINITY,
             poisoned: false,
         }
@@ -133,12 +135,12 @@ impl Instance {
         }
     }
 
-    /// Logs a warning the first time only.
+    /// Logs a message the first time only. What importers do every day is an event, `Status::Ok`.
     #[cold]
-    pub(super) fn warn_once(&mut self, what: u8, message: core::fmt::Arguments<'_>) {
-        if self.warned & what == 0 {
-            self.warned |= what;
-            self.logger.log(Status::Warning, message);
+    pub(super) fn log_once(&mut self, what: u8, status: Status, message: core::fmt::Arguments<'_>) {
+        if self.said & what == 0 {
+            self.said |= what;
+            self.logger.log(status, message);
         }
     }
 

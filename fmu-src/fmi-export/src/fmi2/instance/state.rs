@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
 use crate::fmi2::problem::StateMismatch;
 use crate::model::InputDerivative;
-use crate::variables::Values;
+use crate::variables::{GREATEST_SET, SetBits, Values};
 use model_description::call_table::State;
 
 /// Highest order of an input derivative: the factorial of the next one is no longer an `f64`.
@@ -34,8 +34,6 @@ pub(crate) struct InstanceState {
     pub(crate) terminated: bool,
     /// In Initialization Mode: the outputs do not belong to what was set.
     pub(crate) needs_initialization: bool,
-    /// The master set the parameter that the experiment's tolerance would stand in for.
-    pub(crate) tolerance_set: bool,
     /// The last step had input derivatives, which ended with it.
     pub(crate) derivatives_ended: bool,
     /// Until the end of the next step.
@@ -49,16 +47,17 @@ pub(crate) struct InstanceState {
 impl InstanceState {
     /// A fresh instance.
     pub(crate) fn new(start: &Values) -> Self {
+        let mut values = start.clone();
+        values.mark_none();
         Self {
             mode: State::Instantiated,
             experiment: None,
             time_s: 0.0,
             terminated: false,
             needs_initialization: false,
-            tolerance_set: false,
             derivatives_ended: false,
             input_derivatives: Vec::new(),
-            values: start.clone(),
+            values,
             at_last_step: None,
         }
     }
@@ -72,7 +71,6 @@ impl InstanceState {
             time_s,
             terminated,
             needs_initialization,
-            tolerance_set,
             derivatives_ended,
             input_derivatives,
             values,
@@ -83,7 +81,6 @@ impl InstanceState {
         self.time_s = *time_s;
         self.terminated = *terminated;
         self.needs_initialization = *needs_initialization;
-        self.tolerance_set = *tolerance_set;
         self.derivatives_ended = *derivatives_ended;
         self.input_derivatives.clone_from(input_derivatives);
         copy_values(&mut self.values, values);
@@ -114,7 +111,7 @@ impl InstanceState {
                 .copied()
                 .unwrap_or(0);
             let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
-            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !value.is_finite() {
+            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !(value.abs() <= GREATEST_SET) {
                 return Err(content(format!(
                     "input derivative {value:?} of order {order} for Real value reference {reference}"
                 )));
@@ -171,9 +168,12 @@ pub(crate) fn copy_values(to: &mut Values, from: &Values) {
     to.integers.clone_from(&from.integers);
     to.booleans.clone_from(&from.booleans);
     to.strings.clone_from(&from.strings);
+    for (to, from) in to.set.iter_mut().zip(&from.set) {
+        to.copy_from(from);
+    }
 }
 
-/// Whether two sets of values agree to the bit.
+/// Whether two sets of values agree to the bit; who set them is no matter.
 fn same_values(a: &Values, b: &Values) -> bool {
     a.integers == b.integers
         && a.booleans == b.booleans
@@ -183,11 +183,17 @@ fn same_values(a: &Values, b: &Values) -> bool {
 }
 
 fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
-    let lengths = [values.reals.len(), values.integers.len(), values.booleans.len(), values.strings.len()];
-    for (base, length) in BaseType::ALL.into_iter().zip(lengths) {
+    for ((base, length), set) in BaseType::ALL.into_iter().zip(values.lengths()).zip(&values.set) {
         let expected = access.flags(base).len();
         if length != expected {
             return Err(content(format!("{length} {} values, the model has {expected}", base.name())));
+        }
+        if set.len() != SetBits::words(length) {
+            return Err(content(format!(
+                "{} words say which of {length} {} values were set",
+                set.len(),
+                base.name()
+            )));
         }
     }
     // Limits are for what a master sets, here as at the C functions.

@@ -7,8 +7,8 @@ use crate::fmi2::access::{
 use crate::fmi2::instance::state::copy_values;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
-use model_description::BaseType;
 use model_description::call_table::{Function, State};
+use model_description::{BaseType, Status};
 
 /// `fmi2GetXXX` of a base type whose values are plain.
 macro_rules! getter {
@@ -44,6 +44,7 @@ macro_rules! setter {
                 let needed = self.settable_flag();
                 let (mut lenient, mut differs) = (false, false);
                 let table = &self.state.values.$table;
+                let set = &self.state.values.set[BaseType::$base as usize];
                 let flags = self.access.flags(BaseType::$base);
                 for (&reference, value) in references.iter().zip(values) {
                     let index = references::index(BaseType::$base, reference);
@@ -58,20 +59,20 @@ macro_rules! setter {
                         lenient = true;
                     }
                     $check(&self.access, reference, value)?;
-                    differs |= $differs(stored, value);
+                    differs |= $differs(stored, value) || !set.is_set(index);
                 }
                 if lenient {
-                    self.warn_of_input_before_initialization();
-                }
-                if BaseType::$base as u8 == BaseType::Real as u8 && self.state.mode != State::StepComplete {
-                    self.note_tolerance(references);
+                    self.note_input_before_initialization();
                 }
                 if differs {
                     self.before_change();
                     let table = &mut self.state.values.$table;
+                    let set = &mut self.state.values.set[BaseType::$base as usize];
                     for (&reference, value) in references.iter().zip(values) {
-                        if let Some(stored) = table.get_mut(references::index(BaseType::$base, reference)) {
+                        let index = references::index(BaseType::$base, reference);
+                        if let Some(stored) = table.get_mut(index) {
                             $write(stored, value);
+                            set.mark(index);
                         }
                     }
                 }
@@ -162,7 +163,7 @@ impl Instance {
     fn reading_needs_preparation(&self) -> bool {
         match self.state.mode {
             State::StepComplete => {
-                self.state.at_last_step.is_some() && self.warned & once::OUTPUT_AFTER_SET == 0
+                self.state.at_last_step.is_some() && self.said & once::OUTPUT_AFTER_SET == 0
             }
             State::InitializationMode => true,
             _ => false,
@@ -182,8 +183,9 @@ impl Instance {
         let only_given = all & SET_BY_IMPORTER != 0;
         if self.state.mode == State::StepComplete {
             if !only_given {
-                self.warn_once(
+                self.log_once(
                     once::OUTPUT_AFTER_SET,
+                    Status::Ok,
                     format_args!(
                         "outputs are read after a set and before the next step: they belong to the last communication point"
                     ),
@@ -192,8 +194,9 @@ impl Instance {
             return Ok(());
         }
         if all & GET_INITIALIZATION == 0 {
-            self.warn_once(
+            self.log_once(
                 once::READ_IN_INITIALIZATION,
+                Status::Ok,
                 format_args!(
                     "variables that are neither outputs nor InitialUnknowns are read in Initialization Mode: the standard does not allow it, answered all the same"
                 ),
@@ -202,7 +205,7 @@ impl Instance {
         if only_given { Ok(()) } else { self.initialize_if_needed() }
     }
 
-    /// Called when a set is about to write a different value.
+    /// Called when a set is about to write a different value, or one for the first time.
     #[inline]
     fn before_change(&mut self) {
         match self.state.mode {
@@ -216,16 +219,11 @@ impl Instance {
         }
     }
 
-    /// A tolerance parameter that the master sets takes precedence over the experiment's tolerance.
     #[cold]
-    fn note_tolerance(&mut self, references: &[u32]) {
-        self.state.tolerance_set |= self.tolerance.is_some_and(|at| references.contains(&references::of(at)));
-    }
-
-    #[cold]
-    fn warn_of_input_before_initialization(&mut self) {
-        self.warn_once(
+    fn note_input_before_initialization(&mut self) {
+        self.log_once(
             once::INPUT_BEFORE_INITIALIZATION,
+            Status::Ok,
             format_args!(
                 "inputs are set before Initialization Mode: the standard does not allow it, accepted all the same"
             ),

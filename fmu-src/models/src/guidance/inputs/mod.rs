@@ -37,7 +37,6 @@ use super::setup::Plan;
 use super::variables::choices::EphemerisSource;
 use super::variables::commands::AimpointVariables;
 use crate::common::ephemeris;
-use crate::common::variables::followed;
 
 /// What parameters fix for a whole flight.
 #[derive(Clone, Debug)]
@@ -55,21 +54,7 @@ impl Fixed {
     /// From the parameters.
     pub fn read(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
         let v = context.variables;
-        let described = context.setup.target;
-        let body = values.choice(v.target.planet).map_or(described, |it| it.0);
-        let (default, own) = (TargetPlanet::of(described.data()), TargetPlanet::of(body.data()));
-        let follow =
-            |parameter, of: fn(&TargetPlanet) -> f64| followed(values, parameter, of(&default), of(&own));
-        let radius_m =
-            |i: usize| followed(values, v.planet.radii.element(i), default.radii_m[i], own.radii_m[i]);
-        let planet = TargetPlanet {
-            radii_m: Vector3::from([0, 1, 2].map(radius_m)),
-            pole_right_ascension_rad: follow(v.planet.pole_right_ascension, |it| it.pole_right_ascension_rad),
-            pole_declination_rad: follow(v.planet.pole_declination, |it| it.pole_declination_rad),
-            prime_meridian_rad: follow(v.planet.prime_meridian, |it| it.prime_meridian_rad),
-            rotation_rate_rad_s: follow(v.planet.rotation_rate, |it| it.rotation_rate_rad_s),
-            gm_m3_s2: follow(v.planet.gravitational_parameter, |it| it.gm_m3_s2),
-        };
+        let (body, planet) = target(context, values);
         let epoch_s = values.real(v.start.epoch);
         let source = values.choice(v.ephemeris.source).unwrap_or(EphemerisSource::Vsop87);
         if source != EphemerisSource::Inputs {
@@ -80,7 +65,8 @@ impl Fixed {
             ephemeris::check_flown(carried, body, "start.epoch", epoch_s)?;
         }
         let ellipse = if source == EphemerisSource::Kepler {
-            Some(ephemeris::kepler(&v.ephemeris.ellipse, values, [described, body], epoch_s)?)
+            let ellipse = &v.ephemeris.ellipse;
+            Some(ephemeris::kepler(ellipse, context.given(values, &ellipse.group()), body, epoch_s)?)
         } else {
             None
         };
@@ -93,6 +79,47 @@ impl Fixed {
             burn: burn(context, values)?,
         })
     }
+}
+
+/// The target planet: what is given of `planet.*`, else its own.
+fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
+    let v = &context.variables.planet;
+    let body = values.choice(context.variables.target.planet).map_or(context.setup.target, |it| it.0);
+    let own = TargetPlanet::of(body.data());
+    let given = context.given(
+        values,
+        &[
+            v.radii.into(),
+            v.pole_right_ascension.into(),
+            v.pole_declination.into(),
+            v.prime_meridian.into(),
+            v.rotation_rate.into(),
+            v.gravitational_parameter.into(),
+        ],
+    );
+    let planet = TargetPlanet {
+        radii_m: Vector3::from([0, 1, 2].map(|i| given.real_or(v.radii.element(i), own.radii_m[i]))),
+        pole_right_ascension_rad: given.real_or(v.pole_right_ascension, own.pole_right_ascension_rad),
+        pole_declination_rad: given.real_or(v.pole_declination, own.pole_declination_rad),
+        prime_meridian_rad: given.real_or(v.prime_meridian, own.prime_meridian_rad),
+        rotation_rate_rad_s: given.real_or(v.rotation_rate, own.rotation_rate_rad_s),
+        gm_m3_s2: given.real_or(v.gravitational_parameter, own.gm_m3_s2),
+    };
+    (body, planet)
+}
+
+/// Writes the parameters that follow `target.planet` as they act.
+pub fn settle(context: &Plan<'_>, values: &mut Values) {
+    let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
+    let (body, planet) = target(context, values);
+    let elements = ellipse.read(context.given(values, &ellipse.group()), body);
+    ellipse.write(values, &elements);
+    values.set_vector(v.radii, planet.radii_m.into());
+    values.set_real(v.pole_right_ascension, planet.pole_right_ascension_rad);
+    values.set_real(v.pole_declination, planet.pole_declination_rad);
+    values.set_real(v.prime_meridian, planet.prime_meridian_rad);
+    values.set_real(v.rotation_rate, planet.rotation_rate_rad_s);
+    values.set_real(v.gravitational_parameter, planet.gm_m3_s2);
 }
 
 /// The burn by its parameters and the spacecraft's thrusters.
@@ -376,7 +403,9 @@ impl<'a> Reader<'a> {
         let v = self.context.variables;
         let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
         let valid = self.flag(v.estimate.valid);
-        let is_estimated = is_placed && !(valid && (q == [0.0; 4] || q == NOT_CONNECTED));
+        let given = self.context.given(self.values, &[v.estimate.q.into(), v.estimate.valid.into()]);
+        let is_connected = q != [0.0; 4] && (q != NOT_CONNECTED || given.has(v.estimate.q));
+        let is_estimated = is_placed && !(valid && !is_connected);
         let estimate = if !is_estimated {
             Some(commanded)
         } else if valid {

@@ -93,7 +93,7 @@ optional_enumeration_of! {
 }
 
 optional_enumeration_of! {
-    /// A body to aim at.
+    /// A body to aim at, numbered as OrbitCenter's: 5 is kept free for the Moon.
     AimpointBody(Body) {
         /// Not given.
         none = 0,

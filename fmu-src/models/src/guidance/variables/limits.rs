@@ -109,7 +109,7 @@ pub struct AntennaVariables {
     #[output]
     pub select: Choice<AntennaSelect>,
     /// Its beam's azimuth in the body frame, from -Y toward +X.
-    #[output(discrete, unit = "rad", display = "deg")]
+    #[output(discrete, unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
     pub azimuth: Real,
 }
 

@@ -26,7 +26,8 @@ pub struct StartVariables {
 #[variables(setup = GuidanceSetup)]
 pub struct TargetVariables {
     /// The planet that is observed, from whose centre positions count; by default orbit.center of the file's [start]. Set after
-    /// packing, what is left of planet.* at its start value is that body's own.
+    /// packing, what nobody sets of planet.* and ephemeris.* is that body's own and reads back so once initialized; a group of
+    /// which every parameter is set to its start value follows too.
     #[parameter(start = OrbitCenter(setup.target))]
     pub planet: Choice<OrbitCenter>,
     /// Whether the boresight is on the aimpoint; false: clamped, constrained, or there is no such point.
@@ -82,10 +83,10 @@ pub struct SunVariables {
     #[input(start = false)]
     pub sensed_valid: Boolean,
     /// Azimuth of the Sun in the commanded body frame, from -Y toward +X.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
     pub azimuth: Real,
     /// Elevation of the Sun in the commanded body frame, positive toward -Z.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2)]
     pub elevation: Real,
 }
 
@@ -99,7 +100,7 @@ pub struct EarthVariables {
     #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
     pub velocity: RealVector<3>,
     /// Angle between Sun and Earth as seen from the spacecraft.
-    #[output(discrete, unit = "rad", display = "deg")]
+    #[output(discrete, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI)]
     pub sun_separation: Real,
 }
 
@@ -107,8 +108,8 @@ pub struct EarthVariables {
 #[derive(Variables)]
 pub struct EstimateVariables {
     /// Attitude quaternion, scalar last, from EME2000 to body; what the monitor watches, and what turns the accelerometers'
-    /// increments. 0, or exactly the start value: not connected yet, the monitor watches nothing and the commanded attitude
-    /// stands in.
+    /// increments. 0, or never set: not connected yet, the monitor watches nothing and the commanded attitude stands in. The
+    /// start value counts as set unless estimate.valid is set to its start value too.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
     /// Body rate. No law reads it yet; it is here so that an estimator connects whole.

@@ -1,55 +1,82 @@
-//! What follows `orbit.center`: a parameter left at its start value, which is that of the body the file names, takes the
-//! centre's own value.
+//! What follows `orbit.center`: a parameter that nobody gave takes the centre's own value.
 
-use fmi_export::{Enumeration, Real, Values};
+use fmi_export::{Elements, Enumeration, Given, Values};
 use physics::bodies::surface::PlanetSurface;
 use physics::bodies::{Body, BodyData};
 use physics::environment::frames::Frame;
-use physics::environment::orbit::Elements;
+use physics::environment::orbit::Elements as KeplerElements;
 
 use super::given::is_given;
 use crate::common::center;
 use crate::common::choices::OrbitCenter;
-use crate::common::variables::followed;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
+use crate::momentum_plant::variables::choices::OrbitFrame;
 
 /// The parameters about the centre, as they count.
 pub struct Center<'a> {
-    variables: &'a PlantVariables,
+    context: &'a Plan<'a>,
     values: &'a Values,
-    /// The body that the start values are of.
-    described: Body,
     /// The body in the centre.
     pub body: Body,
+}
+
+/// Parameters about the centre as they act; no orbit where position and velocity are inputs.
+pub struct Settled {
+    data: BodyData,
+    surface: PlanetSurface,
+    orbit: Option<(KeplerElements, Frame)>,
 }
 
 impl<'a> Center<'a> {
     /// The centre that `orbit.center` names.
     pub fn of(context: &'a Plan<'_>, values: &'a Values) -> Self {
-        let (variables, described) = (context.variables, context.setup.center);
-        let body = values.choice(variables.orbit.center).map_or(described, |it| it.0);
-        Self { variables, values, described, body }
+        let body = values.choice(context.variables.orbit.center).map_or(context.setup.center, |it| it.0);
+        Self { context, values, body }
     }
 
-    /// The value of a parameter, or the centre's own where it was left at its start value.
-    fn followed<D>(&self, parameter: Real, [described, own]: &[D; 2], of: fn(&D) -> f64) -> f64 {
-        followed(self.values, parameter, of(described), of(own))
+    /// Who gave what of `planet.*`.
+    fn planet(&self) -> Given<'_> {
+        let planet = &self.context.variables.planet;
+        let numbers = [
+            planet.gravitational_parameter,
+            planet.radius,
+            planet.j2,
+            planet.j2_radius,
+            planet.pole_right_ascension,
+            planet.pole_declination,
+        ];
+        let [a, b, c, d, e, f] = numbers.map(Elements::from);
+        let [g, h, i, j, k] = planet.surface.group();
+        self.context.given(self.values, &[a, b, c, d, e, f, g, h, i, j, k])
+    }
+
+    /// Who gave what of the orbit's elements.
+    fn orbit(&self) -> Given<'_> {
+        let orbit = &self.context.variables.orbit;
+        let elements = [
+            orbit.semi_major_axis,
+            orbit.eccentricity,
+            orbit.inclination,
+            orbit.ascending_node,
+            orbit.periapsis_argument,
+        ];
+        let [a, b, c, d, e] = elements.map(Elements::from);
+        self.context.given(self.values, &[a, b, c, d, e, orbit.frame.into()])
     }
 
     /// The centre's data.
     pub fn data(&self) -> BodyData {
-        let planet = &self.variables.planet;
+        let (planet, given) = (&self.context.variables.planet, self.planet());
         let own = *self.body.data();
-        let both = [*self.described.data(), own];
-        let followed = |parameter, of| self.followed(parameter, &both, of);
         BodyData {
-            gm_m3_s2: followed(planet.gravitational_parameter, |it| it.gm_m3_s2),
-            radius_m: followed(planet.radius, |it| it.radius_m),
-            j2: followed(planet.j2, |it| it.j2),
-            j2_radius_m: followed(planet.j2_radius, |it| it.j2_radius_m),
-            pole_right_ascension_rad: followed(planet.pole_right_ascension, |it| it.pole_right_ascension_rad),
-            pole_declination_rad: followed(planet.pole_declination, |it| it.pole_declination_rad),
+            gm_m3_s2: given.real_or(planet.gravitational_parameter, own.gm_m3_s2),
+            radius_m: given.real_or(planet.radius, own.radius_m),
+            j2: given.real_or(planet.j2, own.j2),
+            j2_radius_m: given.real_or(planet.j2_radius, own.j2_radius_m),
+            pole_right_ascension_rad: given
+                .real_or(planet.pole_right_ascension, own.pole_right_ascension_rad),
+            pole_declination_rad: given.real_or(planet.pole_declination, own.pole_declination_rad),
             surface: Some(self.surface()),
             ..own
         }
@@ -57,54 +84,69 @@ impl<'a> Center<'a> {
 
     /// The centre's surface; Mercury's where there is none.
     pub fn surface(&self) -> PlanetSurface {
-        let (planet, own) = (&self.variables.planet, center::surface(self.body));
-        let asked = planet.surface.read(self.values, planet.radius);
-        let described = center::surface(self.described);
-        let both = [described, own];
-        let followed = |parameter, of| self.followed(parameter, &both, of);
-        let surface = &planet.surface;
-        let untouched = asked.day_temperature == described.day_temperature;
-        PlanetSurface {
-            radius_m: followed(planet.radius, |it| it.radius_m),
-            absorptivity: followed(surface.absorptivity, |it| it.absorptivity),
-            diffuse_reflectivity: followed(surface.diffuse_reflectivity, |it| it.diffuse_reflectivity),
-            emissivity: followed(surface.emissivity, |it| it.emissivity),
-            night_temperature_k: followed(surface.night_temperature, |it| it.night_temperature_k),
-            day_temperature: if untouched { own.day_temperature } else { asked.day_temperature },
-        }
+        let (planet, given, own) =
+            (&self.context.variables.planet, self.planet(), center::surface(self.body));
+        let radius_m = given.real_or(planet.radius, own.radius_m);
+        planet.surface.read_or(self.values, given, radius_m, &own)
     }
 
     /// Elements of the spacecraft's orbit.
-    pub fn elements(&self) -> Elements {
-        let orbit = &self.variables.orbit;
-        let both = [self.described, self.body].map(center::elements);
-        let followed = |parameter, of| self.followed(parameter, &both, of);
-        Elements {
-            semi_major_axis_m: followed(orbit.semi_major_axis, |it| it.semi_major_axis_m),
-            eccentricity: followed(orbit.eccentricity, |it| it.eccentricity),
-            inclination_rad: followed(orbit.inclination, |it| it.inclination_rad),
-            ascending_node_rad: followed(orbit.ascending_node, |it| it.ascending_node_rad),
-            periapsis_argument_rad: followed(orbit.periapsis_argument, |it| it.periapsis_argument_rad),
+    pub fn elements(&self) -> KeplerElements {
+        let (orbit, given, own) = (&self.context.variables.orbit, self.orbit(), center::elements(self.body));
+        KeplerElements {
+            semi_major_axis_m: given.real_or(orbit.semi_major_axis, own.semi_major_axis_m),
+            eccentricity: given.real_or(orbit.eccentricity, own.eccentricity),
+            inclination_rad: given.real_or(orbit.inclination, own.inclination_rad),
+            ascending_node_rad: given.real_or(orbit.ascending_node, own.ascending_node_rad),
+            periapsis_argument_rad: given.real_or(orbit.periapsis_argument, own.periapsis_argument_rad),
             true_anomaly_rad: self.values.real(orbit.true_anomaly),
         }
     }
 
     /// Frame of those elements.
     pub fn frame(&self) -> Frame {
-        let asked = self.values.choice(self.variables.orbit.frame).map(|it| it.0);
-        asked.filter(|it| *it != center::frame(self.described)).unwrap_or(center::frame(self.body))
+        let frame = self.context.variables.orbit.frame;
+        let given = self.values.choice(frame).filter(|_| self.orbit().has(frame));
+        given.map_or(center::frame(self.body), |it| it.0)
     }
 
-    /// The body of the start values and the one in the centre.
-    pub fn described_and_own(&self) -> [Body; 2] {
-        [self.described, self.body]
+    /// All of it, as it acts.
+    pub fn settled(&self) -> Settled {
+        let has_elements = !is_given(self.context.variables, self.values);
+        Settled {
+            data: self.data(),
+            surface: self.surface(),
+            orbit: has_elements.then(|| (self.elements(), self.frame())),
+        }
     }
 }
 
-/// Warns of elements that were left at the start values of another centre and now are the centre's own.
+impl Settled {
+    /// Writes it into the parameters.
+    pub fn write(&self, variables: &PlantVariables, values: &mut Values) {
+        let (planet, data) = (&variables.planet, &self.data);
+        values.set_real(planet.gravitational_parameter, data.gm_m3_s2);
+        values.set_real(planet.radius, data.radius_m);
+        values.set_real(planet.j2, data.j2);
+        values.set_real(planet.j2_radius, data.j2_radius_m);
+        values.set_real(planet.pole_right_ascension, data.pole_right_ascension_rad);
+        values.set_real(planet.pole_declination, data.pole_declination_rad);
+        planet.surface.write(values, &self.surface);
+        let Some((elements, frame)) = &self.orbit else { return };
+        let orbit = &variables.orbit;
+        values.set_real(orbit.semi_major_axis, elements.semi_major_axis_m);
+        values.set_real(orbit.eccentricity, elements.eccentricity);
+        values.set_real(orbit.inclination, elements.inclination_rad);
+        values.set_real(orbit.ascending_node, elements.ascending_node_rad);
+        values.set_real(orbit.periapsis_argument, elements.periapsis_argument_rad);
+        values.set_choice(orbit.frame, OrbitFrame(*frame));
+    }
+}
+
+/// Warns of elements that nobody gave and that are another's than the centre of the start values, before they are settled.
 pub fn say_followed(context: &Plan<'_>, values: &Values) {
     let center = Center::of(context, values);
-    if center.body == center.described || is_given(context.variables, values) {
+    if center.body == context.setup.center || is_given(context.variables, values) {
         return;
     }
     let orbit = &context.variables.orbit;
@@ -129,9 +171,9 @@ pub fn say_followed(context: &Plan<'_>, values: &Values) {
     if told.is_empty() {
         return;
     }
-    let [from, to] = center.described_and_own().map(|body| item_name(OrbitCenter(body)));
+    let [from, to] = [context.setup.center, center.body].map(|body| item_name(OrbitCenter(body)));
     context.log.warning(&format!(
-        "orbit.center is {to}, and the start values of this FMU are those about {from}: what was left at them is taken as {to}'s \
+        "orbit.center is {to}, and the start values of this FMU are those about {from}: what was not set is taken as {to}'s \
          own, {}; pack with --set orbit.center={to} for start values that are {to}'s",
         told.join(", ")
     ));

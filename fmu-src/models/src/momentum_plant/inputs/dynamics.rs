@@ -231,9 +231,29 @@ pub fn external(
     ]
 }
 
-/// The attitude that start.q gives, and whether it is left at its default.
-pub fn start_attitude(context: &Plan<'_>, values: &Values) -> Result<(Attitude, bool), Failure> {
-    let q = values.vector(context.variables.start.q);
+/// How the body stands and turns at the start.
+pub struct StartMotion {
+    /// By start.q.
+    pub attitude: Attitude,
+    /// By start.rate.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// Whether internal guidance gives the attitude: start.q was not set.
+    pub attitude_is_guided: bool,
+    /// Whether internal guidance gives the rate too: start.rate was not set either.
+    pub rate_is_guided: bool,
+}
+
+/// What start.q and start.rate say of the motion at the start.
+pub fn start_motion(context: &Plan<'_>, values: &Values) -> Result<StartMotion, Failure> {
+    let start = &context.variables.start;
+    let q = values.vector(start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-    Ok((attitude, q == [0.0, 0.0, 0.0, 1.0]))
+    let given = context.given(values, &[start.q.into(), start.rate.into()]);
+    let attitude_is_guided = guides_itself(context, values) && !given.has(start.q);
+    Ok(StartMotion {
+        attitude,
+        rate_body_rad_s: Vector3::from(values.vector(start.rate)),
+        attitude_is_guided,
+        rate_is_guided: attitude_is_guided && !given.has(start.rate),
+    })
 }

@@ -141,6 +141,16 @@ pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure>
     Ok(())
 }
 
+/// Writes the parameters that follow `orbit.center` as they act.
+pub fn settle(context: &Plan<'_>, values: &mut Values) {
+    let ellipse = &context.variables.ephemeris.ellipse;
+    let center = Center::of(context, values);
+    let elements = ellipse.read(context.given(values, &ellipse.group()), center.body);
+    let settled = center.settled();
+    ellipse.write(values, &elements);
+    settled.write(context.variables, values);
+}
+
 /// Refuses a step that leaves the span of the flown ephemerides it goes by.
 pub fn check_span(
     context: &Plan<'_>,
@@ -266,12 +276,8 @@ fn ephemeris_source(
         }
         Some(EphemerisSource::Kepler) => {
             let ellipse = &variables.ephemeris.ellipse;
-            plant::EphemerisSource::Kepler(ephemeris::kepler(
-                ellipse,
-                values,
-                center.described_and_own(),
-                epoch_s,
-            )?)
+            let given = context.given(values, &ellipse.group());
+            plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, given, center.body, epoch_s)?)
         }
         Some(EphemerisSource::Chebyshev) => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {

@@ -66,18 +66,20 @@ pub fn begin(
     propulsion::check(&settings.thrusters, &configuration)?;
     state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
     state.light = inputs::light(context, values, &configuration)?;
-    let (mut attitude, is_default) = dynamics::start_attitude(context, values)?;
-    let mut rate_body_rad_s = Vector3::from(values.vector(context.variables.start.rate));
+    let start = dynamics::start_motion(context, values)?;
+    let (mut attitude, mut rate_body_rad_s) = (start.attitude, start.rate_body_rad_s);
     let [start_load, _] = dynamics::external(context, values, InputsOverTime::held(), time_s);
     let acting = |_: f64| start_load;
     let manager = inputs::manager(context, values, &configuration);
-    if is_default && dynamics::guides_itself(context, values) {
+    if start.attitude_is_guided {
         let guided = flight(context, state, &mut configuration, &acting, &manager)?
             .guided_start(time_s, settings.work_limit)
             .map_err(outputs::failure)?;
         if let Some(frame) = guided {
             attitude = Attitude::from_rotation(&frame.inertial_from_body);
-            rate_body_rad_s = frame.rate_body_rad_s;
+            if start.rate_is_guided {
+                rate_body_rad_s = frame.rate_body_rad_s;
+            }
         }
     }
     let mut mass = configuration.loaded();
@@ -99,10 +101,11 @@ pub fn begin(
     let limit = settings.work_limit;
     if let Some(mut shown) = state.dynamics.take() {
         let mut flight = flight(context, state, &mut configuration, &acting, &manager)?;
+        let mut work = flight.begin_work(limit);
         stretch
             .with_inputs(|inputs| {
                 let silent = &mut |_: &DumpEvent| {};
-                shown.take_due(&mut settings, &mut flight, inputs, limit, silent)
+                shown.take_due(&mut settings, &mut flight, inputs, &mut work, silent)
             })
             .map_err(outputs::failure)?;
         state.dynamics = Some(shown);

@@ -50,7 +50,7 @@ pub struct ControlVariables {
     #[parameter(start = true)]
     pub friction_compensation: Boolean,
     /// Angle between the estimated and the commanded attitude at the last sample; 0 where only a rate is commanded.
-    #[output(unit = "rad", display = "deg", nominal = 1e-4)]
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-4)]
     pub error: Real,
     /// Whether the reference that the slew limits make of the command has come to it.
     #[output]

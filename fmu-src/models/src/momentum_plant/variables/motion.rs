@@ -57,10 +57,12 @@ pub struct StartVariables {
     #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
     pub epoch: Real,
     /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. With internal
-    /// guidance a controlled flight starts as guided, unless this is another than the identity.
+    /// guidance a controlled flight starts as guided unless this is set, be it to the identity (start.q and start.rate both set to
+    /// their start values count as not set, as some tools set everything).
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
-    /// Body rate at the start in controlled and free flight; with internal guidance as for start.q.
+    /// Body rate at the start in controlled and free flight; with internal guidance that of the guidance unless start.q or this
+    /// is set.
     #[parameter(unit = "rad/s", display = "deg/s", min = -1e3, max = 1e3, start = [0.0; 3])]
     pub rate: RealVector<3>,
     /// System momentum at the start, body frame. In controlled and free flight it follows from start.rate and
@@ -74,7 +76,8 @@ pub struct StartVariables {
 #[variables(setup = PlantSetup)]
 pub struct OrbitVariables {
     /// What the spacecraft flies around. By a file that sets it in [start] the elements' and the planet's start values are of that
-    /// body; set later, what is left at them is taken as that body's own, and a warning says so of the elements.
+    /// body; set later, what nobody sets of orbit.*, planet.* and ephemeris.* is that body's own and reads back so once
+    /// initialized, and a warning names the elements. A group of which every parameter is set to its start value follows too.
     #[parameter(start = OrbitCenter(setup.center))]
     pub center: Choice<OrbitCenter>,
     /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity, or these are where the spacecraft is.

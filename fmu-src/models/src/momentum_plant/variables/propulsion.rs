@@ -1,17 +1,14 @@
 //! Thrusters, tanks, what is commanded for a delta-v, accelerometers.
 
-use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Text, Variables};
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
 use crate::common::choices::ThrustRequest;
 
-/// One thruster, in controlled and free flight.
+/// One thruster, in controlled and free flight; descriptions begin with its name in the spacecraft's file.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
+#[variables(setup = PlantSetup, label = setup.spacecraft.thrusters[index].name)]
 pub struct ThrusterVariables {
-    /// Name in the spacecraft's file.
-    #[output(constant, start = setup.spacecraft.thrusters[index].name.as_str())]
-    pub name: Text,
     /// Shortest time for which its valve opens; what is asked for less does not fire.
     #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.min_on_s)]
     pub min_on_time: Real,
@@ -45,13 +42,10 @@ pub struct ThrusterVariables {
     pub plume: Boolean,
 }
 
-/// One propellant tank.
+/// One propellant tank; descriptions begin with its name in the spacecraft's file.
 #[derive(Variables)]
-#[variables(setup = PlantSetup)]
+#[variables(setup = PlantSetup, label = setup.spacecraft.tanks[index].name)]
 pub struct TankVariables {
-    /// Name in the spacecraft's file.
-    #[output(constant, start = setup.spacecraft.tanks[index].name.as_str())]
-    pub name: Text,
     /// Propellant loaded, a part of spacecraft.mass; inertia and centre of mass are those of the loaded spacecraft.
     #[parameter(unit = "kg", min = 1e-9, max = 1e12, start = setup.spacecraft.tanks[index].propellant_kg)]
     pub propellant: Real,

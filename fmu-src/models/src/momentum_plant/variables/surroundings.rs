@@ -67,13 +67,13 @@ pub struct SunVariables {
     #[output(unit = "1", nominal = 1.0)]
     pub direction: RealVector<3>,
     /// Azimuth of the Sun in the body frame, from -Y toward +X.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
     pub azimuth: Real,
     /// Elevation of the Sun in the body frame, positive toward -Z.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2)]
     pub elevation: Real,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
-    #[output(unit = "1", nominal = 1.0)]
+    #[output(unit = "1", min = 0.0, max = 1.0, nominal = 1.0)]
     pub lit_fraction: Real,
     /// Unit vector to the Sun, body frame, as the Sun sensors give it; 0 where none sees it.
     #[output(unit = "1", nominal = 1.0)]
@@ -100,10 +100,10 @@ pub struct EarthVariables {
     #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
     pub velocity_inertial: RealVector<3>,
     /// Azimuth of the Earth in the body frame, from -Y toward +X.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
     pub azimuth: Real,
     /// Elevation of the Earth in the body frame, positive toward -Z.
-    #[output(unit = "rad", display = "deg")]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2)]
     pub elevation: Real,
 }
 

@@ -105,10 +105,10 @@ pub struct AttitudeVariables {
 #[derive(Variables)]
 pub struct NutationVariables {
     /// Angle from the momentum to the spin axis, the principal axis nearest to the third.
-    #[output(unit = "rad", display = "deg", nominal = 1e-4)]
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-4)]
     pub angle: Real,
     /// Azimuth of the transverse momentum about the spin axis, from body X toward Y.
-    #[output(unit = "rad", display = "deg", nominal = 1.0)]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI, nominal = 1.0)]
     pub phase: Real,
     /// Foreseen after the last pulse by the linear theory (paper 002 eq 8 with the nutation kick for Gamma/n, for any
     /// train), without damper and initial nutation.
@@ -129,7 +129,7 @@ pub struct NutationVariables {
 #[derive(Variables)]
 pub struct ConingVariables {
     /// Angle from +Z to the spin axis, the principal axis nearest to it; 0 without products of inertia.
-    #[output(unit = "rad", display = "deg", nominal = 1e-2)]
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-2)]
     pub angle: Real,
 }
 
@@ -143,7 +143,7 @@ pub struct MomentumVariables {
     #[output(unit = "N.m.s", nominal = 100.0)]
     pub body: RealVector<3>,
     /// Angle from where it pointed at the start: the manoeuvre done.
-    #[output(unit = "rad", display = "deg", nominal = 1e-2)]
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-2)]
     pub displacement: Real,
 }
 
@@ -154,6 +154,6 @@ pub struct SpinAxisVariables {
     #[output(unit = "1", nominal = 1.0)]
     pub inertial: RealVector<3>,
     /// Angle from where it pointed at the start.
-    #[output(unit = "rad", display = "deg", nominal = 1e-2)]
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-2)]
     pub displacement: Real,
 }

@@ -113,9 +113,9 @@ pub struct PulseVariables {
     pub resolution: Real,
 }
 
-/// One thruster.
+/// One thruster; descriptions begin with its name in the setup.
 #[derive(Variables)]
-#[variables(setup = Thruster)]
+#[variables(setup = Thruster, label = setup.name)]
 pub struct ThrusterVariables {
     /// Shortest time for which its valve opens for a pulse; what thruster[k].onTime asks for less does not fire.
     #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.min_on_s)]
@@ -147,9 +147,6 @@ pub struct ThrusterVariables {
     /// Moment arm across the spin axis, paper 002 Table 1.
     #[output(constant, unit = "m", start = setup.arm_across_z_m())]
     pub arm: Real,
-    /// Name in the setup.
-    #[output(constant, start = setup.name.as_str())]
-    pub name: Text,
 }
 
 /// Torques on the body.

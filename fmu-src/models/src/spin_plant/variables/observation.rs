@@ -39,7 +39,7 @@ pub struct SunVariables {
     #[input(unit = "1", start = [0.0, libm::sin(10.0_f64.to_radians()), libm::cos(10.0_f64.to_radians())])]
     pub direction: RealVector<3>,
     /// From the spin axis +Z to the Sun.
-    #[output(unit = "rad", display = "deg", nominal = 0.1)]
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 0.1)]
     pub angle: Real,
     /// Direction of the Sun that is in force, unit vector in EME2000; 0 where it is not known.
     #[output(unit = "1", nominal = 1.0)]
@@ -53,7 +53,7 @@ pub struct EarthVariables {
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]
     pub direction: RealVector<3>,
     /// From the antenna -Z to the Earth.
-    #[output(unit = "rad", display = "deg", nominal = 0.01)]
+    #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 0.01)]
     pub angle: Real,
     /// Direction of the Earth that is in force, unit vector in EME2000; 0 where it is not known.
     #[output(unit = "1", nominal = 1.0)]
@@ -128,7 +128,7 @@ pub struct StarTrackerVariables {
     #[output(discrete, unit = "rad", display = "deg", nominal = 1e-2)]
     pub declination: Real,
     /// Declination of the star now, without noise.
-    #[output(unit = "rad", display = "deg", nominal = 1e-2)]
+    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2, nominal = 1e-2)]
     pub declination_true: Real,
     /// Time of the last sample; -1 before any.
     #[output(discrete, unit = "s")]

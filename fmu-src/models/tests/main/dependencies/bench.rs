@@ -95,7 +95,7 @@ impl<M: Model> Bench<M> {
     }
 
     fn context(&self) -> Context<'_, M> {
-        Context { setup: &self.setup, variables: &self.handles, log: &Silent }
+        Context { setup: &self.setup, variables: &self.handles, start: &self.start, log: &Silent }
     }
 
     pub fn defaults(&self) -> Tables {
@@ -130,7 +130,7 @@ impl<M: Model> Bench<M> {
     }
 
     pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Simulation<M>> {
-        let mut values = tables.back();
+        let mut values = tables.marked_where_other_than(&self.start).back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
         Some(Simulation { values: Tables::of(&values), state, time_s: start_s, changed: false })
     }
