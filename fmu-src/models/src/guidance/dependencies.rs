@@ -195,6 +195,8 @@ fn sun_place(setup: &GuidanceSetup, v: &GuidanceVariables) -> Knowns {
         momentum.aim.horizon,
         v.dump.threshold.element(0),
         v.dump.threshold.element(2),
+        v.dump.reinit_to,
+        v.dump.reinit_fraction,
         momentum.convention,
         momentum.body,
         v.start.q,
