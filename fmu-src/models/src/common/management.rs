@@ -59,7 +59,7 @@ pub struct TargetingVariables {
     pub target: RealVector<3>,
     /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none); with
     /// momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are momentum.target.
-    #[parameter(min = 1, max = LONGEST_HORIZON, start = 4)]
+    #[parameter(min = 1, max = LONGEST_HORIZON, start = 20)]
     pub horizon: Integer,
 }
 

@@ -84,6 +84,11 @@ impl Schedule {
         if self.once { f64::INFINITY } else { f64::from(self.every) * self.period_s }
     }
 
+    /// Length of a downlink, in s.
+    pub fn downlink_s(&self) -> f64 {
+        self.downlink_end_s - self.downlink_start_s
+    }
+
     /// Whether there are downlinks with science between them.
     ///
     /// # Errors

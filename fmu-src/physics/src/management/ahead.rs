@@ -1,20 +1,24 @@
-//! What lies ahead of a downlink's begin: momentum through the coming cycles, flown in default attitudes and without dumps.
+//! What lies ahead of a downlink's begin: momentum and light through the coming cycles, flown in default attitudes and without
+//! dumps.
 //!
 //! Components that are integrated on their own are noted one by one over the whole horizon ([`super::profile`]); the physical
 //! momentum, under which the body turns, through the next science ([`super::turning`]).
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::profile::Swing;
+use super::profile::{Cycle, Reach, Swing};
 use super::turning::{SquareSum, Turned};
-use crate::momentum::Convention;
+use crate::attitude::angle_between_rad;
+use crate::momentum::{Convention, DumpPolicy};
 use crate::plant::ForecastMomentum;
 
 /// The greatest number of cycles that are looked ahead.
 pub const LONGEST_HORIZON: usize = 100;
 
-/// Samples of a forecast a cycle.
-const SAMPLES: f64 = 96.0;
+/// Samples of each coming span of science, of components that are integrated on their own.
+const SCIENCE_SAMPLES: usize = 32;
+/// Samples of the next cycle, of the physical momentum.
+const SAMPLES: usize = 96;
 
 /// Momentum ahead of a downlink's begin.
 pub trait Forecast {
@@ -27,93 +31,185 @@ pub trait Forecast {
     /// Length of a cycle of science and downlink, in s; infinite or 0 where none follows.
     fn cycle_s(&self) -> f64;
 
+    /// Length of a downlink, in s.
+    fn downlink_s(&self) -> f64;
+
     /// Which momentum is watched.
     fn convention(&self) -> Convention;
 
-    /// Magnitude of each component that triggers a dump, in N m s.
-    fn threshold_body_n_m_s(&self) -> Vector3<f64>;
+    /// When thrusters dump, and what they leave.
+    fn dump_policy(&self) -> DumpPolicy;
 
-    /// Visits the momentum from the begin to `until_s`, every `step_s`, the downlink's begin first.
+    /// Visits the momentum at these times in s, which do not descend, the downlink's begin first; about `step_s` apart.
     ///
     /// # Errors
     /// What ends a forecast.
     fn fly(
         &mut self,
-        until_s: f64,
+        times_s: impl Iterator<Item = f64>,
         step_s: f64,
         visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), Self::Error>;
 }
 
-/// What was forecast; nothing by default.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Ahead {
+/// What was forecast.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a step allocates nothing")]
+pub enum Ahead {
     /// By components, where each is integrated on its own.
-    pub swings: Swings,
+    Components(Components),
     /// Of the physical momentum.
-    pub science: Option<ScienceAhead>,
-    /// Magnitude of each component that triggers a dump, in N m s.
-    pub threshold_body_n_m_s: Vector3<f64>,
+    Science(ScienceAhead),
 }
 
 impl Ahead {
-    /// What `horizon` cycles bring, or the next science where the body turns under the momentum; nothing without a cycle.
+    /// What `horizon` cycles bring, or the next science where the body turns under the momentum; `None` without a cycle.
     ///
     /// # Errors
     /// What ends a forecast.
-    pub fn of<F: Forecast>(forecast: &mut F, horizon: u32) -> Result<Self, F::Error> {
-        let (cycle_s, threshold_body_n_m_s) = (forecast.cycle_s(), forecast.threshold_body_n_m_s());
-        let mut ahead = Self { threshold_body_n_m_s, ..Self::default() };
-        if cycle_s.is_finite() && cycle_s > 0.0 {
-            match forecast.convention() {
-                Convention::BodyIntegral => ahead.swings = Swings::of(forecast, cycle_s, horizon)?,
-                Convention::Inertial => ahead.science = ScienceAhead::of(forecast, cycle_s)?,
+    pub fn of<F: Forecast>(forecast: &mut F, horizon: u32) -> Result<Option<Self>, F::Error> {
+        let cycle_s = forecast.cycle_s();
+        let science_s = cycle_s - forecast.downlink_s();
+        if !(cycle_s.is_finite() && science_s > 0.0 && horizon > 0) {
+            return Ok(None);
+        }
+        Ok(match forecast.convention() {
+            Convention::BodyIntegral => Some(Self::Components(Components::of(forecast, science_s, horizon)?)),
+            Convention::Inertial => ScienceAhead::of(forecast, cycle_s)?.map(Self::Science),
+        })
+    }
+}
+
+/// A downlink to come, or the one that begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DownlinkAhead {
+    /// Angle between Sun and Earth where it begins, in rad; `None` where one has no direction.
+    pub separation_rad: Option<f64>,
+    /// Pressure of sunlight there, in Pa.
+    pub pressure_pa: f64,
+    /// What its default attitude adds to X and Z, in N m s.
+    pub added: [f64; 2],
+}
+
+impl DownlinkAhead {
+    /// Its pressure of sunlight as a multiple of another one, in Pa; 0 where that one is none.
+    pub fn part_of(&self, pressure_pa: f64) -> f64 {
+        if pressure_pa > 0.0 { self.pressure_pa / pressure_pa } else { 0.0 }
+    }
+}
+
+/// What each coming span of science and each downlink does to X and Z of the momentum.
+#[derive(Clone, Copy, Debug)]
+pub struct Components {
+    count: usize,
+    downlink_s: f64,
+    swings: [[Swing; LONGEST_HORIZON]; 2],
+    downlinks: [DownlinkAhead; LONGEST_HORIZON],
+    path: [[f64; SCIENCE_SAMPLES]; 2],
+    /// When thrusters dump, and what they leave.
+    pub policy: DumpPolicy,
+}
+
+impl Components {
+    fn of<F: Forecast>(forecast: &mut F, science_s: f64, horizon: u32) -> Result<Self, F::Error> {
+        let (begin_s, cycle_s) = (forecast.begin_s(), forecast.cycle_s());
+        let count = (horizon as usize).min(LONGEST_HORIZON);
+        let mut components = Self {
+            count,
+            downlink_s: forecast.downlink_s(),
+            swings: [[Swing::default(); LONGEST_HORIZON]; 2],
+            downlinks: [DownlinkAhead::default(); LONGEST_HORIZON],
+            path: [[0.0; SCIENCE_SAMPLES]; 2],
+            policy: forecast.dump_policy(),
+        };
+        let step_s = science_s / SCIENCE_SAMPLES as f64;
+        // The begin of each downlink, then its science, whose last sample is the next downlink's begin.
+        let per_cycle = SCIENCE_SAMPLES + 1;
+        let times_s = (0..=count * per_cycle).map(|k| {
+            let (cycle, sample) = (k / per_cycle, k % per_cycle);
+            let downlink_begin_s = begin_s + cycle as f64 * cycle_s;
+            if sample == 0 {
+                downlink_begin_s
+            } else {
+                downlink_begin_s + (cycle_s - science_s) + (sample - 1) as f64 * step_s
+            }
+        });
+        let (mut visited, mut base) = (0, [0.0; 2]);
+        forecast.fly(times_s, step_s, |at| {
+            let (cycle, sample) = (visited / per_cycle, visited % per_cycle);
+            visited += 1;
+            let momentum = [at.momentum_body_n_m_s.x, at.momentum_body_n_m_s.z];
+            let since = [momentum[0] - base[0], momentum[1] - base[1]];
+            match sample {
+                0 => {
+                    if let Some(ended) = cycle.checked_sub(1) {
+                        components.note(ended, SCIENCE_SAMPLES - 1, since);
+                    }
+                    if let Some(downlink) = components.downlinks.get_mut(cycle) {
+                        let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
+                        *downlink = DownlinkAhead { separation_rad, pressure_pa: at.pressure_pa, added: [0.0; 2] };
+                    }
+                    base = momentum;
+                }
+                1 => {
+                    if let Some(downlink) = components.downlinks.get_mut(cycle) {
+                        downlink.added = since;
+                    }
+                    base = momentum;
+                }
+                _ => components.note(cycle, sample - 2, since),
+            }
+        })?;
+        Ok(components)
+    }
+
+    /// Takes note of a sample of a span of science.
+    fn note(&mut self, cycle: usize, sample: usize, since: [f64; 2]) {
+        for ((swings, path), since) in self.swings.iter_mut().zip(&mut self.path).zip(since) {
+            if let Some(swing) = swings.get_mut(cycle) {
+                swing.note(since);
+            }
+            if let Some(path) = path.get_mut(sample).filter(|_| cycle == 0) {
+                *path = since;
             }
         }
-        Ok(ahead)
     }
-}
 
-/// What each coming span of science does to X and Z of the momentum.
-#[derive(Clone, Copy, Debug)]
-pub struct Swings {
-    count: usize,
-    by_axis: [[Swing; LONGEST_HORIZON]; 2],
-}
-
-impl Default for Swings {
-    fn default() -> Self {
-        Self { count: 0, by_axis: [[Swing::default(); LONGEST_HORIZON]; 2] }
+    /// The downlink that begins.
+    pub fn present(&self) -> &DownlinkAhead {
+        &self.downlinks[0]
     }
-}
 
-impl Swings {
-    fn of<F: Forecast>(forecast: &mut F, cycle_s: f64, horizon: u32) -> Result<Self, F::Error> {
-        let mut swings = Self::default();
-        let until_s = forecast.begin_s() + f64::from(horizon) * cycle_s;
-        let (mut base, mut was_downlink) = (Vector3::zeros(), true);
-        forecast.fly(until_s, cycle_s / SAMPLES, |at| {
-            if at.downlink {
-                base = at.momentum_body_n_m_s;
-            } else {
-                swings.count += usize::from(was_downlink);
-                let since = at.momentum_body_n_m_s - base;
-                let at = swings.count.wrapping_sub(1);
-                for (swings, since) in swings.by_axis.iter_mut().zip([since.x, since.z]) {
-                    if let Some(swing) = swings.get_mut(at) {
-                        swing.note(since);
-                    }
-                }
+    /// Cycles to come of X and of Z, `reach` being what a coming downlink can add to each.
+    pub fn cycles(
+        &self,
+        reach: impl Fn(&DownlinkAhead) -> [Reach; 2],
+    ) -> [[Cycle; LONGEST_HORIZON]; 2] {
+        let mut cycles = [[Cycle::default(); LONGEST_HORIZON]; 2];
+        for cycle in 0..self.count {
+            // The last science has no downlink after it within the horizon.
+            let reaches = self.downlinks.get(cycle + 1).filter(|_| cycle + 1 < self.count).map(&reach);
+            for axis in [0, 1] {
+                cycles[axis][cycle] =
+                    Cycle { swing: self.swings[axis][cycle], reach: reaches.map_or([0.0; 2], |it| it[axis]) };
             }
-            was_downlink = at.downlink;
-        })?;
-        swings.count = swings.count.min(LONGEST_HORIZON);
-        Ok(swings)
+        }
+        cycles
     }
 
-    /// Of X and of Z, one a span of science.
-    pub fn along(&self) -> [&[Swing]; 2] {
-        self.by_axis.each_ref().map(|swings| swings.get(..self.count).unwrap_or_default())
+    /// Length of a coming downlink, in s.
+    pub fn downlink_s(&self) -> f64 {
+        self.downlink_s
+    }
+
+    /// How many cycles were forecast.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// X and Z through the first science, relative to its start, in N m s.
+    pub fn path(&self) -> &[[f64; SCIENCE_SAMPLES]; 2] {
+        &self.path
     }
 }
 
@@ -131,12 +227,14 @@ pub struct ScienceAhead {
 impl ScienceAhead {
     /// The next science; `None` where none follows.
     fn of<F: Forecast>(forecast: &mut F, cycle_s: f64) -> Result<Option<Self>, F::Error> {
+        let (begin_s, step_s) = (forecast.begin_s(), cycle_s / SAMPLES as f64);
         // Half a sample before the next downlink: rounding must not say how many samples there are.
-        let until_s = forecast.begin_s() + cycle_s * (1.0 - 0.5 / SAMPLES);
-        let threshold = forecast.threshold_body_n_m_s();
+        let until_s = begin_s + cycle_s * (1.0 - 0.5 / SAMPLES as f64);
+        let threshold = forecast.dump_policy().threshold_body_n_m_s;
         let (mut left, mut has_begun, mut has_ended) = (None, false, false);
         let mut squares = SquareSum::default();
-        forecast.fly(until_s, cycle_s / SAMPLES, |at| {
+        let times_s = (0..=SAMPLES).map(|k| (begin_s + k as f64 * step_s).min(until_s));
+        forecast.fly(times_s, step_s, |at| {
             if at.downlink {
                 has_ended |= has_begun;
                 if !has_ended {

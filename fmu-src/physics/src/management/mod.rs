@@ -12,10 +12,10 @@ mod strategy;
 mod targeting;
 mod turning;
 
-pub use ahead::{Ahead, Forecast, LONGEST_HORIZON, ScienceAhead, Swings};
+pub use ahead::{Ahead, Components, DownlinkAhead, Forecast, LONGEST_HORIZON, ScienceAhead};
 pub use dump_request::DumpRequests;
 pub use linear::LinearTorque;
-pub use profile::{Reach, Swing, best_target};
+pub use profile::{Component, Cycle, Reach, Swing};
 pub use sampled::SampledManager;
 pub use sampled_forecast::SampledForecast;
 pub use strategy::{Manager, Strategy};

@@ -1,11 +1,15 @@
-//! Which momentum to leave a downlink with so that the greatest on the way through the coming ones is least: predictive
+//! Which momentum to leave a downlink with so that no threshold is exceeded on the way through the coming ones: predictive
 //! targets (paper 000, "Momentum management strategies").
 //!
-//! Of one component, left with h after this downlink: science k lets it swing by [low_k, high_k] and ends at h + change_k;
-//! downlink k adds anything within its reach. A bound M holds along the way if h lies in
-//! I_k = [-M - low_k, M - high_k] and a downlink can lead from h + change_k into I_(k+1). The intervals I_k follow backwards
-//! in closed form; the least M for which I_1 meets what this downlink can reach is found by halving, and the target is the
-//! middle of what is left there.
+//! Of one component, left with h after this downlink: science k lets it swing by [low_k, high_k] and ends at h + change_k; the
+//! downlink after it adds anything within its own reach [least_k, most_k]. The threshold M is kept over the horizon if h lies in
+//! I_1, computed backward from the end: I_k = [-M + a_k, M + b_k],
+//!
+//! a_k = max(-low_k, a_(k+1) - change_k - most_k), b_k = min(-high_k, b_(k+1) - change_k - least_k),
+//!
+//! without the second terms at the last science. The target is the middle of I_1, or what this downlink reaches nearest to it. A
+//! horizon that cannot be kept is shortened until it can. Where a dump cannot be avoided in the science that follows, and would not
+//! stay the only one there, the nearest target within reach with fewer is taken.
 
 /// What a span of science does to one component, in N m s, from its start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,132 +34,96 @@ impl Swing {
 /// What a downlink can add to one component, in N m s: least and most.
 pub type Reach = [f64; 2];
 
-/// Halvings of the bound.
-const HALVINGS: usize = 60;
-
-/// The momentum after this downlink, in N m s, from `now` within `reach`, that keeps the greatest magnitude least through the
-/// science spans to come, between which every downlink has the same reach. Only as many spans count as can stay below
-/// `threshold`, one at least.
-pub fn best_target(now: f64, reach: Reach, swings: &[Swing], threshold: f64) -> f64 {
-    let mut best = now + 0.0_f64.clamp(reach[0], reach[1]);
-    for count in 1..=swings.len() {
-        let Some((bound, target)) = least_bound(now, reach, swings.get(..count).unwrap_or_default()) else {
-            return best;
-        };
-        if count > 1 && bound > threshold {
-            return best;
-        }
-        best = target;
-    }
-    best
+/// Science to come and the downlink after it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cycle {
+    /// Of the science.
+    pub swing: Swing,
+    /// Of the downlink.
+    pub reach: Reach,
 }
 
-/// The least bound, and the middle of the targets that keep it.
-fn least_bound(now: f64, reach: Reach, swings: &[Swing]) -> Option<(f64, f64)> {
-    let ways = swings.iter().map(|swing| swing.highest - swing.lowest + swing.change.abs());
-    let steps = reach[0].abs() + reach[1].abs();
-    let mut most = now.abs() + ways.sum::<f64>() + steps * (swings.len() as f64 + 1.0) + f64::MIN_POSITIVE;
-    let mut least = 0.0;
-    let mut kept = admissible(now, reach, swings, most)?;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (least + most);
-        match admissible(now, reach, swings, middle) {
-            Some(interval) => (most, kept) = (middle, interval),
-            None => least = middle,
-        }
-    }
-    Some((most, 0.5 * (kept[0] + kept[1])))
+/// One component where a downlink begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Component<'a, D: Fn(f64) -> f64> {
+    /// Momentum, in N m s.
+    pub now: f64,
+    /// Of the downlink that begins.
+    pub reach: Reach,
+    /// What follows it.
+    pub cycles: &'a [Cycle],
+    /// Momentum through the first science, relative to its start, in N m s, in the order of time.
+    pub path: &'a [f64],
+    /// Magnitude that triggers a dump, in N m s.
+    pub threshold: f64,
+    /// Where a dump at a momentum leaves it, in N m s.
+    pub dumped: D,
 }
 
-/// Targets that this downlink can reach and that keep the bound; `None` where there are none.
-fn admissible(now: f64, reach: Reach, swings: &[Swing], bound: f64) -> Option<[f64; 2]> {
-    let mut next: Option<[f64; 2]> = None;
-    for swing in swings.iter().rev() {
-        let mut interval = [-bound - swing.lowest, bound - swing.highest];
-        if let Some([low, high]) = next {
-            interval[0] = interval[0].max(low - reach[1] - swing.change);
-            interval[1] = interval[1].min(high - reach[0] - swing.change);
+/// Targets that are compared where a dump cannot be avoided.
+const TARGETS: usize = 64;
+/// A dump has to stay the only one for targets off by this part of the threshold too.
+const MARGIN: f64 = 0.01;
+
+impl<D: Fn(f64) -> f64> Component<'_, D> {
+    /// The momentum to leave this downlink with, in N m s.
+    pub fn target(&self) -> f64 {
+        let [low, high] = [self.now + self.reach[0], self.now + self.reach[1]];
+        let nearest = middle(self.cycles, self.threshold).max(low).min(high);
+        let fewest = self.dumps_about(nearest);
+        if fewest <= 1 {
+            return nearest;
         }
-        if interval[0] > interval[1] {
-            return None;
-        }
-        next = Some(interval);
-    }
-    let [low, high] = next.unwrap_or([-bound, bound]);
-    let interval = [low.max(now + reach[0]), high.min(now + reach[1])];
-    (interval[0] <= interval[1]).then_some(interval)
-}
-
-#[cfg(test)]
-mod tests {
-    //! Against closed forms and a search over all targets.
-    use super::*;
-    use approx::assert_relative_eq;
-    use proptest::prelude::*;
-
-    fn drift(change: f64) -> Swing {
-        let mut swing = Swing::default();
-        swing.note(change);
-        swing
+        let targets = (0..=TARGETS).map(|k| low + (high - low) * k as f64 / TARGETS as f64);
+        let kept = targets.filter(|target| target.abs() <= self.threshold);
+        let best = kept.map(|target| (self.dumps_about(target), (target - nearest).abs(), target));
+        let best = best.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        best.filter(|(dumps, ..)| *dumps < fewest).map_or(nearest, |(.., target)| target)
     }
 
-    #[test]
-    fn a_drift_is_met_half_way() {
-        assert_relative_eq!(best_target(0.3, [-5.0, 5.0], &[drift(2.0)], 4.0), -1.0, epsilon = 1e-12);
-        assert_relative_eq!(best_target(0.3, [-5.0, 5.0], &[drift(-3.0)], 4.0), 1.5, epsilon = 1e-12);
+    /// Most dumps through the first science about a momentum left with.
+    fn dumps_about(&self, target: f64) -> usize {
+        let margin = MARGIN * self.threshold;
+        let about = if margin.is_finite() { margin } else { 0.0 };
+        [target - about, target, target + about].into_iter().map(|it| self.dumps(it)).max().unwrap_or(0)
     }
 
-    #[test]
-    fn what_later_downlinks_cannot_take_is_taken_now() {
-        // Two spans of +2 with 1 in between: from h to h + 2, h + 1, h + 3.
-        let swings = [drift(2.0); 2];
-        assert_relative_eq!(best_target(0.0, [-1.0, 1.0], &swings, 4.0), -1.0, epsilon = 1e-9);
-        assert_relative_eq!(best_target(0.0, [-5.0, 5.0], &swings, 4.0), -1.0, epsilon = 1e-9);
-        let weak_later = [-1.0, 1.0].map(|it: f64| it * 0.5);
-        assert_relative_eq!(best_target(-1.4, weak_later, &swings, 4.0), -1.75, epsilon = 0.15);
-    }
-
-    #[test]
-    fn spans_beyond_the_threshold_do_not_count() {
-        let swings = [drift(2.0), drift(40.0)];
-        assert_relative_eq!(best_target(0.0, [-5.0, 5.0], &swings, 4.0), -1.0, epsilon = 1e-12);
-    }
-
-    /// The greatest magnitude under a target with the best later downlinks, by a grid over these.
-    fn peak(target: f64, reach: Reach, swings: &[Swing]) -> f64 {
-        let Some((first, rest)) = swings.split_first() else { return 0.0 };
-        let here = (target + first.lowest).abs().max((target + first.highest).abs());
-        if rest.is_empty() {
-            return here;
-        }
-        let steps = (0..=60).map(|k| reach[0] + (reach[1] - reach[0]) * f64::from(k) / 60.0);
-        here.max(steps.map(|u| peak(target + first.change + u, reach, rest)).fold(f64::INFINITY, f64::min))
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(60))]
-        #[test]
-        fn no_other_target_has_a_lower_peak(
-            now in -3.0..3.0_f64,
-            width in 0.1..3.0_f64,
-            changes in proptest::collection::vec((-3.0..3.0_f64, 0.0..1.0_f64, 0.0..1.0_f64), 1..3),
-        ) {
-            let swings: Vec<Swing> = changes
-                .iter()
-                .map(|(change, below, above)| Swing {
-                    change: *change,
-                    lowest: change.min(0.0) - below,
-                    highest: change.max(0.0) + above,
-                })
-                .collect();
-            let reach = [-width, 0.7 * width];
-            let target = best_target(now, reach, &swings, f64::INFINITY);
-            prop_assert!((now + reach[0] - 1e-9..=now + reach[1] + 1e-9).contains(&target));
-            let found = peak(target, reach, &swings);
-            for k in 0..=200 {
-                let other = now + reach[0] + (reach[1] - reach[0]) * f64::from(k) / 200.0;
-                prop_assert!(peak(other, reach, &swings) > found - 0.06, "{other} beats {target}");
+    /// Dumps through the first science from this momentum.
+    fn dumps(&self, start: f64) -> usize {
+        let (mut dumps, mut given) = (0, 0.0);
+        for since_start in self.path {
+            let momentum = start + since_start + given;
+            if momentum.abs() > self.threshold {
+                dumps += 1;
+                given += (self.dumped)(momentum) - momentum;
             }
         }
+        dumps
     }
+}
+
+/// The middle of the momenta before the longest part of a horizon that can be kept; of one that no momentum keeps, the middle of
+/// the first swing.
+fn middle(cycles: &[Cycle], threshold: f64) -> f64 {
+    let parts = (1..=cycles.len()).map(|count| bounds(cycles.get(..count).unwrap_or_default()));
+    // What a longer part keeps a shorter one keeps too.
+    let kept = parts.take_while(|[least, most]| least - most <= 2.0 * threshold);
+    let first = bounds(cycles.get(..1).unwrap_or_default());
+    let [least, most] = kept.last().unwrap_or(first);
+    0.5 * (least + most)
+}
+
+/// Momenta before the first science from which a horizon can be kept: the least beyond the negative threshold, the most beyond the
+/// positive one.
+fn bounds(cycles: &[Cycle]) -> [f64; 2] {
+    let mut later: Option<[f64; 2]> = None;
+    for Cycle { swing, reach } in cycles.iter().rev() {
+        let mut bounds = [-swing.lowest, -swing.highest];
+        if let Some([least, most]) = later {
+            bounds[0] = bounds[0].max(least - swing.change - reach[1]);
+            bounds[1] = bounds[1].min(most - swing.change - reach[0]);
+        }
+        later = Some(bounds);
+    }
+    later.unwrap_or_default()
 }

@@ -10,7 +10,7 @@ use super::strategy::{Manager, Strategy};
 use super::targeting::Aim;
 use crate::guidance::moving::value;
 use crate::guidance::{ChosenPlace, DownlinkStart, Guided, OrbitAhead, Schedule, SunChooser};
-use crate::momentum::{Convention, Totals};
+use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::plant::{StartMomentum, SunLight, SunlitCraft};
 
 /// A manager with what a sample knows.
@@ -24,8 +24,8 @@ pub struct SampledManager<'a> {
     pub light: SunLight,
     /// What the momentum means.
     pub convention: Convention,
-    /// Magnitude of each component that triggers a dump, in N m s.
-    pub threshold_body_n_m_s: Vector3<f64>,
+    /// When thrusters dump, and what they leave.
+    pub policy: DumpPolicy,
     /// Along the body axes, in N m s.
     pub momentum_body_n_m_s: Vector3<f64>,
 }
@@ -47,9 +47,10 @@ impl SunChooser for SampledManager<'_> {
             momentum: StartMomentum::of(&totals, self.convention),
             span_s: start.span_s,
             torque_body_n_m: &torque,
-            linear: self.manager.linear(&craft.center_of_mass_body_m()).map(|formula| (formula, pressure_pa)),
+            pressure_pa,
+            linear: self.manager.linear(&craft.center_of_mass_body_m()),
         };
-        self.manager.place(aim, &self.ahead(start, totals))
+        self.manager.place(aim, self.ahead(start, totals).as_ref())
     }
 }
 
@@ -69,11 +70,11 @@ impl SampledManager<'_> {
     }
 
     /// What lies ahead; nothing where the spacecraft is on no ellipse about its planet.
-    fn ahead(&self, start: &DownlinkStart<'_>, totals: Totals) -> Ahead {
+    fn ahead(&self, start: &DownlinkStart<'_>, totals: Totals) -> Option<Ahead> {
         if self.manager.strategy != Strategy::Predictive {
-            return Ahead::default();
+            return None;
         }
-        let Some(orbit) = OrbitAhead::of(start.surroundings) else { return Ahead::default() };
+        let orbit = OrbitAhead::of(start.surroundings)?;
         let schedule = Schedule { period_s: orbit.period_s(), ..start.law.schedule };
         let mut forecast = SampledForecast {
             orbit,
@@ -81,7 +82,7 @@ impl SampledManager<'_> {
             craft: self.craft,
             light: self.light,
             convention: self.convention,
-            threshold_body_n_m_s: self.threshold_body_n_m_s,
+            policy: self.policy,
             totals,
             begin_s: start.surroundings.epoch_s,
         };

@@ -10,8 +10,9 @@ use core::convert::Infallible;
 use nalgebra::Vector3;
 
 use super::ahead::Forecast;
+use crate::guidance::moving::value;
 use crate::guidance::{Activity, Guided, GuidedAttitude, OrbitAhead, lines_of_sight};
-use crate::momentum::{Convention, Totals};
+use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::quadrature::GAUSS_3;
 use crate::plant::{ForecastMomentum, SunLight, SunlitCraft};
 
@@ -28,8 +29,8 @@ pub struct SampledForecast<'a> {
     pub light: SunLight,
     /// What the momentum means.
     pub convention: Convention,
-    /// Magnitude of each component that triggers a dump, in N m s.
-    pub threshold_body_n_m_s: Vector3<f64>,
+    /// When thrusters dump, and what they leave.
+    pub policy: DumpPolicy,
     /// Momentum at the begin.
     pub totals: Totals,
     /// The begin, in s past J2000 TDB.
@@ -69,27 +70,30 @@ impl Forecast for SampledForecast<'_> {
         self.law.schedule.cycle_s()
     }
 
+    fn downlink_s(&self) -> f64 {
+        self.law.schedule.downlink_s()
+    }
+
     fn convention(&self) -> Convention {
         self.convention
     }
 
-    fn threshold_body_n_m_s(&self) -> Vector3<f64> {
-        self.threshold_body_n_m_s
+    fn dump_policy(&self) -> DumpPolicy {
+        self.policy
     }
 
     fn fly(
         &mut self,
-        until_s: f64,
+        times_s: impl Iterator<Item = f64>,
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), Infallible> {
-        let steps = ((until_s - self.begin_s) / step_s).ceil().max(0.0) as usize;
         let (mut at_s, mut totals) = (self.begin_s, self.totals);
         let mut attitude = self.attitude(at_s);
-        for step in 0..=steps {
-            let end_s = (self.begin_s + step as f64 * step_s).min(until_s);
+        for end_s in times_s {
             while at_s < end_s {
-                let next_s = if attitude.until_s > at_s { end_s.min(attitude.until_s) } else { end_s };
+                let step_end_s = end_s.min(at_s + step_s);
+                let next_s = if attitude.until_s > at_s { step_end_s.min(attitude.until_s) } else { step_end_s };
                 for (node, weight) in GAUSS_3 {
                     self.add(&mut totals, at_s + node * (next_s - at_s), weight * (next_s - at_s));
                 }
@@ -97,8 +101,13 @@ impl Forecast for SampledForecast<'_> {
                 attitude = self.attitude(at_s);
             }
             let inertial_from_body = attitude.frame.inertial_from_body;
+            let surroundings = self.orbit.at(at_s);
+            let to_sun_m = value(&surroundings.to_sun());
             visit(ForecastMomentum {
                 time_s: at_s,
+                to_sun: to_sun_m.try_normalize(0.0).unwrap_or(Vector3::x()),
+                to_earth: value(&surroundings.to_earth()).try_normalize(0.0),
+                pressure_pa: self.light.pressure_pa(to_sun_m.norm()),
                 downlink: attitude.window.activity == Activity::Downlink,
                 momentum_body_n_m_s: totals.momentum_body_n_m_s(self.convention, &inertial_from_body),
                 momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,

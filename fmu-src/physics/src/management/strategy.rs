@@ -1,18 +1,20 @@
 //! Strategies of paper 000: dumps alone, reactive targets, predictive targets.
 //!
-//! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the momentum from which the coming
-//! cycles, forecast in their default attitudes ([`super::ahead`]), keep its components smallest; without a cycle to come it is
-//! reactive.
+//! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the middle of the momenta from which the
+//! coming cycles, forecast in their default attitudes ([`super::ahead`]), can be flown below all thresholds, each coming downlink
+//! with what sunlight can do then; of the physical momentum at the one that keeps X and Z smallest through the next science.
+//! Without a cycle to come it is reactive.
 
 use nalgebra::Vector3;
 
-use super::ahead::{Ahead, Forecast, ScienceAhead};
+use super::ahead::{Ahead, Components, DownlinkAhead, Forecast, ScienceAhead};
 use super::linear::LinearTorque;
-use super::profile::{Reach, best_target};
+use super::profile::{Component, Reach};
 use super::targeting::{Aim, Targeted, Targeting};
 use super::turning::best_turned;
 use crate::guidance::ChosenPlace;
-use crate::momentum::Convention;
+use crate::attitude::{SunAngles, direction_from_angles};
+use crate::momentum::{Convention, DumpPolicy};
 use crate::plant::{ForecastMomentum, Outlook, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
@@ -25,7 +27,7 @@ pub enum Strategy {
     DumpsOnly,
     /// To bring the momentum to one target.
     Reactive,
-    /// To bring it where the coming cycles keep it smallest.
+    /// To bring it where the coming cycles keep it below its thresholds.
     Predictive,
 }
 
@@ -58,9 +60,10 @@ impl SunPlanner for Manager<'_> {
             momentum: outlook.momentum,
             span_s: outlook.span_s,
             torque_body_n_m: &torque,
-            linear: linear.map(|formula| (formula, outlook.pressure_pa)),
+            pressure_pa: outlook.pressure_pa,
+            linear,
         };
-        Ok(self.place(aim, &ahead))
+        Ok(self.place(aim, ahead.as_ref()))
     }
 }
 
@@ -75,21 +78,25 @@ impl Forecast for Outlook<'_> {
         Outlook::cycle_s(self)
     }
 
+    fn downlink_s(&self) -> f64 {
+        Outlook::downlink_s(self)
+    }
+
     fn convention(&self) -> Convention {
         Outlook::convention(self)
     }
 
-    fn threshold_body_n_m_s(&self) -> Vector3<f64> {
-        Outlook::threshold_body_n_m_s(self)
+    fn dump_policy(&self) -> DumpPolicy {
+        Outlook::dump_policy(self)
     }
 
     fn fly(
         &mut self,
-        until_s: f64,
+        times_s: impl Iterator<Item = f64>,
         step_s: f64,
         visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        self.forecast(until_s, step_s, visit)
+        self.forecast(times_s, step_s, visit)
     }
 }
 
@@ -101,23 +108,19 @@ impl Manager<'_> {
         Some(LinearTorque::new(&polynomial, shade.dcm_body_from_shade))
     }
 
-    /// What lies ahead, where targets are predicted from it.
+    /// What lies ahead, where targets are predicted from it; `None` where nothing is to come.
     ///
     /// # Errors
     /// What ends a forecast.
-    pub(super) fn ahead<F: Forecast>(&self, forecast: &mut F) -> Result<Ahead, F::Error> {
-        if self.strategy == Strategy::Predictive {
-            Ahead::of(forecast, self.horizon)
-        } else {
-            Ok(Ahead::default())
-        }
+    pub(super) fn ahead<F: Forecast>(&self, forecast: &mut F) -> Result<Option<Ahead>, F::Error> {
+        if self.strategy == Strategy::Predictive { Ahead::of(forecast, self.horizon) } else { Ok(None) }
     }
 
     /// Where the Sun is to stand for the target predicted from what lies ahead, or else the one target; `None` where no place is
     /// admissible.
-    pub(super) fn place(&self, mut aim: Aim<'_>, ahead: &Ahead) -> Option<ChosenPlace> {
-        let predicted = match (&ahead.science, aim.momentum) {
-            (Some(science), StartMomentum::Inertial(momentum)) => {
+    pub(super) fn place(&self, mut aim: Aim<'_>, ahead: Option<&Ahead>) -> Option<ChosenPlace> {
+        let predicted = match (ahead, aim.momentum) {
+            (Some(Ahead::Science(science)), StartMomentum::Inertial(momentum)) => {
                 // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
                 self.turned(&aim, science).map(|end_body| {
                     let end = science.inertial_from_body * end_body;
@@ -125,28 +128,52 @@ impl Manager<'_> {
                     Vector3::zeros()
                 })
             }
-            _ => self.predicted(&aim, ahead),
+            (Some(Ahead::Components(components)), _) => self.kept(&aim, components),
+            _ => None,
         };
         let targeted = self.targeting.sun_place(&aim, &predicted.unwrap_or(self.target_body_n_m_s));
         targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped })
     }
 
-    /// The target that keeps the momentum of the coming cycles smallest; `None` without such a cycle.
-    fn predicted(&self, aim: &Aim<'_>, ahead: &Ahead) -> Option<Vector3<f64>> {
-        let (along, threshold) = (ahead.swings.along(), &ahead.threshold_body_n_m_s);
-        if along.iter().any(|swings| swings.is_empty()) {
-            return None;
-        }
+    /// The target from which X and Z stay below their thresholds through the coming cycles.
+    fn kept(&self, aim: &Aim<'_>, ahead: &Components) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
-        let [by_x, by_z] = self.targeting.reach(aim)?;
-        let x = best_target(now.x, by_x, along[0], threshold.x);
-        Some(Vector3::new(x, 0.0, best_target(now.z, by_z, along[1], threshold.z)))
+        let torques = self.targeting.torques(aim, aim.separation_rad())?;
+        let default_n_m = (aim.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
+        // What the default attitude adds beside sunlight alone comes in others too.
+        let beside = |downlink: &DownlinkAhead| {
+            let light = default_n_m * (ahead.downlink_s() * downlink.part_of(aim.pressure_pa));
+            [0, 1].map(|axis| downlink.added[axis] - light[axis])
+        };
+        let later = ahead.cycles(|downlink| {
+            let torques = downlink.separation_rad.and_then(|it| self.targeting.torques(aim, it));
+            let light_s = ahead.downlink_s() * downlink.part_of(aim.pressure_pa);
+            let beside = beside(downlink);
+            [0, 1].map(|axis| {
+                let torques_n_m = torques.map_or([default_n_m[axis]; 2], |it| it[axis]);
+                torques_n_m.map(|it| it * light_s + beside[axis])
+            })
+        });
+        let beside = beside(ahead.present());
+        let target = |axis: usize| {
+            let body_axis = 2 * axis;
+            let component = Component {
+                now: now[body_axis] + beside[axis],
+                reach: torques[axis].map(|it| it * aim.span_s),
+                cycles: later[axis].get(..ahead.count()).unwrap_or_default(),
+                path: &ahead.path()[axis],
+                threshold: ahead.policy.threshold_body_n_m_s[body_axis],
+                dumped: |before| ahead.policy.component_after(body_axis, before),
+            };
+            component.target() - beside[axis]
+        };
+        Some(Vector3::new(target(0), 0.0, target(1)))
     }
 
     /// The target that keeps the momentum of the next science smallest.
     fn turned(&self, aim: &Aim<'_>, science: &ScienceAhead) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
-        let reach = self.targeting.reach(aim)?;
+        let reach = self.targeting.torques(aim, aim.separation_rad())?.map(|it| it.map(|torque| torque * aim.span_s));
         let end = science.end_body_n_m_s;
         let range = |axis: usize, reach: Reach, asked: bool| {
             // Under the other antenna the body stands half a turn about the Sun line away.

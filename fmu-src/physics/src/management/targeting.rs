@@ -71,8 +71,10 @@ pub struct Aim<'a> {
     pub span_s: f64,
     /// Torque of sunlight in N m, body frame, with the Sun in this direction of the body frame.
     pub torque_body_n_m: &'a dyn Fn(&Vector3<f64>) -> Vector3<f64>,
-    /// The shade's linear formula and the pressure of sunlight, in Pa; absent without a shade.
-    pub linear: Option<(LinearTorque, f64)>,
+    /// Pressure of that sunlight, in Pa.
+    pub pressure_pa: f64,
+    /// The shade's linear formula; absent without a shade.
+    pub linear: Option<LinearTorque>,
 }
 
 /// The place found.
@@ -99,37 +101,37 @@ impl Targeting {
     /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
     /// or no place is admissible.
     pub fn sun_place(&self, aim: &Aim<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
-        let branches = self.branches(aim)?;
+        let branches = self.branches(aim.separation_rad())?;
         match self.method {
             TargetingMethod::Exact => self.exact(aim, target_body_n_m_s, &branches),
             TargetingMethod::Linear => self.linear(aim, target_body_n_m_s, &branches),
         }
     }
 
-    /// What the downlink can add to X and Z of the momentum at the start, in N m s, with the other angle at 0: least and most.
-    pub fn reach(&self, aim: &Aim<'_>) -> Option<[[f64; 2]; 2]> {
-        let branch = self.branches(aim)?[0];
-        let change = |elevation_rad: f64, azimuth_rad: f64| {
+    /// Least and greatest torque of sunlight about X and Z in N m, the other angle at 0, in a downlink with Sun and Earth this far
+    /// apart; `None` where one of them has no direction.
+    pub fn torques(&self, aim: &Aim<'_>, separation_rad: f64) -> Option<[[f64; 2]; 2]> {
+        let branch = self.branches(separation_rad)?[0];
+        let torque = |elevation_rad: f64, azimuth_rad: f64| {
             let sun_body = direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
-            (aim.torque_body_n_m)(&sun_body) * aim.span_s
+            (aim.torque_body_n_m)(&sun_body)
         };
         let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
         let most_rad = branch.elevation_rad();
         let [low_rad, high_rad] = branch.azimuths_rad(0.0)?;
         Some([
-            sorted(change(-most_rad, 0.0).x, change(most_rad, 0.0).x),
-            sorted(change(0.0, low_rad).z, change(0.0, high_rad).z),
+            sorted(torque(-most_rad, 0.0).x, torque(most_rad, 0.0).x),
+            sorted(torque(0.0, low_rad).z, torque(0.0, high_rad).z),
         ])
     }
 
     /// Momentum at the start in the default downlink attitude, body frame, in N m s.
     pub fn default_momentum(&self, aim: &Aim<'_>) -> Option<Vector3<f64>> {
-        let place = self.branches(aim)?[0].nearest(SunAngles::default())?;
+        let place = self.branches(aim.separation_rad())?[0].nearest(SunAngles::default())?;
         Some(aim.momentum_body_n_m_s(&place))
     }
 
-    fn branches(&self, aim: &Aim<'_>) -> Option<[Branch; 4]> {
-        let separation_rad = angle_between_rad(&aim.to_sun, &aim.to_earth);
+    fn branches(&self, separation_rad: f64) -> Option<[Branch; 4]> {
         // Neither places nor separation is known where one has no direction.
         let has_plane = separation_rad.sin() > 1e-9;
         let limits =
@@ -228,7 +230,7 @@ impl Targeting {
     }
 
     fn linear(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch; 4]) -> Option<Targeted> {
-        let (linear, pressure_pa) = aim.linear.as_ref()?;
+        let linear = aim.linear.as_ref()?;
         let start = branches[0].nearest(SunAngles::default())?;
         let [by_x, by_z] = self.axes.asked();
         let mut change = target - aim.momentum_body_n_m_s(&start);
@@ -238,7 +240,7 @@ impl Targeting {
                 change[component] = 0.0;
             }
         }
-        let asked = linear.sun_angles(&(change / aim.span_s), *pressure_pa, self.axes.asked());
+        let asked = linear.sun_angles(&(change / aim.span_s), aim.pressure_pa, self.axes.asked());
         let wanted = asked.unwrap_or_default();
         let distance_rad = |place: &SunPlace| {
             let to = direction_from_angles(place.angles);
@@ -255,6 +257,11 @@ impl Targeting {
 }
 
 impl Aim<'_> {
+    /// Angle between Sun and Earth, in rad.
+    pub fn separation_rad(&self) -> f64 {
+        angle_between_rad(&self.to_sun, &self.to_earth)
+    }
+
     /// Momentum at the start in the attitude with the Sun at `place`, body frame, in N m s.
     fn momentum_body_n_m_s(&self, place: &SunPlace) -> Vector3<f64> {
         match self.momentum {

@@ -53,16 +53,19 @@ impl DumpPolicy {
     /// The momentum after a dump at `momentum_body_n_m_s`: components above their threshold are set anew, the
     /// others stay.
     pub fn after(&self, momentum_body_n_m_s: &Vector3<f64>) -> Vector3<f64> {
-        Vector3::from_fn(|axis, _| {
-            let (now, threshold) = (momentum_body_n_m_s[axis], self.threshold_body_n_m_s[axis]);
-            if now.abs() - threshold <= EXCEEDED_N_M_S {
-                return now;
-            }
-            match self.reinitialise {
-                Reinitialise::Opposite { fraction } => -now.signum() * fraction * threshold,
-                Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
-            }
-        })
+        Vector3::from_fn(|axis, _| self.component_after(axis, momentum_body_n_m_s[axis]))
+    }
+
+    /// One component after a dump, in N m s.
+    pub fn component_after(&self, axis: usize, before_n_m_s: f64) -> f64 {
+        let threshold_n_m_s = self.threshold_body_n_m_s[axis];
+        if before_n_m_s.abs() - threshold_n_m_s <= EXCEEDED_N_M_S {
+            return before_n_m_s;
+        }
+        match self.reinitialise {
+            Reinitialise::Opposite { fraction } => -before_n_m_s.signum() * fraction * threshold_n_m_s,
+            Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
+        }
     }
 }
 

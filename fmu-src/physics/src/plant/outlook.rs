@@ -13,7 +13,10 @@ use super::radiation_solver::RadiationSolver;
 use super::work::Work;
 use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::{ChosenPlace, Guided};
-use crate::momentum::{Convention, MomentumIntegrator, Totals};
+use crate::momentum::{Convention, DumpPolicy, MomentumIntegrator, Totals};
+
+/// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.
+const FORECAST_TOLERANCE: f64 = 1e-6;
 
 /// Momentum where a downlink begins, in N m s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +51,12 @@ pub struct ForecastMomentum {
     pub time_s: f64,
     /// Whether a downlink lasts then.
     pub downlink: bool,
+    /// Unit vector to the Sun, EME2000.
+    pub to_sun: Vector3<f64>,
+    /// Unit vector to the Earth, EME2000; `None` where its place is not known.
+    pub to_earth: Option<Vector3<f64>>,
+    /// Pressure of sunlight, in Pa, without a shadow.
+    pub pressure_pa: f64,
     /// By the flight's convention, body frame, in N m s.
     pub momentum_body_n_m_s: Vector3<f64>,
     /// The whole, EME2000, in N m s.
@@ -107,13 +116,18 @@ impl Outlook<'_> {
         if self.forecasts { self.law.schedule.cycle_s() } else { f64::INFINITY }
     }
 
-    /// Momentum from here to `until_s`, every `step_s`.
+    /// Length of a downlink, in s.
+    pub fn downlink_s(&self) -> f64 {
+        self.law.schedule.downlink_s()
+    }
+
+    /// Momentum from here on at `times_s`, which do not descend; about `step_s` apart.
     ///
     /// # Errors
     /// What ends a flight.
     pub fn forecast(
         &mut self,
-        until_s: f64,
+        times_s: impl Iterator<Item = f64>,
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
@@ -124,16 +138,15 @@ impl Outlook<'_> {
         // Tolerances shorten what is too coarse.
         configuration.momentum.grid_s = momentum.grid_s.max(step_s);
         configuration.light_and_heat.grid_s = light_and_heat.grid_s.max(step_s);
+        configuration.momentum.tolerance = momentum.tolerance.max(FORECAST_TOLERANCE);
         configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
         let settings = configuration.momentum;
         let mut propagator = self.propagator.clone();
         propagator.cut(configuration, *time_s, true);
         let applied = *applied;
         let mut integrator = MomentumIntegrator::new(*time_s, *totals);
-        let steps = ((until_s - *time_s) / step_s).ceil().max(0.0) as usize;
         let mut flown = Ok(());
-        for step in 0..=steps {
-            let at_s = (*time_s + step as f64 * step_s).min(until_s);
+        for at_s in times_s {
             let mut plant = Plant::new(
                 self.prepared,
                 configuration,
@@ -157,6 +170,9 @@ impl Outlook<'_> {
             visit(ForecastMomentum {
                 time_s: at_s,
                 downlink: instant.regime.downlink,
+                to_sun: instant.geometry.to_sun.position_m.normalize(),
+                to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
+                pressure_pa: plant.pressure_pa(&instant),
                 momentum_body_n_m_s: totals.momentum_body_n_m_s(settings.convention, &inertial_from_body),
                 momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
                 body_from_inertial: inertial_from_body.inverse(),
@@ -172,8 +188,8 @@ impl Outlook<'_> {
         self.configuration.momentum.convention
     }
 
-    /// Magnitude of each component that triggers a dump, in N m s.
-    pub fn threshold_body_n_m_s(&self) -> Vector3<f64> {
-        self.configuration.momentum.policy.threshold_body_n_m_s
+    /// When thrusters dump, and what they leave.
+    pub fn dump_policy(&self) -> DumpPolicy {
+        self.configuration.momentum.policy
     }
 }

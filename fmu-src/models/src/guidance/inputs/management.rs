@@ -66,7 +66,7 @@ pub fn manager<'a>(
         },
         light: v.solar.read(values),
         convention: values.choice(v.momentum.convention).map_or(Convention::Inertial, |it| it.0),
-        threshold_body_n_m_s: Vector3::from(values.vector(v.dump.threshold)),
+        policy: policy(context, values),
         momentum_body_n_m_s: Vector3::from([0.0; 3]),
     })
 }
