@@ -6,6 +6,7 @@ use physics::bodies::surface::{self, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
+use physics::guidance::keep_in::KeepIn;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 
@@ -140,7 +141,8 @@ pub struct GuidedVariables {
     /// From where downlinks are counted.
     #[parameter(start = DownlinkReference::Periapsis)]
     pub downlink_reference: Choice<DownlinkReference>,
-    /// Turn rate between science and downlink attitudes; 0 = at once, as in paper 000.
+    /// Greatest rate of the turn between science and downlink attitudes; 0 = at once, as in paper 000. A turn about one axis,
+    /// or, where that would take the Sun out of the keep-in zone and both ends keep it inside, within the zone.
     #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = 0.0)]
     pub slew_rate: Real,
 }
@@ -192,7 +194,7 @@ pub fn followed(values: &Values, parameter: Real, default: f64, own: f64) -> f64
 
 impl GuidedVariables {
     /// The guidance law of an orbit with this periapsis and period, in s, or of one window after the start, all in s past J2000
-    /// TDB.
+    /// TDB. Science pitches, and turns go, within the zone `keep_in`.
     ///
     /// # Errors
     /// A downlink that ends before it begins.
@@ -202,7 +204,7 @@ impl GuidedVariables {
         periapsis_s: f64,
         period_s: f64,
         start_epoch_s: f64,
-        elevation_limit_rad: f64,
+        keep_in: KeepIn,
     ) -> Result<Guided, Failure> {
         let [start_s, end_s] = [self.downlink_start, self.downlink_end].map(|time| values.real(time));
         if values.integer(self.downlink_every) != 0 && start_s > end_s {
@@ -228,8 +230,9 @@ impl GuidedVariables {
                     guidance::ScienceRule::Scaled { gain: values.real(self.science_gain) }
                 }
             },
-            elevation_limit_rad,
+            elevation_limit_rad: keep_in.elevation_rad,
             slew_rate_rad_s: values.real(self.slew_rate),
+            keep_in: Some(keep_in),
             sun_place: None,
             managed: false,
         })

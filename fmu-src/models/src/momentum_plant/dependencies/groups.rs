@@ -132,7 +132,7 @@ impl Start {
             guided.downlink_every,
             guided.slew_rate
         ];
-        let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation];
+        let law = knowns![guided.science_rule, guided.science_gain, v.keep_in.elevation, v.keep_in.azimuth];
         let guidance = knowns![&sun, law, schedule, v.planet.gravitational_parameter, v.earth.position];
         // A downlink that begins at the start has the Sun where its torque brings the momentum to the target.
         let management = &v.momentum.management;
