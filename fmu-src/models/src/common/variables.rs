@@ -8,6 +8,7 @@ use physics::bodies::surface::{self, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements as KeplerElements;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
+use physics::guidance::keep_in::KeepIn;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 
@@ -176,7 +177,8 @@ pub struct GuidedVariables {
     /// From where downlinks are counted.
     #[parameter(start = DownlinkReference::Periapsis)]
     pub downlink_reference: Choice<DownlinkReference>,
-    /// Turn rate between science and downlink attitudes; 0 = at once, as in paper 000.
+    /// Greatest rate of the turn between science and downlink attitudes; 0 = at once, as in paper 000. A turn about one axis,
+    /// or, where that would take the Sun out of the keep-in zone and both ends keep it inside, within the zone.
     #[parameter(unit = "rad/s", display = "deg/s", min = 0.0, max = 10.0, start = 0.0)]
     pub slew_rate: Real,
 }
@@ -222,7 +224,7 @@ impl EllipseVariables {
 
 impl GuidedVariables {
     /// The guidance law of an orbit with this periapsis and period, in s, or of one window after the start, all in s past J2000
-    /// TDB.
+    /// TDB. Science pitches, and turns go, within the zone `keep_in`.
     ///
     /// # Errors
     /// A downlink that ends before it begins.
@@ -232,7 +234,7 @@ impl GuidedVariables {
         periapsis_s: f64,
         period_s: f64,
         start_epoch_s: f64,
-        elevation_limit_rad: f64,
+        keep_in: KeepIn,
     ) -> Result<Guided, Failure> {
         let [start_s, end_s] = [self.downlink_start, self.downlink_end].map(|time| values.real(time));
         if values.integer(self.downlink_every) != 0 && start_s > end_s {
@@ -258,8 +260,9 @@ impl GuidedVariables {
                     guidance::ScienceRule::Scaled { gain: values.real(self.science_gain) }
                 }
             },
-            elevation_limit_rad,
+            elevation_limit_rad: keep_in.elevation_rad,
             slew_rate_rad_s: values.real(self.slew_rate),
+            keep_in: Some(keep_in),
             sun_place: None,
             managed: false,
         })

@@ -13,6 +13,7 @@ use fmi_export::{
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
+use physics::guidance::delta_v::{BurnPhase, BurnState};
 use physics::guidance::system::{GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries};
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
@@ -48,7 +49,7 @@ pub struct State {
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 3;
+    const STATE_VERSION: u32 = 4;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -148,7 +149,9 @@ impl Model for Guidance {
                     step.start_s, step.end_s
                 )));
             }
+            let burn = *state.system.burn();
             work.spend(0, state.sample(context, values, &fixed, &settings, step.inputs)?);
+            warn_of_missed_burn(context, &burn, state.system.burn());
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
@@ -179,6 +182,21 @@ impl Model for Guidance {
             return Ok(());
         }
         Err(Failure::new(format!("the next sample is due elsewhere than after {time_s:?} s")))
+    }
+}
+
+/// Warns where the burn is missed at this sample and was not at the one before.
+fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState) {
+    match (before.phase(), now.phase()) {
+        (BurnPhase::Waiting { refused: true, .. }, BurnPhase::Waiting { .. }) => {}
+        (_, BurnPhase::Waiting { refused: true, .. }) => context.log.warning(
+            "burn.timedOut: the burn is due and does not begin: the constraints keep its thrust off the aim, or burn.deltaV and \
+             burn.profile give it no direction; it waits for burn.timeout at most",
+        ),
+        (BurnPhase::None | BurnPhase::Waiting { .. }, BurnPhase::Ended { timed_out: true }) => context.log.warning(
+            "burn.timedOut: the burn ended before it began, by another scenario or mode or after waiting for burn.timeout",
+        ),
+        _ => {}
     }
 }
 

@@ -2,7 +2,7 @@
 
 use fmi_export::{Real, Values};
 
-use physics::guidance::delta_v::{BurnPhase, BurnSettings, BurnState};
+use physics::guidance::delta_v::{BurnSettings, BurnState};
 use physics::guidance::system::GuidanceState;
 use physics::management::DumpRequests;
 
@@ -77,7 +77,7 @@ fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &B
     values.set_vector(burn.thrust_estimate, state.thrust_body(settings).into());
     values.set_vector(burn.velocity, (*state.velocity_m_s()).into());
     values.set_vector(burn.velocity_error, state.velocity_error_m_s(settings).into());
-    values.set_boolean(burn.timed_out, state.phase() == BurnPhase::Ended { timed_out: true });
+    values.set_boolean(burn.timed_out, state.is_missed());
 }
 
 /// Time derivative of an output at the last communication point.

@@ -154,7 +154,8 @@ fn before_and_after_a_burn_the_attitude_is_held() {
     let burn = settings(Vector3::new(8.0, -2.0, 1.0));
     let direction = Vector3::new(8.0, -2.0, 1.0).normalize();
     let (waiting, _) = under_way(&burn, 5);
-    assert_eq!(waiting.burn().phase(), BurnPhase::Waiting);
+    assert_eq!(waiting.burn().phase(), BurnPhase::Waiting { since_s: 0.0, refused: false });
+    assert!(!waiting.burn().is_missed());
     let pointed = waiting.command().attitude_at(5.0).to_inertial(&Vector3::z());
     assert!(pointed.angle(&direction) < 1e-12);
     let (ended, _) = under_way(&burn, 150);
@@ -235,5 +236,56 @@ fn no_thrust_without_direction_or_off_the_aim() {
         guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
     }
     assert!(guidance.judgement().sun_keep_in && !guidance.judgement().reachable);
-    assert_eq!(guidance.burn().phase(), BurnPhase::Waiting);
+    assert_eq!(guidance.burn().phase(), BurnPhase::Waiting { since_s: 0.0, refused: true });
+}
+
+#[test]
+fn a_burn_that_cannot_begin_says_so_and_times_out() {
+    let toward_sun = super::moving::value(&surroundings().to_sun()).normalize() * 10.0;
+    let burn = BurnSettings { timeout_s: 20.0, ..settings(toward_sun) };
+    let none = BurnSettings { path: None, ..burn };
+    for burn in [burn, none] {
+        let mut all = guidance_settings(burn);
+        all.modes.operational.keep_in = Some(all.keep_in);
+        let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
+        for second in 0..40 {
+            guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
+            // Due at 5 s.
+            assert_eq!(guidance.burn().is_missed(), second >= 5, "{second}");
+            assert_eq!(guidance.burn().is_requested(), second < 25, "{second}");
+            assert_eq!(guidance.burn().stop_s(), None);
+        }
+        assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: true });
+    }
+    // The zone gives way while the burn waits.
+    let mut all = guidance_settings(BurnSettings { timeout_s: 1e3, ..burn });
+    let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
+    for second in 0..12 {
+        all.modes.operational.keep_in = (second < 9).then_some(all.keep_in);
+        guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
+        assert_eq!(guidance.burn().is_missed(), (5..9).contains(&second), "{second}");
+        assert_eq!(guidance.burn().stop_s().is_some(), second >= 9, "{second}");
+    }
+}
+
+#[test]
+fn a_burn_that_another_scenario_ends_before_it_began_says_so() {
+    let burn = settings(Vector3::x() * 10.0);
+    let all = guidance_settings(burn);
+    let (waiting, inputs) = under_way(&burn, 3);
+    let mut other = inputs;
+    other.command.scenario = Some(super::command::Scenario::Nadir);
+    let mut lost = inputs;
+    lost.sensed.estimate = None;
+    for ending in [other, lost] {
+        let mut guidance = waiting;
+        guidance.sample(&all, &ending, &SunOnMinusY);
+        assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: true });
+        assert!(guidance.burn().is_missed() && !guidance.burn().is_requested());
+        // Commanded anew it is another burn.
+        if ending.sensed.estimate.is_some() {
+            guidance.sample(&all, &inputs, &SunOnMinusY);
+            assert!(!guidance.burn().is_missed() && guidance.burn().is_requested());
+        }
+    }
 }

@@ -38,7 +38,7 @@ fn form(
     vectors: &PointingVectors,
     surroundings: &Surroundings,
 ) -> Option<(Pointing, [i8; 4])> {
-    let found = constraints.applied(vectors, surroundings)?;
+    let found = constraints.applied(vectors, surroundings, None)?;
     let sun_body = found.pointing.to_body(&unit(&surroundings.to_sun())?);
     let edge = constraints.keep_in.filter(|_| found.sun_keep_in).map_or([0; 2], |zone| {
         let SunAngles { azimuth_rad, elevation_rad } = zone.angles(&value(&sun_body)).unwrap();
@@ -52,7 +52,7 @@ fn form(
         found.pointing,
         [
             i8::from(found.sun_keep_in),
-            i8::from(found.hot_pole) + 2 * i8::from(found.hot_pole_reached),
+            i8::from(found.hot_pole.is_some()) + 2 * i8::from(found.hot_pole_reached),
             azimuth,
             elevation,
         ],

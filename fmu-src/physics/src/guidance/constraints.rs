@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::hot_pole::HotPole;
+use super::hot_pole::{HotPole, TurnSide};
 use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
 use super::surroundings::Surroundings;
@@ -23,18 +23,20 @@ pub struct ConstrainedPointing {
     pub pointing: Pointing,
     /// Whether the vectors were exchanged to keep the Sun in (Table 6).
     pub sun_keep_in: bool,
-    /// Whether the attitude was turned about the Sun line.
-    pub hot_pole: bool,
+    /// Where a turn about the Sun line ends; `None`: the attitude was not turned.
+    pub hot_pole: Option<TurnSide>,
     /// Whether the hot-pole cone is kept; where no turn about the Sun line reaches its boundary the attitude is the best.
     pub hot_pole_reached: bool,
 }
 
 impl Constraints {
     /// The attitude of `vectors`, constrained; `None` where boresight, aimpoint, zone axis or Sun has no direction.
+    /// `last_turn` is the side of a turn away from the hot pole that lasts.
     pub fn applied(
         &self,
         vectors: &PointingVectors,
         surroundings: &Surroundings,
+        last_turn: Option<TurnSide>,
     ) -> Option<ConstrainedPointing> {
         let (pointing, sun_keep_in) = match &self.keep_in {
             Some(zone) => {
@@ -47,15 +49,15 @@ impl Constraints {
             return Some(ConstrainedPointing {
                 pointing,
                 sun_keep_in,
-                hot_pole: false,
+                hot_pole: None,
                 hot_pole_reached: true,
             });
         };
-        let kept = cone.constrained(&pointing, surroundings);
+        let kept = cone.constrained(&pointing, surroundings, last_turn);
         Some(ConstrainedPointing {
             pointing: kept.pointing,
             sun_keep_in,
-            hot_pole: kept.in_force,
+            hot_pole: kept.side,
             hot_pole_reached: kept.reached,
         })
     }

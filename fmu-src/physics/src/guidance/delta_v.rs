@@ -13,7 +13,7 @@
 //! the path, predicted from the estimated acceleration: the greater of the last two intervals', since thrust may fill a part
 //! of one; before there is any, the nominal one. Paper 001 says that the secondary pair -Y and Sun is not relied on for Sun
 //! safety, since the mission's design keeps burns inside the keep-in zone: constraints hold as in any scenario, but a burn
-//! does not begin while they keep the thrust off its aim.
+//! does not begin while they keep the thrust off its aim. It waits as long as thrust may last, then its time is up.
 
 use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -76,7 +76,12 @@ pub enum BurnPhase {
     #[default]
     None,
     /// The thrust is pointed at the beginning of the path.
-    Waiting,
+    Waiting {
+        /// Since when, in s.
+        since_s: f64,
+        /// Whether it is due and the constraints keep the thrust off its aim, or there is no direction to aim at.
+        refused: bool,
+    },
     /// Thrust since this time, in s, until a time in s that is predicted anew at each sample.
     Burning {
         /// Since when.
@@ -86,7 +91,7 @@ pub enum BurnPhase {
     },
     /// It is over; what it found stays.
     Ended {
-        /// Whether its time was up before its magnitude.
+        /// Whether its time was up before its magnitude, or it ended before it began.
         timed_out: bool,
     },
 }
@@ -150,7 +155,7 @@ impl BurnState {
 
     /// Whether thrusters are asked for.
     pub fn is_requested(&self) -> bool {
-        matches!(self.phase, BurnPhase::Waiting | BurnPhase::Burning { .. })
+        matches!(self.phase, BurnPhase::Waiting { .. } | BurnPhase::Burning { .. })
     }
 
     /// When thrust ends, in s; `None` without thrust.
@@ -182,6 +187,7 @@ impl BurnState {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let times = match self.phase {
             BurnPhase::Burning { since_s, stop_s } => sound(&since_s) && sound(&stop_s),
+            BurnPhase::Waiting { since_s, .. } => sound(&since_s),
             _ => true,
         };
         let last = self.last.as_ref().is_none_or(|last| {
@@ -194,11 +200,12 @@ impl BurnState {
 
     /// Whether a burn is commanded now; `is_new`: by a command other than the last sample's. What is commanded no longer
     /// ends, what is commanded anew begins anew.
-    pub fn command(&mut self, is_commanded: bool, is_new: bool) {
+    pub fn command(&mut self, is_commanded: bool, is_new: bool, time_s: f64) {
         let begins = is_commanded && (is_new || !self.is_commanded);
         self.is_commanded = is_commanded;
         if begins {
-            *self = Self { phase: BurnPhase::Waiting, is_commanded, last: self.last, ..Self::default() };
+            let phase = BurnPhase::Waiting { since_s: time_s, refused: false };
+            *self = Self { phase, is_commanded, last: self.last, ..Self::default() };
         } else if !is_commanded {
             self.end();
         }
@@ -207,17 +214,32 @@ impl BurnState {
     /// Ends what is commanded or under way; it does not begin again by itself.
     pub fn end(&mut self) {
         if self.is_requested() {
-            self.phase = BurnPhase::Ended { timed_out: false };
+            self.phase = BurnPhase::Ended { timed_out: matches!(self.phase, BurnPhase::Waiting { .. }) };
         }
     }
 
-    /// Begins thrust at `time_s` where a burn waits and its time has come.
-    pub fn begin(&mut self, settings: &BurnSettings, time_s: f64) {
-        let Some(path) = settings.path.filter(|_| self.phase == BurnPhase::Waiting) else { return };
-        if time_s >= settings.start_s {
-            let stop_s = self.predicted_stop_s(settings, &path, time_s, time_s);
-            self.phase = BurnPhase::Burning { since_s: time_s, stop_s };
+    /// Begins thrust at `time_s` where a burn waits, its time has come and `is_aimed` says that the thrust is on its aim.
+    pub fn begin(&mut self, settings: &BurnSettings, time_s: f64, is_aimed: bool) {
+        let BurnPhase::Waiting { since_s, .. } = self.phase else { return };
+        if time_s < settings.start_s {
+            return;
         }
+        self.phase = match settings.path.filter(|_| is_aimed) {
+            Some(path) => {
+                let stop_s = self.predicted_stop_s(settings, &path, time_s, time_s);
+                BurnPhase::Burning { since_s: time_s, stop_s }
+            }
+            None if time_s >= since_s.max(settings.start_s) + settings.timeout_s => {
+                BurnPhase::Ended { timed_out: true }
+            }
+            None => BurnPhase::Waiting { since_s, refused: true },
+        };
+    }
+
+    /// Whether the last burn was refused or ended before its magnitude was reached: it is due and cannot begin, its time was
+    /// up, or something else was commanded before it began.
+    pub fn is_missed(&self) -> bool {
+        matches!(self.phase, BurnPhase::Waiting { refused: true, .. } | BurnPhase::Ended { timed_out: true })
     }
 
     /// Takes in what is measured at a sample; `None` while there is no estimate.

@@ -188,7 +188,9 @@ pub struct LinkLimits {
 pub struct Link {
     /// Angle between Sun and Earth seen from the spacecraft, in rad.
     pub sun_separation_rad: f64,
-    /// Whether the Earth is in the beam's fan and the antenna's coverage, far enough from the Sun and not behind the planet.
+    /// Whether the Earth is in the beam's fan and the antenna's coverage.
+    pub covered: bool,
+    /// Whether it is, far enough from the Sun and not behind the planet.
     pub available: bool,
 }
 
@@ -210,10 +212,10 @@ pub fn link(
             && beam.off_rad(azimuth_rad) <= FAN_HALF_LENGTH_RAD
             && nearest.is_some_and(|nearest| nearest.outside_rad <= coverage_rad)
     };
-    let available = beam.is_some_and(is_covered)
-        && sun_separation_rad > limits.sun_separation_rad
-        && !behind_planet(surroundings, &earth);
-    Some(Link { sun_separation_rad, available })
+    let covered = beam.is_some_and(is_covered);
+    let available =
+        covered && sun_separation_rad > limits.sun_separation_rad && !behind_planet(surroundings, &earth);
+    Some(Link { sun_separation_rad, covered, available })
 }
 
 /// Whether the line to the Earth meets the sphere of the planet's greatest radius on its way.

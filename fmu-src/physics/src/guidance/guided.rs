@@ -1,10 +1,12 @@
 //! The guided attitude over a whole orbit phase: science, downlink, and the slews between them.
 
-use crate::attitude::{MovingFrame, rotation_vector};
+use crate::attitude::MovingFrame;
 
 use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, downlink_toward, science};
 use super::downlink::SunPlace;
+use super::keep_in::KeepIn;
 use super::schedule::{Activity, Schedule, Window};
+use super::slew::{Slew, SlewStart};
 
 /// The guidance law of the orbital phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +19,8 @@ pub struct Guided {
     pub elevation_limit_rad: f64,
     /// Turn rate between the two attitudes, in rad/s; 0 = at once, as in paper 000.
     pub slew_rate_rad_s: f64,
+    /// Zone that turns do not leave where it holds both ends; `None`: they go about one axis.
+    pub keep_in: Option<KeepIn>,
     /// Where the Sun stands during the present downlink, and during the slew out of it; `None`: on -Y.
     pub sun_place: Option<SunPlace>,
     /// Whether that place is chosen anew where a downlink begins.
@@ -52,7 +56,8 @@ impl Guided {
         time_s: f64,
         mut lines_at: impl FnMut(f64) -> LinesOfSight,
     ) -> GuidedAttitude {
-        let target = self.command(window.activity, &lines_at(time_s));
+        let lines = lines_at(time_s);
+        let target = self.command(window.activity, &lines);
         let held = GuidedAttitude {
             frame: target.frame,
             window,
@@ -63,9 +68,8 @@ impl Guided {
         if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
             return held;
         }
-        // No turn takes longer than half a revolution.
         let elapsed_s = time_s - window.since_s;
-        if elapsed_s >= core::f64::consts::PI / self.slew_rate_rad_s {
+        if elapsed_s >= self.longest_turn_rad() / self.slew_rate_rad_s {
             return held;
         }
         let before = match window.activity {
@@ -75,19 +79,42 @@ impl Guided {
         let lines_then = lines_at(window.since_s);
         let from = self.command(before, &lines_then).frame;
         let to = self.command(window.activity, &lines_then).frame;
-        // The rotation that leads back from the new attitude to the old one, shrinking to nothing.
-        let back_body_rad = rotation_vector(&to.inertial_from_body, &from.inertial_from_body);
-        let duration_s = back_body_rad.norm() / self.slew_rate_rad_s;
+        let start = SlewStart {
+            from: &from,
+            to: &to,
+            to_sun: lines_then.sun.direction,
+            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then),
+        };
+        let slew = Slew::between(&start, self.keep_in.as_ref(), self.slew_rate_rad_s);
+        let duration_s = slew.length_rad() / self.slew_rate_rad_s;
         if elapsed_s >= duration_s {
             return held;
         }
         let left = 1.0 - elapsed_s / duration_s;
         GuidedAttitude {
-            frame: target.frame.offset(&back_body_rad, left, -1.0 / duration_s),
+            frame: slew.frame(&target.frame, &lines.sun, left, -1.0 / duration_s),
             slewing: true,
             until_s: held.until_s.min(window.since_s + duration_s),
             ..held
         }
+    }
+
+    /// No turn is longer: half a revolution about one axis or about the Sun line, and across the zone.
+    fn longest_turn_rad(&self) -> f64 {
+        let across_rad = self.keep_in.map_or(0.0, |zone| 2.0 * (zone.azimuth_rad + zone.elevation_rad));
+        core::f64::consts::PI + across_rad
+    }
+
+    /// Bound of the rate at which the Sun moves in the body frame during a turn to an attitude, in rad/s: twice what the lines
+    /// of sight allow where the turn begins.
+    fn sun_drift_rad_s(&self, activity: Activity, lines: &LinesOfSight) -> f64 {
+        let gain = match (activity, self.science) {
+            (Activity::Downlink, _) => return 0.0,
+            (Activity::Science, ScienceRule::Scaled { gain }) => gain.abs(),
+            (Activity::Science, ScienceRule::Nadir | ScienceRule::PlanetOrbit) => 1.0,
+        };
+        let planet_rad_s = lines.planet.map_or(0.0, |planet| planet.rate_1_s.norm());
+        2.0 * gain * (planet_rad_s + lines.sun.rate_1_s.norm())
     }
 
     fn command(&self, activity: Activity, lines: &LinesOfSight) -> AttitudeCommand {
@@ -105,7 +132,7 @@ impl Guided {
 mod tests {
     //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
     use super::*;
-    use crate::attitude::{MovingUnit, SunAngles};
+    use crate::attitude::{MovingUnit, SunAngles, rotation_vector};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
@@ -136,6 +163,7 @@ mod tests {
             science: ScienceRule::Nadir,
             elevation_limit_rad: 0.2,
             slew_rate_rad_s,
+            keep_in: None,
             sun_place: None,
             managed: false,
         }

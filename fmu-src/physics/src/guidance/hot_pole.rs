@@ -3,10 +3,12 @@
 //! The attitude is turned about the Sun line, which leaves the Sun where the keep-in zone has it. With s the Sun, n the
 //! planet's centre and v = -Z, unit vectors in the body frame, a turn by phi has
 //! cos(v, n) = (s.v)(s.n) + a cos phi + b sin phi, a = v.n - (s.v)(s.n), b = (s x v).n,
-//! so that the boundary lies at phi = atan2(b, a) +- acos(c / m), c = cos(cone) - (s.v)(s.n), m = hypot(a, b); of both the
-//! smaller turn is taken. Where c < -m none reaches the boundary and the best is atan2(b, a) +- pi.
+//! so that the boundary lies at phi = atan2(b, a) +- acos(c / m), c = cos(cone) - (s.v)(s.n), m = hypot(a, b). Where the turn
+//! begins the smaller of both is taken; while it lasts it stays on its side, though the other turn becomes the smaller one.
+//! Where c < -m none reaches the boundary and the best is atan2(b, a) +- pi, where both sides meet.
 
 use nalgebra::{ComplexField, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::law::Pointing;
 use super::moving::{Moving, PARALLEL_RAD, fixed, unit, value};
@@ -35,13 +37,22 @@ pub struct HotPole {
     pub cone_rad: f64,
 }
 
+/// On which side of the top deck's nearest approach to the planet a turn about the Sun line ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TurnSide {
+    /// At atan2(b, a) + acos(c / m).
+    Ahead,
+    /// At atan2(b, a) - acos(c / m).
+    Behind,
+}
+
 /// An attitude that keeps the cone, or comes as near to it as turning about the Sun line allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KeptOut {
     /// The attitude.
     pub pointing: Pointing,
-    /// Whether the cone would have been violated.
-    pub in_force: bool,
+    /// Where the turn ends; `None`: the cone would not have been violated.
+    pub side: Option<TurnSide>,
     /// Whether the cone is kept.
     pub reached: bool,
 }
@@ -68,9 +79,14 @@ impl HotPole {
     }
 
     /// `pointing` turned about the Sun line until the cone is kept; unchanged where it is, outside the region, and where
-    /// planet or Sun has no direction.
-    pub fn constrained(&self, pointing: &Pointing, surroundings: &Surroundings) -> KeptOut {
-        let free = KeptOut { pointing: *pointing, in_force: false, reached: true };
+    /// planet or Sun has no direction. `last` is the side of a turn that lasts.
+    pub fn constrained(
+        &self,
+        pointing: &Pointing,
+        surroundings: &Surroundings,
+        last: Option<TurnSide>,
+    ) -> KeptOut {
+        let free = KeptOut { pointing: *pointing, side: None, reached: true };
         if !self.in_region(surroundings) {
             return free;
         }
@@ -87,9 +103,12 @@ impl HotPole {
         let along = sun_body.dot(&deck) * sun_body.dot(&planet_body);
         let (a, b) = (deck.dot(&planet_body) - along, sun_body.cross(&deck).dot(&planet_body));
         let c = Moving::constant(self.cone_rad.cos()) - along;
+        // With Sun, deck and planet in one plane either sense is as far; rounding does not choose it.
+        let smaller = if b.re < -PARALLEL_RAD { TurnSide::Ahead } else { TurnSide::Behind };
+        let side = last.unwrap_or(smaller);
         if libm::hypot(a.re, b.re) < PARALLEL_RAD {
             // Planet or deck on the Sun line: no turn changes the angle.
-            return KeptOut { in_force: true, reached: false, ..free };
+            return KeptOut { side: Some(side), reached: false, ..free };
         }
         let m = (a * a + b * b).sqrt();
         let farthest = Moving::polar_angle(b, a);
@@ -100,9 +119,11 @@ impl HotPole {
         } else {
             Moving::constant(if reached { 0.0 } else { core::f64::consts::PI })
         };
-        // With Sun, deck and planet in one plane either sense is as far; rounding does not choose it.
-        let turn = if b.re < -PARALLEL_RAD { farthest + opening } else { farthest - opening };
-        KeptOut { pointing: pointing.turned(&sun_body, turn), in_force: true, reached }
+        let turn = match side {
+            TurnSide::Ahead => farthest + opening,
+            TurnSide::Behind => farthest - opening,
+        };
+        KeptOut { pointing: pointing.turned(&sun_body, turn), side: Some(side), reached }
     }
 }
 
@@ -112,7 +133,7 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::super::law::PointingVectors;
-    use super::super::moving::{MovingVector, moving};
+    use super::super::moving::{MovingMatrix, MovingVector, moving};
     use super::super::surroundings::TargetPlanet;
     use super::super::test_geometry::{Motion, Random, difference_rad_s};
     use super::*;
@@ -147,8 +168,8 @@ mod tests {
                 body_roll: fixed(-Vector3::z()),
                 external_roll: fixed(-up),
             };
-            let kept = pole.constrained(&vectors.pointing().unwrap(), &s);
-            assert!(kept.in_force);
+            let kept = pole.constrained(&vectors.pointing().unwrap(), &s, None);
+            assert!(kept.side.is_some());
             kept.pointing.frame().inertial_from_body
         };
         let exact = at(Vector3::zeros());
@@ -174,13 +195,13 @@ mod tests {
             let around = surroundings(vector(), vector());
             let cone = HotPole { cone_rad: random.within(0.1, 3.0), ..EVERYWHERE };
             let free = vectors.pointing().unwrap();
-            let kept = cone.constrained(&free, &around);
+            let kept = cone.constrained(&free, &around, None);
             let body = |pointing: &Pointing, v: MovingVector| value(&pointing.to_body(&unit(&v).unwrap()));
             let shift = body(&kept.pointing, around.to_sun()) - body(&free, around.to_sun());
             worst[0].set(worst[0].get().max(shift.norm()));
             let off_rad =
                 |pointing: &Pointing| angle_between_rad(&-Vector3::z(), &body(pointing, around.to_planet()));
-            if !kept.in_force {
+            if kept.side.is_none() {
                 assert!(off_rad(&free) >= cone.cone_rad && kept.pointing == free && kept.reached);
                 seen[0] += 1;
                 continue;
@@ -224,8 +245,8 @@ mod tests {
                 let [boresight_body, aimpoint, body_roll, external_roll, position, sun] =
                     motions.map(|motion| motion.at(time_s));
                 let vectors = PointingVectors { boresight_body, aimpoint, body_roll, external_roll };
-                let kept = cone.constrained(&vectors.pointing()?, &surroundings(position, sun));
-                kept.in_force.then_some(kept)
+                let kept = cone.constrained(&vectors.pointing()?, &surroundings(position, sun), None);
+                kept.side.map(|_| kept)
             };
             let Some(kept) = at(0.0) else { continue };
             let found = kept.pointing.frame().rate_body_rad_s;
@@ -249,6 +270,32 @@ mod tests {
             compared += 1;
         }
         assert!(compared > 1500 && switching < 200, "{compared} {switching}");
+    }
+
+    #[test]
+    fn a_turn_that_lasts_keeps_its_side_and_moves_steadily() {
+        // The planet passes the plane of Sun and deck, and far from it: the smaller turn changes its sense twice.
+        let cone = HotPole { cone_rad: 1.9, ..EVERYWHERE };
+        let pointing = Pointing { inertial_from_body: MovingMatrix::identity(), degenerate: false };
+        let kept_at = |step: i32, last: Option<TurnSide>| {
+            let angle_rad = 0.7 * (f64::from(step) * 1e-3 * PI).sin();
+            let planet = Vector3::new(angle_rad.sin(), 0.3, -angle_rad.cos());
+            let around = surroundings(fixed(-planet), fixed(-Vector3::y()));
+            cone.constrained(&pointing, &around, last)
+        };
+        let axes = |kept: &KeptOut| kept.pointing.frame().inertial_from_body;
+        let (mut last, mut greatest_rad, mut memoryless_rad) = (kept_at(0, None), 0.0_f64, 0.0_f64);
+        let mut fresh = last;
+        for step in 1..4000 {
+            let next = kept_at(step, last.side);
+            assert!(next.side == last.side && next.side.is_some() && next.reached);
+            greatest_rad = greatest_rad.max((axes(&last).inverse() * axes(&next)).angle());
+            let next_fresh = kept_at(step, None);
+            memoryless_rad = memoryless_rad.max((axes(&fresh).inverse() * axes(&next_fresh)).angle());
+            (last, fresh) = (next, next_fresh);
+        }
+        assert!(greatest_rad < 4e-3, "{greatest_rad}");
+        assert!(memoryless_rad > 2.0, "{memoryless_rad}");
     }
 
     #[test]
@@ -280,7 +327,7 @@ mod tests {
         ] {
             let around = around(height_m, angle_rad);
             assert_eq!(cone.in_region(&around), expected);
-            assert_eq!(cone.constrained(&pointing(&around), &around).in_force, expected);
+            assert_eq!(cone.constrained(&pointing(&around), &around, None).side.is_some(), expected);
         }
     }
 }

@@ -21,6 +21,9 @@ use crate::numerics::scalar::Scalar;
 /// Distance from the Sun, in m, inside which the spacecraft has to hide behind its sunshade in cruise: 0.85 AU.
 pub const DISTANCE_M: f64 = 0.85 * ASTRONOMICAL_UNIT_M;
 
+/// A Sun this little outside counts as inside, in rad: laws that put it on the boundary leave it there within rounding.
+pub const BOUNDARY_RAD: f64 = 1e-12;
+
 /// Which boundary point takes the place of a Sun outside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KeepInMethod {
@@ -90,7 +93,7 @@ impl KeepIn {
         let body_from_zone = fixed_matrix(&self.body_from_zone()?);
         let sun = body_from_zone.tr_mul(sun_body);
         let now = SunAngles::of(&value(&sun));
-        if now.keep_in_margin_rad(self.azimuth_rad, self.elevation_rad) >= 0.0 {
+        if now.keep_in_margin_rad(self.azimuth_rad, self.elevation_rad) >= -BOUNDARY_RAD {
             return Some(None);
         }
         // What lies on an axis within rounding takes the positive side, and an azimuth of 0.
@@ -124,8 +127,40 @@ impl KeepIn {
         Some(Some(body_from_zone * direction(azimuth * azimuth_sign, elevation * elevation_sign)))
     }
 
+    /// How near a direction that starts at the unit vector `from_body` and turns by `turn_body_rad` comes to the boundary:
+    /// the least distance to its planes, of azimuth through Z and of elevation across it; negative where it goes beyond.
+    pub(super) fn least_margin_on_turn(
+        &self,
+        body_from_zone: &Matrix3<f64>,
+        from_body: &Vector3<f64>,
+        turn_body_rad: &Vector3<f64>,
+    ) -> f64 {
+        let [from, turn] = [from_body, turn_body_rad].map(|body| body_from_zone.tr_mul(body));
+        let angle_rad = turn.norm();
+        let axis = turn.try_normalize(0.0).unwrap_or_default();
+        let along = axis * axis.dot(&from);
+        let (across, ahead) = (from - along, axis.cross(&from));
+        let (sin_a, cos_a) = self.azimuth_rad.sin_cos();
+        let up = self.elevation_rad.sin();
+        let planes = [
+            (Vector3::new(-cos_a, -sin_a, 0.0), 0.0),
+            (Vector3::new(cos_a, -sin_a, 0.0), 0.0),
+            (Vector3::z(), up),
+            (-Vector3::z(), up),
+        ];
+        let least = planes.map(|(normal, offset)| {
+            // The distance after a turn by phi is mean + c cos(phi) + s sin(phi).
+            let (mean, c, s) = (offset + normal.dot(&along), normal.dot(&across), normal.dot(&ahead));
+            let lowest_rad = libm::atan2(-s, -c).rem_euclid(core::f64::consts::TAU);
+            let (sin_end, cos_end) = angle_rad.sin_cos();
+            let at_ends = (mean + c).min(mean + c * cos_end + s * sin_end);
+            if lowest_rad < angle_rad { at_ends.min(mean - libm::hypot(c, s)) } else { at_ends }
+        });
+        least.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// From the zone's frame to the body's: the smallest rotation that takes -Y to the axis.
-    fn body_from_zone(&self) -> Option<Matrix3<f64>> {
+    pub(super) fn body_from_zone(&self) -> Option<Matrix3<f64>> {
         let axis = value(&unit(&fixed(self.axis_body))?);
         // The rotation's axis times the sine of its angle: -Y x axis.
         let normal = Vector3::new(-axis.z, 0.0, axis.x);

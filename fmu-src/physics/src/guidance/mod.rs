@@ -14,6 +14,8 @@ pub mod constraints;
 pub mod delta_v;
 pub mod downlink;
 mod downlink_sun;
+#[cfg(test)]
+mod flight_tests;
 mod guided;
 pub mod hot_pole;
 pub mod keep_in;
@@ -36,6 +38,7 @@ pub mod scenario;
 #[cfg(test)]
 mod scenario_tests;
 mod schedule;
+mod slew;
 pub mod surroundings;
 pub mod system;
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Scan patterns on top of a pointing (paper 001, "Scan patterns"): motion of each axis, five frames, compatibility.
 //!
 //! Each axis moves at its constant rate for its duration, holds for its pause and moves again, back where it reverses, as
-//! often as it has segments (0: without end); then it holds. At a corner the motion that begins counts. Rotations are
+//! often as it has segments (0: without end); then it holds. At a corner, and within the tolerance of time before it, the
+//! motion that begins counts. Rotations are
 //! right-handed about x, y and z of the frame in turn, the axes staying where they are: Rz Ry Rx. A scan in the body frame
 //! turns the boresight, one in any other frame moves the aim; the attitude law stays as it is.
 
@@ -13,6 +14,7 @@ use super::command::{ScanCommand, ScanFrame};
 use super::lvlh::lvlh_axes;
 use super::moving::{Moving, MovingMatrix, MovingVector, rotation_about};
 use super::surroundings::Surroundings;
+use crate::numerics::spacing::spacing;
 
 /// Which scan frames go with which kind of aim. The paper prints no matrix; the default is an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,35 +57,44 @@ pub struct Scanned {
     pub toward: MovingVector,
 }
 
-/// The moved vectors `elapsed_s` into a scan; `None` where its frame does not exist.
-type ScanLaw = fn(&Scanned, &ScanCommand, &Surroundings, f64) -> Option<Scanned>;
+/// How far a scan is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScanTime {
+    /// Since it began, in s.
+    pub elapsed_s: f64,
+    /// What the two times are rounded to that it is the difference of, in s: a corner so near counts as reached.
+    pub tolerance_s: f64,
+}
+
+/// The moved vectors at a time of a scan; `None` where its frame does not exist.
+type ScanLaw = fn(&Scanned, &ScanCommand, &Surroundings, ScanTime) -> Option<Scanned>;
 
 /// Every frame and its law, in the order of [`ScanFrame`].
 pub const SCANS: [(ScanFrame, ScanLaw); 5] = [
-    (ScanFrame::Body, |basic, command, _, elapsed_s| {
-        Some(Scanned { boresight_body: rotation(command, elapsed_s) * basic.boresight_body, ..*basic })
+    (ScanFrame::Body, |basic, command, _, time| {
+        Some(Scanned { boresight_body: rotation(command, time) * basic.boresight_body, ..*basic })
     }),
-    (ScanFrame::InertialRotation, |basic, command, _, elapsed_s| {
-        Some(Scanned { toward: rotation(command, elapsed_s) * basic.toward, ..*basic })
+    (ScanFrame::InertialRotation, |basic, command, _, time| {
+        Some(Scanned { toward: rotation(command, time) * basic.toward, ..*basic })
     }),
-    (ScanFrame::InertialTranslation, |basic, command, _, elapsed_s| {
-        Some(Scanned { toward: basic.toward + translation_m(command, elapsed_s), ..*basic })
+    (ScanFrame::InertialTranslation, |basic, command, _, time| {
+        Some(Scanned { toward: basic.toward + translation_m(command, time), ..*basic })
     }),
-    (ScanFrame::PlanetTranslation, |basic, command, surroundings, elapsed_s| {
+    (ScanFrame::PlanetTranslation, |basic, command, surroundings, time| {
         let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
-        let offset = planet_from_inertial.tr_mul(&translation_m(command, elapsed_s));
+        let offset = planet_from_inertial.tr_mul(&translation_m(command, time));
         Some(Scanned { toward: basic.toward + offset, ..*basic })
     }),
-    (ScanFrame::LvlhRotation, |basic, command, surroundings, elapsed_s| {
+    (ScanFrame::LvlhRotation, |basic, command, surroundings, time| {
         let inertial_from_lvlh = lvlh_axes(surroundings, command.reference.unwrap_or_default())?;
         // The change alone is turned back: a turn by nothing then changes no bit.
-        let change = rotation(command, elapsed_s) - MovingMatrix::identity();
+        let change = rotation(command, time) - MovingMatrix::identity();
         let moved = inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&basic.toward));
         Some(Scanned { toward: basic.toward + moved, ..*basic })
     }),
 ];
 
-/// The boresight and aim of a scan `elapsed_s` after it began; `None` where none is commanded, it does not go with the aim,
+/// The boresight and aim at a time of a scan; `None` where none is commanded, it does not go with the aim,
 /// or the moved aim has no direction: then the basic pointing stands.
 pub fn scanned(
     boresight_body: &MovingVector,
@@ -91,20 +102,22 @@ pub fn scanned(
     command: &ScanCommand,
     surroundings: &Surroundings,
     compatibility: &ScanCompatibility,
-    elapsed_s: f64,
+    time: ScanTime,
 ) -> Option<Scanned> {
     let frame = command.frame.filter(|frame| compatibility.allows(*frame, aim.kind))?;
     let (_, law) = SCANS.iter().find(|(of, _)| *of == frame)?;
     let basic = Scanned { boresight_body: *boresight_body, toward: aim.toward };
-    let moved = law(&basic, command, surroundings, elapsed_s)?;
+    let moved = law(&basic, command, surroundings, time)?;
     Aim::new(moved.toward, aim.kind).is_some().then_some(moved)
 }
 
 /// Where one axis is, and its rate: `speed` per second in each motion.
-pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, elapsed_s: f64) -> Moving {
+pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, time: ScanTime) -> Moving {
+    let elapsed_s = time.elapsed_s;
+    let tolerance_s = time.tolerance_s + 4.0 * spacing(elapsed_s);
     let duration_s = command.duration_s[axis];
     let pause_s = command.pause_s[axis].max(0.0);
-    let moves = duration_s > 0.0 && elapsed_s >= 0.0 && speed != 0.0;
+    let moves = duration_s > 0.0 && elapsed_s >= -tolerance_s && speed != 0.0;
     if !moves {
         return Moving::from_re(0.0);
     }
@@ -112,9 +125,9 @@ pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, elapsed_s: f6
     let start_of = |cycle: f64| if cycle > 0.0 { cycle * cycle_s } else { 0.0 };
     let mut cycle = (elapsed_s / cycle_s).floor();
     // The division may round across an edge that the product puts exactly.
-    if elapsed_s < start_of(cycle) {
+    if elapsed_s < start_of(cycle) - tolerance_s {
         cycle -= 1.0;
-    } else if elapsed_s >= start_of(cycle + 1.0) {
+    } else if elapsed_s >= start_of(cycle + 1.0) - tolerance_s {
         cycle += 1.0;
     }
     let back = command.reverse[axis];
@@ -133,8 +146,9 @@ pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, elapsed_s: f6
         return Moving::from_re(speed * net_s(segments));
     }
     let sign = if back && cycle % 2.0 == 1.0 { -1.0 } else { 1.0 };
-    let phase_s = elapsed_s - start_of(cycle);
-    if elapsed_s < start_of(cycle) + duration_s {
+    let since_corner_s = elapsed_s - start_of(cycle);
+    let phase_s = if since_corner_s > tolerance_s { since_corner_s } else { 0.0 };
+    if phase_s < duration_s - tolerance_s {
         Moving::new(speed * (net_s(cycle) + sign * phase_s), sign * speed)
     } else {
         Moving::from_re(speed * net_s(cycle + 1.0))
@@ -142,17 +156,16 @@ pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, elapsed_s: f6
 }
 
 /// Rz Ry Rx; axes that do not turn are left out.
-fn rotation(command: &ScanCommand, elapsed_s: f64) -> MovingMatrix {
+fn rotation(command: &ScanCommand, time: ScanTime) -> MovingMatrix {
     let mut turned = MovingMatrix::identity();
     for axis in (0..3).filter(|axis| command.rate_rad_s[*axis] != 0.0) {
-        turned =
-            rotation_about(axis, axis_offset(command, axis, command.rate_rad_s[axis], elapsed_s)) * turned;
+        turned = rotation_about(axis, axis_offset(command, axis, command.rate_rad_s[axis], time)) * turned;
     }
     turned
 }
 
-fn translation_m(command: &ScanCommand, elapsed_s: f64) -> MovingVector {
-    Vector3::from_fn(|axis, _| axis_offset(command, axis, command.speed_m_s[axis], elapsed_s))
+fn translation_m(command: &ScanCommand, time: ScanTime) -> MovingVector {
+    Vector3::from_fn(|axis, _| axis_offset(command, axis, command.speed_m_s[axis], time))
 }
 
 #[cfg(test)]
@@ -164,6 +177,10 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
     use core::f64::consts::FRAC_PI_2;
+
+    fn exact(elapsed_s: f64) -> ScanTime {
+        ScanTime { elapsed_s, tolerance_s: 0.0 }
+    }
 
     fn pattern(duration_s: f64, pause_s: f64, segments: u32, reverse: bool) -> ScanCommand {
         ScanCommand {
@@ -213,7 +230,7 @@ mod tests {
                     let command = pattern(duration_s, pause_s, segments, reverse);
                     for eighth in 0..600 {
                         let at_s = f64::from(eighth) * 0.125;
-                        let found = axis_offset(&command, 0, 0.25, at_s);
+                        let found = axis_offset(&command, 0, 0.25, exact(at_s));
                         let (offset, rate) = stepped(&command, 0.25, at_s);
                         assert_eq!((found.re, found.eps), (offset, rate), "{command:?} at {at_s} s");
                     }
@@ -227,7 +244,7 @@ mod tests {
         let command = pattern(0.1, 0.2, 0, true);
         for cycle in 1..10_000 {
             let at_s = f64::from(cycle) * (0.1 + 0.2);
-            let found = axis_offset(&command, 0, 1.0, at_s);
+            let found = axis_offset(&command, 0, 1.0, exact(at_s));
             let odd = cycle % 2 == 1;
             assert_eq!(found.eps, if odd { -1.0 } else { 1.0 }, "{cycle}");
             assert_eq!(found.re, if odd { 0.1 } else { 0.0 });
@@ -235,14 +252,38 @@ mod tests {
     }
 
     #[test]
+    fn a_corner_counts_as_reached_where_the_times_cannot_tell() {
+        // A scan begun at a late time that is no binary fraction, and samples at whole seconds of its pattern.
+        let (since_s, command) = (700_000_000.1, pattern(7.0, 3.0, 0, true));
+        let tolerance_s = 4.0 * spacing(since_s);
+        for second in 0..400 {
+            let time_s = since_s + f64::from(second);
+            let elapsed_s = time_s - since_s;
+            // As if each of both times were rounded the other way.
+            for elapsed_s in [elapsed_s - spacing(since_s), elapsed_s, elapsed_s + spacing(since_s)] {
+                let found = axis_offset(&command, 0, 0.5, ScanTime { elapsed_s, tolerance_s });
+                let within = second % 20;
+                let expected = match within {
+                    0..7 => [0.5 * f64::from(within), 0.5],
+                    7..10 => [3.5, 0.0],
+                    10..17 => [3.5 - 0.5 * f64::from(within - 10), -0.5],
+                    _ => [0.0, 0.0],
+                };
+                assert!((found.re - expected[0]).abs() < 1e-6, "{second}: {found:?} {expected:?}");
+                assert_eq!(found.eps, expected[1], "{second}");
+            }
+        }
+    }
+
+    #[test]
     fn no_duration_no_speed_or_an_endless_one_is_no_error() {
         let still = Moving::from_re(0.0);
-        assert_eq!(axis_offset(&ScanCommand::default(), 0, 1.0, 10.0), still);
-        assert_eq!(axis_offset(&pattern(0.0, 5.0, 0, true), 1, 1.0, 10.0), still);
-        assert_eq!(axis_offset(&pattern(5.0, 5.0, 0, true), 1, 1.0, -10.0), still);
-        let endless = axis_offset(&pattern(f64::INFINITY, 0.0, 0, false), 2, 2.0, 10.0);
+        assert_eq!(axis_offset(&ScanCommand::default(), 0, 1.0, exact(10.0)), still);
+        assert_eq!(axis_offset(&pattern(0.0, 5.0, 0, true), 1, 1.0, exact(10.0)), still);
+        assert_eq!(axis_offset(&pattern(5.0, 5.0, 0, true), 1, 1.0, exact(-10.0)), still);
+        let endless = axis_offset(&pattern(f64::INFINITY, 0.0, 0, false), 2, 2.0, exact(10.0));
         assert_eq!((endless.re, endless.eps), (20.0, 2.0));
-        let once = axis_offset(&pattern(4.0, f64::INFINITY, 0, true), 2, 2.0, 10.0);
+        let once = axis_offset(&pattern(4.0, f64::INFINITY, 0, true), 2, 2.0, exact(10.0));
         assert_eq!((once.re, once.eps), (8.0, 0.0));
     }
 
@@ -268,7 +309,7 @@ mod tests {
         command.rate_rad_s[axis] = amount;
         command.speed_m_s[axis] = amount;
         let compatibility = ScanCompatibility::default();
-        scanned(&fixed(Vector3::z()), aim, &command, surroundings, &compatibility, 5.0)
+        scanned(&fixed(Vector3::z()), aim, &command, surroundings, &compatibility, exact(5.0))
     }
 
     #[test]
@@ -307,7 +348,8 @@ mod tests {
         };
         // Y about X is Z; Z about the fixed Y is X. About turned axes it would be Z.
         let turned =
-            scanned(&fixed(Vector3::z()), &y, &command, &s, &ScanCompatibility::default(), 2.0).unwrap();
+            scanned(&fixed(Vector3::z()), &y, &command, &s, &ScanCompatibility::default(), exact(2.0))
+                .unwrap();
         assert_relative_eq!(value(&turned.toward), Vector3::x(), epsilon = 1e-15);
     }
 

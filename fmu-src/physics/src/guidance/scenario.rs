@@ -15,7 +15,7 @@ use super::lighting::SubsolarMethod;
 use super::limb::{LimbPoint, generic_limb, terminator_limb};
 use super::moving::{MovingVector, fixed, value};
 use super::roll::{body_roll, external_roll};
-use super::scan::{ScanCompatibility, scanned};
+use super::scan::{ScanCompatibility, ScanTime, scanned};
 use super::surroundings::Surroundings;
 use crate::attitude::SunAngles;
 use crate::spacecraft::Instrument;
@@ -36,8 +36,8 @@ pub struct GuidanceHardware<'a> {
 /// What runs beside a command: clocks of its motions, and where downlink wants the Sun.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointingProgress {
-    /// Since the scan began, in s; `None` while there is none.
-    pub scan_elapsed_s: Option<f64>,
+    /// How far the scan is; `None` while there is none.
+    pub scan: Option<ScanTime>,
     /// Since the limb scenario began, in s.
     pub limb_elapsed_s: f64,
     /// Where the Sun stands in the body frame in downlink; `None`: on -Y.
@@ -171,9 +171,9 @@ impl Reading<'_> {
 
     /// The boresight at the aim with -Y rolled toward the Sun, and the scan on top.
     fn sunward(&self, boresight: Boresight, aim: Aim) -> Aimed {
-        let scan = self.progress.scan_elapsed_s.and_then(|elapsed_s| {
+        let scan = self.progress.scan.and_then(|time| {
             let (scan, scans) = (&self.command.scan, &self.hardware.scans);
-            scanned(&boresight.body, &aim, scan, self.surroundings, scans, elapsed_s)
+            scanned(&boresight.body, &aim, scan, self.surroundings, scans, time)
         });
         Aimed {
             vectors: self.rolled_sunward(

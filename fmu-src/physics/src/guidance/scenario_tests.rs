@@ -12,7 +12,7 @@ use super::boresight::{BORESIGHTS, mdis_boresight};
 use super::command::*;
 use super::moving::{fixed, value};
 use super::roll::{BODY_ROLLS, EXTERNAL_ROLLS};
-use super::scan::SCANS;
+use super::scan::{SCANS, ScanTime};
 use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
 use super::surroundings::Surroundings;
 use super::test_orbit::{TestOrbit, rate_error};
@@ -34,6 +34,10 @@ pub(super) const SCENARIOS: [Scenario; 8] = [
     Scenario::LimbTerminator,
     Scenario::LimbGeneric,
 ];
+
+fn scan_at(elapsed_s: f64) -> ScanTime {
+    ScanTime { elapsed_s, tolerance_s: 0.0 }
+}
 
 pub(super) fn hardware() -> GuidanceHardware<'static> {
     static TILTED: OnceLock<[Instrument; 1]> = OnceLock::new();
@@ -121,7 +125,7 @@ fn worst(command: &PointingCommand, scan_s: Option<f64>, orbit: &TestOrbit) -> f
     let at = |started_s: f64, time_s: f64| -> Option<(Surroundings, Aimed)> {
         let elapsed_s = time_s - started_s;
         let progress = PointingProgress {
-            scan_elapsed_s: scan_s.map(|scan_s| scan_s + elapsed_s),
+            scan: scan_s.map(|scan_s| scan_at(scan_s + elapsed_s)),
             limb_elapsed_s: 30.0 + elapsed_s,
             ..PointingProgress::default()
         };
@@ -215,7 +219,7 @@ fn the_rate_is_the_derivative_for_every_aimpoint_with_every_scan() {
                 let worst = worst(&command, Some(scan_s), &orbit);
                 assert!(worst < 1e-7, "{worst:e} {:?} {frame:?} {scan_s}", row.option);
             }
-            let progress = PointingProgress { scan_elapsed_s: Some(10.0), ..PointingProgress::default() };
+            let progress = PointingProgress { scan: Some(scan_at(10.0)), ..PointingProgress::default() };
             let aimed = aim(&command, &hardware(), &orbit.surroundings(11.0), &progress).unwrap();
             assert_eq!(aimed.scan_active, hardware().scans.allows(frame, row.kind));
             active += usize::from(aimed.scan_active);
@@ -268,7 +272,7 @@ fn a_body_scan_keeps_the_moved_boresight_on_the_aim() {
     let mut command = command(Scenario::Nadir);
     command.scan = ScanCommand { duration_s: [100.0; 3], ..scan(ScanFrame::Body) };
     for elapsed_s in [1.0, 40.0, 99.0] {
-        let progress = PointingProgress { scan_elapsed_s: Some(elapsed_s), ..PointingProgress::default() };
+        let progress = PointingProgress { scan: Some(scan_at(elapsed_s)), ..PointingProgress::default() };
         let (s, aimed) = at(&command, 3000.0, &progress);
         let pointing = aimed.unwrap().vectors.pointing().unwrap();
         let nadir_body = value(&pointing.to_body(&s.to_planet())).normalize();
@@ -284,7 +288,7 @@ fn a_body_scan_keeps_the_moved_boresight_on_the_aim() {
 
 #[test]
 fn an_incompatible_scan_and_one_with_downlink_leave_the_basic_pointing() {
-    let scanning = PointingProgress { scan_elapsed_s: Some(10.0), ..PointingProgress::default() };
+    let scanning = PointingProgress { scan: Some(scan_at(10.0)), ..PointingProgress::default() };
     let mut star = command(Scenario::PlusZ);
     star.aimpoint = aimpoint(AimpointOption::Vector);
     star.scan = scan(ScanFrame::InertialTranslation);

@@ -17,6 +17,7 @@ use super::delta_v::{BurnSettings, BurnState, MeasuredMotion};
 use super::downlink::{LinkLimits, SunPlace, link};
 use super::downlink_sun::{DownlinkStart, DownlinkSun, SunChooser};
 use super::guided::Guided;
+use super::hot_pole::TurnSide;
 use super::keep_in::KeepIn;
 use super::law::{Pointing, PointingVectors};
 use super::mode::Mode;
@@ -24,6 +25,7 @@ use super::modes::{ModeSettings, ModeState, Sensed, Steering};
 use super::moving::{MovingVector, rate, value};
 use super::orbit_phase::PeriapsisCount;
 use super::places::Places;
+use super::scan::ScanTime;
 use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
 use super::schedule::Activity;
 use super::surroundings::Surroundings;
@@ -153,7 +155,10 @@ pub struct GuidanceState {
     to_sun_since_s: f64,
     modes: ModeState,
     periapses: PeriapsisCount,
-    scan_since_s: Option<f64>,
+    /// The scan and since when it is commanded, in s.
+    scan: Option<(ScanCommand, f64)>,
+    /// Where the turn away from the hot pole ends, while it lasts.
+    hot_pole_turn: Option<TurnSide>,
     /// The timeline's entries at the last sample.
     entries: TimedEntries,
     /// The last command that gave an attitude; it stays where none is given, and where a new one has no direction.
@@ -190,7 +195,8 @@ impl GuidanceState {
             to_sun_since_s: start_s,
             modes: ModeState::default(),
             periapses: PeriapsisCount::default(),
-            scan_since_s: None,
+            scan: None,
+            hot_pole_turn: None,
             entries: TimedEntries::default(),
             law: None,
             limb: None,
@@ -280,13 +286,15 @@ impl GuidanceState {
         match steering {
             Some(Steering::Pointing(constraints)) => {
                 let command = self.modes.mode.admitted(&inputs.command);
+                let orbit_phase = Guided { keep_in: constraints.keep_in, ..settings.orbit_phase };
+                let settings = &GuidanceSettings { orbit_phase, ..*settings };
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
                     is_asked = self.place_sun(settings, &command, surroundings, attitude, chooser);
                     self.point(&Now { settings, constraints, surroundings, time_s }, &command);
                     let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
-                    if is_law && self.judgement.reachable {
-                        self.burn.begin(&settings.burn, time_s);
+                    if self.modes.mode == Mode::Operational {
+                        self.burn.begin(&settings.burn, time_s, is_law && self.judgement.reachable);
                     }
                 }
             }
@@ -297,6 +305,9 @@ impl GuidanceState {
                 self.steer(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
             }
             None => self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING },
+        }
+        if !self.judgement.hot_pole {
+            self.hot_pole_turn = None;
         }
         if self.modes.mode != Mode::Operational {
             self.burn.end();
@@ -381,7 +392,8 @@ impl GuidanceState {
         let judged = &self.judgement;
         let angles = [judged.mdis.angle_rad, judged.antenna_azimuth_rad, judged.sun_separation_rad];
         let times = [*since_s, self.next_sample_s, self.to_sun_since_s];
-        let clocks = self.scan_since_s.into_iter().chain(self.limb.map(|(_, since_s)| since_s));
+        let scan_since_s = self.scan.map(|(_, since_s)| since_s);
+        let clocks = scan_since_s.into_iter().chain(self.limb.map(|(_, since_s)| since_s));
         let mut numbers = quaternion.iter().chain(error).chain(rate_body_rad_s.iter()).chain(&angles);
         attitude.is_rotation()
             && numbers.all(sound)
@@ -413,22 +425,25 @@ impl GuidanceState {
         }
     }
 
-    /// A scan begins where its frame is first commanded, a limb scenario and a burn where they are, in whatever mode; one of a
-    /// timeline with its entry.
+    /// A scan begins where it is first commanded or changes, a limb scenario and a burn where they are, in whatever mode; one of
+    /// a timeline with its entry.
     fn keep_clocks(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
         if entries.scan != self.entries.scan {
-            self.scan_since_s = None;
+            self.scan = None;
         }
         if entries.scenario != self.entries.scenario {
             self.limb = None;
         }
         let is_new = entries.scenario.is_some() && entries.scenario != self.entries.scenario;
-        self.burn.command(command.scenario == Some(Scenario::Burn), is_new);
+        self.burn.command(command.scenario == Some(Scenario::Burn), is_new, time_s);
         if entries.mode != self.entries.mode {
             self.modes.renew_request();
         }
         self.entries = entries;
-        self.scan_since_s = command.scan.frame.map(|_| self.scan_since_s.unwrap_or(time_s));
+        self.scan = command.scan.frame.map(|_| match self.scan {
+            Some((before, since_s)) if before == command.scan => (before, since_s),
+            _ => (command.scan, time_s),
+        });
         let limb =
             command.scenario.filter(|it| matches!(it, Scenario::LimbTerminator | Scenario::LimbGeneric));
         self.limb = limb.map(|scenario| match self.limb {
@@ -450,7 +465,9 @@ impl GuidanceState {
             self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING };
             return;
         };
-        let ConstrainedPointing { pointing, sun_keep_in, hot_pole, hot_pole_reached } = constrained;
+        let ConstrainedPointing { pointing, sun_keep_in, hot_pole: turn, hot_pole_reached } = constrained;
+        let hot_pole = turn.is_some();
+        self.hot_pole_turn = turn;
         let frame = pointing.frame();
         let attitude = Attitude::from_rotation(&frame.inertial_from_body);
         let quaternion = attitude.quaternion(Some(self.command.quaternion_at(now.time_s)));
@@ -477,7 +494,10 @@ impl GuidanceState {
             antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
             sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
             link_available: link.is_some_and(|link| link.available),
-            reachable: aimed.reachable && is_on(&pointing, &aimed.vectors),
+            reachable: match aimed.antenna {
+                Some(Beam::AtTheEarth(_)) => link.is_some_and(|link| link.covered),
+                _ => aimed.reachable && is_on(&pointing, &aimed.vectors),
+            },
             degenerate: pointing.degenerate || !is_given,
             scan_active: aimed.scan_active,
             sun_keep_in,
@@ -494,7 +514,7 @@ impl GuidanceState {
         command: &PointingCommand,
     ) -> Option<(Aimed, ConstrainedPointing)> {
         let aimed = self.aimed(now, command)?;
-        let constrained = now.constraints.applied(&aimed.vectors, now.surroundings)?;
+        let constrained = now.constraints.applied(&aimed.vectors, now.surroundings, self.hot_pole_turn)?;
         Some((aimed, constrained))
     }
 
@@ -505,7 +525,10 @@ impl GuidanceState {
             return Some(self.orbit_phase(&law, now.surroundings));
         }
         let progress = PointingProgress {
-            scan_elapsed_s: self.scan_since_s.map(|since_s| now.time_s - since_s),
+            scan: self.scan.map(|(_, since_s)| ScanTime {
+                elapsed_s: now.time_s - since_s,
+                tolerance_s: 4.0 * spacing(now.time_s),
+            }),
             limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
             downlink_sun: self.sun_place(),
             burn: self.burn.aim(&now.settings.burn),

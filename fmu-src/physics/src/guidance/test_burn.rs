@@ -141,6 +141,7 @@ pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
             science: ScienceRule::Nadir,
             elevation_limit_rad: 0.2,
             slew_rate_rad_s: 0.0,
+            keep_in: None,
             sun_place: None,
             managed: false,
         },

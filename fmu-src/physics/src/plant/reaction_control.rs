@@ -131,7 +131,9 @@ impl ReactionControl {
         command: &ThrustCommand,
         time_s: f64,
     ) -> bool {
-        let wanted = command.set.filter(|_| command.stop_s > due_s(time_s));
+        // A set without thrusters gives no delta-v.
+        let has_thrusters = |set| settings.thrusters.iter().any(|it| it.set == Some(set));
+        let wanted = command.set.filter(|set| command.stop_s > due_s(time_s) && has_thrusters(*set));
         let before = self.burn.map(|burn| (burn.set, burn.stop_s));
         if wanted.map(|set| (set, command.stop_s)) == before {
             return false;

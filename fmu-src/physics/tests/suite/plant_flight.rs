@@ -80,6 +80,7 @@ pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
         science: ScienceRule::Scaled { gain: 0.25 },
         elevation_limit_rad: 0.2269,
         slew_rate_rad_s: 3e-3,
+        keep_in: None,
         sun_place: None,
         managed: false,
     })

@@ -217,7 +217,7 @@ pub fn settings<'a>(
         keep_in,
         keep_in_distance_m: real(v.keep_in.distance),
         link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
-        orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in.elevation_rad)?,
+        orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in)?,
         burn: fixed.burn,
     })
 }

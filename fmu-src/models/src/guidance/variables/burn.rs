@@ -45,7 +45,7 @@ pub struct BurnVariables {
     /// Whether the thrust is aimed back at the path (beta in paper 001).
     #[parameter(start = true)]
     pub reactive: Boolean,
-    /// Longest time that thrust may last.
+    /// Longest time that thrust may last, and that a burn which is due may wait until the constraints let it point.
     #[parameter(unit = "s", min = 1.0, max = 1e9, start = 3600.0)]
     pub timeout: Real,
     /// Estimated thrust direction, a unit vector in the body frame; for the design of burns to come.
@@ -57,7 +57,8 @@ pub struct BurnVariables {
     /// How far that is off the path at the magnitude reached, EME2000.
     #[output(discrete, unit = "m/s", nominal = 1e-3)]
     pub velocity_error: RealVector<3>,
-    /// Whether the last burn ended because its time was up.
+    /// Whether the last burn was missed: its time was up, constraints keep its thrust off the aim when it is due, or it ended
+    /// before it began.
     #[output]
     pub timed_out: Boolean,
 }

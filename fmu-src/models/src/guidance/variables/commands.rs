@@ -137,7 +137,7 @@ pub struct LimbVariables {
 /// A scan pattern over the scenario.
 #[derive(Variables)]
 pub struct ScanVariables {
-    /// Its frame; the scan starts at the sample where this becomes non-zero.
+    /// Its frame; the scan starts at the sample where this becomes non-zero, and anew where any of the pattern changes.
     #[input(start = ScanFrame(None))]
     pub frame: Choice<ScanFrame>,
     /// From where the local frame's azimuth counts.

@@ -15,6 +15,7 @@ use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
 use physics::guidance::Guided;
+use physics::guidance::keep_in::{KeepIn, KeepInMethod};
 use physics::management::Manager;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
@@ -300,9 +301,14 @@ fn attitude(
     let variables = context.variables;
     let guided = || {
         let period_s = if center.is_planet() { orbit.period_s() } else { f64::INFINITY };
-        let elevation_limit_rad = values.real(variables.keep_in.elevation);
+        let keep_in = KeepIn {
+            axis_body: Vector3::new(0.0, -1.0, 0.0),
+            azimuth_rad: values.real(variables.keep_in.azimuth),
+            elevation_rad: values.real(variables.keep_in.elevation),
+            method: KeepInMethod::Nearest,
+        };
         let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
-        let law = variables.guided.read(values, periapsis_s, period_s, start_s, elevation_limit_rad)?;
+        let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in)?;
         let management = &variables.momentum.management;
         let (managed, sun_place) = (management.manages(values), state.propagator.sun_choice.place());
         if managed && !state.waiting {

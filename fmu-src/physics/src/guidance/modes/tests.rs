@@ -162,7 +162,7 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
     for azimuth_rad in [None, Some(-1.5), Some(2.0)] {
         let request = DownlinkRequest { antenna_azimuth_rad: azimuth_rad, ..DownlinkRequest::default() };
         let found = downlink(&surroundings.to_sun(), &surroundings.to_earth(), &request).unwrap();
-        let kept = constraints.applied(&found.vectors, &surroundings).unwrap();
+        let kept = constraints.applied(&found.vectors, &surroundings, None).unwrap();
         let body = |v| value(&kept.pointing.to_body(&unit(&v).unwrap()));
         let excess_rad =
             constraints.excess_rad(&body(surroundings.to_sun()), &body(surroundings.to_planet()), true);
