@@ -53,9 +53,14 @@ impl DumpPolicy {
     /// The momentum after a dump at `momentum_body_n_m_s`: components above their threshold are set anew, the
     /// others stay.
     pub fn after(&self, momentum_body_n_m_s: &Vector3<f64>) -> Vector3<f64> {
+        self.reinitialised(momentum_body_n_m_s, &self.exceeded_by(momentum_body_n_m_s))
+    }
+
+    /// The same with the components that are set anew named.
+    pub fn reinitialised(&self, momentum_body_n_m_s: &Vector3<f64>, components: &[bool; 3]) -> Vector3<f64> {
         Vector3::from_fn(|axis, _| {
             let (now, threshold) = (momentum_body_n_m_s[axis], self.threshold_body_n_m_s[axis]);
-            if now.abs() - threshold <= EXCEEDED_N_M_S {
+            if !components[axis] {
                 return now;
             }
             match self.reinitialise {
