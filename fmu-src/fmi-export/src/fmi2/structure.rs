@@ -61,11 +61,7 @@ const NOTHING: &Knowns = &Knowns::NONE;
 
 impl Lists<'_> {
     /// The row of an unknown, nothing for a constant.
-    fn row<'r>(
-        &self,
-        unknown: &Unknown,
-        rows: &'r BTreeMap<Element, Knowns>,
-    ) -> Result<&'r Knowns, String> {
+    fn row<'r>(&self, unknown: &Unknown, rows: &'r BTreeMap<Element, Knowns>) -> Result<&'r Knowns, String> {
         let at = unknown.index as usize - 1;
         let variable = &self.variables[at];
         let row = self.keys[at].and_then(|key| rows.get(&key));

@@ -82,9 +82,7 @@ impl Parameters {
         Self {
             // A dump takes propellant, which moves the centre of mass.
             light: knowns![&momentum, &v.thruster, &v.tank, light],
-            actuators: knowns![
-                &momentum, &sensors, &v.control, &v.wheel, &v.thruster, &v.tank, &v.thrust
-            ],
+            actuators: knowns![&momentum, &sensors, &v.control, &v.wheel, &v.thruster, &v.tank, &v.thrust],
             sensors: knowns![&attitude, sensors],
             orbit,
             attitude,

@@ -53,17 +53,30 @@ impl DumpPolicy {
     /// The momentum after a dump at `momentum_body_n_m_s`: components above their threshold are set anew, the
     /// others stay.
     pub fn after(&self, momentum_body_n_m_s: &Vector3<f64>) -> Vector3<f64> {
-        Vector3::from_fn(|axis, _| self.component_after(axis, momentum_body_n_m_s[axis]))
+        self.reinitialised(momentum_body_n_m_s, &self.exceeded_by(momentum_body_n_m_s))
+    }
+
+    /// The same with the components that are set anew named.
+    pub fn reinitialised(&self, momentum_body_n_m_s: &Vector3<f64>, components: &[bool; 3]) -> Vector3<f64> {
+        Vector3::from_fn(|axis, _| {
+            let now_n_m_s = momentum_body_n_m_s[axis];
+            if components[axis] { self.reinitialised_component(axis, now_n_m_s) } else { now_n_m_s }
+        })
     }
 
     /// One component after a dump, in N m s.
     pub fn component_after(&self, axis: usize, before_n_m_s: f64) -> f64 {
-        let threshold_n_m_s = self.threshold_body_n_m_s[axis];
-        if before_n_m_s.abs() - threshold_n_m_s <= EXCEEDED_N_M_S {
+        if before_n_m_s.abs() - self.threshold_body_n_m_s[axis] <= EXCEEDED_N_M_S {
             return before_n_m_s;
         }
+        self.reinitialised_component(axis, before_n_m_s)
+    }
+
+    fn reinitialised_component(&self, axis: usize, before_n_m_s: f64) -> f64 {
         match self.reinitialise {
-            Reinitialise::Opposite { fraction } => -before_n_m_s.signum() * fraction * threshold_n_m_s,
+            Reinitialise::Opposite { fraction } => {
+                -before_n_m_s.signum() * fraction * self.threshold_body_n_m_s[axis]
+            }
             Reinitialise::Target { momentum_body_n_m_s } => momentum_body_n_m_s[axis],
         }
     }

@@ -126,10 +126,13 @@ impl MomentumIntegrator {
             let horizon_s = flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
             let first = flight.sample(start_s);
             let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
-            if dumped_s != Some(start_s) && settings.policy.exceeded(&momentum) {
+            // A component that just came to its threshold does not exceed it yet.
+            let mut exceeded = settings.policy.exceeded_by(&momentum);
+            exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
+            if dumped_s != Some(start_s) && exceeded.contains(&true) {
                 flight.spend(Effort::Dump, start_s)?;
                 let event = self.dump(settings.convention, start_s, totals, &first, |before| {
-                    settings.policy.after(before)
+                    settings.policy.reinitialised(before, &exceeded)
                 });
                 self.segment = self.segment.expecting(longest_s);
                 self.dumps.check()?;
@@ -204,7 +207,8 @@ mod tests {
 
         fn sample(&mut self, time_s: f64) -> Sample {
             Sample {
-                inertial_from_body: Rotation3::from_axis_angle(&Vector3::x_axis(), 1e-3 * time_s),
+                inertial_from_body: self.inertial_from_body(time_s),
+                rate_body_rad_s: Vector3::new(1e-3, 0.0, 0.0),
                 torque_body_n_m: Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 1e-6),
                 by_source_body_n_m: core::array::from_fn(|source| match source {
                     0 => Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 0.0),
@@ -214,6 +218,10 @@ mod tests {
                 acceleration_inertial_m_s2: Vector3::new(if time_s < 1000.0 { 1e-7 } else { 2e-7 }, 0.0, 0.0),
                 events: self.events(time_s),
             }
+        }
+
+        fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
+            Rotation3::from_axis_angle(&Vector3::x_axis(), 1e-3 * time_s)
         }
 
         fn events(&mut self, time_s: f64) -> EventValues {
@@ -271,6 +279,96 @@ mod tests {
             assert_relative_eq!(events[0].after_body_n_m_s.x, -0.02, epsilon = 1e-15);
             let total = integrator.totals(5000.0).torque_integral_body_n_m_s.x;
             assert_relative_eq!(total, 0.05 * 1.0f64.sin() - 0.04, epsilon = 2e-9);
+        }
+    }
+
+    /// A body that spins about its Z axis, in a torque along inertial X or none.
+    struct Spinning {
+        rate_rad_s: f64,
+        torque_inertial_n_m: f64,
+    }
+
+    impl TorqueModel for Spinning {
+        type Failure = TooManyDumps;
+
+        fn prepare(&mut self, _: f64, _: f64) -> Result<f64, Self::Failure> {
+            Ok(f64::INFINITY)
+        }
+
+        fn sample(&mut self, time_s: f64) -> Sample {
+            let inertial_from_body = self.inertial_from_body(time_s);
+            let torque_body_n_m = inertial_from_body.inverse() * Vector3::x() * self.torque_inertial_n_m;
+            Sample {
+                inertial_from_body,
+                rate_body_rad_s: Vector3::z() * self.rate_rad_s,
+                torque_body_n_m,
+                by_source_body_n_m: core::array::from_fn(|_| Vector3::zeros()),
+                acceleration_inertial_m_s2: Vector3::zeros(),
+                events: self.events(time_s),
+            }
+        }
+
+        fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
+            Rotation3::from_axis_angle(&Vector3::z_axis(), self.rate_rad_s * time_s)
+        }
+
+        fn events(&mut self, _: f64) -> EventValues {
+            EventValues::repeat(f64::INFINITY)
+        }
+    }
+
+    /// The first dump of a momentum of 3.5 N m s along body X and Y each, under a threshold.
+    fn first_dump_s(flight: &mut Spinning, threshold_n_m_s: f64) -> f64 {
+        let totals = Totals { momentum_inertial_n_m_s: Vector3::new(3.5, 3.5, 0.0), ..Totals::default() };
+        let policy = DumpPolicy {
+            threshold_body_n_m_s: Vector3::repeat(threshold_n_m_s),
+            reinitialise: Reinitialise::Opposite { fraction: 0.0 },
+        };
+        let setting = Settings { grid_s: 600.0, policy, ..settings(1.0, Convention::Inertial) };
+        let mut integrator = MomentumIntegrator::new(0.0, totals);
+        match integrator.advance_to_stop(flight, &setting, 1e4, None).unwrap() {
+            Stop::Dump(event) => event.time_s,
+            stop => panic!("{stop:?}"),
+        }
+    }
+
+    #[test]
+    fn a_momentum_that_turns_in_the_body_is_dumped_where_it_comes_to_the_threshold() {
+        let size = 3.5 * 2.0_f64.sqrt();
+        for rate_rad_s in [1e-3, 0.01, 0.02, 0.05, 1.0, 30.0] {
+            // Toward body X: size cos(pi / 4 - rate t) = 4.
+            let expected_s = (core::f64::consts::FRAC_PI_4 - (4.0 / size).acos()) / rate_rad_s;
+            let found_s = first_dump_s(&mut Spinning { rate_rad_s, torque_inertial_n_m: 0.0 }, 4.0);
+            assert!((found_s - expected_s).abs() < 1e-9, "{rate_rad_s} rad/s: {found_s} {expected_s}");
+        }
+    }
+
+    /// The threshold is come to after many turns, at the first maximum of body X or Y above it.
+    #[test]
+    fn a_threshold_just_reached_after_many_turns_is_not_passed_over() {
+        let torque_inertial_n_m = 1e-3;
+        for rate_rad_s in [0.01, 0.02, 0.05, 1.0, 30.0] {
+            // H = (3.5 + T t, 3.5): the components in the body are |H| cos and -|H| sin of an angle.
+            let body = |at_s: f64| {
+                let inertial = Vector3::new(3.5 + torque_inertial_n_m * at_s, 3.5, 0.0);
+                let [sin, cos] = [(rate_rad_s * at_s).sin(), (rate_rad_s * at_s).cos()];
+                [inertial.x * cos + inertial.y * sin, inertial.y * cos - inertial.x * sin]
+            };
+            let size = 3.5 * 2.0_f64.sqrt();
+            let threshold = size + 0.5;
+            let found_s = first_dump_s(&mut Spinning { rate_rad_s, torque_inertial_n_m }, threshold);
+            let step_s = 1e-3 / rate_rad_s;
+            let exceeds = |at_s: f64| body(at_s).iter().any(|h| h.abs() > threshold);
+            let mut at_s = 0.0;
+            while !exceeds(at_s) {
+                at_s += step_s;
+            }
+            let (mut below_s, mut above_s) = (at_s - step_s, at_s);
+            while above_s - below_s > 1e-11 {
+                let middle_s = 0.5 * (above_s + below_s);
+                *(if exceeds(middle_s) { &mut above_s } else { &mut below_s }) = middle_s;
+            }
+            assert!((found_s - above_s).abs() < 1e-9, "{rate_rad_s} rad/s: {found_s} {above_s}");
         }
     }
 

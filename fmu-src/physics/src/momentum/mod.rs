@@ -7,6 +7,7 @@
 
 mod by_source;
 mod dump;
+mod excess;
 mod integrator;
 mod segment;
 mod torque_model;

@@ -1,6 +1,6 @@
 //! Momentum segment: an interval on which the rates are smooth, with its totals as a polynomial in time.
 
-use nalgebra::SVector;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::adaptive::AdaptiveInterval;
@@ -8,7 +8,8 @@ use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 use crate::numerics::events::first_event;
 
 use super::by_source::{SourceMomenta, SourceSegment, rates};
-use super::dump::{DumpPolicy, EXCEEDED_N_M_S};
+use super::dump::DumpPolicy;
+use super::excess::{Excess, Watched};
 use super::torque_model::{Effort, Sample, TorqueModel, after_event_s};
 use super::totals::{Convention, RATES, Totals, pack};
 
@@ -45,6 +46,8 @@ pub struct MomentumSegment {
     by_source_at_start: SourceMomenta,
     /// Absent for a segment without length.
     by_source: Option<SourceSegment<{ NODES + 1 }>>,
+    /// Components of the momentum, body frame, that come to their dump thresholds at the end.
+    at_threshold: [bool; 3],
 }
 
 impl MomentumSegment {
@@ -58,6 +61,7 @@ impl MomentumSegment {
             totals: None,
             by_source_at_start: by_source,
             by_source: None,
+            at_threshold: [false; 3],
         }
     }
 
@@ -139,10 +143,18 @@ impl MomentumSegment {
         let by_source = SourceSegment::<NODES>::from_samples(start_s, end_s, &by_source)
             .integral(by_source_at_start.to_vector());
         let (totals, by_source) = (Some(totals), Some(by_source));
-        let mut segment =
-            Self { start_s, end_s, at_start, next_longest_s, totals, by_source_at_start, by_source };
-        if let Some(dump_s) = segment.first_excess_s(settings, &nodes, &samples) {
-            segment.end_s = dump_s;
+        let mut segment = Self {
+            start_s,
+            end_s,
+            at_start,
+            next_longest_s,
+            totals,
+            by_source_at_start,
+            by_source,
+            at_threshold: [false; 3],
+        };
+        if let Some(excess) = segment.first_excess(flight, settings, &nodes, &samples) {
+            (segment.end_s, segment.at_threshold) = (excess.time_s, excess.components);
         }
         Ok(segment)
     }
@@ -178,58 +190,44 @@ impl MomentumSegment {
         }
     }
 
-    /// The first time inside the segment at which a momentum component exceeds its threshold.
-    fn first_excess_s(
+    /// Components of the momentum, body frame, that come to their dump thresholds at the end: there thrusters dump.
+    pub fn at_threshold(&self) -> &[bool; 3] {
+        &self.at_threshold
+    }
+
+    /// The first time inside the segment at which a component of the momentum exceeds its threshold.
+    fn first_excess<F: TorqueModel>(
         &self,
+        flight: &mut F,
         settings: &Settings,
         nodes: &[f64; NODES],
         samples: &[Sample; NODES],
-    ) -> Option<f64> {
+    ) -> Option<Excess> {
         let totals = self.totals.as_ref()?;
-        match settings.convention {
-            Convention::BodyIntegral => first_crossing_s(totals, 3, &settings.policy, self),
+        let (row, rate_rad_s) = match settings.convention {
             Convention::Inertial => {
-                let spread: f64 =
-                    totals.coefficients().fixed_rows::<3>(0).column_iter().map(|c| c.norm()).sum();
-                if spread < settings.policy.threshold_body_n_m_s.min() {
-                    return None;
-                }
-                let body: [SVector<f64, 3>; NODES] = core::array::from_fn(|j| {
-                    let momentum = Totals::from_vector(&totals.value(nodes[j])).momentum_inertial_n_m_s;
-                    samples[j].inertial_from_body.inverse() * momentum
-                });
-                let body = Segment::<3, NODES>::from_samples(totals.start(), totals.end(), &body);
-                first_crossing_s(&body, 0, &settings.policy, self)
+                (0, samples.map(|it| it.rate_body_rad_s.norm()).into_iter().fold(0.0, f64::max))
             }
+            Convention::BodyIntegral => (3, 0.0),
+        };
+        let rows = totals.coefficients().fixed_rows::<3>(row);
+        let most_n_m_s: f64 = rows.column_iter().map(|terms| terms.norm()).sum();
+        // Written so that a NaN is not watched.
+        if !(most_n_m_s >= settings.policy.threshold_body_n_m_s.min()) {
+            return None;
         }
+        let (start_s, end_s) = (self.start_s, self.end_s);
+        let watched = Watched { start_s, end_s, rounding_s: flight.time_rounding_s(end_s), rate_rad_s };
+        let momentum_at = |at_s: f64| Totals::from_vector(&totals.value(at_s));
+        let at_nodes: [Vector3<f64>; NODES] = core::array::from_fn(|j| {
+            momentum_at(nodes[j]).momentum_body_n_m_s(settings.convention, &samples[j].inertial_from_body)
+        });
+        watched.first_excess(&settings.policy, &at_nodes, |at_s| match settings.convention {
+            Convention::BodyIntegral => momentum_at(at_s).torque_integral_body_n_m_s,
+            Convention::Inertial => {
+                let inertial_from_body = flight.inertial_from_body(at_s);
+                momentum_at(at_s).momentum_body_n_m_s(settings.convention, &inertial_from_body)
+            }
+        })
     }
-}
-
-/// First crossing of a threshold by rows `row`..`row + 3` of `momentum` inside `segment`.
-fn first_crossing_s<const D: usize, const N: usize>(
-    momentum: &Segment<D, N>,
-    row: usize,
-    policy: &DumpPolicy,
-    segment: &MomentumSegment,
-) -> Option<f64> {
-    let mut first: Option<f64> = None;
-    for axis in 0..3 {
-        let limit_n_m_s = policy.threshold_body_n_m_s[axis] + 2.0 * EXCEEDED_N_M_S;
-        let terms = momentum.coefficients().row(row + axis);
-        let bound: f64 = terms.iter().map(|c| c.abs()).sum();
-        if bound.is_nan() || bound < limit_n_m_s {
-            continue;
-        }
-        for sign in [1.0, -1.0] {
-            let mut direction = SVector::<f64, D>::zeros();
-            direction[row + axis] = sign;
-            let excess = momentum.project(&direction, -limit_n_m_s);
-            let crossing = excess.sign_changes(segment.start_s, segment.end_s).first();
-            first = match (first, crossing) {
-                (Some(a), Some(b)) => Some(a.min(b)),
-                (a, b) => a.or(b),
-            };
-        }
-    }
-    first.filter(|&time_s| time_s > segment.start_s && time_s < segment.end_s)
 }

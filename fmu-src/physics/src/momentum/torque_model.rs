@@ -19,6 +19,8 @@ pub fn after_event_s(start_s: f64) -> f64 {
 pub struct Sample {
     /// Matrix that takes body components to inertial components.
     pub inertial_from_body: Rotation3<f64>,
+    /// Angular rate of the body in the inertial frame, body components, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
     /// Total external torque about the centre of mass, body frame, in N m.
     pub torque_body_n_m: Vector3<f64>,
     /// The same by effect.
@@ -65,6 +67,9 @@ pub trait TorqueModel {
 
     /// Sample at `time_s`; a pure function of time within what was prepared.
     fn sample(&mut self, time_s: f64) -> Sample;
+
+    /// Matrix of the sample alone that takes body components to inertial components.
+    fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64>;
 
     /// The event functions of the sample alone.
     fn events(&mut self, time_s: f64) -> EventValues;

@@ -5,7 +5,7 @@
 //! with the orbit under gravity alone. Within a segment it is off by centimetres, which changes light and heat by less than
 //! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use crate::attitude::{MovingFrame, gravity_gradient_n_m};
 use crate::constants::RADIUS_SUN_M;
@@ -314,11 +314,16 @@ impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
         let evaluation = self.evaluate(time_s);
         Sample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
+            rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
             by_source_body_n_m: torques_body_n_m(&evaluation.loads),
             acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),
             events: evaluation.instant.events,
         }
+    }
+
+    fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
+        self.kinematics.inertial_from_body(time_s)
     }
 
     fn events(&mut self, time_s: f64) -> EventValues {

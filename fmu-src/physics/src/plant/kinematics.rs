@@ -13,6 +13,8 @@ use crate::numerics::events::first_event;
 use crate::numerics::intervals::first_change_s;
 use crate::numerics::spacing::spacing;
 
+use nalgebra::Rotation3;
+
 use super::configuration::{AttitudeSource, Configuration};
 use super::error::PlantError;
 use super::geometry::Geometry;
@@ -76,6 +78,13 @@ impl<'a> Kinematics<'a> {
     pub fn events(&mut self, time_s: f64) -> EventValues {
         self.searched_units = self.searched_units.saturating_add(1);
         self.instant(time_s).events
+    }
+
+    /// Matrix that takes body components to EME2000 alone, counted as a search.
+    pub fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
+        self.searched_units = self.searched_units.saturating_add(1);
+        let geometry = self.geometry(time_s);
+        self.attitude(time_s, &geometry).frame.inertial_from_body
     }
 
     /// What `time_s` is rounded to, in s: everything is constant over less.

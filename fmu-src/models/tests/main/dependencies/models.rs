@@ -151,13 +151,7 @@ struct Search<M: Model> {
 
 impl<M: Model> Search<M> {
     fn new(text: &str, rows: &'static [Row]) -> Self {
-        Self {
-            bench: Bench::new(text, 11),
-            kept: &[],
-            rows,
-            longest_s: 30.0,
-            prepare: |_, _| {},
-        }
+        Self { bench: Bench::new(text, 11), kept: &[], rows, longest_s: 30.0, prepare: |_, _| {} }
     }
 
     fn judge(mut self, states: usize) {
@@ -168,7 +162,10 @@ impl<M: Model> Search<M> {
             self.look(drawn);
         }
         let [in_steps, at_start] = self.bench.seen();
-        println!("{:?} states of {drawn}; seen in steps {in_steps}, at the start {at_start}", self.bench.looks);
+        println!(
+            "{:?} states of {drawn}; seen in steps {in_steps}, at the start {at_start}",
+            self.bench.looks
+        );
         assert!(in_steps > 0 && at_start > 0);
         let undeclared = self.bench.undeclared();
         assert!(undeclared.is_empty(), "{undeclared}");

@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fmi_export::model_description::{
-    Causality, Description, Initial, SimpleTypeKind, VariableKind, rules,
-};
+use fmi_export::model_description::{Causality, Description, Initial, SimpleTypeKind, VariableKind, rules};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Base {
