@@ -1,6 +1,7 @@
 //! Motion of a body with reaction wheels and modal coordinates, as a Taylor series in time that is exact to rounding within a segment.
 //!
-//! Equations: dH/dt = T in inertial components; in the body dm/dt = T - w x m, m = A(q) H; dq/dt = q w / 2; for every rotor
+//! Equations: dH/dt = T in inertial components, T with jet damping ([`super::mass_flow`]); in the body dm/dt = T - w x m,
+//! m = A(q) H; (J + J' t) w = m less the rotors' share; dq/dt = q w / 2; for every rotor
 //! that turns dp/dt = u - f ([`super::wheel`]); flexible modes and propellant ([`super::oscillator`]); w from m and all p
 //! ([`super::gyrostat`]). Rotors out of balance add force and torque ([`super::imbalance`]).
 //! Method: all of it is quadratic, so the coefficients follow from one another by Cauchy products. The total momentum is a
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use super::gyrostat::Gyrostat;
 use super::imbalance::ImbalanceMotion;
+use super::mass_flow::MassFlow;
 use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
 use super::series::{ORDER, TERMS, polynomial};
@@ -42,21 +44,30 @@ pub struct BodyLoad {
     pub mass_kg: f64,
     /// What leaves the body in kg/s at the start, and its slope in kg/s2.
     pub flow_kg_s: [f64; 2],
+    /// What that does to the body beside its force; absent where nothing flows.
+    pub mass_flow: Option<MassFlow>,
 }
 
 impl BodyLoad {
     /// Nothing, on a body of this mass.
     pub fn none(mass_kg: f64) -> Self {
         let nothing = [Vector3::zeros(); 2];
-        Self { torque_body_n_m: nothing, force_body_n: nothing, mass_kg, flow_kg_s: [0.0; 2] }
+        Self {
+            torque_body_n_m: nothing,
+            force_body_n: nothing,
+            mass_kg,
+            flow_kg_s: [0.0; 2],
+            mass_flow: None,
+        }
     }
 
     /// Whether nothing acts.
     fn is_zero(&self) -> bool {
         self.torque_body_n_m.iter().chain(&self.force_body_n).all(|it| *it == Vector3::zeros())
+            && self.mass_flow.is_none()
     }
 
-    /// Torque in N m and acceleration in m/s2.
+    /// Torque without jet damping in N m and acceleration in m/s2.
     fn after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
         let [torque, force] =
             [self.torque_body_n_m, self.force_body_n].map(|[start, slope]| start + slope * elapsed_s);
@@ -77,6 +88,7 @@ impl BodyLoad {
     fn is_sound(&self) -> bool {
         let vectors = self.torque_body_n_m.iter().chain(&self.force_body_n);
         vectors.flatten_all().chain(&self.flow_kg_s).all(|x| x.abs() <= GREATEST_IN_STATE)
+            && self.mass_flow.as_ref().is_none_or(MassFlow::is_sound)
             && self.mass_kg > 0.0
             && self.mass_kg <= GREATEST_IN_STATE
     }
@@ -235,7 +247,10 @@ impl GyrostatMotion {
         let rest = swinging.fold(rest, |rest, carried| rest - carried);
         BodyMotion {
             attitude,
-            rate_body_rad_s: self.inverse_inertia * rest,
+            rate_body_rad_s: match &self.load.mass_flow {
+                Some(flow) => flow.inverse_inertia_after(&self.inverse_inertia, elapsed_s) * rest,
+                None => self.inverse_inertia * rest,
+            },
             momentum_inertial_n_m_s,
             delta_v_inertial_m_s,
         }
@@ -360,6 +375,9 @@ impl GyrostatMotion {
             power *= longest_s;
             let divisor = (j + 1) as f64;
             let mut momentum_rate = self.load.torque_body_n_m.get(j).copied().unwrap_or_default();
+            if let Some(flow) = &self.load.mass_flow {
+                momentum_rate += flow.jet_term(&self.rate, j);
+            }
             for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
                 let wheel = &gyrostat.wheels()[imbalance.wheel];
                 let relative = match &self.rotors[imbalance.wheel] {
@@ -415,6 +433,10 @@ impl GyrostatMotion {
             Rotor::Held { .. } => rest,
         });
         let rest = self.oscillators.iter().fold(rest, |rest, it| rest - it.carried_term(j));
+        let rest = match &self.load.mass_flow {
+            Some(flow) if j > 0 => rest - flow.inertia_rate_kg_m2_s * self.rate[j - 1],
+            _ => rest,
+        };
         self.inverse_inertia * rest
     }
 
@@ -584,6 +606,16 @@ impl GyrostatMotion {
         self.attitude_after(time_s - self.start_s)
     }
 
+    /// Angular rate at `time_s` within the segment, body frame, in rad/s.
+    pub fn rate_at(&self, time_s: f64) -> Vector3<f64> {
+        self.rate_after(time_s - self.start_s)
+    }
+
+    fn rate_after(&self, elapsed_s: f64) -> Vector3<f64> {
+        let terms = self.rate[..=self.order].iter().rev();
+        terms.fold(Vector3::zeros(), |sum, term| sum * elapsed_s + term)
+    }
+
     fn attitude_after(&self, elapsed_s: f64) -> Quaternion {
         let mut sum = self.attitude[self.order];
         for terms in self.attitude[..self.order].iter().rev() {
@@ -597,6 +629,9 @@ impl GyrostatMotion {
     /// Torque and acceleration by the load, rotors out of balance and what swings under the acceleration, body frame.
     fn loads_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
         let [mut torque, mut acceleration] = self.load.after(elapsed_s);
+        if let Some(flow) = &self.load.mass_flow {
+            torque += flow.jet_torque_n_m(elapsed_s, &self.rate_after(elapsed_s));
+        }
         for it in &self.imbalances {
             let [imbalance, force] = it.after(self.order, elapsed_s);
             torque += imbalance;
@@ -675,6 +710,8 @@ fn plus(terms: &[f64; TERMS], constant: f64, sign: f64) -> [f64; TERMS] {
 
 #[cfg(test)]
 mod imbalance_tests;
+#[cfg(test)]
+mod mass_flow_tests;
 #[cfg(test)]
 mod slosh_tests;
 #[cfg(test)]

@@ -47,8 +47,10 @@ struct ConstantDump {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct AttitudeDynamics {
     motion: GyrostatMotion,
-    /// Mass properties since the last edge of the grid, with the panels as they stood then.
+    /// Mass properties at the last edge of the grid, with the panels as they stood then: what the controller knows.
     mass: MassProperties,
+    /// The same at the start of the present segment: without the propellant that flowed since.
+    segment_mass: MassProperties,
     /// The same with every panel at angle 0; absent while no propellant is used.
     left: Option<MassProperties>,
     disturbance: DisturbanceInterval,
@@ -95,6 +97,7 @@ impl AttitudeDynamics {
         Self {
             motion: GyrostatMotion::new(&settings.gyrostat, time_s, unit, &rate_body_rad_s, wheels_n_m_s),
             mass,
+            segment_mass: mass,
             left: None,
             disturbance: DisturbanceInterval::before(),
             next_sample: (number, time_s),
@@ -134,6 +137,7 @@ impl AttitudeDynamics {
         let norm: f64 = self.sampled.0.0.iter().map(|x| x * x).sum();
         self.motion.is_sound(wheels, oscillators)
             && mass(&self.mass)
+            && mass(&self.segment_mass)
             && self.left.as_ref().is_none_or(mass)
             && self.disturbance.is_sound()
             && self.by_source.is_sound()
@@ -219,9 +223,9 @@ impl AttitudeDynamics {
         Ok(())
     }
 
-    /// The body and what flies have the mass properties of the last edge of the grid.
+    /// The body has the mass properties of the present segment, and what flies those of the last edge of the grid.
     fn go_on(&self, settings: &mut DynamicsSettings, flight: &mut Flight<'_>) {
-        settings.gyrostat.set_mass_properties(self.mass.inertia_body_kg_m2, self.mass.center_of_mass_body_m);
+        settings.set_mass_properties(&self.segment_mass);
         flight.configuration.left = self.left;
     }
 
@@ -240,6 +244,11 @@ impl AttitudeDynamics {
         self.source_torques = [[Vector3::zeros(); 2]; SOURCES.len()];
         if self.is_dumping(time_s) {
             self.by_source = SourceMomenta::default();
+        }
+        if !self.thrusters.load().law.is_none() {
+            let tanks = &settings.thrusters.tanks;
+            self.segment_mass = flight.propellant.mass_properties_since(&self.segment_mass, tanks, time_s);
+            settings.set_mass_properties(&self.segment_mass);
         }
         self.thrusters.settle(&self.motion, flight.propellant, time_s);
         self.thrusters.take_edges(&settings.thrusters, flight.propellant, time_s);
@@ -261,8 +270,8 @@ impl AttitudeDynamics {
                 self.thrusters.take_edges(&settings.thrusters, flight.propellant, time_s);
             }
         }
-        let (loaded_kg, center) = (flight.configuration.mass_kg, &self.mass.center_of_mass_body_m);
-        self.thrusters.exert(&settings.thrusters, flight.propellant, loaded_kg, center, time_s);
+        self.segment_mass.mass_kg = flight.configuration.mass_kg - flight.propellant.total_used_kg(time_s);
+        self.thrusters.exert(&settings.thrusters, flight.propellant, &self.segment_mass, time_s);
         Ok(())
     }
 
@@ -296,9 +305,8 @@ impl AttitudeDynamics {
         if settings.panels_have_mass || self.left.is_some() || !settings.thrusters.thrusters.is_empty() {
             let instant = plant.instant(time_s);
             self.mass = plant.mass_properties(&instant);
-            settings
-                .gyrostat
-                .set_mass_properties(self.mass.inertia_body_kg_m2, self.mass.center_of_mass_body_m);
+            self.segment_mass = self.mass;
+            settings.set_mass_properties(&self.mass);
         }
         Ok(())
     }
@@ -536,6 +544,7 @@ impl AttitudeDynamics {
             ],
             mass_kg: thrusters.mass_kg,
             flow_kg_s: thrusters.law.flow_kg_s,
+            mass_flow: (!thrusters.law.is_none()).then_some(thrusters.mass_flow),
         }
     }
 
@@ -568,8 +577,12 @@ impl AttitudeDynamics {
         external: ExternalLoad,
         time_s: f64,
     ) -> Evaluation {
-        flight.configuration.left = self.left;
-        let left_kg = flight.configuration.mass_kg - flight.propellant.total_used_kg(time_s);
+        let used_kg = flight.propellant.total_used_kg(time_s);
+        let left_kg = flight.configuration.mass_kg - used_kg;
+        flight.configuration.left = (used_kg > 0.0).then(|| {
+            let loaded = flight.configuration.loaded();
+            flight.propellant.mass_properties(&loaded, &settings.thrusters.tanks, time_s)
+        });
         let mut plant = flight.plant_at(time_s, body);
         let instant = plant.instant(time_s);
         let mass = MassProperties { mass_kg: left_kg, ..plant.mass_properties(&instant) };
@@ -579,9 +592,11 @@ impl AttitudeDynamics {
             force_body_n: external.force_body_n + force_body_n,
             torque_body_n_m: external.torque_body_n_m + torque_body_n_m,
         };
-        let law = &self.thrusters.load().law;
-        loads[Effect::Thrusters] =
-            ForceTorque { force_body_n: law.force_at_n(time_s), torque_body_n_m: law.torque_at_n_m(time_s) };
+        let thrusters = self.thrusters.load();
+        loads[Effect::Thrusters] = ForceTorque {
+            force_body_n: thrusters.law.force_at_n(time_s),
+            torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
+        };
         Evaluation { instant, loads, mass }
     }
 

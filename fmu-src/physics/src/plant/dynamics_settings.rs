@@ -8,6 +8,7 @@ use crate::attitude::control::{
 };
 use crate::momentum::DumpPolicy;
 use crate::propulsion::PulseCommand;
+use crate::spacecraft::MassProperties;
 
 use super::configuration::Command;
 use super::evaluation::ExternalLoad;
@@ -39,6 +40,13 @@ pub struct DynamicsSettings {
     pub panels_have_mass: bool,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,
+}
+
+impl DynamicsSettings {
+    /// The body takes the inertia and centre of mass of these.
+    pub(super) fn set_mass_properties(&mut self, mass: &MassProperties) {
+        self.gyrostat.set_mass_properties(mass.inertia_body_kg_m2, mass.center_of_mass_body_m);
+    }
 }
 
 /// The controller and how its torque reaches wheels and thrusters.

@@ -3,7 +3,8 @@
 //!
 //! Every thruster has a valve and at most one pulse ahead of it. Edges of pulses, ends of ramps and an empty tank are times at
 //! which the motion's segments end; between them force, torque and flow are linear in time:
-//! F = F0 f p(u) / p0 with the valve's fraction f and the tank's pressure p, T = (r - c) x F about the centre of mass c.
+//! F = F0 f p(u) / p0 with the valve's fraction f and the tank's pressure p, T = (r - c) x F about the centre of mass c, which
+//! moves as the tanks drain ([`super::thruster_load`]).
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -233,24 +234,24 @@ impl ReactionControl {
         }
     }
 
-    /// Works out what the thrusters exert from `time_s` on, a spacecraft of `loaded_kg` with full tanks having its centre of
-    /// mass there, body frame, in m.
+    /// Works out what the thrusters exert from `time_s` on, on a spacecraft with these mass properties then.
     pub fn exert(
         &mut self,
         settings: &ReactionControlSettings,
         propellant: &mut PropellantState,
-        loaded_kg: f64,
-        center_of_mass_body_m: &Vector3<f64>,
+        mass: &MassProperties,
         time_s: f64,
     ) {
-        self.load = ThrusterLoad::none(time_s, loaded_kg - propellant.total_used_kg(time_s));
+        let center_of_mass_body_m = &mass.center_of_mass_body_m;
+        self.load = ThrusterLoad::none(time_s, mass.mass_kg);
         let thrusters = || settings.thrusters.iter().enumerate();
         let thrust = |k: usize, thruster: &Thruster| self.valves[k].thrust(&thruster.valve, time_s);
         if thrusters().all(|(k, thruster)| thrust(k, thruster) == [0.0; 2]) {
             return;
         }
         propellant.settle(time_s);
-        let mut law = self.load.law;
+        let mut load = self.load;
+        let mut nozzles_kg_m_s = Vector3::zeros();
         for (index, tank) in settings.tanks.iter().enumerate() {
             let fed = || thrusters().filter(|(_, thruster)| thruster.tank == index);
             let used_kg = propellant.used_kg(index, time_s);
@@ -273,10 +274,17 @@ impl ReactionControl {
                 let torque_body_n_m = arm_m.cross(&force_body_n);
                 propellant.add_flow(index, share.map(|part| thruster.flow_kg_s * part));
                 let flow_kg_s = thruster.flow_kg_s;
-                law.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, share);
+                nozzles_kg_m_s += arm_m * (flow_kg_s * share[0]);
+                load.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, &arm_m, share);
             }
         }
-        self.load.law = law;
+        let drained = settings
+            .tanks
+            .iter()
+            .enumerate()
+            .map(|(k, tank)| (propellant.flow_kg_s(k), tank.position_body_m - center_of_mass_body_m));
+        load.drain(drained, &nozzles_kg_m_s);
+        self.load = load;
     }
 
     /// Full thrust of thruster `k` as it points now.
@@ -306,7 +314,7 @@ impl ReactionControl {
         for (node, weight) in GAUSS_3 {
             let at_s = self.load.law.since_s + node * span_s;
             let attitude = motion.attitude_at(at_s);
-            let torque = self.load.law.torque_at_n_m(at_s);
+            let torque = self.load.torque_at_n_m(at_s, &motion.rate_at(at_s));
             let acceleration = self.load.acceleration_body_m_s2(at_s);
             totals.impulse_inertial_n_m_s += attitude.inertial_from_body(&torque) * (weight * span_s);
             totals.delta_v_inertial_m_s += attitude.inertial_from_body(&acceleration) * (weight * span_s);

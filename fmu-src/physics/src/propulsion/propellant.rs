@@ -69,6 +69,11 @@ impl PropellantState {
         }
     }
 
+    /// Flow from tank `k` when it was settled, in kg/s.
+    pub fn flow_kg_s(&self, k: usize) -> f64 {
+        self.tanks.get(k).map_or(0.0, |tank| tank.flow_kg_s[0])
+    }
+
     /// Takes this much from tank `k` at once, in kg, and no more than is left.
     pub fn take(&mut self, k: usize, tank: &Tank, propellant_kg: f64) {
         if let Some(used) = self.tanks.get_mut(k) {
@@ -95,22 +100,38 @@ impl PropellantState {
         if self.total_used_kg(time_s) == 0.0 {
             return *loaded;
         }
-        let mut mass_kg = loaded.mass_kg;
-        let mut moment_kg_m = loaded.center_of_mass_body_m * loaded.mass_kg;
-        let mut about_origin_kg_m2 =
-            loaded.inertia_body_kg_m2 + steiner(&loaded.center_of_mass_body_m) * loaded.mass_kg;
-        for (k, tank) in tanks.iter().enumerate() {
-            let used_kg = self.used_kg(k, time_s);
-            mass_kg -= used_kg;
-            moment_kg_m -= tank.position_body_m * used_kg;
-            about_origin_kg_m2 -= steiner(&tank.position_body_m) * used_kg;
-        }
-        let center_of_mass_body_m: Vector3<f64> = moment_kg_m / mass_kg;
-        MassProperties {
-            mass_kg,
-            center_of_mass_body_m,
-            inertia_body_kg_m2: about_origin_kg_m2 - steiner(&center_of_mass_body_m) * mass_kg,
-        }
+        without(loaded, tanks, |k| self.used_kg(k, time_s))
+    }
+
+    /// Mass properties without what flowed since [`PropellantState::settle`] until `time_s`, of a spacecraft that had `settled`
+    /// then.
+    pub fn mass_properties_since(
+        &self,
+        settled: &MassProperties,
+        tanks: &[Tank],
+        time_s: f64,
+    ) -> MassProperties {
+        without(settled, tanks, |k| self.used_kg(k, time_s) - self.used_kg(k, self.since_s))
+    }
+}
+
+/// Mass properties of a body without so much of each tank, in kg.
+fn without(body: &MassProperties, tanks: &[Tank], used_kg: impl Fn(usize) -> f64) -> MassProperties {
+    let mut mass_kg = body.mass_kg;
+    let mut moment_kg_m = body.center_of_mass_body_m * body.mass_kg;
+    let mut about_origin_kg_m2 =
+        body.inertia_body_kg_m2 + steiner(&body.center_of_mass_body_m) * body.mass_kg;
+    for (k, tank) in tanks.iter().enumerate() {
+        let used_kg = used_kg(k);
+        mass_kg -= used_kg;
+        moment_kg_m -= tank.position_body_m * used_kg;
+        about_origin_kg_m2 -= steiner(&tank.position_body_m) * used_kg;
+    }
+    let center_of_mass_body_m: Vector3<f64> = moment_kg_m / mass_kg;
+    MassProperties {
+        mass_kg,
+        center_of_mass_body_m,
+        inertia_body_kg_m2: about_origin_kg_m2 - steiner(&center_of_mass_body_m) * mass_kg,
     }
 }
 

@@ -5,7 +5,7 @@ use models::MomentumPlant;
 use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{DARK, FREE, Flight, Start, fly};
+use super::{DARK, FREE, Flight, Start, fly, to_inertial};
 
 const MU_M3_S2: f64 = 3.986_004_355_07e14;
 const J2: f64 = 1.082_635_9e-3;
@@ -257,4 +257,81 @@ fn cutting_and_saving_change_no_bit_of_a_thrusting_orbit() {
     for step_s in [0.33, 1.7, 10.0] {
         assert_same(&fly_in(step_s, true), &whole);
     }
+}
+
+/// Momentum, inertial, in N m s.
+fn momentum(y: &State) -> Vector3<f64> {
+    let attitude = Quaternion::new(y[9], y[6], y[7], y[8]);
+    UnitQuaternion::from_quaternion(attitude) * Vector3::new(y[10], y[11], y[12])
+}
+
+#[test]
+fn a_tank_off_the_axis_moves_the_centre_of_mass_through_a_burn() {
+    // Through the centre of mass at first; then the tank of 150 kg drains, 0.3 m beside it.
+    let craft = Craft {
+        nozzle_m: [0.02, 0.01, -1.1],
+        force_n: [0.0, 3.0, 400.0],
+        tank_m: [0.3, -0.1, 0.2],
+        ..CENTRAL
+    };
+    let rate_rad_s = [0.02, 0.03, 0.05];
+    let begin = start(&craft, rate_rad_s);
+    let end = integrated(&craft, begin, 60.0, 0.005, true);
+    let after = integrated(&craft, end, 17.5, 0.005, false);
+    let gained = momentum(&after) - momentum(&begin);
+    assert!(gained.norm() > 10.0);
+    let named = craft.model();
+    for step_s in [0.1, 1.0, 10.0] {
+        let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", step_s)]);
+        flight.set("thrust.stop", 60.0);
+        flight.fly_to(60.0, 60.0).unwrap();
+        let (center, _) = craft.left(end[13]);
+        let off_m = (flight.vector("centerOfMass") - center).norm();
+        flight.fly_to(77.5, 17.5).unwrap();
+        let found = flight.vector("momentum.inertial");
+        let off = (found - momentum(&after)).norm() / momentum(&after).norm();
+        let turned = Quaternion::new(after[9], after[6], after[7], after[8]);
+        let off_rad = to_inertial(&flight).angle_to(&UnitQuaternion::from_quaternion(turned));
+        let [place_m, speed_m_s] = self::off(&flight, &after);
+        println!(
+            "solver.dynamicsStep {step_s}: momentum {off:.1e} of itself, attitude {off_rad:.1e} rad, centre of mass {off_m:.1e} m, \
+             position {place_m:.1e} m, velocity {speed_m_s:.1e} m/s"
+        );
+        assert!(off < 1e-6 && off_rad < 1e-6 && off_m < 1e-12, "{off} {off_rad} {off_m}");
+        assert!(place_m < 1e-3 && speed_m_s < 1e-5, "{place_m} {speed_m_s}");
+    }
+}
+
+#[test]
+fn the_jet_slows_a_turning_body_as_thomson_says() {
+    // Thrust along the axis through nozzle and centre of mass, tank there: no torque, J stays, and across the axis
+    // dw/dt = -q l^2 w / J about the two equal axes.
+    let craft = Craft {
+        inertia_kg_m2: [300.0, 300.0, 400.0],
+        nozzle_m: [0.0, 0.0, -1.5],
+        force_n: [0.0, 0.0, 400.0],
+        tank_m: [0.0; 3],
+    };
+    let (begin, named) = (start(&craft, [0.2, 0.0, 0.0]), craft.model());
+    let time_s = 100.0;
+    let ratio = (-craft.flow_kg_s() * 1.5 * 1.5 / 300.0 * time_s).exp();
+    assert!(ratio < 0.9);
+    for step_s in [0.1, 1.0, 10.0] {
+        let mut flight = flown(&named, &begin, [0.2, 0.0, 0.0], &[("solver.dynamicsStep", step_s)]);
+        flight.fly_to(time_s, 50.0).unwrap();
+        let slowed = 0.2 - flight.vector("attitude.rate").norm();
+        let off = slowed / (0.2 * (1.0 - ratio)) - 1.0;
+        println!("solver.dynamicsStep {step_s}: the rate falls by {slowed:.6} rad/s, {off:.1e} off");
+        assert!(off.abs() < 1e-9, "{off}");
+    }
+    // A tank on the axis away from the centre of mass: inertia and lever change with it.
+    let craft = Craft { tank_m: [0.0, 0.0, 0.6], ..craft };
+    let (begin, named) = (start(&craft, [0.2, 0.05, 0.1]), craft.model());
+    let end = integrated(&craft, begin, time_s, 0.01, true);
+    let mut flight = flown(&named, &begin, [0.2, 0.05, 0.1], &[("solver.dynamicsStep", 10.0)]);
+    flight.fly_to(time_s, 50.0).unwrap();
+    let lost = (momentum(&end) - momentum(&begin)).norm();
+    let off = (flight.vector("momentum.inertial") - momentum(&end)).norm() / lost;
+    println!("with the tank 0.6 m along the axis: {off:.1e} of what is lost");
+    assert!(lost > 1.0 && off < 1e-6, "{lost} {off}");
 }
