@@ -147,7 +147,8 @@ impl Components {
                     }
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
                         let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
-                        *downlink = DownlinkAhead { separation_rad, pressure_pa: at.pressure_pa, added: [0.0; 2] };
+                        *downlink =
+                            DownlinkAhead { separation_rad, pressure_pa: at.pressure_pa, added: [0.0; 2] };
                     }
                     base = momentum;
                 }
@@ -181,10 +182,7 @@ impl Components {
     }
 
     /// Cycles to come of X and of Z, `reach` being what a coming downlink can add to each.
-    pub fn cycles(
-        &self,
-        reach: impl Fn(&DownlinkAhead) -> [Reach; 2],
-    ) -> [[Cycle; LONGEST_HORIZON]; 2] {
+    pub fn cycles(&self, reach: impl Fn(&DownlinkAhead) -> [Reach; 2]) -> [[Cycle; LONGEST_HORIZON]; 2] {
         let mut cycles = [[Cycle::default(); LONGEST_HORIZON]; 2];
         for cycle in 0..self.count {
             // The last science has no downlink after it within the horizon.

@@ -93,7 +93,8 @@ impl Forecast for SampledForecast<'_> {
         for end_s in times_s {
             while at_s < end_s {
                 let step_end_s = end_s.min(at_s + step_s);
-                let next_s = if attitude.until_s > at_s { step_end_s.min(attitude.until_s) } else { step_end_s };
+                let next_s =
+                    if attitude.until_s > at_s { step_end_s.min(attitude.until_s) } else { step_end_s };
                 for (node, weight) in GAUSS_3 {
                     self.add(&mut totals, at_s + node * (next_s - at_s), weight * (next_s - at_s));
                 }

@@ -12,8 +12,8 @@ use super::linear::LinearTorque;
 use super::profile::{Component, Reach};
 use super::targeting::{Aim, Targeted, Targeting};
 use super::turning::best_turned;
-use crate::guidance::ChosenPlace;
 use crate::attitude::{SunAngles, direction_from_angles};
+use crate::guidance::ChosenPlace;
 use crate::momentum::{Convention, DumpPolicy};
 use crate::plant::{ForecastMomentum, Outlook, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
@@ -173,7 +173,8 @@ impl Manager<'_> {
     /// The target that keeps the momentum of the next science smallest.
     fn turned(&self, aim: &Aim<'_>, science: &ScienceAhead) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
-        let reach = self.targeting.torques(aim, aim.separation_rad())?.map(|it| it.map(|torque| torque * aim.span_s));
+        let reach =
+            self.targeting.torques(aim, aim.separation_rad())?.map(|it| it.map(|torque| torque * aim.span_s));
         let end = science.end_body_n_m_s;
         let range = |axis: usize, reach: Reach, asked: bool| {
             // Under the other antenna the body stands half a turn about the Sun line away.
