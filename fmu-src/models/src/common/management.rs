@@ -18,7 +18,8 @@ enumeration_of! {
         dumpsOnly = 1 => DumpsOnly,
         /// Every downlink brings the momentum toward momentum.target.
         reactive = 2 => Reactive,
-        /// Every downlink brings it where the coming momentum.horizon cycles, forecast, keep its components smallest.
+        /// Every downlink brings it to the middle of what keeps all components below dump.threshold through the coming
+        /// momentum.horizon cycles, forecast.
         predictive = 3 => Predictive,
     }
 }
@@ -57,8 +58,10 @@ pub struct TargetingVariables {
     /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub target: RealVector<3>,
-    /// How many cycles of science and downlink predictive targets look ahead (assumed; paper 000 names none); with
-    /// momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are momentum.target.
+    /// How many cycles of science and downlink predictive targets look ahead, each downlink with what sunlight can do then
+    /// (chosen: from 16 on the dumps of paper 000's Table 2 stay the same, each count within 1 of the paper's, which names no
+    /// horizon); with momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are
+    /// momentum.target.
     #[parameter(min = 1, max = LONGEST_HORIZON, start = 20)]
     pub horizon: Integer,
 }

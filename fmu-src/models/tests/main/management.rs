@@ -170,6 +170,69 @@ fn targets_save_dumps_and_looking_ahead_saves_more() {
     assert!(dumps[0] > dumps[1] && dumps[1] >= dumps[2], "{dumps:?}");
 }
 
+/// A part of 1 that fills the unit interval evenly over `mission`, by the `of`-th irrational.
+fn part(mission: u32, of: usize) -> f64 {
+    const IRRATIONALS: [f64; 12] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0];
+    ((f64::from(mission) + 0.5) * IRRATIONALS[of].sqrt()).fract()
+}
+
+/// A mission of its own place in space of what the strategies meet.
+fn random_mission(number: u32, convention: f64) -> Sets {
+    let between = |of: usize, low: f64, high: f64| low + (high - low) * part(number, of);
+    let flag = |of: usize| f64::from(u8::from(part(number, of) < 0.5));
+    let threshold = between(0, 2.0, 8.0);
+    let start_s = between(1, 1.0, 5.0) * HOUR_S;
+    vec![
+        ("momentum.convention", convention),
+        ("start.epoch", 292_248_000.0 + between(2, 0.0, 120.0) * 86_400.0),
+        ("spacecraft.centerOfMass[1]", between(3, -0.03, 0.03)),
+        ("spacecraft.centerOfMass[3]", between(4, -0.06, 0.06)),
+        ("dump.threshold[1]", threshold),
+        ("dump.threshold[2]", threshold),
+        ("dump.threshold[3]", threshold),
+        ("dump.reinitFraction", if flag(5) > 0.0 { 1.0 } else { between(6, 0.0, 1.0) }),
+        ("guided.downlinkStart", start_s),
+        ("guided.downlinkEnd", start_s + between(7, 4.0, 9.0) * HOUR_S),
+        ("solar.fixedPressure", flag(8)),
+        ("gravityGradient.enabled", flag(9)),
+        ("sunshade.shape", 1.0 + flag(10)),
+        ("panel[1].enabled", flag(11)),
+        ("panel[2].enabled", flag(11)),
+    ]
+}
+
+/// Dumps of sixty days, and the shortest time between two, in s.
+fn dumps_of(named: &NamedModel<MomentumPlant>, mission: &Sets, strategy: f64) -> (i32, f64) {
+    let mut flight = named.fly(0.0, &with(mission, &[("momentum.strategy", strategy)])).unwrap();
+    let (mut count, mut last_s, mut shortest_s) = (0, f64::NEG_INFINITY, f64::INFINITY);
+    for hour in 1..=60 * 24 {
+        flight.step_to(f64::from(hour) * HOUR_S).unwrap();
+        let (now, at_s) = (flight.integer("dump.count"), flight.real("dump.lastTime"));
+        if now > count {
+            // Of several within the step the time between them is less than it.
+            shortest_s = shortest_s.min(if now > count + 1 { 0.0 } else { at_s - last_s });
+            (count, last_s) = (now, at_s);
+        }
+    }
+    (count, shortest_s)
+}
+
+#[test]
+fn looking_ahead_costs_no_dumps_in_any_of_thirty_missions() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let (mut saved, mut worse) = (0, Vec::new());
+    for number in 0..30 {
+        let mission = random_mission(number, 2.0);
+        let [reactive, predictive] = [2.0, 3.0].map(|strategy| dumps_of(&named, &mission, strategy));
+        println!("{number}: reactive {reactive:?}, predictive {predictive:?}");
+        saved += reactive.0 - predictive.0;
+        if predictive.0 > reactive.0 || predictive.1 < 0.1 * 86_400.0 {
+            worse.push((number, reactive, predictive));
+        }
+    }
+    assert!(worse.is_empty() && saved > 30, "{saved} {worse:?}");
+}
+
 #[test]
 fn the_communication_step_changes_no_dump() {
     let named = NamedModel::<MomentumPlant>::shipped();

@@ -63,7 +63,7 @@ pub enum Strategy {
     DumpsOnly,
     /// To bring the momentum to zero.
     Reactive,
-    /// To bring it where the coming cycles keep it smallest.
+    /// To bring it where the coming cycles keep it below the thresholds.
     Predictive,
 }
 

@@ -262,7 +262,7 @@ rows are the physical momentum, whose body components also turn with the spacecr
 at its 0.3 AU value, no eclipses, no gravity gradient. Plates and panels: what the paper does not print of them is
 \"comparable\" to the cylinder's, here to those of its two thresholds.
 Fitted: the science rule's factor 0.25. Chosen, because the paper does not print it: paper 004's orbit about Mercury's
-equator with a period of 12 h, start 2009-04-06, downlink 2 to 10 h after every second periapsis, four cycles that
+equator with a period of 12 h, start 2009-04-06, downlink 2 to 10 h after every second periapsis, twenty cycles that
 predictive targets look ahead; momentum/assumptions shows what follows from other choices.";
 
 const DUMP_HEADER: [&str; 2] = ["case", "dump_time_d"];

@@ -44,10 +44,10 @@ impl Craft {
         self.solar.total(&beam, &angles, &self.center_of_mass_m).torque_body_n_m
     }
 
-    fn linear(&self) -> (LinearTorque, f64) {
+    fn linear(&self) -> LinearTorque {
         let shade = self.spacecraft.sunshade.as_ref().unwrap();
         let polynomial = TorquePolynomial::of_sunshade(shade, shade.model, &self.center_of_mass_m).unwrap();
-        (LinearTorque::new(&polynomial, shade.dcm_body_from_shade), PRESSURE_PA)
+        LinearTorque::new(&polynomial, shade.dcm_body_from_shade)
     }
 }
 
@@ -90,7 +90,15 @@ fn an_attainable_target_is_hit_to_rounding() {
         for (degrees, momentum) in aims() {
             let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
             let linear = Some(craft.linear());
-            let aim = Aim { to_sun, to_earth, momentum, span_s: SPAN_S, torque_body_n_m: &torque, linear };
+            let aim = Aim {
+                to_sun,
+                to_earth,
+                momentum,
+                span_s: SPAN_S,
+                torque_body_n_m: &torque,
+                pressure_pa: PRESSURE_PA,
+                linear,
+            };
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::XAndZ, 2)] {
                 let targeting = Targeting { axes, ..TARGETING };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
@@ -132,14 +140,22 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
     let mut clamped = 0;
     for (degrees, momentum) in aims() {
         let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
-        let aim = Aim { to_sun, to_earth, momentum, span_s: SPAN_S, torque_body_n_m: &torque, linear: None };
+        let aim = Aim {
+            to_sun,
+            to_earth,
+            momentum,
+            span_s: SPAN_S,
+            torque_body_n_m: &torque,
+            pressure_pa: PRESSURE_PA,
+            linear: None,
+        };
         for target in
             [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
         {
             let found = TARGETING.sun_place(&aim, &target).unwrap();
             clamped += i32::from(found.clamped);
             let best = aim.left(&found.place, &target).xz().norm();
-            for branch in TARGETING.branches(&aim).unwrap() {
+            for branch in TARGETING.branches(aim.separation_rad()).unwrap() {
                 for i in -40..=40 {
                     for j in -40..=40 {
                         let angles = SunAngles {
@@ -167,7 +183,15 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
     let (to_sun, to_earth) = (Vector3::y(), earth(60.0));
     let linear = Some(craft.linear());
     let momentum = StartMomentum::Body(Vector3::zeros());
-    let aim = Aim { to_sun, to_earth, momentum, span_s: SPAN_S, torque_body_n_m: &shade, linear };
+    let aim = Aim {
+        to_sun,
+        to_earth,
+        momentum,
+        span_s: SPAN_S,
+        torque_body_n_m: &shade,
+        pressure_pa: PRESSURE_PA,
+        linear,
+    };
     let by =
         |method, target: &Vector3<f64>| Targeting { method, ..TARGETING }.sun_place(&aim, target).unwrap();
     let mut worst = 0.0_f64;
@@ -192,6 +216,7 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
             momentum,
             span_s: SPAN_S,
             torque_body_n_m: &none,
+            pressure_pa: PRESSURE_PA,
             linear: None,
         };
         assert_eq!(TARGETING.sun_place(&aim, &Vector3::zeros()), None);
