@@ -7,6 +7,7 @@ use physics::bodies::Body;
 use physics::environment::flown::FlownEphemeris;
 use physics::guidance::timeline::Timeline;
 use physics::momentum::WheelArray;
+use physics::plant::ControlDefaults;
 use physics::spacecraft::{Spacecraft, SunKeepIn};
 use serde::Serialize;
 
@@ -55,6 +56,12 @@ impl GuidanceSetup {
     pub fn dump_threshold_n_m_s(&self) -> [f64; 3] {
         let axes: Vec<_> = self.spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         dump_threshold_n_m_s(&self.spacecraft, WheelArray::new(&axes).as_ref())
+    }
+
+    /// How far beyond a boundary the controller may take an ordinary scan, in rad.
+    pub fn monitor_margin_rad(&self) -> f64 {
+        let axes: Vec<_> = self.spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+        ControlDefaults::of(&self.spacecraft, WheelArray::new(&axes).as_ref()).monitor_margin_rad
     }
 
     /// Takes the commands of a timeline.

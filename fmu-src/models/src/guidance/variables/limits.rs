@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
-use physics::guidance::{boresight, command, downlink, hot_pole, keep_in, modes, monitor};
+use physics::guidance::{boresight, command, downlink, hot_pole, keep_in, modes};
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{AntennaSelect, KeepInMethod};
@@ -73,6 +73,7 @@ pub struct HotPoleVariables {
 
 /// The constraint monitor.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct MonitorVariables {
     /// Whether a violation that lasts demotes the mode.
     #[parameter(tunable, start = true)]
@@ -80,8 +81,9 @@ pub struct MonitorVariables {
     /// How long the estimated attitude may violate a constraint (assumed; paper 001: some short period).
     #[parameter(tunable, unit = "s", min = 0.0, max = 1e9, start = 10.0)]
     pub persistence: Real,
-    /// How far beyond the boundary counts as a violation (assumed; paper 001: not triggered by overshoot).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = monitor::MARGIN_RAD)]
+    /// How far beyond the boundary counts as a violation (assumed; paper 001: not triggered by overshoot). The default is what
+    /// MomentumPlant's controller by its own defaults overshoots where a scan of 0.05 deg/s reverses, and at least 1 deg.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.monitor_margin_rad())]
     pub margin: Real,
 }
 

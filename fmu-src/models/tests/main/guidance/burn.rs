@@ -140,3 +140,38 @@ fn a_timelines_entry_that_names_no_scenario_does_not_burn_again() {
     let edges: Vec<_> = (1..told.len()).filter(|at| told[*at] != told[at - 1]).collect();
     assert_eq!((edges.len(), edges[0], edges[2]), (3, 4, 70), "{edges:?}");
 }
+
+#[test]
+fn a_burn_that_is_refused_or_ends_before_it_began_says_so() {
+    // Toward the Sun the thrust along +Z would turn the shade away.
+    let zone = [("hotPole.enabled", 0.0), ("monitor.enabled", 0.0), ("keepIn.enabled", 1.0)];
+    let toward_sun = [
+        ("burn.deltaV[1]", 3.0),
+        ("burn.deltaV[2]", -4.0),
+        ("burn.deltaV[3]", 0.0),
+        ("burn.start", 4.0),
+        ("burn.timeout", 20.0),
+        ("pointing.scenario", 9.0),
+    ];
+    let named = NamedModel::<Guidance>::shipped();
+    let mut refused = named.fly(0.0, &with(&[PLACED, &zone, &toward_sun])).unwrap();
+    for second in 0..40 {
+        refused.step_to(f64::from(second + 1)).unwrap();
+        assert_eq!(refused.boolean("burn.timedOut"), second >= 4, "{second}");
+        assert!(!refused.boolean("thrust.command"));
+        assert_eq!(refused.integer("thrust.request") != 0, second < 24, "{second}");
+    }
+    let told = |named: &NamedModel<Guidance>, part: &str| {
+        named.warnings().iter().filter(|it| it.starts_with("burn.timedOut") && it.contains(part)).count()
+    };
+    assert_eq!([told(&named, "does not begin"), told(&named, "before it began")], [1, 1]);
+
+    let named = NamedModel::<Guidance>::shipped();
+    let mut ended = named.fly(0.0, &with(&[PLACED, FREE, BURN, &[("burn.start", 100.0)]])).unwrap();
+    ended.step_to(10.0).unwrap();
+    assert!(!ended.boolean("burn.timedOut") && named.warnings().is_empty());
+    ended.set("pointing.scenario", 3.0);
+    ended.step_to(20.0).unwrap();
+    assert!(ended.boolean("burn.timedOut") && ended.integer("thrust.request") == 0);
+    assert_eq!(told(&named, "before it began"), 1);
+}

@@ -1,6 +1,7 @@
 //! Guidance through the functions a master calls.
 
 mod burn;
+mod controlled;
 mod cuts;
 mod ephemeris;
 mod modes;
