@@ -26,4 +26,5 @@ mod spin_plant;
 mod start_values;
 mod valves;
 mod vocabulary;
+mod wheel_torque;
 mod without_effect;

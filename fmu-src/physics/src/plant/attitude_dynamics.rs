@@ -610,9 +610,9 @@ impl AttitudeDynamics {
         })
     }
 
-    /// Torque of the motor of wheel `k` (0-based), in N m.
-    pub fn motor_n_m(&self, k: usize) -> f64 {
-        self.wheels.motors()[k].torque_n_m
+    /// Torque of the motor of wheel `k` (0-based) that acts at `time_s`, in N m.
+    pub fn motor_n_m(&self, settings: &DynamicsSettings, k: usize, time_s: f64) -> f64 {
+        self.motion.motor_n_m(&settings.gyrostat, &self.wheels.motors()[k], k, time_s)
     }
 
     /// Thrusters of the flight.
