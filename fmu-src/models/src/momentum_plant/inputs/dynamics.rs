@@ -122,6 +122,7 @@ pub fn settings(
             },
             seed,
             interval_s: controller.interval_s(),
+            acceleration_rad_s2: or_none(controller.slew_acceleration_rad_s2),
             longest_without_tracker_s: real(v.star_tracker.outage),
         },
         sun_sensors: sun_sensors(context, values)?,
