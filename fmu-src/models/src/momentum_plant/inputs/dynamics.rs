@@ -207,10 +207,11 @@ pub fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>
     sensors.collect()
 }
 
-/// Which of star tracker and gyros work.
+/// Which of star trackers and gyros work: the spare takes over where the first has failed.
 pub fn health(context: &Plan<'_>, values: &Values) -> SensorHealth {
+    let tracker = &context.variables.star_tracker;
     SensorHealth {
-        star_tracker: !values.boolean(context.variables.star_tracker.failed),
+        star_tracker: !(values.boolean(tracker.failed) && values.boolean(tracker.spare_failed)),
         gyro: !values.boolean(context.variables.gyro.failed),
     }
 }

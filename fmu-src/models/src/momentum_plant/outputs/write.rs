@@ -130,7 +130,7 @@ pub fn write_ideal(
     let Instant { frame, sun_body, lit_fraction, .. } = &evaluation.instant;
     values.set_vector(v.estimate.q, Attitude::from_rotation(&frame.inertial_from_body).quaternion(None));
     values.set_vector(v.estimate.rate, frame.rate_body_rad_s.into());
-    values.set_boolean(v.estimate.valid, !values.boolean(v.star_tracker.failed));
+    values.set_boolean(v.estimate.valid, dynamics::health(context, values).star_tracker);
     if state.sun_sensors.is_none() {
         state.sun_sensors = Some(dynamics::sun_sensors(context, values)?);
     }
