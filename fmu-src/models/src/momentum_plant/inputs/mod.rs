@@ -272,8 +272,14 @@ fn ephemeris_source(
                      ephemeris.source = inputs asks for",
                 ));
             }
-            let earth_m = Vector3::from(values.vector(variables.earth.position));
-            plant::EphemerisSource::Given { sun_m, earth_m }
+            let given = |position, velocity| CartesianState {
+                position_m: Vector3::from(values.vector(position)),
+                velocity_m_s: Vector3::from(values.vector(velocity)),
+            };
+            plant::EphemerisSource::Given {
+                sun: given(variables.sun.position, variables.sun.velocity),
+                earth: given(variables.earth.position, variables.earth.velocity),
+            }
         }
         Some(EphemerisSource::Kepler) => {
             let ellipse = &variables.ephemeris.ellipse;

@@ -59,8 +59,11 @@ pub struct SunVariables {
     pub position_body: RealVector<3>,
     /// Sun's position from the orbit's centre in EME2000, for models that have it as an input.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
+    /// Its velocity, by which the rate of an attitude that follows it is known; the position holds until it is set anew.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
     pub position_inertial: RealVector<3>,
-    /// Its velocity; 0 when ephemeris.source is inputs.
+    /// Its velocity; sun.velocity when ephemeris.source is inputs.
     #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
     pub velocity_inertial: RealVector<3>,
     /// Unit vector to the Sun, body frame.
@@ -96,8 +99,11 @@ pub struct EarthVariables {
     /// Earth's position from the orbit's centre in EME2000, for models that have it as an input.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub position_inertial: RealVector<3>,
-    /// Its velocity; 0 when ephemeris.source is inputs.
+    /// Its velocity; earth.velocity when ephemeris.source is inputs.
     #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
+    /// Its velocity, by which the rate of an attitude that follows it is known; the position holds until it is set anew.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
     pub velocity_inertial: RealVector<3>,
     /// Azimuth of the Earth in the body frame, from -Y toward +X.
     #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
