@@ -35,6 +35,8 @@ pub struct ReactionControl {
     dump: Option<PulsedDump>,
     load: ThrusterLoad,
     totals: ThrusterTotals,
+    /// How many dumps found no thrusters that give torque all ways about the centre of mass.
+    unserved_dumps: u32,
     #[serde(skip)]
     for_dumps: Option<Selected>,
     #[serde(skip)]
@@ -60,6 +62,7 @@ impl ReactionControl {
             dump: None,
             load: ThrusterLoad::none(time_s, 1.0),
             totals: ThrusterTotals::default(),
+            unserved_dumps: 0,
             for_dumps: None,
             for_attitude: None,
         }
@@ -175,11 +178,11 @@ impl ReactionControl {
             if pulse.take_opening(&thruster.valve, due_s) {
                 if feeds() {
                     valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
+                } else {
+                    pulse.clear();
                 }
             }
         }
-                } else {
-                    pulse.clear();
         if self.burn.is_some_and(|burn| burn.stop_s <= due_s) {
             self.burn = None;
         }
@@ -279,6 +282,28 @@ impl ReactionControl {
         self.burn.map(|burn| burn.set)
     }
 
+    /// Whether there are thrusters that dump about this centre of mass; a dump that is about to begin and finds none is counted.
+    pub fn serves_dump(
+        &mut self,
+        settings: &ReactionControlSettings,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> bool {
+        let selection = selected(&mut self.for_dumps, None, center_of_mass_body_m, || {
+            settings.dump_selection(center_of_mass_body_m).ok()
+        });
+        let serves = selection.is_some();
+        if !serves {
+            self.dump = None;
+            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+        }
+        serves
+    }
+
+    /// How many dumps so far began or ended without thrusters that give torque all ways about the centre of mass.
+    pub fn unserved_dumps(&self) -> u32 {
+        self.unserved_dumps
+    }
+
     /// Begins a dump at `time_s` toward a total momentum, EME2000, in N m s.
     pub fn begin_dump(&mut self, motion: &GyrostatMotion, target_inertial_n_m_s: Vector3<f64>, time_s: f64) {
         let before = self.totals_at(motion, time_s);
@@ -325,6 +350,9 @@ impl ReactionControl {
         let selection = selected(&mut self.for_dumps, None, &mass.center_of_mass_body_m, || {
             settings.dump_selection(&mass.center_of_mass_body_m).ok()
         });
+        if selection.is_none() {
+            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+        }
         let fires = self
             .valves
             .iter()
