@@ -133,10 +133,11 @@ pub struct EclipseVariables {
 }
 
 impl EclipseVariables {
-    /// The shadow of a planet of this radius.
-    pub fn read(&self, values: &Values, radius_m: f64) -> Result<Shadow, Failure> {
+    /// The shadow of a planet of this radius in the light of a Sun of this one, both in m.
+    pub fn read(&self, values: &Values, radius_m: f64, sun_radius_m: f64) -> Result<Shadow, Failure> {
         let model = values.choice(self.method).map_or(ShadowModel::DiscOverlap, |it| it.0);
-        Shadow::new(model, radius_m).map_err(|error| Failure::new(format!("planet.radius: {error}")))
+        Shadow::with_sun_radius(model, radius_m, sun_radius_m)
+            .map_err(|error| Failure::new(format!("planet.radius, sun.radius: {error}")))
     }
 }
 

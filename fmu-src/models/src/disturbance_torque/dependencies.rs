@@ -10,7 +10,7 @@ pub fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencie
     let (torque, force) = (&v.torque, &v.force);
     let places = &knowns![v.sun.position_body, v.planet.position_body];
     let lit = &knowns![places, v.planet.pole, &v.panel];
-    let eclipse = &knowns![&v.planet, &v.eclipse];
+    let eclipse = &knowns![&v.planet, v.sun.radius, &v.eclipse];
     let light = &knowns![eclipse, &v.solar, &v.planet_light, &v.thermal, &v.shadowing, &v.sunshade];
     let gradient = &knowns![&v.planet, &v.gravity_gradient, &v.spacecraft];
 

@@ -86,6 +86,7 @@ pub fn seeded_parameters(
     };
     Parameters {
         flux_at_1_au_w_m2: dual(parameters.flux_at_1_au_w_m2, variables.solar.flux),
+        sun_radius_m: dual(parameters.sun_radius_m, variables.sun.radius),
         gm_m3_s2: dual(parameters.gm_m3_s2, planet.gravitational_parameter),
         inertia_body_kg_m2: Matrix3::from_fn(inertia),
         planet: PlanetSurface {
@@ -105,6 +106,7 @@ pub fn is_known(variables: &DisturbanceVariables, real: Real) -> bool {
     let surface = &planet.surface;
     let numbers = [
         variables.solar.flux,
+        variables.sun.radius,
         planet.gravitational_parameter,
         planet.radius,
         surface.absorptivity,
@@ -178,7 +180,8 @@ impl Prepared {
             sun_disc: values.boolean(variables.shadowing.sun_disc),
             sunshade_model: sunshade_model.filter(|_| spacecraft.sunshade.is_some()),
         };
-        let shadow = variables.eclipse.read(values, surface.radius_m)?;
+        let sun_radius_m = values.real(variables.sun.radius);
+        let shadow = variables.eclipse.read(values, surface.radius_m, sun_radius_m)?;
         let failure = |error: &dyn core::fmt::Display| Failure::new(error.to_string());
         let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
         let model = DisturbanceModel::new(spacecraft, &options)
@@ -194,6 +197,7 @@ impl Prepared {
             shadow: present.then_some(shadow),
             parameters: Parameters {
                 flux_at_1_au_w_m2: values.real(variables.solar.flux),
+                sun_radius_m,
                 gm_m3_s2: values.real(planet.gravitational_parameter),
                 inertia_body_kg_m2,
                 planet: surface,

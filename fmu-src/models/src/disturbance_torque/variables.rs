@@ -1,6 +1,7 @@
 //! The model's variables at its public face.
 
 use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Variables};
+use physics::constants::RADIUS_SUN_M;
 
 use super::setup::DisturbanceSetup;
 use crate::common::choices::SunshadeShape;
@@ -48,6 +49,10 @@ pub struct DisturbanceVariables {
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct SunVariables {
+    /// Radius of the Sun (IAU 2015 nominal): width of the penumbra, and of shadows of parts by shadowing.sunDisc. Others use
+    /// 695,000 or 696,000 km, which moves an edge of a shadow by some 2 ms.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e10, start = RADIUS_SUN_M)]
+    pub radius: Real,
     /// From the spacecraft to the Sun, body frame.
     #[input(unit = "m", display = "AU", start = setup.center.usual_sun_body_m())]
     pub position_body: RealVector<3>,

@@ -46,7 +46,13 @@ impl Inputs {
             places,
             attitude,
             dumped_at_once: knowns![&v.dump].only_if(choice.ideal),
-            failures: knowns![v.star_tracker.failed, v.gyro.failed, sensors, wheels],
+            failures: knowns![
+                v.star_tracker.failed,
+                v.star_tracker.spare_failed,
+                v.gyro.failed,
+                sensors,
+                wheels
+            ],
             commanded: knowns![&v.command, &v.dump, &v.thrust, &v.thruster, &v.wheel, &v.panel],
         }
     }
@@ -64,7 +70,7 @@ struct Parameters {
 
 impl Parameters {
     fn of(v: &PlantVariables) -> Self {
-        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, &v.eclipse];
+        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse];
         let aimed = knowns![&v.momentum, &v.solar, &v.spacecraft, &v.sunshade, &v.panel];
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         let attitude = knowns![
@@ -144,7 +150,10 @@ fn actuators(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, para
     let fired = knowns![v.thrust.active, &v.thruster, v.torque.thruster, v.force.thruster];
     table.output(knowns![fired, &v.control], all, &parameters.actuators);
     for wheel in &v.wheel {
-        table.output(wheel.torque, all, &parameters.actuators);
+        // What acts on the body reaches the wheels that follow ideally or stand at their capacity.
+        let driven = knowns![all, &v.panel, &inputs.dumped_at_once, v.torque.applied, v.force.applied];
+        let at_start = knowns![&parameters.light, &parameters.actuators];
+        table.output(knowns![wheel.torque, wheel.power], driven, at_start);
         // Ideal wheels hold what is left of the momentum.
         let held = knowns![wheel.momentum, wheel.speed, wheel.saturated];
         let dumped = knowns![&inputs.attitude, &inputs.dumped_at_once];

@@ -148,6 +148,7 @@ impl Model for MomentumPlant {
         let rises = state.request.rises(values.boolean(context.variables.dump.request));
         let manager = inputs::manager(context, values, &configuration);
         let acting = Acting { load: &load, planner: &manager };
+        let unserved = state.dump_side_effect.unserved;
         let (mut flown, spacing) = ideal(context, values, state, &mut configuration, &thrusters, acting)?;
         if rises {
             let target = Vector3::from(values.vector(context.variables.dump.target));
@@ -161,6 +162,7 @@ impl Model for MomentumPlant {
         let totals = state.integrator.totals(step.end_s);
         outputs::write(context, values, state, &configuration, &evaluation, &totals, step.end_s);
         outputs::write_ideal(context, values, state, &evaluation, &totals, step.end_s)?;
+        say_unserved(context, values, state, unserved);
         state.configuration = Some(configuration);
         Ok(StepEnd::at(step.end_s))
     }
@@ -232,8 +234,17 @@ fn begin(
     outputs::write_calculated(context, values, state, &configuration);
     outputs::write(context, values, state, &configuration, &evaluation, &totals, time_s);
     outputs::write_ideal(context, values, state, &evaluation, &totals, time_s)?;
+    say_unserved(context, values, state, 0);
     state.configuration = Some(configuration);
     Ok(())
+}
+
+/// Says once that a dump found no thrusters, as many as `before` having done so already.
+fn say_unserved(context: &Plan<'_>, values: &Values, state: &mut PlantState, before: u32) {
+    let unserved = [before, state.dump_side_effect.unserved];
+    if let Some(thrusters) = &state.thrusters {
+        inputs::propulsion::warn_unserved(context, values, thrusters, &mut state.said_of_thrusters, unserved);
+    }
 }
 
 /// Thrusters and tanks, worked out once.

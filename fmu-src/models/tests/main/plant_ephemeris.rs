@@ -82,3 +82,43 @@ fn neither_cuts_nor_saving_change_a_bit() {
         }
     }
 }
+
+/// Sun and Earth by inputs, with their velocities: what another model is wired to follows, and so does the rate of an attitude
+/// that keeps to the Sun.
+#[test]
+fn given_velocities_of_sun_and_earth_reach_outputs_and_rates() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let mut theory = named.fly(0.0, &[]).unwrap();
+    theory.step_to(60.0).unwrap();
+    let names = ["sun.position", "sun.velocity", "earth.position", "earth.velocity"];
+    let outputs = names.map(|name| theory.vector(&format!("{name}Inertial")));
+    let given: Vec<(String, f64)> = names
+        .iter()
+        .zip(&outputs)
+        .flat_map(|(name, value)| (0..3).map(move |axis| (format!("{name}[{}]", axis + 1), value[axis])))
+        .collect();
+    let rate_without = {
+        let still: Vec<_> = given.iter().filter(|(name, _)| name.contains("position")).collect();
+        let mut sets: Vec<_> = still.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        sets.push(("ephemeris.source", 3.0));
+        let mut flight = named.fly(0.0, &sets).unwrap();
+        flight.step_to(60.0).unwrap();
+        assert_eq!(flight.vector("sun.velocityInertial"), nalgebra::Vector3::zeros());
+        flight.vector("attitude.rate")
+    };
+    let mut sets: Vec<_> = given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    sets.push(("ephemeris.source", 3.0));
+    let mut flight = named.fly(0.0, &sets).unwrap();
+    flight.step_to(60.0).unwrap();
+    for (name, expected) in names.iter().zip(&outputs) {
+        let found = flight.vector(&format!("{name}Inertial"));
+        assert!((found - expected).norm() < 1e-12 * expected.norm(), "{name}: {found} {expected}");
+    }
+    let truth = theory.vector("attitude.rate");
+    let error = (flight.vector("attitude.rate") - truth).norm();
+    assert!(
+        error < 1e-10 && (rate_without - truth).norm() > 1e-8,
+        "{error} {}",
+        (rate_without - truth).norm()
+    );
+}

@@ -11,7 +11,7 @@ const THRESHOLD_N_M_S: f64 = 4.0;
 const HELD: &[(&str, f64)] = &[
     ("attitude.source", 2.0),
     ("orbit.source", 3.0),
-    ("orbit.position[1]", 1e8),
+    ("orbit.position[2]", -1e8),
     ("ephemeris.source", 3.0),
     ("sun.position[2]", -6e10),
     ("spacecraft.centerOfMass[1]", 0.2),

@@ -287,6 +287,23 @@ impl GyrostatMotion {
         }
     }
 
+    /// Torque of `motor` that acts on rotor `k` (0-based) at `time_s`, along its axis, in N m:
+    /// none of one that is locked or has no motor; at its capacity what holds it there, d/dt (h + I a.w) + f = I a.w' + f.
+    pub fn motor_n_m(&self, gyrostat: &Gyrostat, motor: &Motor, k: usize, time_s: f64) -> f64 {
+        let wheel = &gyrostat.wheels()[k];
+        match self.rotors[k].rotor {
+            _ if motor.failed || wheel.locked => 0.0,
+            Rotor::Held { momentum_n_m_s } if wheel.is_saturated(momentum_n_m_s) => {
+                let terms = self.rate[..=self.order].iter().enumerate().skip(1).rev();
+                let elapsed_s = time_s - self.start_s;
+                let acceleration =
+                    terms.fold(Vector3::zeros(), |sum, (j, rate)| sum * elapsed_s + rate * j as f64);
+                wheel.carried_n_m_s(&acceleration) + wheel.friction_n_m(momentum_n_m_s)
+            }
+            Rotor::Held { .. } | Rotor::Turning { .. } => motor.torque_n_m,
+        }
+    }
+
     /// Displacement in sqrt(kg) m and speed in sqrt(kg) m/s of modal coordinate `k` (0-based) at `time_s`, where the body moves
     /// like this.
     pub fn oscillator(&self, k: usize, time_s: f64, motion: &BodyMotion) -> [f64; 2] {

@@ -56,6 +56,12 @@ impl ReactionWheel {
     }
 }
 
+/// Mechanical power of a motor that exerts this torque (N m) on a rotor at this speed (rad/s) relative to the body, in W;
+/// negative where it brakes.
+pub fn motor_power_w(torque_n_m: f64, speed_rad_s: f64) -> f64 {
+    torque_n_m * speed_rad_s
+}
+
 /// Speed of a rotor of this inertia (kg m2) at a momentum in N m s, in rad/s.
 pub fn wheel_speed_rad_s(momentum_n_m_s: f64, inertia_kg_m2: f64) -> f64 {
     momentum_n_m_s / inertia_kg_m2

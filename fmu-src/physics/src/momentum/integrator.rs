@@ -59,6 +59,11 @@ impl MomentumIntegrator {
         self.segment.by_source(time_s)
     }
 
+    /// Angular acceleration of the body at a time inside the current segment, body frame, in rad/s2.
+    pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
+        self.segment.acceleration_body_rad_s2(time_s)
+    }
+
     /// Whether [`MomentumIntegrator::advance`] has reached `time_s`, and its totals are known there.
     pub fn covers(&self, time_s: f64) -> bool {
         let edge_tolerance_s = edge_tolerance_s(time_s);

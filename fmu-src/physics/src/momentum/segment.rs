@@ -46,6 +46,8 @@ pub struct MomentumSegment {
     by_source_at_start: SourceMomenta,
     /// Absent for a segment without length.
     by_source: Option<SourceSegment<{ NODES + 1 }>>,
+    /// Angular rate, body frame, in rad/s; absent for a segment without length.
+    rate_body_rad_s: Option<Segment<3, NODES>>,
     /// Components of the momentum, body frame, that come to their dump thresholds at the end.
     at_threshold: [bool; 3],
 }
@@ -61,6 +63,7 @@ impl MomentumSegment {
             totals: None,
             by_source_at_start: by_source,
             by_source: None,
+            rate_body_rad_s: None,
             at_threshold: [false; 3],
         }
     }
@@ -74,6 +77,10 @@ impl MomentumSegment {
             && self.totals.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
             && self.by_source_at_start.is_sound()
             && self.by_source.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
+            && self
+                .rate_body_rad_s
+                .as_ref()
+                .is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
     }
 
     /// The same, expecting that the tolerance allows the next segment this length, in s.
@@ -142,6 +149,7 @@ impl MomentumSegment {
             samples.map(|s| rates(settings.convention, &s.inertial_from_body, &s.by_source_body_n_m));
         let by_source = SourceSegment::<NODES>::from_samples(start_s, end_s, &by_source)
             .integral(by_source_at_start.to_vector());
+        let rate_body_rad_s = Segment::from_samples(start_s, end_s, &samples.map(|s| s.rate_body_rad_s));
         let (totals, by_source) = (Some(totals), Some(by_source));
         let mut segment = Self {
             start_s,
@@ -151,6 +159,7 @@ impl MomentumSegment {
             totals,
             by_source_at_start,
             by_source,
+            rate_body_rad_s: Some(rate_body_rad_s),
             at_threshold: [false; 3],
         };
         if let Some(excess) = segment.first_excess(flight, settings, &nodes, &samples) {
@@ -188,6 +197,11 @@ impl MomentumSegment {
             Some(momenta) if time_s > self.start_s => SourceMomenta::from_vector(&momenta.value(time_s)),
             _ => self.by_source_at_start,
         }
+    }
+
+    /// Angular acceleration at a time inside the segment, body frame, in rad/s2; none where it has no length.
+    pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
+        self.rate_body_rad_s.as_ref().map_or(Vector3::zeros(), |it| it.value_and_derivative(time_s).1)
     }
 
     /// Components of the momentum, body frame, that come to their dump thresholds at the end: there thrusters dump.

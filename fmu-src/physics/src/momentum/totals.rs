@@ -59,6 +59,21 @@ impl Totals {
         system - inertia_body_kg_m2 * frame.rate_body_rad_s
     }
 
+    /// Rate of the same under an external torque (body frame, N m) at an angular acceleration (rad/s2), in N m: what wheels that
+    /// follow ideally take up, T - w x h - J w'.
+    pub fn wheels_rate_body_n_m(
+        &self,
+        inertia_body_kg_m2: &Matrix3<f64>,
+        frame: &MovingFrame,
+        torque_body_n_m: &Vector3<f64>,
+        acceleration_body_rad_s2: &Vector3<f64>,
+    ) -> Vector3<f64> {
+        let system = self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
+        let rate_body_rad_s = &frame.rate_body_rad_s;
+        Convention::Inertial.momentum_rate_body_n_m(&system, torque_body_n_m, rate_body_rad_s)
+            - inertia_body_kg_m2 * acceleration_body_rad_s2
+    }
+
     /// System momentum in the body frame by `convention`, in N m s.
     pub fn momentum_body_n_m_s(
         &self,

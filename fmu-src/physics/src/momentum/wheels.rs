@@ -8,6 +8,7 @@ const LEAST_EIGENVALUE: f64 = 1e-12;
 /// Wheels with the smallest-norm distribution of momentum over their spin axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WheelArray {
+    axes_body: Vec<Vector3<f64>>,
     rows: Vec<Vector3<f64>>,
 }
 
@@ -19,7 +20,10 @@ impl WheelArray {
             return None;
         }
         let inverse = gram.try_inverse()?;
-        Some(Self { rows: axes_body.iter().map(|axis| inverse * axis).collect() })
+        Some(Self {
+            axes_body: axes_body.to_vec(),
+            rows: axes_body.iter().map(|axis| inverse * axis).collect(),
+        })
     }
 
     /// Number of wheels.
@@ -35,6 +39,19 @@ impl WheelArray {
     /// Spin momentum of wheel `wheel` (0-based) when the array holds `momentum_body_n_m_s`, in N m s.
     pub fn momentum_n_m_s(&self, wheel: usize, momentum_body_n_m_s: &Vector3<f64>) -> f64 {
         self.rows[wheel].dot(momentum_body_n_m_s)
+    }
+
+    /// Torque of the motor of wheel `wheel` (0-based) on its rotor of this inertia (kg m2), in N m, when what the array holds
+    /// changes at this rate (body frame, N m) and the body's angular rate at this one (rad/s2): d/dt (h + I a.w).
+    pub fn motor_n_m(
+        &self,
+        wheel: usize,
+        inertia_kg_m2: f64,
+        rate_body_n_m: &Vector3<f64>,
+        acceleration_body_rad_s2: &Vector3<f64>,
+    ) -> f64 {
+        let carried = inertia_kg_m2 * self.axes_body[wheel].dot(acceleration_body_rad_s2);
+        self.momentum_n_m_s(wheel, rate_body_n_m) + carried
     }
 
     /// The greatest h, in N m s, such that no wheel has to hold more than its capacity (in N m s, in the wheels' order)

@@ -36,7 +36,7 @@ const GUIDANCE_INTERVAL_S: f64 = 1.0;
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
 const FLEXIBLE_UNITS: u32 = 8;
 
-/// A dump by a constant torque, of a spacecraft without thrusters.
+/// A dump by a constant torque, of a spacecraft without thrusters that give torque all ways.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct ConstantDump {
     torque_body_n_m: Vector3<f64>,
@@ -512,7 +512,10 @@ impl AttitudeDynamics {
         self.spacing.dumped(&event);
         self.by_source = SourceMomenta::default();
         let impulse_body_n_m_s = event.impulse_body_n_m_s();
-        if settings.thrusters.thrusters.is_empty() {
+        let center = &self.mass.center_of_mass_body_m;
+        let by_thrusters = !settings.thrusters.thrusters.is_empty()
+            && self.thrusters.serves_dump(&settings.thrusters, center);
+        if !by_thrusters {
             let duration_s = impulse_body_n_m_s.amax() / settings.thrusters.dump_torque_n_m;
             if duration_s > 0.0 {
                 let torque_body_n_m = impulse_body_n_m_s / duration_s;
@@ -625,9 +628,9 @@ impl AttitudeDynamics {
         })
     }
 
-    /// Torque of the motor of wheel `k` (0-based), in N m.
-    pub fn motor_n_m(&self, k: usize) -> f64 {
-        self.wheels.motors()[k].torque_n_m
+    /// Torque of the motor of wheel `k` (0-based) that acts at `time_s`, in N m.
+    pub fn motor_n_m(&self, settings: &DynamicsSettings, k: usize, time_s: f64) -> f64 {
+        self.motion.motor_n_m(&settings.gyrostat, &self.wheels.motors()[k], k, time_s)
     }
 
     /// Thrusters of the flight.

@@ -128,12 +128,12 @@ pub enum EphemerisSource {
     Kepler(KeplerPlanet),
     /// As the spacecraft carries them; beyond their span they move on evenly.
     Flown(Arc<FlownEphemeris>),
-    /// Fixed until they are given anew, from the orbit's centre, in m.
+    /// Where they stand until they are given anew, and their velocities, from the orbit's centre.
     Given {
         /// Sun, EME2000.
-        sun_m: Vector3<f64>,
+        sun: CartesianState,
         /// Earth, EME2000.
-        earth_m: Vector3<f64>,
+        earth: CartesianState,
     },
 }
 

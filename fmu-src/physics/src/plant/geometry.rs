@@ -80,7 +80,7 @@ pub(super) fn sun_and_earth(
     epoch_s: f64,
 ) -> (CartesianState, CartesianState) {
     let ellipse = match &configuration.ephemeris {
-        EphemerisSource::Given { sun_m, earth_m } => return (fixed(*sun_m), fixed(*earth_m)),
+        EphemerisSource::Given { sun, earth } => return (*sun, *earth),
         EphemerisSource::Flown(carried) => {
             let state = |body: Body| {
                 let found = carried.state_carried_on(body.into(), configuration.center, epoch_s);

@@ -1,7 +1,8 @@
 //! Flight in an attitude that is followed ideally: momentum, and dumps whose thrusters take propellant and push at once.
 //!
 //! Equations: t = S dH by the thrusters' selection S; dv = sum F t / m; du = sum q t from each tank, nominal thrust and no
-//! shortest pulse. Centre of mass and inertia are those of what is left from there on.
+//! shortest pulse. Centre of mass and inertia are those of what is left from there on. Where no thrusters give torque all ways
+//! about the centre of mass a dump is as one of a spacecraft without thrusters.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,8 @@ use super::work::Work;
 pub struct DumpSideEffect {
     /// Velocity change, EME2000, in m/s.
     pub delta_v_inertial_m_s: Vector3<f64>,
+    /// How many dumps so far found no thrusters that give their torque: they take no propellant and push nothing.
+    pub unserved: u32,
 }
 
 impl DumpSideEffect {
@@ -125,7 +128,11 @@ impl IdealFlight<'_, '_> {
         let sample = plant.sample(time_s);
         let instant = plant.instant(time_s);
         let mass = plant.mass_properties(&instant);
-        let Ok(selection) = thrusters.dump_selection(&mass.center_of_mass_body_m) else { return };
+        let Ok(selection) = thrusters.dump_selection(&mass.center_of_mass_body_m) else {
+            side_effect.delta_v_inertial_m_s = Vector3::zeros();
+            side_effect.unserved = side_effect.unserved.saturating_add(1);
+            return;
+        };
         let mut push_body_n_s = Vector3::zeros();
         let on_times = selection.on_times_s(&event.impulse_body_n_m_s());
         for (thruster, full_s) in thrusters.thrusters.iter().zip(on_times) {

@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, Vector3};
 
-use crate::constants::{RADIUS_SUN_M, SPEED_OF_LIGHT_M_S};
+use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::disturbance::{Disturbance, FaceResult, GeometryError, PlanetGeometry};
@@ -39,7 +39,7 @@ impl RadiationBuilder<'_, '_> {
         let viewing = &mut node.viewing;
         viewing.sun_direction_body = instant.sun_body;
         let flux_w_m2 = |distance_m: f64| configuration.light.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
-        viewing.sun_sine = RADIUS_SUN_M / instant.sun_distance_m;
+        viewing.sun_sine = configuration.shadow.sun_radius_m() / instant.sun_distance_m;
         viewing.sun_flux_w_m2 = flux_w_m2(instant.sun_distance_m);
         // Inside the planet there is no fraction; what is wrong there is the place.
         viewing.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };

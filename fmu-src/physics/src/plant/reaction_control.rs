@@ -12,33 +12,12 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::GyrostatMotion;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::quadrature::GAUSS_3;
-use crate::numerics::spacing::spacing;
-use crate::propulsion::{PropellantState, PulseCommand, ThrusterSelection, Valve};
+use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, ThrusterSelection, Valve, due_s};
 use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
 
 use super::pulsed_dump::PulsedDump;
 use super::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
-
-/// The pulses of a valve at hand and ahead, and what became of the last command.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct ScheduledPulses {
-    /// When the open valve closes.
-    closes_s: f64,
-    /// When it next opens, and closes then.
-    next_s: [f64; 2],
-    /// Whether the last command was for less than the shortest time that the valve opens.
-    was_too_short: bool,
-}
-
-impl ScheduledPulses {
-    const NONE: Self = Self { closes_s: f64::INFINITY, next_s: [f64::INFINITY; 2], was_too_short: false };
-
-    /// Nothing ahead.
-    fn clear(&mut self) {
-        *self = Self { was_too_short: self.was_too_short, ..Self::NONE };
-    }
-}
 
 /// A delta-v at hand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,11 +31,13 @@ struct Burn {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ReactionControl {
     valves: Vec<Valve>,
-    schedule: Vec<ScheduledPulses>,
+    schedule: Vec<PulseSchedule>,
     burn: Option<Burn>,
     dump: Option<PulsedDump>,
     load: ThrusterLoad,
     totals: ThrusterTotals,
+    /// How many dumps found no thrusters that give torque all ways about the centre of mass.
+    unserved_dumps: u32,
     #[serde(skip)]
     for_dumps: Option<Selected>,
     #[serde(skip)]
@@ -77,11 +58,12 @@ impl ReactionControl {
         let count = settings.thrusters.len();
         Self {
             valves: vec![Valve::default(); count],
-            schedule: vec![ScheduledPulses::NONE; count],
+            schedule: vec![PulseSchedule::default(); count],
             burn: None,
             dump: None,
             load: ThrusterLoad::none(time_s, 1.0),
             totals: ThrusterTotals::default(),
+            unserved_dumps: 0,
             for_dumps: None,
             for_attitude: None,
         }
@@ -94,14 +76,14 @@ impl ReactionControl {
         self.valves.len() == thrusters
             && self.schedule.len() == thrusters
             && self.valves.iter().all(Valve::is_sound)
-            && self.schedule.iter().all(|it| later(&it.closes_s) && it.next_s.iter().all(later))
+            && self.schedule.iter().all(PulseSchedule::is_sound)
             && self.burn.is_none_or(|it| sound(&it.since_s) && later(&it.stop_s))
             && self.dump.as_ref().is_none_or(PulsedDump::is_sound)
             && self.load.is_sound()
             && self.totals.is_sound()
     }
 
-    /// Takes the pulses commanded for the step from `start_s` to `end_s`; they end there at the latest. Whether there are any.
+    /// Takes the pulses commanded for the step from `start_s` to `end_s`, by the law of [`PulseSchedule`]. Whether there are any.
     pub fn command_pulses(
         &mut self,
         settings: &ReactionControlSettings,
@@ -111,16 +93,9 @@ impl ReactionControl {
     ) -> bool {
         let mut any = false;
         for (k, thruster) in settings.thrusters.iter().enumerate() {
-            let PulseCommand { delay_s, on_s } = pulse(k);
             // What thrusters do on their own goes on.
             let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || self.is_dumping();
-            let shortest_s = thruster.valve.min_on_s - 4.0 * spacing(end_s);
-            self.schedule[k].was_too_short = on_s > 0.0 && on_s < shortest_s;
-            let opens_s = start_s + delay_s;
-            if on_s > 0.0 && on_s >= shortest_s && opens_s < end_s && !is_own {
-                any = true;
-                self.plan(k, opens_s, (opens_s + on_s).min(end_s));
-            }
+            any |= self.schedule[k].command(&thruster.valve, &pulse(k), [start_s, end_s], !is_own);
         }
         any
     }
@@ -141,11 +116,10 @@ impl ReactionControl {
         }
         for (k, thruster) in settings.thrusters.iter().enumerate() {
             if self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) {
-                self.schedule[k].clear();
-                self.schedule[k].closes_s = time_s;
+                self.schedule[k].end(time_s);
             }
             if wanted.is_some() && thruster.set == wanted {
-                self.plan(k, time_s, command.stop_s);
+                self.schedule[k].plan(&thruster.valve, time_s, command.stop_s);
             }
         }
         let goes_on = self.burn.filter(|burn| Some(burn.set) == wanted);
@@ -157,23 +131,13 @@ impl ReactionControl {
         true
     }
 
-    /// Plans a pulse; one that begins before the present one ends makes that longer.
-    fn plan(&mut self, k: usize, opens_s: f64, closes_s: f64) {
-        let pulse = &mut self.schedule[k];
-        if self.valves[k].is_open() && opens_s <= due_s(pulse.closes_s) {
-            pulse.closes_s = closes_s;
-        } else {
-            pulse.next_s = [opens_s, closes_s];
-        }
-    }
-
     /// When something about the thrusters next changes by itself, in s.
     pub fn next_edge_s(&self, settings: &ReactionControlSettings, propellant: &PropellantState) -> f64 {
         let mut next_s = f64::INFINITY;
         for (k, thruster) in settings.thrusters.iter().enumerate() {
             let (valve, pulse) = (&self.valves[k], &self.schedule[k]);
-            let closes_s = if valve.is_open() { pulse.closes_s } else { f64::INFINITY };
-            next_s = next_s.min(pulse.next_s[0]).min(closes_s).min(valve.ramp_end_s(&thruster.valve));
+            let edge_s = pulse.opens_s().min(pulse.closes_s());
+            next_s = next_s.min(edge_s).min(valve.ramp_end_s(&thruster.valve));
         }
         if !self.load.law.is_none() {
             for (k, tank) in settings.tanks.iter().enumerate() {
@@ -209,15 +173,14 @@ impl ReactionControl {
             if valve.ramp_end_s(&thruster.valve) <= due_s {
                 valve.end_ramp(time_s);
             }
-            if valve.is_open() && pulse.closes_s <= due_s {
+            if pulse.take_closing(due_s) {
                 valve.close(&thruster.valve, time_s);
-                pulse.closes_s = f64::INFINITY;
             }
-            if pulse.next_s[0] <= due_s {
-                pulse.closes_s = pulse.next_s[1];
-                pulse.next_s = [f64::INFINITY; 2];
+            if pulse.take_opening(&thruster.valve, due_s) {
                 if feeds() {
                     valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
+                } else {
+                    pulse.clear();
                 }
             }
         }
@@ -327,6 +290,28 @@ impl ReactionControl {
         self.burn.map(|burn| burn.set)
     }
 
+    /// Whether there are thrusters that dump about this centre of mass; a dump that is about to begin and finds none is counted.
+    pub fn serves_dump(
+        &mut self,
+        settings: &ReactionControlSettings,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> bool {
+        let selection = selected(&mut self.for_dumps, None, center_of_mass_body_m, || {
+            settings.dump_selection(center_of_mass_body_m).ok()
+        });
+        let serves = selection.is_some();
+        if !serves {
+            self.dump = None;
+            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+        }
+        serves
+    }
+
+    /// How many dumps so far began or ended without thrusters that give torque all ways about the centre of mass.
+    pub fn unserved_dumps(&self) -> u32 {
+        self.unserved_dumps
+    }
+
     /// Begins a dump at `time_s` toward a total momentum, EME2000, in N m s.
     pub fn begin_dump(&mut self, motion: &GyrostatMotion, target_inertial_n_m_s: Vector3<f64>, time_s: f64) {
         let before = self.totals_at(motion, time_s);
@@ -373,6 +358,9 @@ impl ReactionControl {
         let selection = selected(&mut self.for_dumps, None, &mass.center_of_mass_body_m, || {
             settings.dump_selection(&mass.center_of_mass_body_m).ok()
         });
+        if selection.is_none() {
+            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+        }
         let fires = self
             .valves
             .iter()
@@ -392,7 +380,7 @@ impl ReactionControl {
             attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
         let opened_s = dump.decide(settings, selection, propellant, &left_body_n_m_s, mass, time_s);
         for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
-            self.plan(k, time_s, time_s + on_s);
+            self.schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + on_s);
         }
         self.dump = Some(dump);
     }
@@ -429,7 +417,7 @@ impl ReactionControl {
                 0.0
             };
             if opens_s > 0.0 {
-                self.plan(k, time_s, time_s + opens_s);
+                self.schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + opens_s);
             }
         }
         Some(given)
@@ -467,9 +455,9 @@ impl ReactionControl {
         self.valves[k].pulses()
     }
 
-    /// Whether the last command for thruster `k` was for less than the shortest time that its valve opens.
+    /// Whether the last step commanded a pulse of thruster `k` that does not open its valve.
     pub fn was_too_short(&self, k: usize) -> bool {
-        self.schedule[k].was_too_short
+        self.schedule[k].was_too_short()
     }
 }
 
@@ -494,9 +482,4 @@ fn selected<'c>(
         })
         .selection
         .as_ref()
-}
-
-/// Times up to this one are due at `time_s`.
-fn due_s(time_s: f64) -> f64 {
-    time_s + 4.0 * spacing(time_s)
 }

@@ -32,8 +32,11 @@ impl PulseCommand {
 
     /// Whether it does not end within a step, by more than the rounding of times.
     pub fn is_cut(&self, start_s: f64, end_s: f64) -> bool {
-        let length_s = end_s - start_s;
-        let rounding_s = 1e-9 * length_s + 8.0 * spacing(start_s.abs().max(end_s.abs()));
-        self.on_s > 0.0 && self.delay_s + self.on_s > length_s + rounding_s
+        self.on_s > 0.0 && self.delay_s + self.on_s > end_s - start_s + Self::rounding_s(start_s, end_s)
+    }
+
+    /// By how much times within a step from `start_s` to `end_s`, in s, are taken for the same.
+    pub(super) fn rounding_s(start_s: f64, end_s: f64) -> f64 {
+        1e-9 * (end_s - start_s) + 8.0 * spacing(start_s.abs().max(end_s.abs()))
     }
 }

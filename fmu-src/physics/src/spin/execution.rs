@@ -24,11 +24,6 @@ impl PulseExecution {
         execution
     }
 
-    /// Whether a pulse of this length is too short for the valve, by more than the rounding of times.
-    pub fn is_too_short(&self, on_s: f64) -> bool {
-        on_s > 0.0 && on_s < self.valve.min_on_s * (1.0 - 1e-12)
-    }
-
     /// Whether its numbers can be some.
     pub fn is_sound(&self) -> bool {
         self.valve.is_sound() && (0.0..=1.0).contains(&self.scatter)

@@ -7,6 +7,7 @@ use physics::attitude::Attitude;
 use physics::bodies::Body;
 use physics::bodies::surface::MERCURY;
 use physics::constants::{GM_MERCURY_M3_S2, RADIUS_MERCURY_M, SPEED_OF_LIGHT_M_S};
+use physics::environment::CartesianState;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::frames::Frame;
@@ -223,13 +224,18 @@ fn gravity_gradient_has_its_textbook_value() {
     assert_relative_eq!(torque, Vector3::new(0.0, 0.0, expected), max_relative = 1e-9, epsilon = 1e-15);
 }
 
+/// A body that stands still, from the orbit's centre, in m.
+pub fn still(position_m: Vector3<f64>) -> CartesianState {
+    CartesianState { position_m, ..CartesianState::default() }
+}
+
 #[test]
 fn a_given_sun_is_where_it_was_given() {
     let orbit = orbit();
     let sun_m = Vector3::new(4e10, -3e10, 1e10);
     let command = Command { attitude: Attitude::default(), rate_body_rad_s: Vector3::zeros(), since_s: 0.0 };
     let configuration = Configuration {
-        ephemeris: EphemerisSource::Given { sun_m, earth_m: Vector3::new(0.0, 1e11, 0.0) },
+        ephemeris: EphemerisSource::Given { sun: still(sun_m), earth: still(Vector3::new(0.0, 1e11, 0.0)) },
         ..configuration(orbit, AttitudeSource::Commanded(command))
     };
     let mut rig = Rig::new();

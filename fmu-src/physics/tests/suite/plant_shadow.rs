@@ -12,7 +12,7 @@ use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, ExternalLoad, SunLight, orbit_from_elements,
 };
 
-use super::plant_flight::{EPOCH_S, Rig, configuration};
+use super::plant_flight::{EPOCH_S, Rig, configuration, still};
 
 const RADIUS_M: f64 = 3.2e6;
 const FLOWN_S: f64 = 4_000.0;
@@ -49,8 +49,8 @@ fn in_light(orbit: TwoBodyOrbit, model: ShadowModel, grid_s: f64) -> Configurati
     momentum.grid_s = grid_s;
     Configuration {
         ephemeris: EphemerisSource::Given {
-            sun_m: Vector3::new(-sun_m.y, 0.0, 0.0),
-            earth_m: Vector3::new(0.0, 1e11, 0.0),
+            sun: still(Vector3::new(-sun_m.y, 0.0, 0.0)),
+            earth: still(Vector3::new(0.0, 1e11, 0.0)),
         },
         light: SunLight::Fixed { pressure_pa: 5e-5 },
         shadow: Shadow::new(model, RADIUS_MERCURY_M).unwrap(),
@@ -107,7 +107,8 @@ fn long_steps_see_what_short_ones_see_in_every_shadow() {
             let sun_m = Vector3::new(5e10, 0.0, 0.0);
             let seen = |grid_s: f64| {
                 let mut dark = in_light(orbit, model, grid_s);
-                dark.ephemeris = EphemerisSource::Given { sun_m, earth_m: Vector3::new(0.0, 1e11, 0.0) };
+                dark.ephemeris =
+                    EphemerisSource::Given { sun: still(sun_m), earth: still(Vector3::new(0.0, 1e11, 0.0)) };
                 momentum_after(&dark, FLOWN_S)
             };
             let (long, short) = (seen(600.0), seen(1.0));

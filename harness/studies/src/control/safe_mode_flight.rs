@@ -62,7 +62,8 @@ impl Chain {
 
     /// What is set when: time in s, unit, values.
     fn events(self) -> Vec<(f64, usize, Settings)> {
-        let tracker = |failed| vec![flag("starTracker.failed", failed)];
+        let tracker =
+            |failed| vec![flag("starTracker.failed", failed), flag("starTracker.spareFailed", failed)];
         let sensors = |failed| {
             (1..=SUN_SENSORS).map(|k| flag(&format!("sunSensor[{k}].failed"), failed)).collect::<Settings>()
         };

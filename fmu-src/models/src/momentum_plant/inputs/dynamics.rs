@@ -122,6 +122,7 @@ pub fn settings(
             },
             seed,
             interval_s: controller.interval_s(),
+            acceleration_rad_s2: or_none(controller.slew_acceleration_rad_s2),
             longest_without_tracker_s: real(v.star_tracker.outage),
         },
         sun_sensors: sun_sensors(context, values)?,
@@ -206,10 +207,11 @@ pub fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>
     sensors.collect()
 }
 
-/// Which of star tracker and gyros work.
+/// Which of star trackers and gyros work: the spare takes over where the first has failed.
 pub fn health(context: &Plan<'_>, values: &Values) -> SensorHealth {
+    let tracker = &context.variables.star_tracker;
     SensorHealth {
-        star_tracker: !values.boolean(context.variables.star_tracker.failed),
+        star_tracker: !(values.boolean(tracker.failed) && values.boolean(tracker.spare_failed)),
         gyro: !values.boolean(context.variables.gyro.failed),
     }
 }

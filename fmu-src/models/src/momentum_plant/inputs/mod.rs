@@ -29,12 +29,12 @@ pub use self::given::is_given;
 use self::state::PlantState;
 use super::setup::Plan;
 use super::variables::PlantVariables;
-use super::variables::choices::{DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
+use super::variables::choices::{AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
 use crate::common::choices::PanelTilt;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
 use crate::common::management::{Limits, check_windows};
-use crate::common::spacecraft::inertia_body_kg_m2;
+use crate::common::spacecraft::{dump_threshold_n_m_s, inertia_body_kg_m2};
 
 /// The configuration that parameters, inputs and state describe.
 pub fn configuration(
@@ -96,7 +96,7 @@ pub fn refreshed(
         motion: motion(variables, values, &data, time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s)),
         ephemeris: ephemeris_source(&center, context, values, state)?,
         light: variables.solar.read(values),
-        shadow: variables.eclipse.read(values, data.radius_m)?,
+        shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
             planet_light: values.boolean(variables.planet_light.enabled),
             recoil: values.boolean(variables.thermal.recoil.enabled),
@@ -117,7 +117,7 @@ pub fn refreshed(
         } else {
             0.0
         },
-        momentum: settings(variables, values),
+        momentum: settings(context, values),
     };
     if let Some(thrusters) = &state.thrusters {
         let loaded = configuration.loaded();
@@ -272,8 +272,14 @@ fn ephemeris_source(
                      ephemeris.source = inputs asks for",
                 ));
             }
-            let earth_m = Vector3::from(values.vector(variables.earth.position));
-            plant::EphemerisSource::Given { sun_m, earth_m }
+            let given = |position, velocity| CartesianState {
+                position_m: Vector3::from(values.vector(position)),
+                velocity_m_s: Vector3::from(values.vector(velocity)),
+            };
+            plant::EphemerisSource::Given {
+                sun: given(variables.sun.position, variables.sun.velocity),
+                earth: given(variables.earth.position, variables.earth.velocity),
+            }
         }
         Some(EphemerisSource::Kepler) => {
             let ellipse = &variables.ephemeris.ellipse;
@@ -337,14 +343,27 @@ pub fn manager<'s>(context: &Plan<'s>, values: &Values, configuration: &Configur
     variables.momentum.management.manager(values, limits, spacecraft, configuration.sunshade)
 }
 
-fn settings(variables: &PlantVariables, values: &Values) -> Settings {
+/// Whether no dump begins by itself: in free flight, where the master controls, unless thresholds are set.
+pub fn is_left_to_master(context: &Plan<'_>, values: &Values) -> bool {
+    let variables = context.variables;
+    let is_free = matches!(values.choice(variables.attitude.source), Some(AttitudeSource::Free));
+    let setup = context.setup;
+    let default = dump_threshold_n_m_s(&setup.spacecraft, setup.wheel_array.as_ref());
+    is_free && values.vector(variables.dump.threshold) == default
+}
+
+fn settings(context: &Plan<'_>, values: &Values) -> Settings {
+    let variables = context.variables;
     let dump = &variables.dump;
     Settings {
         grid_s: values.real(variables.solver.step),
         tolerance: values.real(variables.solver.tolerance),
         convention: values.choice(variables.momentum.convention).map_or(Convention::Inertial, |it| it.0),
         policy: DumpPolicy {
-            threshold_body_n_m_s: Vector3::from(values.vector(dump.threshold)),
+            threshold_body_n_m_s: match is_left_to_master(context, values) {
+                true => Vector3::repeat(f64::INFINITY),
+                false => Vector3::from(values.vector(dump.threshold)),
+            },
             reinitialise: match values.choice(dump.reinit_to) {
                 Some(DumpReinitTo::Target) => {
                     Reinitialise::Target { momentum_body_n_m_s: Vector3::from(values.vector(dump.target)) }

@@ -1,6 +1,7 @@
 //! From parameters and inputs to thrusters, tanks and delta-v; refuses what cannot be flown, by name.
 
 use fmi_export::{Failure, Step, Values};
+use nalgebra::Vector3;
 use physics::plant::{Configuration, ReactionControlSettings, ThrustCommand};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster, ValveTiming};
@@ -51,7 +52,7 @@ pub fn reaction_control(context: &Plan<'_>, values: &Values) -> Result<ReactionC
     Ok(settings)
 }
 
-/// Refuses tanks that hold more than there is, and thrusters that cannot dump.
+/// Refuses tanks that hold more than there is.
 pub fn check(settings: &ReactionControlSettings, configuration: &Configuration) -> Result<(), Failure> {
     let held_kg: f64 = settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
     if held_kg >= configuration.mass_kg {
@@ -61,14 +62,30 @@ pub fn check(settings: &ReactionControlSettings, configuration: &Configuration) 
             configuration.mass_kg
         )));
     }
-    if settings.thrusters.is_empty() {
-        return Ok(());
+    Ok(())
+}
+
+/// Says once that a dump found no thrusters, `unserved` dumps having done so before and now.
+pub fn warn_unserved(
+    context: &Plan<'_>,
+    values: &Values,
+    settings: &ReactionControlSettings,
+    said: &mut SaidOfThrusters,
+    unserved: [u32; 2],
+) {
+    let [before, now] = unserved;
+    let center_of_mass_body_m = Vector3::from(values.vector(context.variables.center_of_mass));
+    if said.unserved || before == now {
+        return;
     }
-    settings.dump_selection(&configuration.center_of_mass_body_m).map(|_| ()).map_err(|error| {
-        Failure::new(format!(
-            "spacecraft.centerOfMass, [[thrusters]] of the spacecraft file: {error}; dumps need all"
-        ))
-    })
+    if let Err(error) = settings.dump_selection(&center_of_mass_body_m) {
+        said.unserved = true;
+        context.log.warning(&format!(
+            "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \
+             and commanded flight, by dump.torque in controlled and free flight, without propellant",
+            center_of_mass_body_m.as_slice()
+        ));
+    }
 }
 
 /// The pulse that thruster `k` (0-based) is commanded.
@@ -128,4 +145,5 @@ pub fn warn(
 pub struct SaidOfThrusters {
     cut: bool,
     no_set: bool,
+    unserved: bool,
 }

@@ -390,7 +390,9 @@ fn tunables(context: &Plan<'_>, values: &Values) -> [f64; 8] {
 
 fn light_inputs<'a>(context: &'a Plan<'_>, values: &'a Values) -> impl Iterator<Item = f64> + 'a {
     let variables = context.variables;
-    let vectors = [variables.sun.position, variables.earth.position, variables.spacecraft.center_of_mass];
+    let (sun, earth) = (&variables.sun, &variables.earth);
+    let center_of_mass = variables.spacecraft.center_of_mass;
+    let vectors = [sun.position, sun.velocity, earth.position, earth.velocity, center_of_mass];
     let panels = variables.panel.iter().flat_map(|panel| {
         [panel.angle, panel.sun_offset, panel.sun_offset_command].map(|angle| values.real(angle))
     });

@@ -64,6 +64,11 @@ pub fn begin(
     let mut configuration = inputs::configuration(context, values, state)?;
     let mut settings = dynamics::settings(context, values, &configuration)?;
     propulsion::check(&settings.thrusters, &configuration)?;
+    if inputs::is_left_to_master(context, values) {
+        context
+            .log
+            .event(time_s, "dump.threshold is not set: in free flight dumps come on dump.request alone");
+    }
     state.propagator = PropagatorState::new(&configuration, time_s).map_err(outputs::failure)?;
     state.light = inputs::light(context, values, &configuration)?;
     let start = dynamics::start_motion(context, values)?;
@@ -168,6 +173,7 @@ pub fn step(
     let acting = |time_s: f64| dynamics::external(context, stretch.values, over_time, time_s)[0];
     propulsion::warn(context, stretch.values, &settings.thrusters, &mut state.said_of_thrusters, step);
     let manager = inputs::manager(context, stretch.values, &configuration);
+    let unserved = flown.thrusters().unserved_dumps();
     let mut flight = flight(context, state, &mut configuration, &acting, &manager)?;
     stretch
         .with_inputs(|inputs| {
@@ -175,8 +181,11 @@ pub fn step(
             flown.advance(&mut settings, &mut flight, inputs, step.end_s, |event| log_dump(context, event))
         })
         .map_err(outputs::failure)?;
+    let unserved = [unserved, flown.thrusters().unserved_dumps()];
     state.dynamics = Some(flown);
     show(context, values, state, &mut configuration, &settings, over_time, step.end_s)?;
+    let said = &mut state.said_of_thrusters;
+    propulsion::warn_unserved(context, values, &settings.thrusters, said, unserved);
     state.configuration = Some(configuration);
     state.dynamics_settings = Some(settings);
     Ok(())
@@ -233,10 +242,12 @@ fn show(
     let rotation = &evaluation.instant.frame.inertial_from_body;
     outputs::write_by_source(context, values, &flown.by_source(time_s), Convention::Inertial, rotation);
     outputs::write_dumps(context, values, flown.dumps(), flown.spacing(), flown.is_dumping(time_s));
+    let mut pushed_m_s = Vector3::zeros();
     if let Some([impulse, delta_v]) = flown.dumped_at(time_s) {
         values.set_vector(context.variables.dump.impulse, impulse.into());
-        values.set_vector(context.variables.dump.delta_v, delta_v.into());
+        pushed_m_s = delta_v;
     }
+    values.set_vector(context.variables.dump.delta_v, pushed_m_s.into());
     outputs::write_dynamics(context, values, settings, &flown, &body, time_s);
     write_thrusters(context, values, settings, &flown, &state.propellant, time_s);
     state.dynamics = Some(flown);

@@ -3,7 +3,7 @@
 use fmi_export::{Failure, Real, Values};
 use nalgebra::{Rotation3, Vector3};
 use physics::attitude::control::{sample_number, sensed_sun};
-use physics::attitude::{Attitude, BodyMotion, SunAngles, wheel_speed_rad_s};
+use physics::attitude::{Attitude, BodyMotion, SunAngles, motor_power_w, wheel_speed_rad_s};
 use physics::environment::time;
 use physics::momentum::{Convention, DumpEvent, DumpSpacing, Dumps, SourceMomenta, Totals, WheelArray};
 use physics::plant::{
@@ -119,7 +119,7 @@ pub fn write_ideal(
     totals: &Totals,
     time_s: f64,
 ) -> Result<(), Failure> {
-    write_wheels(context, values, state, totals, evaluation);
+    write_wheels(context, values, state, totals, evaluation, time_s);
     write_dumps(context, values, state.integrator.dumps(), &state.spacing, false);
     let dump_delta_v_m_s = state.dump_side_effect.delta_v_inertial_m_s;
     values.set_vector(context.variables.dump.delta_v, dump_delta_v_m_s.into());
@@ -130,7 +130,7 @@ pub fn write_ideal(
     let Instant { frame, sun_body, lit_fraction, .. } = &evaluation.instant;
     values.set_vector(v.estimate.q, Attitude::from_rotation(&frame.inertial_from_body).quaternion(None));
     values.set_vector(v.estimate.rate, frame.rate_body_rad_s.into());
-    values.set_boolean(v.estimate.valid, !values.boolean(v.star_tracker.failed));
+    values.set_boolean(v.estimate.valid, dynamics::health(context, values).star_tracker);
     if state.sun_sensors.is_none() {
         state.sun_sensors = Some(dynamics::sun_sensors(context, values)?);
     }
@@ -158,8 +158,11 @@ pub fn write_dynamics(
         let momentum_n_m_s = flown.wheel_n_m_s(settings, k, time_s, body);
         values.set_real(wheel.momentum, momentum_n_m_s);
         let flown_wheel = &settings.gyrostat.wheels()[k];
-        values.set_real(wheel.speed, flown_wheel.speed_rad_s(momentum_n_m_s));
-        values.set_real(wheel.torque, flown.motor_n_m(k));
+        let speed_rad_s = flown_wheel.speed_rad_s(momentum_n_m_s);
+        let torque_n_m = flown.motor_n_m(settings, k, time_s);
+        values.set_real(wheel.speed, speed_rad_s);
+        values.set_real(wheel.torque, torque_n_m);
+        values.set_real(wheel.power, motor_power_w(torque_n_m, speed_rad_s));
         values.set_boolean(wheel.saturated, flown_wheel.is_saturated(momentum_n_m_s));
     }
     for (k, mode) in v.flexible_mode.iter().enumerate() {
@@ -255,14 +258,25 @@ fn write_wheels(
     state: &mut PlantState,
     totals: &Totals,
     evaluation: &Evaluation,
+    time_s: f64,
 ) {
+    let acceleration = state.integrator.acceleration_body_rad_s2(time_s);
     let Some(array) = state.wheels.get_or_insert_with(|| wheels(context, values)) else { return };
     let frame = &evaluation.instant.frame;
-    let wheels_body_n_m_s = totals.wheels_body_n_m_s(&evaluation.mass.inertia_body_kg_m2, frame);
+    let inertia_body_kg_m2 = &evaluation.mass.inertia_body_kg_m2;
+    let wheels_body_n_m_s = totals.wheels_body_n_m_s(inertia_body_kg_m2, frame);
+    let torque_body_n_m = evaluation.loads.total().torque_body_n_m;
+    let rate_body_n_m =
+        totals.wheels_rate_body_n_m(inertia_body_kg_m2, frame, &torque_body_n_m, &acceleration);
     for (number, variables) in context.variables.wheel.iter().enumerate() {
         let momentum_n_m_s = array.momentum_n_m_s(number, &wheels_body_n_m_s);
         values.set_real(variables.momentum, momentum_n_m_s);
-        values.set_real(variables.speed, wheel_speed_rad_s(momentum_n_m_s, values.real(variables.inertia)));
+        let inertia_kg_m2 = values.real(variables.inertia);
+        let speed_rad_s = wheel_speed_rad_s(momentum_n_m_s, inertia_kg_m2);
+        let torque_n_m = array.motor_n_m(number, inertia_kg_m2, &rate_body_n_m, &acceleration);
+        values.set_real(variables.speed, speed_rad_s);
+        values.set_real(variables.torque, torque_n_m);
+        values.set_real(variables.power, motor_power_w(torque_n_m, speed_rad_s));
         values.set_boolean(variables.saturated, momentum_n_m_s.abs() > values.real(variables.capacity));
     }
 }

@@ -114,9 +114,13 @@ pub struct WheelVariables {
     /// Speed of the rotor relative to the body.
     #[output(unit = "rad/s", display = "rpm", nominal = 100.0)]
     pub speed: Real,
-    /// Torque of the motor on the rotor; 0 in guided and commanded flight.
+    /// Torque of the motor on the rotor that acts, after failure, limit and the stop at capacity; in guided and commanded flight
+    /// that with which the wheel follows ideally, without friction, where the wheels' axes span all directions.
     #[output(unit = "N.m", nominal = 1e-3)]
     pub torque: Real,
+    /// Mechanical power of the motor, torque times speed; negative where it brakes.
+    #[output(unit = "W", nominal = 1.0)]
+    pub power: Real,
     /// Whether the wheel is at its capacity, in guided and commanded flight whether it would have to hold more.
     #[output]
     pub saturated: Boolean,

@@ -68,21 +68,25 @@ pub struct EstimateVariables {
     /// Estimated attitude quaternion, scalar last, from EME2000 to the body frame; the scalar is never negative.
     #[output(unit = "1", nominal = 1.0)]
     pub q: RealVector<4>,
-    /// Estimated angular rate of the body in EME2000, in body components; 0 without gyros and star tracker.
+    /// Estimated angular rate of the body in EME2000, in body components: the gyros', without their estimated bias; without gyros
+    /// a filter's of the star tracker's attitudes, which expects control.slewAcceleration between two; 0 without both.
     #[output(unit = "rad/s", display = "deg/s", nominal = 1e-3)]
     pub rate: RealVector<3>,
-    /// Whether the estimated attitude is one: the star tracker works, or the gyros do and it did not long ago.
+    /// Whether the estimated attitude is one: a star tracker works, or the gyros do and one did not long ago.
     #[output]
     pub valid: Boolean,
 }
 
-/// Star tracker.
+/// Star tracker, and a spare one of the same kind that takes over where it has failed.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct StarTrackerVariables {
-    /// Whether it gives no attitude.
+    /// Whether it gives no attitude: the spare does, unless it has failed too.
     #[input(start = false)]
     pub failed: Boolean,
+    /// Whether the spare gives no attitude.
+    #[input(start = false)]
+    pub spare_failed: Boolean,
     /// Standard deviation of its angle about each body axis.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = 0.1, start = [0.0; 3])]
     pub noise: RealVector<3>,

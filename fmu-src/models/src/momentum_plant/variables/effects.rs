@@ -113,11 +113,12 @@ pub struct MomentumVariables {
 }
 
 /// Thruster dumps: in guided and commanded flight an impulse, in controlled and free flight pulses of the file's thrusters, or
-/// the constant dump.torque where it has none.
+/// the constant dump.torque where it has none that give torque about every axis both ways.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct DumpVariables {
-    /// Magnitude of a body component of momentum that triggers a dump; a very large value means never.
+    /// Magnitude of a body component of momentum that triggers a dump; a very large value means never, and in free flight, where
+    /// the master controls, none is triggered unless this is set.
     #[parameter(tunable, unit = "N.m.s", min = 1e-6, start = dump_threshold_n_m_s(&setup.spacecraft, setup.wheel_array.as_ref()))]
     pub threshold: RealVector<3>,
     /// Where a component goes that exceeded its threshold.

@@ -9,7 +9,7 @@ use crate::common::choices::ThrustRequest;
 #[derive(Variables)]
 #[variables(setup = PlantSetup, label = setup.spacecraft.thrusters[index].name)]
 pub struct ThrusterVariables {
-    /// Shortest time for which its valve opens; what is asked for less does not fire.
+    /// Shortest time for which its valve opens: it does not close sooner after it opened, over the step's end if need be.
     #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.spacecraft.thrusters[index].valve.min_on_s)]
     pub min_on_time: Real,
     /// Time over which the thrust rises linearly after the valve opens.
@@ -24,8 +24,9 @@ pub struct ThrusterVariables {
     /// From the start of each step to the pulse.
     #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
     pub on_delay: Real,
-    /// Length of a pulse in each step; 0 = none. A pulse that reaches beyond the step is cut there. While the thruster takes part
-    /// in a dump or a delta-v it does not count.
+    /// Length of a pulse in each step; 0 = none. It fires if it is at least minOnTime, or reaches the step's end, or goes on with a
+    /// pulse from the step before. A pulse that reaches beyond the step is cut there. While the thruster takes part in a dump or
+    /// a delta-v it does not count.
     #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
     pub on_time: Real,
     /// Thrust, its scatter and the tank's pressure counted in.
@@ -34,7 +35,7 @@ pub struct ThrusterVariables {
     /// Pulses begun so far.
     #[output]
     pub pulses: Integer,
-    /// Whether the last step commanded less than the shortest time that the valve opens.
+    /// Whether the last step commanded a pulse that did not open the valve: shorter than minOnTime, within the step, or after it.
     #[output]
     pub too_short: Boolean,
     /// Whether it fires and a plate or panel stands in its plume.

@@ -1,6 +1,7 @@
 //! Planet, Sun and Earth.
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::constants::RADIUS_SUN_M;
 
 use super::super::setup::PlantSetup;
 use super::choices::EphemerisSource;
@@ -50,17 +51,24 @@ pub struct PlanetVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct SunVariables {
+    /// Radius of the Sun (IAU 2015 nominal): width of the penumbra, and of shadows of parts by shadowing.sunDisc. Others use
+    /// 695,000 or 696,000 km, which moves an edge of a shadow by some 2 ms.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e10, start = RADIUS_SUN_M)]
+    pub radius: Real,
     /// Sun's position from the orbit's centre in EME2000 when ephemeris.source is inputs. While it is zero the flight waits
     /// for it: the attitude is held and nothing acts.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,
+    /// Its velocity, by which the rate of an attitude that follows it is known; the position holds until it is set anew.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
     /// From the spacecraft to the Sun, body frame.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub position_body: RealVector<3>,
     /// Sun's position from the orbit's centre in EME2000, for models that have it as an input.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub position_inertial: RealVector<3>,
-    /// Its velocity; 0 when ephemeris.source is inputs.
+    /// Its velocity; sun.velocity when ephemeris.source is inputs.
     #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
     pub velocity_inertial: RealVector<3>,
     /// Unit vector to the Sun, body frame.
@@ -93,10 +101,13 @@ pub struct EarthVariables {
     /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,
+    /// Its velocity, by which the rate of an attitude that follows it is known; the position holds until it is set anew.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity: RealVector<3>,
     /// Earth's position from the orbit's centre in EME2000, for models that have it as an input.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub position_inertial: RealVector<3>,
-    /// Its velocity; 0 when ephemeris.source is inputs.
+    /// Its velocity; earth.velocity when ephemeris.source is inputs.
     #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
     pub velocity_inertial: RealVector<3>,
     /// Azimuth of the Earth in the body frame, from -Y toward +X.

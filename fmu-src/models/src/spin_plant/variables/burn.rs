@@ -117,7 +117,7 @@ pub struct PulseVariables {
 #[derive(Variables)]
 #[variables(setup = Thruster, label = setup.name)]
 pub struct ThrusterVariables {
-    /// Shortest time for which its valve opens for a pulse; what thruster[k].onTime asks for less does not fire.
+    /// Shortest time for which its valve opens: it does not close sooner after it opened, over the step's end if need be.
     #[parameter(unit = "s", display = "ms", min = 0.0, max = 1e3, start = setup.valve.min_on_s)]
     pub min_on_time: Real,
     /// Time over which the thrust rises linearly after the valve opens.
@@ -132,7 +132,8 @@ pub struct ThrusterVariables {
     /// From the start of each step to the pulse.
     #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
     pub on_delay: Real,
-    /// Length of a pulse in each step; 0 = none. A pulse that reaches beyond the step is cut there.
+    /// Length of a pulse in each step; 0 = none. It fires if it is at least minOnTime, or reaches the step's end, or goes on with a
+    /// pulse from the step before. A pulse that reaches beyond the step is cut there.
     #[input(unit = "s", display = "ms", min = 0.0, start = 0.0)]
     pub on_time: Real,
     /// Fires over the whole step.
@@ -141,7 +142,7 @@ pub struct ThrusterVariables {
     /// Whether its valve is open.
     #[output]
     pub active: Boolean,
-    /// Whether the last command was for less than the shortest time that its valve opens.
+    /// Whether the last step commanded a pulse that did not open the valve: shorter than minOnTime, within the step, or after it.
     #[output]
     pub too_short: Boolean,
     /// Moment arm across the spin axis, paper 002 Table 1.

@@ -67,6 +67,7 @@ fn failures_decide_what_is_valid() {
     let mut flight = fly(&named, &[CONTROLLED, GUIDANCE, &[("starTracker.outage", 30.0)]]);
     flight.fly_to(10.0, 1.0).unwrap();
     flight.set("starTracker.failed", 1.0);
+    flight.set("starTracker.spareFailed", 1.0);
     flight.fly_to(35.0, 1.0).unwrap();
     assert!(flight.boolean("estimate.valid"));
     flight.fly_to(50.0, 1.0).unwrap();
@@ -74,7 +75,7 @@ fn failures_decide_what_is_valid() {
     flight.set("starTracker.failed", 0.0);
     flight.fly_to(51.0, 1.0).unwrap();
     assert!(flight.boolean("estimate.valid"));
-    // The tracker alone: rates from its differences.
+    // The tracker alone: rates by a filter of its attitudes.
     flight.set("gyro.failed", 1.0);
     flight.fly_to(80.0, 1.0).unwrap();
     assert!(flight.boolean("estimate.valid"));
@@ -84,6 +85,26 @@ fn failures_decide_what_is_valid() {
     flight.fly_to(90.0, 1.0).unwrap();
     assert!(!flight.boolean("estimate.valid"));
     assert_eq!(flight.vector("estimate.rate"), Vector3::zeros());
+}
+
+#[test]
+fn the_estimate_is_lost_when_both_star_trackers_have_failed() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let commanded: Start<'_> = &[("attitude.source", 2.0)];
+    for (source, outage_s) in [(CONTROLLED, 0.0), (commanded, 0.0)] {
+        let mut flight = fly(&named, &[source, GUIDANCE, &[("starTracker.outage", outage_s)]]);
+        for (failed, spare_failed) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)] {
+            flight.set("starTracker.failed", failed);
+            flight.set("starTracker.spareFailed", spare_failed);
+            let end_s = flight.time_s() + 1.0;
+            flight.step_to(end_s).unwrap();
+            assert_eq!(
+                flight.boolean("estimate.valid"),
+                failed * spare_failed == 0.0,
+                "{failed} {spare_failed}"
+            );
+        }
+    }
 }
 
 #[test]

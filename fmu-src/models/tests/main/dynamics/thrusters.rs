@@ -323,9 +323,6 @@ fn cutting_and_saving_change_no_bit() {
 #[test]
 fn what_cannot_fire_is_refused_or_flagged() {
     let refused = |file: &str, start: Start<'_>| named_error(file, start);
-    let one = format!("{SIMPLE}{}", thruster([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 22.0, ""));
-    let message = refused(&one, FREE);
-    assert!(message.contains("no torque about +X") && message.contains("[[thrusters]]"), "{message}");
     let full = format!("{SIMPLE}{}", couples(""));
     let message = refused(&full, &[("tank[1].propellant", 600.0)]);
     assert!(message.contains("tank[k].propellant") && message.contains("500"), "{message}");
@@ -360,6 +357,74 @@ fn what_cannot_fire_is_refused_or_flagged() {
     let damping_1_s = 5.0 / EXHAUST_M_S / 200.0;
     let expected = -5.0 / damping_1_s * (-damping_1_s * 2.0).exp_m1();
     assert!((momentum(&flight).norm() - expected).abs() < 1e-9, "{}", momentum(&flight).norm());
+}
+
+/// A main engine alone can be flown; the dumps there are come by dump.torque, as without thrusters, and that is said.
+#[test]
+fn thrusters_that_cannot_turn_the_body_leave_dumps_to_dump_torque() {
+    let engine = thruster([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 22.0, "");
+    let said = |named: &NamedModel<MomentumPlant>| {
+        named.warnings().iter().filter(|it| it.contains("no torque about") && it.contains("dump")).count()
+    };
+    // 20 N m s about X, beyond the default thresholds: in free flight they are off unless set.
+    let turning: Start<'_> = &[("start.rate[1]", 0.1), ("dump.torque", 0.5)];
+    let named = craft(&engine);
+    let mut flight = fly(&named, &[FREE, DARK, turning]);
+    flight.fly_to(5.0, 1.0).unwrap();
+    assert_eq!((flight.integer("dump.count"), said(&named)), (0, 0));
+    // To -9 N m s by 0.5 N m.
+    let thresholds: Start<'_> =
+        &[("dump.threshold[1]", 10.0), ("dump.threshold[2]", 10.0), ("dump.threshold[3]", 10.0)];
+    let mut flight = fly(&named, &[FREE, DARK, turning, thresholds]);
+    flight.fly_to(57.0, 1.0).unwrap();
+    assert!(flight.boolean("dump.active"));
+    flight.fly_to(60.0, 1.0).unwrap();
+    assert!(!flight.boolean("dump.active") && flight.integer("dump.count") == 1);
+    assert!((momentum(&flight) - Vector3::x() * -9.0).norm() < 1e-9, "{}", momentum(&flight));
+    assert_eq!((flight.real("propellant.used"), said(&named)), (0.0, 1));
+    // In an attitude that is followed ideally at once.
+    let named = craft(&engine);
+    let mut flight =
+        fly(&named, &[&[("attitude.source", 2.0)], DARK, &[("start.momentum[1]", 20.0)], thresholds]);
+    flight.fly_to(5.0, 1.0).unwrap();
+    assert_eq!((flight.integer("dump.count"), said(&named)), (1, 1));
+    assert_eq!((flight.real("propellant.used"), flight.vector("dump.deltaV")), (0.0, Vector3::zeros()));
+}
+
+/// The centre of mass moves onto the line of a thruster that alone gives +X.
+#[test]
+fn a_dump_without_thrusters_after_the_centre_of_mass_moved_is_said() {
+    let one_sided: String = (0..3)
+        .flat_map(|axis| [1.0, -1.0].map(|side| (axis, side)))
+        .map(|(axis, side)| {
+            let (mut at, mut force) = ([0.0; 3], [0.0; 3]);
+            (at[(axis + 1) % 3], force[(axis + 2) % 3]) = (side, 1.0);
+            thruster(at, force, 5.0, "")
+        })
+        .collect();
+    let ideal: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[1]", 3.0)];
+    let free: Start<'_> = &[("attitude.source", 4.0), ("start.rate[1]", 0.015)];
+    for start in [ideal, free] {
+        let named = craft(&one_sided);
+        let mut flight = fly(&named, &[start, DARK]);
+        let dump = |flight: &mut Flight<'_>| {
+            flight.set("dump.request", 1.0);
+            let end_s = flight.time_s() + 200.0;
+            flight.fly_to(end_s, 1.0).unwrap();
+            flight.set("dump.request", 0.0);
+            flight.fly_to(end_s + 1.0, 1.0).unwrap();
+            flight.real("propellant.used")
+        };
+        let served_kg = dump(&mut flight);
+        let warnings = |named: &NamedModel<MomentumPlant>| {
+            named.warnings().iter().filter(|it| it.contains("no torque about +X")).count()
+        };
+        assert!(served_kg > 0.0 && warnings(&named) == 0, "{served_kg}");
+        flight.set("spacecraft.centerOfMass[2]", 1.0);
+        flight.set("dump.target[1]", 1.0);
+        assert_eq!(dump(&mut flight), served_kg);
+        assert_eq!((flight.integer("dump.count"), warnings(&named)), (2, 1));
+    }
 }
 
 fn named_error(file: &str, start: Start<'_>) -> String {

@@ -1,8 +1,14 @@
-//! Attitude estimation from gyros and star tracker: propagation by gyros, Kalman correction by the tracker.
+//! Attitude estimation from gyros and star tracker: propagation by gyros, Kalman correction by the tracker; without gyros
+//! propagation by an estimated rate.
 //!
 //! Per body axis the state is the attitude error and the gyro bias (Farrenkopf 1978; Markley & Crassidis,
 //! "Fundamentals of Spacecraft Attitude Determination and Control", 2014, sections 4.7.1 and 6.2). The covariance is
 //! propagated, so that the gains are the steady ones after a while and right after an outage.
+//!
+//! Without gyros the state is attitude error and rate, which moves as a random walk: w' = n with the spectral density a^2 T of an
+//! acceleration a that holds from one measurement to the next, T. That is the same filter with the rate in place of the
+//! negative bias and gyros that read zero (Bar-Shalom, Li & Kirubarajan, "Estimation with Applications to Tracking and
+//! Navigation", 2001, section 6.2.2).
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -13,11 +19,20 @@ use crate::attitude::rotation::Attitude;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::noise::{Channel, normal_vector};
 
-/// A star tracker measurement.
+/// Variance of a rate of which nothing is known, in rad2/s2.
+const UNKNOWN_RATE_RAD2_S2: f64 = 1.0;
+
+/// As many measurements of an attitude give a rate.
+const FIXES_FOR_A_RATE: u8 = 2;
+
+/// The rate while the gyros do not work.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Fix {
-    attitude: Attitude,
-    sample: u64,
+struct RateFilter {
+    rate_body_rad_s: Vector3<f64>,
+    /// Of attitude and negative rate.
+    covariance: Covariance,
+    /// Measurements of the attitude since nothing was known; the second gives a rate.
+    fixes: u8,
 }
 
 /// Covariance of attitude error and bias error of each body axis.
@@ -44,18 +59,17 @@ pub struct EstimatorState {
     covariance: Covariance,
     /// Rate of the last sample, in rad/s.
     rate_body_rad_s: Option<Vector3<f64>>,
-    last_fix: Option<Fix>,
+    /// While the gyros do not work and the star tracker does.
+    without_gyros: Option<RateFilter>,
     samples_since_fix: u64,
     /// Whether the inertial reference was lost, until the next fix.
     is_lost: bool,
 }
 
 impl Covariance {
-    /// Adds what the gyros' noise does in `interval_s`.
-    fn propagate(&mut self, settings: &SensorSettings) {
-        let dt = settings.interval_s;
-        let angle = settings.gyro.angle_random_walk_rad_sqrt_s.powi(2) * dt;
-        let bias = settings.gyro.rate_random_walk_rad_s_sqrt_s.powi(2) * dt;
+    /// Adds what random walks of angle and bias with these spectral densities, in rad2/s and rad2/s3, do in `dt`, in s.
+    fn propagate(&mut self, angle_rad2_s: f64, bias_rad2_s3: f64, dt: f64) {
+        let (angle, bias) = (angle_rad2_s * dt, bias_rad2_s3 * dt);
         self.angle += (self.bias * dt - self.cross * 2.0) * dt;
         self.angle = self.angle.add_scalar(angle + bias * dt * dt / 3.0);
         self.cross = (self.cross - self.bias * dt).add_scalar(-bias * dt / 2.0);
@@ -98,7 +112,7 @@ impl EstimatorState {
                 bias: squared(&settings.gyro.initial_bias_rad_s),
             },
             rate_body_rad_s: None,
-            last_fix: None,
+            without_gyros: None,
             samples_since_fix: 0,
             is_lost: false,
         }
@@ -109,8 +123,14 @@ impl EstimatorState {
         let Covariance { angle, cross, bias } = &self.covariance;
         let vectors = [&self.true_bias_rad_s, &self.bias_rad_s, angle, cross, bias];
         let mut numbers = vectors.into_iter().chain(&self.rate_body_rad_s).flat_map(|v| v.iter());
-        let others = self.last_truth.iter().chain(self.last_fix.iter().map(|fix| &fix.attitude));
-        numbers.all(|x| x.abs() <= GREATEST_IN_STATE)
+        let others = self.last_truth.iter();
+        let filter = |it: &RateFilter| {
+            let Covariance { angle, cross, bias } = &it.covariance;
+            let vectors = [&it.rate_body_rad_s, angle, cross, bias];
+            vectors.into_iter().flatten().all(|x| x.abs() <= GREATEST_IN_STATE)
+        };
+        self.without_gyros.as_ref().is_none_or(filter)
+            && numbers.all(|x| x.abs() <= GREATEST_IN_STATE)
             && others.chain([&self.attitude]).all(Attitude::is_rotation)
     }
 
@@ -124,14 +144,15 @@ impl EstimatorState {
         sample: u64,
     ) -> Estimate {
         let (angle, rate) = self.gyro(settings, truth_attitude, truth_rate_body_rad_s, sample);
+        self.take_health(settings, health);
         self.propagate(settings, health, angle);
         let is_fix = health.star_tracker && sample.is_multiple_of(settings.samples_per_fix());
-        let from_tracker = if is_fix { self.correct(settings, health, truth_attitude, sample) } else { None };
-        self.rate_body_rad_s = match health {
-            SensorHealth { gyro: true, .. } => Some(rate - self.bias_rad_s),
-            SensorHealth { star_tracker: true, .. } if is_fix => from_tracker,
-            SensorHealth { star_tracker: true, .. } => self.rate_body_rad_s,
-            _ => None,
+        if is_fix {
+            self.correct(settings, truth_attitude, sample);
+        }
+        self.rate_body_rad_s = match &self.without_gyros {
+            None => health.gyro.then(|| rate - self.bias_rad_s),
+            Some(filter) => filter.rate(),
         };
         let without_fix_s = self.samples_since_fix as f64 * settings.interval_s;
         let is_between_fixes = health.star_tracker && self.samples_since_fix < settings.samples_per_fix();
@@ -172,25 +193,55 @@ impl EstimatorState {
 
     fn propagate(&mut self, settings: &SensorSettings, health: SensorHealth, angle: Option<Vector3<f64>>) {
         let Some(angle) = angle else { return };
+        let dt = settings.interval_s;
         self.samples_since_fix = self.samples_since_fix.saturating_add(1);
-        self.covariance.propagate(settings);
-        if health.gyro {
-            self.attitude = self.attitude.turned(angle - self.bias_rad_s * settings.interval_s).normalized();
-        } else if let (true, Some(rate)) = (health.star_tracker, self.rate_body_rad_s) {
-            self.attitude = self.attitude.propagated(rate, settings.interval_s).normalized();
-        } else {
-            self.is_lost = true;
+        let (angle_walk, rate_walk) =
+            (settings.gyro.angle_random_walk_rad_sqrt_s, settings.gyro.rate_random_walk_rad_s_sqrt_s);
+        self.covariance.propagate(angle_walk.powi(2), rate_walk.powi(2), dt);
+        match &mut self.without_gyros {
+            Some(filter) => {
+                filter.covariance.propagate(0.0, settings.rate_density_rad2_s3(), dt);
+                self.attitude = self.attitude.propagated(filter.rate_body_rad_s, dt).normalized();
+                self.is_lost |= filter.rate().is_none();
+            }
+            None if health.gyro => {
+                self.attitude = self.attitude.turned(angle - self.bias_rad_s * dt).normalized();
+            }
+            None => self.is_lost = true,
         }
     }
 
-    /// Takes in the star tracker's measurement; the rate from its difference to the one before, where that was in time.
-    fn correct(
-        &mut self,
-        settings: &SensorSettings,
-        health: SensorHealth,
-        truth_attitude: &Attitude,
-        sample: u64,
-    ) -> Option<Vector3<f64>> {
+    /// Begins or ends to estimate the rate without gyros, as the sensors work.
+    fn take_health(&mut self, settings: &SensorSettings, health: SensorHealth) {
+        match (health, self.without_gyros) {
+            (SensorHealth { gyro: false, star_tracker: true }, None) => {
+                let known = self.rate_body_rad_s.filter(|_| self.last_truth.is_some() && !self.is_lost);
+                let of_gyros_rad2_s2 =
+                    settings.gyro.angle_random_walk_rad_sqrt_s.powi(2) / settings.interval_s;
+                self.without_gyros = Some(RateFilter {
+                    rate_body_rad_s: known.unwrap_or_default(),
+                    covariance: Covariance {
+                        angle: self.covariance.angle,
+                        cross: Vector3::zeros(),
+                        bias: match known {
+                            Some(_) => self.covariance.bias.add_scalar(of_gyros_rad2_s2),
+                            None => Vector3::repeat(UNKNOWN_RATE_RAD2_S2),
+                        },
+                    },
+                    fixes: if known.is_some() { FIXES_FOR_A_RATE } else { 0 },
+                });
+            }
+            (SensorHealth { gyro: true, .. }, Some(filter)) => {
+                self.covariance.replace(&filter.covariance.angle);
+                self.without_gyros = None;
+            }
+            (SensorHealth { gyro: false, star_tracker: false }, Some(_)) => self.without_gyros = None,
+            _ => {}
+        }
+    }
+
+    /// Takes in the star tracker's measurement.
+    fn correct(&mut self, settings: &SensorSettings, truth_attitude: &Attitude, sample: u64) {
         let noise = settings.star_tracker.noise_rad;
         let measured = if noise == Vector3::zeros() {
             *truth_attitude
@@ -199,24 +250,46 @@ impl EstimatorState {
             truth_attitude.turned(drawn.component_mul(&noise))
         };
         let variance = noise.component_mul(&noise);
-        if self.is_lost || !health.gyro {
-            self.covariance.replace(&variance);
-            self.attitude = measured;
-        } else {
-            let innovation = self.attitude.rotation_vector_to(&measured);
-            let (gain, bias_gain) = self.covariance.update(&variance);
-            self.bias_rad_s += bias_gain.component_mul(&innovation);
-            self.attitude = if noise == Vector3::zeros() {
-                measured
-            } else {
-                self.attitude.turned(gain.component_mul(&innovation)).normalized()
-            };
+        let is_first = match &self.without_gyros {
+            Some(filter) => filter.fixes == 0,
+            None => self.is_lost,
+        };
+        let innovation = self.attitude.rotation_vector_to(&measured);
+        let gain = match &mut self.without_gyros {
+            Some(filter) if is_first => {
+                filter.covariance.replace(&variance);
+                None
+            }
+            Some(filter) => {
+                let (gain, rate_gain) = filter.covariance.update(&variance);
+                filter.rate_body_rad_s -= rate_gain.component_mul(&innovation);
+                Some(gain)
+            }
+            None if is_first => {
+                self.covariance.replace(&variance);
+                None
+            }
+            None => {
+                let (gain, bias_gain) = self.covariance.update(&variance);
+                self.bias_rad_s += bias_gain.component_mul(&innovation);
+                Some(gain)
+            }
+        };
+        self.attitude = match gain.filter(|_| noise != Vector3::zeros()) {
+            Some(gain) => self.attitude.turned(gain.component_mul(&innovation)).normalized(),
+            None => measured,
+        };
+        if let Some(filter) = &mut self.without_gyros {
+            filter.fixes = filter.fixes.saturating_add(1).min(FIXES_FOR_A_RATE);
         }
         self.is_lost = false;
         self.samples_since_fix = 0;
-        let last = self.last_fix.replace(Fix { attitude: measured, sample })?;
-        let per_fix = settings.samples_per_fix();
-        (sample.checked_sub(last.sample) == Some(per_fix))
-            .then(|| last.attitude.rotation_vector_to(&measured) / (per_fix as f64 * settings.interval_s))
+    }
+}
+
+impl RateFilter {
+    /// The rate, once it is known.
+    fn rate(&self) -> Option<Vector3<f64>> {
+        (self.fixes >= FIXES_FOR_A_RATE).then_some(self.rate_body_rad_s)
     }
 }

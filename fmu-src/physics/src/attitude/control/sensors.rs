@@ -2,6 +2,9 @@
 
 use nalgebra::Vector3;
 
+/// A greater acceleration than this, in rad/s2, is not told from one without limit.
+const GREATEST_ACCELERATION_RAD_S2: f64 = 1e3;
+
 /// A star tracker.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct StarTracker {
@@ -33,6 +36,9 @@ pub struct SensorSettings {
     pub seed: u64,
     /// Time between two control samples, in s.
     pub interval_s: f64,
+    /// Angular acceleration of the body that an estimate without gyros expects between two measurements of the star tracker, in
+    /// rad/s2; infinite where nothing is known of it.
+    pub acceleration_rad_s2: f64,
     /// How long after the last star tracker measurement the propagated attitude counts as known, in s.
     pub longest_without_tracker_s: f64,
 }
@@ -56,5 +62,11 @@ impl SensorSettings {
     pub fn samples_per_fix(&self) -> u64 {
         // A saturating conversion: what is no positive number gives 0, which counts as 1.
         ((self.star_tracker.interval_s / self.interval_s).round() as u64).max(1)
+    }
+
+    /// Spectral density of the acceleration by which the rate moves, in rad2/s3.
+    pub(super) fn rate_density_rad2_s3(&self) -> f64 {
+        let acceleration_rad_s2 = self.acceleration_rad_s2.min(GREATEST_ACCELERATION_RAD_S2);
+        acceleration_rad_s2.powi(2) * (self.samples_per_fix() as f64 * self.interval_s)
     }
 }

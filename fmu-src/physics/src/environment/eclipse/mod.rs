@@ -135,12 +135,22 @@ impl Shadow {
         spacecraft_m: &Vector3<T>,
         sun_m: &Vector3<T>,
     ) -> Result<Discs<T>, EclipseError> {
-        self.discs_of(T::constant(self.planet_radius_m), spacecraft_m, sun_m)
+        self.discs_of(self.radii_m(), spacecraft_m, sun_m)
+    }
+
+    /// Radii of planet and Sun, in m, as numbers that depend on no seed.
+    fn radii_m<T: Scalar>(&self) -> [T; 2] {
+        [self.planet_radius_m, self.sun_radius_m].map(T::constant)
+    }
+
+    /// Radius of the Sun, in m.
+    pub fn sun_radius_m(&self) -> f64 {
+        self.sun_radius_m
     }
 
     fn discs_of<T: Scalar>(
         &self,
-        planet_radius_m: T,
+        [planet_radius_m, sun_radius_m]: [T; 2],
         spacecraft_m: &Vector3<T>,
         sun_m: &Vector3<T>,
     ) -> Result<Discs<T>, EclipseError> {
@@ -172,7 +182,7 @@ impl Shadow {
         let cross = spacecraft_m.cross(sun_m).norm_squared();
         let across = if cross.value() > 0.0 { cross.sqrt() } else { T::constant(0.0) };
         Ok(Discs {
-            sun_radius_rad: (T::constant(self.sun_radius_m) / sun_distance).asin(),
+            sun_radius_rad: (sun_radius_m / sun_distance).asin(),
             planet_radius_rad,
             separation_rad: T::polar_angle(across, -spacecraft_m.dot(&to_sun)),
             planet_in_front: planet_distance_m < sun_distance_m,
@@ -188,24 +198,24 @@ impl Shadow {
         spacecraft_m: &Vector3<T>,
         sun_m: &Vector3<T>,
     ) -> Result<T, EclipseError> {
-        self.lit_fraction_of(T::constant(self.planet_radius_m), spacecraft_m, sun_m)
+        self.lit_fraction_of(self.radii_m(), spacecraft_m, sun_m)
     }
 
-    /// As [`Shadow::lit_fraction`], with the planet's radius, m, as a number that may depend on the seed; its value is the
-    /// shadow's own.
+    /// As [`Shadow::lit_fraction`], with the radii of planet and Sun, m, as numbers that may depend on the seed; their values are
+    /// the shadow's own.
     ///
     /// # Errors
     /// See [`Shadow::discs`].
     pub fn lit_fraction_of<T: Scalar>(
         &self,
-        planet_radius_m: T,
+        radii_m: [T; 2],
         spacecraft_m: &Vector3<T>,
         sun_m: &Vector3<T>,
     ) -> Result<T, EclipseError> {
         if self.model == ShadowModel::Off {
             return Ok(T::constant(1.0));
         }
-        let discs = self.discs_of(planet_radius_m, spacecraft_m, sun_m)?;
+        let discs = self.discs_of(radii_m, spacecraft_m, sun_m)?;
         let all_or_nothing = |gap_rad: f64| T::constant(f64::from(gap_rad >= 0.0));
         Ok(match self.model {
             ShadowModel::DiscOverlap => discs.lit_fraction(),

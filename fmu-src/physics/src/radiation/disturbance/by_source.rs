@@ -33,6 +33,8 @@ pub struct Positions<T> {
 pub struct Parameters<T: Scalar> {
     /// The Sun's flux at 1 AU, in W/m2.
     pub flux_at_1_au_w_m2: T,
+    /// The Sun's radius, in m.
+    pub sun_radius_m: T,
     /// Gravitational parameter of the planet, in m3/s2.
     pub gm_m3_s2: T,
     /// Inertia about the centre of mass, body frame, in kg m2.
@@ -124,7 +126,11 @@ impl<T: Scalar> BySource<T> {
         let planet_m = shadow.map(|_| Vector3::from(positions.planet_m));
         let (lit_fraction, gravity_gradient_n_m) = match (shadow, &planet_m) {
             (Some(shadow), Some(planet_m)) => (
-                shadow.lit_fraction_of(parameters.planet.radius_m, &-planet_m, &(sun_m - planet_m))?,
+                shadow.lit_fraction_of(
+                    [parameters.planet.radius_m, parameters.sun_radius_m],
+                    &-planet_m,
+                    &(sun_m - planet_m),
+                )?,
                 if effects.gravity_gradient {
                     gravity_gradient_n_m(parameters.gm_m3_s2, &parameters.inertia_body_kg_m2, planet_m)
                 } else {
@@ -140,7 +146,8 @@ impl<T: Scalar> BySource<T> {
             lit_fraction,
             &positions.panel_angles_rad,
             Vector3::from(positions.center_of_mass_m),
-        )?;
+        )?
+        .with_sun_radius(parameters.sun_radius_m);
         if let Some(planet) = &mut geometry.planet {
             let pole = Vector3::from(positions.pole);
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };

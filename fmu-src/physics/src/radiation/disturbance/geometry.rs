@@ -136,6 +136,11 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         })
     }
 
+    /// The same with a Sun of this radius, in m, in place of the nominal one.
+    pub fn with_sun_radius(self, sun_radius_m: T) -> Self {
+        Self { sun_sine: self.sun_sine * (sun_radius_m / T::constant(RADIUS_SUN_M)), ..self }
+    }
+
     /// Sunlight as far as the planet lets it through.
     pub(super) fn beam(&self) -> Beam<T> {
         Beam {

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::commands::Commands;
 use super::sound::are_moderate;
 use super::valves::Valves;
 use crate::attitude::Inertia;
@@ -103,6 +104,16 @@ impl Propulsion {
     /// Whether the tank is empty: nothing fires any more.
     pub fn is_dry(&self) -> bool {
         self.used_kg >= self.initial_propellant_kg
+    }
+
+    /// Takes what is commanded for the step from `start_s` to `end_s`, in s.
+    pub(super) fn command(&mut self, commands: &Commands, start_s: f64, end_s: f64) {
+        self.valves.command(commands, start_s, end_s);
+    }
+
+    /// Thrusters whose commanded pulses are at hand at `now_s`, bit by bit.
+    pub(super) fn pulsing_mask(&mut self, now_s: f64) -> u32 {
+        self.valves.pulsing_mask(now_s)
     }
 
     /// Opens the valves of `mask` and closes the others; what was exerted before is settled.

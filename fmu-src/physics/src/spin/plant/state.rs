@@ -9,6 +9,7 @@ use super::propulsion::{MassSource, Propulsion};
 use super::sensors::{Sensor, Sensors};
 use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
 use crate::attitude::{Inertia, RigidBodyState};
+use crate::propulsion::due_s;
 use crate::spin::{
     burn::{Burn, BurnInitialConditions},
     damper::Damper,
@@ -170,9 +171,9 @@ impl Plant {
         &self.sensors
     }
 
-    /// Thrusters whose commanded pulse is too short for their valves, bit by bit.
+    /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.
     pub fn too_short(&self) -> u32 {
-        self.commands.too_short
+        self.propulsion.valves().too_short_mask()
     }
 
     /// Directions that the sensors look for now.
@@ -198,11 +199,11 @@ impl Plant {
         if now.star_inertial != before.star_inertial {
             self.sensors.forget_star(self.time_s);
         }
-        self.commands = commands.executable(self.propulsion.valves().execution());
+        self.commands = commands;
         self.commanded = true;
     }
 
-    /// Flies to `end_s`. Pulses commanded beyond it are cut there.
+    /// Flies to `end_s`. Pulses commanded beyond it are cut there, or where their valves may close.
     ///
     /// # Errors
     /// A body that cannot be followed to there, or only with more work than a step may cost; the flight is then of no
@@ -213,15 +214,22 @@ impl Plant {
         let near_s = end_s + SAME_TIME * end_s.abs().max(from_s.abs());
         // The last edge, and the last thing of any kind that happened.
         let (mut now_s, mut reached_s) = (from_s, from_s);
-        if self.commanded || self.commands.any_pulse {
-            self.switch(spinner, from_s, now_s, f64::INFINITY, work)?;
+        let waiting_s = self.propulsion.valves().edge_before_s(f64::INFINITY);
+        if self.commanded || self.commands.fires() || waiting_s <= due_s(from_s) {
+            self.propulsion.command(&self.commands, from_s, end_s);
+            // An edge where the last step ended waited for this command.
+            let edge_s = self.propulsion.valves().edge_before_s(end_s);
+            if edge_s <= due_s(from_s) {
+                now_s = edge_s;
+            }
+            self.switch(spinner, now_s, f64::INFINITY, work)?;
             self.commanded = false;
         }
         self.motion.check()?;
         loop {
             work.check(reached_s)?;
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
-            let command_s = self.commands.edge_after_s(from_s, now_s);
+            let command_s = self.propulsion.valves().edge_before_s(end_s);
             let dry_s = self.propulsion.dry_s().max(now_s);
             let ramp_s = self.propulsion.valves().ramp_end_s().max(now_s);
             let edge_s = plan_s.min(command_s).min(self.directions.refresh_s()).min(dry_s).min(ramp_s);
@@ -258,7 +266,7 @@ impl Plant {
             if dry_s <= edge_s {
                 self.run_dry(spinner, now_s, work)?;
             }
-            self.switch(spinner, from_s, now_s, hint_s, work)?;
+            self.switch(spinner, now_s, hint_s, work)?;
             if self.sequencer.as_ref().is_some_and(|s| s.phase() == Phase::Idle) {
                 self.schedule(now_s, work);
             }
@@ -273,13 +281,12 @@ impl Plant {
     fn switch(
         &mut self,
         spinner: &Spinner,
-        from_s: f64,
         now_s: f64,
         hint_s: f64,
         work: &mut Work,
     ) -> Result<(), SpinPlantError> {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
-        let asked = plan | self.commands.mask_after(from_s, now_s);
+        let asked = plan | self.propulsion.pulsing_mask(now_s);
         let mask = if self.propulsion.is_dry() { 0 } else { asked };
         let turns_valves = mask != self.propulsion.mask() || self.propulsion.valves().ramp_end_s() <= now_s;
         let applied = self.commands.torque;

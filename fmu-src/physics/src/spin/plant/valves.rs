@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::propulsion::{ThrustLaw, Valve};
+use super::commands::Commands;
+use crate::propulsion::{PulseSchedule, ThrustLaw, Valve, due_s};
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{execution::PulseExecution, spinner::Spinner};
 
@@ -11,6 +12,8 @@ use crate::spin::{execution::PulseExecution, spinner::Spinner};
 pub struct Valves {
     execution: [PulseExecution; MOST_THRUSTERS],
     valves: [Valve; MOST_THRUSTERS],
+    /// Pulses that were commanded.
+    schedule: [PulseSchedule; MOST_THRUSTERS],
     /// Of the scatter.
     seed: u64,
     law: ThrustLaw,
@@ -19,7 +22,13 @@ pub struct Valves {
 impl Valves {
     /// All closed.
     pub(super) fn new(execution: [PulseExecution; MOST_THRUSTERS], seed: u64, start_s: f64) -> Self {
-        Self { execution, valves: [Valve::default(); MOST_THRUSTERS], seed, law: ThrustLaw::none(start_s) }
+        Self {
+            execution,
+            valves: [Valve::default(); MOST_THRUSTERS],
+            schedule: [PulseSchedule::default(); MOST_THRUSTERS],
+            seed,
+            law: ThrustLaw::none(start_s),
+        }
     }
 
     /// How thrusters execute pulses.
@@ -43,6 +52,42 @@ impl Valves {
         ends.map(|(valve, execution)| valve.ramp_end_s(&execution.valve)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Takes what is commanded for the step from `start_s` to `end_s`, in s, by the law of [`PulseSchedule`].
+    pub(super) fn command(&mut self, commands: &Commands, start_s: f64, end_s: f64) {
+        let step_s = [start_s, end_s];
+        for (k, schedule) in self.schedule.iter_mut().enumerate() {
+            let timing = &self.execution[k].valve;
+            schedule.command(timing, &commands.pulses[k], step_s, true);
+            if commands.fire >> k & 1 == 1 {
+                schedule.fire(timing, step_s);
+            }
+        }
+    }
+
+    /// Thrusters whose commanded pulses are at hand at `now_s`, bit by bit, those that begin and end there taken note of.
+    pub(super) fn pulsing_mask(&mut self, now_s: f64) -> u32 {
+        let due_s = due_s(now_s);
+        let mut mask = 0;
+        for (k, schedule) in self.schedule.iter_mut().enumerate() {
+            schedule.take_closing(due_s);
+            schedule.take_opening(&self.execution[k].valve, due_s);
+            mask |= u32::from(schedule.is_open()) << k;
+        }
+        mask
+    }
+
+    /// The first edge of a commanded pulse clearly before `end_s`, in s: one at the end of a step waits for the next step's
+    /// command, which may go on with the pulse.
+    pub(super) fn edge_before_s(&self, end_s: f64) -> f64 {
+        let edges = self.schedule.iter().flat_map(|it| [it.opens_s(), it.closes_s()]);
+        edges.filter(|edge_s| due_s(*edge_s) < end_s).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.
+    pub(super) fn too_short_mask(&self) -> u32 {
+        self.schedule.iter().enumerate().map(|(k, it)| u32::from(it.was_too_short()) << k).sum()
+    }
+
     /// Opens the valves of `mask` at `now_s` and closes the others.
     pub(super) fn open(&mut self, spinner: &Spinner, mask: u32, now_s: f64) {
         for (k, (valve, execution)) in self.valves.iter_mut().zip(&self.execution).enumerate() {
@@ -62,6 +107,7 @@ impl Valves {
     /// Shuts all valves at `now_s` with nothing left to come out.
     pub(super) fn shut(&mut self, now_s: f64) {
         self.valves.iter_mut().for_each(|valve| valve.shut(now_s));
+        self.schedule.iter_mut().for_each(PulseSchedule::clear);
         self.law = ThrustLaw::none(now_s);
     }
 
@@ -84,6 +130,7 @@ impl Valves {
         let since_s = self.law.since_s;
         self.execution.iter().all(PulseExecution::is_sound)
             && self.valves.iter().all(Valve::is_sound)
+            && self.schedule.iter().all(PulseSchedule::is_sound)
             && since_s <= latest_s
             && self.law.is_sound()
             && self.law == self.law_from(spinner, since_s)

@@ -95,7 +95,7 @@ pub struct DamperEntry {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ThrustersEntry {
-    /// Smallest pulse and step of its width, in s.
+    /// Smallest pulse, and the step to which its width and thruster[k].onDelay are rounded, in s.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub resolution_s: f64,
     /// Specific impulse, in s.

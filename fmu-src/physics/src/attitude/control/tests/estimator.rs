@@ -17,6 +17,7 @@ fn silent() -> SensorSettings {
         gyro: Gyro::default(),
         seed: 3,
         interval_s: 0.02,
+        acceleration_rad_s2: f64::INFINITY,
         longest_without_tracker_s: 100.0,
     }
 }
@@ -237,8 +238,10 @@ fn tracker_noise_differs_by_axis() {
     }
     let variance = settings.star_tracker.noise_rad.component_mul(&settings.star_tracker.noise_rad);
     assert!((square.component_div(&variance)).add_scalar(-1.0).amax() < 0.05, "{square}");
-    // A difference of two draws over the interval.
-    let of_rate = variance * (2.0 / settings.interval_s.powi(2));
+    // Any acceleration: the attitude is the measured one, the rate that of an alpha-beta filter with alpha = 1 and, by
+    // Farrenkopf's gain for a random walk without bound, beta = 3 - sqrt(3): v' = (1 - beta) v + beta (z' - z) / T.
+    let beta = 3.0 - 3.0_f64.sqrt();
+    let of_rate = variance * (2.0 * beta * beta / (2.0 - beta) / settings.interval_s.powi(2));
     assert!((rate_square.component_div(&of_rate)).add_scalar(-1.0).amax() < 0.06, "{rate_square}");
 }
 
@@ -276,6 +279,62 @@ fn without_gyros_the_rate_comes_from_the_tracker() {
             assert!(error(&estimate, &motion).norm() < lag * 2.0 * settings.star_tracker.interval_s);
             motion.go_on(settings.interval_s);
         }
+    }
+}
+
+/// Of a still body, in the steady state of an alpha-beta filter with Farrenkopf's gains (Bar-Shalom et al., 6.5.3): the rate's
+/// variance is 2 beta^2 / (alpha (4 - 2 alpha - beta)) of that of the measured angle over the interval.
+#[test]
+fn without_gyros_the_noise_of_the_rate_is_a_filters() {
+    for acceleration_rad_s2 in [1e-6, 1e-5, 1e-4] {
+        let settings = SensorSettings { acceleration_rad_s2, ..noisy() };
+        let (noise_rad, interval_s) = (settings.star_tracker.noise_rad.x, settings.star_tracker.interval_s);
+        let gyro = Gyro {
+            angle_random_walk_rad_sqrt_s: 0.0,
+            rate_random_walk_rad_s_sqrt_s: acceleration_rad_s2 * interval_s.sqrt(),
+            ..settings.gyro
+        };
+        let gains = farrenkopf(&SensorSettings { gyro, ..settings });
+        let (alpha, beta) = (gains.angle_gain, -gains.bias_gain * interval_s);
+        let share = 2.0 * beta * beta / (alpha * (4.0 - 2.0 * alpha - beta));
+        let expected = share * (noise_rad / interval_s).powi(2);
+        let attitude = random_attitude(14);
+        let mut state = EstimatorState::new(&settings, attitude);
+        let (mut square, mut count) = (0.0, 0.0);
+        for sample in 0..500_000_u64 {
+            let health = if sample < 50 { ALL } else { NO_GYRO };
+            let estimate = state.sample(&settings, health, &attitude, &Vector3::zeros(), sample);
+            assert!(estimate.is_valid);
+            if sample > 5000 && sample.is_multiple_of(5) {
+                square += estimate.rate_body_rad_s.unwrap().norm_squared();
+                count += 3.0;
+            }
+        }
+        let found = square / count;
+        assert!((found / expected - 1.0).abs() < 0.1, "{acceleration_rad_s2}: {found} {expected}");
+        // A difference of two measurements has twice the variance of one.
+        assert!(found < 2.0 * (noise_rad / interval_s).powi(2) / 4.0, "{acceleration_rad_s2}: {found}");
+    }
+}
+
+#[test]
+fn without_gyros_from_the_start_the_second_fix_gives_the_rate() {
+    let mut settings = SensorSettings { acceleration_rad_s2: 1e-4, ..noisy() };
+    settings.star_tracker.noise_rad = Vector3::repeat(1e-9);
+    let rate = Vector3::new(1e-3, -2e-3, 5e-4);
+    let mut motion = Motion { rate, ..Motion::new(15) };
+    let mut state = EstimatorState::new(&settings, motion.attitude);
+    for sample in 0..50_u64 {
+        let estimate = motion.sample(&mut state, &settings, NO_GYRO);
+        // Fixes at samples 0 and 5.
+        assert_eq!(estimate.rate_body_rad_s.is_some(), sample >= 5, "{sample}");
+        assert_eq!(estimate.is_valid, sample == 0 || sample >= 5, "{sample}");
+        if let Some(found) = estimate.rate_body_rad_s {
+            assert!((found - rate).norm() < 1e-7, "{sample}: {}", found - rate);
+            assert!(error(&estimate, &motion).norm() < 1e-7);
+        }
+        motion.attitude = motion.attitude.propagated(rate, settings.interval_s).normalized();
+        motion.sample += 1;
     }
 }
 

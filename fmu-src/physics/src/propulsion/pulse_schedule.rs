@@ -1,0 +1,153 @@
+//! Pulse schedule of a valve: the law by which a pulse commanded for a step becomes times at which the valve opens and closes.
+//!
+//! Law: a valve opens `delay` after the step's start where the pulse lasts at least the valve's shortest time, or reaches the
+//! step's end. It closes where the pulse or the step ends, whichever is first, and never sooner than the shortest time after it
+//! opened, over the step's end if need be. A pulse from the next step's start on joins one that is open there, so that a pulse
+//! may go on from step to step. Anything else does not open.
+//!
+//! Reference: the decision is this project's; valves behave so, for a solenoid that was energised goes through its stroke.
+
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::spacing::spacing;
+use crate::spacecraft::ValveTiming;
+
+use super::pulse_command::PulseCommand;
+
+/// A pulse this share short of the shortest time lasts that time.
+const SAME_LENGTH: f64 = 1e-12;
+
+/// The pulse at hand.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct OpenPulse {
+    /// When the valve closes, in s; infinite without end.
+    closes_s: f64,
+    /// It does not close before, in s.
+    holds_until_s: f64,
+}
+
+/// The pulse of a valve at hand and the one ahead, and what became of the last step's command.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PulseSchedule {
+    open: Option<OpenPulse>,
+    /// When the valve next opens and closes, in s.
+    next_s: Option<[f64; 2]>,
+    was_too_short: bool,
+}
+
+impl PulseSchedule {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let later = |x: &f64| x.abs() <= GREATEST_IN_STATE || *x == f64::INFINITY;
+        self.open.is_none_or(|it| later(&it.closes_s) && it.holds_until_s.abs() <= GREATEST_IN_STATE)
+            && self.next_s.is_none_or(|[opens_s, closes_s]| {
+                opens_s.abs() <= GREATEST_IN_STATE && later(&closes_s) && opens_s <= closes_s
+            })
+    }
+
+    /// Takes the pulse commanded for the step from `start_s` to `end_s`, both in s; whether anything opens or goes on.
+    ///
+    /// A valve that is busy otherwise (`is_free` false) takes none.
+    pub fn command(
+        &mut self,
+        timing: &ValveTiming,
+        pulse: &PulseCommand,
+        [start_s, end_s]: [f64; 2],
+        is_free: bool,
+    ) -> bool {
+        self.was_too_short = false;
+        if pulse.on_s <= 0.0 {
+            return false;
+        }
+        let rounding_s = PulseCommand::rounding_s(start_s, end_s);
+        let opens_s = start_s + pulse.delay_s;
+        let reaches_end = opens_s + pulse.on_s >= end_s - rounding_s;
+        let joins =
+            pulse.delay_s <= rounding_s && self.open.is_some_and(|it| it.closes_s >= due_from_s(start_s));
+        let shortest_s = timing.min_on_s * (1.0 - SAME_LENGTH) - 4.0 * spacing(end_s);
+        let opens = opens_s < end_s - rounding_s && (pulse.on_s >= shortest_s || reaches_end || joins);
+        self.was_too_short = !opens;
+        if opens && is_free {
+            let closes_s = if reaches_end { end_s } else { opens_s + pulse.on_s };
+            self.plan(timing, opens_s, closes_s);
+        }
+        opens && is_free
+    }
+
+    /// The valve is open over the whole step from `start_s` to `end_s`, both in s.
+    pub fn fire(&mut self, timing: &ValveTiming, [start_s, end_s]: [f64; 2]) {
+        self.plan(timing, start_s, end_s);
+    }
+
+    /// Plans a pulse; one that begins before the present one ends makes that end as late as it does itself, but not before the
+    /// valve may close.
+    pub fn plan(&mut self, timing: &ValveTiming, opens_s: f64, closes_s: f64) {
+        match &mut self.open {
+            Some(open) if opens_s <= due_s(open.closes_s) => open.closes_s = closes_s.max(open.holds_until_s),
+            _ => self.next_s = Some([opens_s, closes_s.max(opens_s + timing.min_on_s)]),
+        }
+    }
+
+    /// Ends the pulse at hand as soon as the valve may close from `time_s` on, in s, and plans none.
+    pub fn end(&mut self, time_s: f64) {
+        self.next_s = None;
+        if let Some(open) = &mut self.open {
+            open.closes_s = time_s.max(open.holds_until_s);
+        }
+    }
+
+    /// Nothing at hand and nothing ahead.
+    pub fn clear(&mut self) {
+        (self.open, self.next_s) = (None, None);
+    }
+
+    /// When the valve next closes, in s; infinite where it is closed or stays open.
+    pub fn closes_s(&self) -> f64 {
+        self.open.map_or(f64::INFINITY, |open| open.closes_s)
+    }
+
+    /// When it next opens, in s; infinite where it does not.
+    pub fn opens_s(&self) -> f64 {
+        self.next_s.map_or(f64::INFINITY, |[opens_s, _]| opens_s)
+    }
+
+    /// Takes note that the pulse at hand is over; whether it is by `due_s`, in s.
+    pub fn take_closing(&mut self, due_s: f64) -> bool {
+        let closes = self.closes_s() <= due_s;
+        if closes {
+            self.open = None;
+        }
+        closes
+    }
+
+    /// Takes note that the pulse ahead began; whether it did by `due_s`, in s.
+    pub fn take_opening(&mut self, timing: &ValveTiming, due_s: f64) -> bool {
+        let Some([opens_s, closes_s]) = self.next_s.filter(|[opens_s, _]| *opens_s <= due_s) else {
+            return false;
+        };
+        self.next_s = None;
+        self.open = Some(OpenPulse { closes_s, holds_until_s: opens_s + timing.min_on_s });
+        true
+    }
+
+    /// Whether the valve is open for a pulse.
+    pub fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
+    /// Whether the last step commanded a pulse that does not open the valve.
+    pub fn was_too_short(&self) -> bool {
+        self.was_too_short
+    }
+}
+
+/// Times up to this one are due at `time_s`.
+pub fn due_s(time_s: f64) -> f64 {
+    time_s + 4.0 * spacing(time_s)
+}
+
+/// Times from this one on are not over at `time_s`.
+fn due_from_s(time_s: f64) -> f64 {
+    time_s - 4.0 * spacing(time_s)
+}
