@@ -209,7 +209,7 @@ pub fn with_file_starts(start: &Values, description: &Description) -> Values {
 }
 
 /// The value tables, reached through their serialised form: no author of a model can write them by reference.
-#[derive(Clone, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Tables {
     pub reals: Vec<f64>,
     pub integers: Vec<i32>,
@@ -268,7 +268,9 @@ impl<M: Model> NamedInstance<'_, M> {
 
     /// One step.
     pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
-        let changed = self.before.as_ref().is_some_and(|before| *before != self.values);
+        // Who set a value is no matter.
+        let unmarked = |values: &Values| Tables { set: Default::default(), ..Tables::of(values) };
+        let changed = self.before.as_ref().is_some_and(|before| unmarked(before) != unmarked(&self.values));
         let step = Step { start_s: self.time_s, end_s, changed, inputs: InputsOverTime::held() };
         M::step(&self.named.context(), &mut self.values, &mut self.state, &step)?;
         self.time_s = end_s;
