@@ -12,7 +12,7 @@ use terminal::Screen;
 use crate::{
     args::{Arguments, Command, InChild, Plan, SchemaKind},
     check,
-    child::{self, Bounds, Limits, Relayed, SMALL},
+    child::{self, Bounds, LARGE, Relayed, SMALL},
     completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
     pack, plan, run as simulation, study, wire,
@@ -65,11 +65,11 @@ fn loading(command: &Command) -> Option<Relayed> {
         Command::Map(it) => {
             (shown(it.template.as_ref().unwrap_or(&it.craft)), of_call(it.patience.timeout), SMALL)
         }
-        Command::Ephemeris(it) => (shown(&it.flown()), of_call(it.patience.timeout), Limits::default()),
+        Command::Ephemeris(it) => (shown(&it.flown()), of_call(it.patience.timeout), LARGE),
         Command::Plan(Plan::Spin(it)) => {
-            (of_template(it.options.fmu.as_ref()), of_call(it.patience.timeout), Limits::default())
+            (of_template(it.options.fmu.as_ref()), of_call(it.patience.timeout), LARGE)
         }
-        Command::Study(it) => (it.name.clone(), of_call(it.patience.timeout), Limits::default()),
+        Command::Study(it) => (it.name.clone(), of_call(it.patience.timeout), LARGE),
         _ => return None,
     };
     Some(Relayed { name, bounds, limits })

@@ -277,7 +277,7 @@ pub struct Run {
     /// every output
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub record: Vec<String>,
-    /// Record at most this often, in s or with a unit; otherwise at every step
+    /// Record the step nearest to each multiple of this time, in s or with a unit, and the last one; otherwise every step
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Write what is recorded as CSV; - is the standard output. Until the run is complete the file is <CSV>.part; it

@@ -3,11 +3,12 @@
 use std::{error::Error, process::ExitCode, time::Instant};
 
 use files::Scratch;
-use loader::{Collector, Ended, LogMessage};
+use loader::{Collector, Ended, LogMessage, RecordedPoints};
 
 use crate::{
     args::{Run, RunInChild},
     interrupt::INTERRUPTED,
+    low_orbit,
     mission::Judge,
     outcome::Outcome,
     output::{self, Known, Outputs},
@@ -61,10 +62,10 @@ impl Prepared {
         subject.check_libraries()?;
         let described = subject.description();
         let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
-        let outputs = Outputs::open(&flown.run, &settings.plots, settings.columns, &known, &flown.reads())?;
-        let every = loader::steps_between_points(&settings.times, flown.run.every)?;
-        let points = settings.times.steps().div_ceil(every).saturating_add(1);
-        Collector::new(described, &settings.positions).fits(points)?;
+        let collector = Collector::new(described, &settings.positions);
+        let outputs = Outputs::open(&settings.wanted, collector.recording(), &known, &flown.reads())?;
+        let points = RecordedPoints::new(&settings.times, flown.run.every)?.count();
+        collector.fits(points)?;
         Ok(Self { flown, subject, settings, points, outputs, input_copy, _packed })
     }
 }
@@ -75,7 +76,11 @@ pub fn run(arguments: &Run) -> Outcome {
     let Prepared { flown, subject, settings, points, mut outputs, input_copy, _packed } = prepared;
     let arguments = &flown.run;
     let described = subject.description();
-    let Settings { times, positions, limits, plots, .. } = settings;
+    let warnings = low_orbit::warnings(described, &settings.sets);
+    let Settings { times, positions, limits, wanted, .. } = settings;
+    if !arguments.quiet {
+        warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
+    }
     let is_judged = !limits.is_empty();
     let mut judge = Judge::new(limits);
     let mut collector = Collector::new(described, &positions);
@@ -104,7 +109,7 @@ pub fn run(arguments: &Run) -> Outcome {
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
     if outputs.has_lost_reader() {
         // Nobody is there for the rest; what is drawn and judged at the end is not, and that is no success.
-        return if plots.is_empty() && !is_judged {
+        return if wanted.plots.is_empty() && !is_judged {
             Ok(ExitCode::SUCCESS)
         } else {
             let last = terminal::short(last_s);
@@ -122,7 +127,11 @@ pub fn run(arguments: &Run) -> Outcome {
             return Err(format!("{error}{kept}").into());
         }
     };
-    outputs.finish(described, recording)?;
+    // Part of a recording does not replace a complete one.
+    let kept = match ended {
+        Ended::Cancelled => outputs.stop(described, recording)?,
+        _ => outputs.finish(described, recording).map(|()| Vec::new())?,
+    };
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
         let (last, elapsed) = (terminal::short(last_s), elapsed.as_secs_f64());
@@ -141,7 +150,12 @@ pub fn run(arguments: &Run) -> Outcome {
         }
         Ended::Cancelled => {
             let last = terminal::short(last_s);
-            terminal::note(&format!("interrupted at {last} s; what was recorded until then is written"));
+            let rows = recording.times_s.len();
+            let kept: String =
+                kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect();
+            terminal::note(&format!(
+                "interrupted at {last} s; what was recorded until then is written{kept}"
+            ));
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }

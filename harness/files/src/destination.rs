@@ -2,7 +2,7 @@
 
 use std::{
     ffi::OsString,
-    fs::{self, File, Metadata, OpenOptions},
+    fs::{self, File, Metadata, OpenOptions, TryLockError},
     io::{self, BufWriter, Write},
     path::{Path, PathBuf},
 };
@@ -11,8 +11,9 @@ use tempfile::NamedTempFile;
 
 use crate::{input::kind, temporary::Registered};
 
-/// The name that stands for the standard output.
+/// The name that stands for the standard output, and the system's own for it.
 const STDOUT: &str = "-";
+const SYSTEM_STDOUT: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
 /// A file that can be written. Until its new content is complete, what stood in it stays.
 #[derive(Debug)]
@@ -24,11 +25,12 @@ pub struct Destination {
 }
 
 impl Destination {
-    /// Looks at the file that `option` names; `-` is the standard output. Refused: what is no regular file, what
+    /// Looks at the file that `option` names; `-` is the standard output, and so are the system's names for it. Refused: what is no regular file, what
     /// cannot be written, and what is one of `inputs` (files, or folders with all that is in them), under whatever
     /// name. Folders are not created.
     pub fn open(path: &Path, option: &'static str, inputs: &[&Path]) -> Result<Self, String> {
-        if path == Path::new(STDOUT) {
+        if path == Path::new(STDOUT) || cfg!(unix) && SYSTEM_STDOUT.iter().any(|name| path == Path::new(name))
+        {
             return Ok(Self { path: path.to_owned(), option, target: None });
         }
         let refuse = |what: String| format!("{}: {what}: see {option}", path.display());
@@ -49,6 +51,17 @@ impl Destination {
         self.target.is_none()
     }
 
+    /// The file that would be replaced; `None` where there is none yet.
+    pub fn existing(&self) -> Option<&Path> {
+        self.target.as_deref().filter(|target| target.exists())
+    }
+
+    /// Whether it leads to a file in a folder or below, behind all links; the standard output is nowhere.
+    pub fn is_within(&self, folder: &Path) -> bool {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        self.target.as_deref().is_none_or(|target| is_inside(target, folder))
+    }
+
     /// Whether both lead to one place.
     pub fn is_same(&self, other: &Self) -> bool {
         match (&self.target, &other.target) {
@@ -65,13 +78,14 @@ impl Destination {
 
     /// Takes a recording in progress: it grows as `<name>.part`, on the standard output as it is.
     ///
-    /// A `.part` of an earlier recording is replaced once there is something to write.
+    /// A `.part` of an earlier recording is replaced once there is something to write; that of one in progress, of any program, is
+    /// refused.
     pub fn grow(self, inputs: &[&Path]) -> Result<Growing, String> {
-        let part = self.target.as_deref().map(part_of);
-        if let Some(part) = &part {
-            check(part, inputs).map_err(|what| format!("{}: {what}: see {}", part.display(), self.option))?;
-        }
-        Ok(Growing { destination: self, part, file: None, lost_reader: false })
+        let part = self.target.as_deref().map(part_of).map(|path| {
+            Part::open(&path, inputs)
+                .map_err(|what| format!("{}: {what}: see {}", path.display(), self.option))
+        });
+        Ok(Growing { part: part.transpose()?, destination: self, lost_reader: false })
     }
 
     fn replace(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
@@ -115,23 +129,31 @@ impl Destination {
 #[derive(Debug)]
 pub struct Growing {
     destination: Destination,
-    part: Option<PathBuf>,
-    file: Option<File>,
+    part: Option<Part>,
     lost_reader: bool,
 }
 
 impl Growing {
     /// Appends these bytes at once.
     pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
-        self.write(bytes).map_err(|error| match &self.part {
-            Some(part) => format!("{}: {error}: see {}", part.display(), self.destination.option),
-            None => self.destination.message(&error),
-        })
+        let Some(part) = &mut self.part else {
+            let mut out = terminal::Output;
+            let written = out.write_all(bytes).and_then(|()| out.flush());
+            self.lost_reader |= matches!(&written, Err(error) if error.kind() == io::ErrorKind::BrokenPipe);
+            return gone_reader_is_no_error(written).map_err(|error| self.destination.message(&error));
+        };
+        part.append(bytes)
+            .map_err(|error| format!("{}: {error}: see {}", part.path.display(), self.destination.option))
     }
 
     /// Whether the reader of the standard output went away: what is appended then goes nowhere.
     pub fn has_lost_reader(&self) -> bool {
         self.lost_reader
+    }
+
+    /// The file that would be replaced; `None` where there is none yet.
+    pub fn existing(&self) -> Option<&Path> {
+        self.destination.existing()
     }
 
     /// Gives the complete recording its name.
@@ -141,37 +163,110 @@ impl Growing {
 
     /// Leaves what was recorded as it is and gives its path, if anything was.
     pub fn leave(self) -> Option<PathBuf> {
-        self.part.filter(|_| self.file.is_some())
-    }
-
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let Some(part) = &self.part else {
-            let mut out = terminal::Output;
-            let written = out.write_all(bytes).and_then(|()| out.flush());
-            self.lost_reader |= matches!(&written, Err(error) if error.kind() == io::ErrorKind::BrokenPipe);
-            return gone_reader_is_no_error(written);
-        };
-        let file = match &mut self.file {
-            Some(file) => file,
-            None => {
-                match fs::remove_file(part) {
-                    Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-                    _ => {}
-                }
-                // New, so that no link that somebody put there is followed.
-                self.file.insert(File::create_new(part)?)
-            }
-        };
-        file.write_all(bytes)
+        self.part.filter(|part| part.is_begun).map(|part| part.path.clone())
     }
 
     fn rename(&mut self) -> io::Result<()> {
-        self.write(&[])?;
-        let (Some(part), Some(target)) = (&self.part, &self.destination.target) else { return Ok(()) };
-        if let Some(file) = &self.file {
-            keep_permissions(file, target)?;
+        let (Some(part), Some(target)) = (&mut self.part, &self.destination.target) else { return Ok(()) };
+        part.append(&[])?;
+        keep_permissions(&part.file, target)?;
+        fs::rename(&part.path, target)
+    }
+}
+
+/// The file of a recording in progress, locked against others as long as it is open.
+#[derive(Debug)]
+struct Part {
+    path: PathBuf,
+    file: File,
+    /// Whether nothing was there before.
+    is_new: bool,
+    /// Whether it holds this recording.
+    is_begun: bool,
+}
+
+impl Part {
+    /// How often a file is opened that others take away meanwhile.
+    const ATTEMPTS: usize = 100;
+
+    /// Opens and locks it; what it holds of an earlier recording stays until something is appended.
+    fn open(path: &Path, inputs: &[&Path]) -> Result<Self, String> {
+        let text = |error: io::Error| error.to_string();
+        for _ in 0..Self::ATTEMPTS {
+            check(path, inputs)?;
+            let (file, is_new) = match File::create_new(path) {
+                Ok(file) => (file, true),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                    match OpenOptions::new().write(true).open(path) {
+                        Ok(file) => (file, false),
+                        Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                        Err(error) => return Err(text(error)),
+                    }
+                }
+                Err(error) => return Err(text(error)),
+            };
+            match file.try_lock() {
+                Err(TryLockError::WouldBlock) => return Err("another run is writing it".to_owned()),
+                Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+                    return Err(text(error));
+                }
+                _ => {}
+            }
+            // Until it was locked, another run may have given it its name, and a link may lead elsewhere.
+            if is_at(&file, path) {
+                return Ok(Self { path: path.to_owned(), file, is_new, is_begun: false });
+            }
+            if has_other_names(&file) {
+                fs::remove_file(path).map_err(text)?;
+            }
         }
-        fs::rename(part, target)
+        Err("others take it away again and again".to_owned())
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if !self.is_begun {
+            self.file.set_len(0)?;
+            self.is_begun = true;
+        }
+        self.file.write_all(bytes)
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if self.is_new && !self.is_begun {
+            // Nobody else has it: it is still locked.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Whether an open file is the one at this path, under no other name and behind no link.
+fn is_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let (Ok(open), Ok(there)) = (file.metadata(), fs::symlink_metadata(path)) else { return false };
+        (open.dev(), open.ino()) == (there.dev(), there.ino()) && open.nlink() == 1
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = (file, path);
+        true
+    }
+}
+
+/// Whether an open file has more names than one.
+fn has_other_names(file: &File) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        file.metadata().is_ok_and(|metadata| metadata.nlink() > 1)
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        false
     }
 }
 
@@ -344,6 +439,19 @@ mod tests {
             (fs::read(&path).unwrap(), fs::read(&part).unwrap()),
             (b"1\n2\n".to_vec(), b"3\n".to_vec())
         );
+        // Nobody else writes it meanwhile, and when it is not written any more, anybody may.
+        let mut growing = open(&path).unwrap().grow(&[]).unwrap();
+        for _ in 0..2 {
+            let message = open(&path).unwrap().grow(&[]).unwrap_err();
+            assert!(message.ends_with("a.csv.part: another run is writing it: see --output"), "{message}");
+            growing.append(b"4\n").unwrap();
+        }
+        growing.finish().unwrap();
+        assert_eq!((fs::read(&path).unwrap(), part.exists()), (b"4\n4\n".to_vec(), false));
+        let mut growing = open(&path).unwrap().grow(&[]).unwrap();
+        growing.append(b"5\n").unwrap();
+        drop(growing);
+        assert_eq!(fs::read(&part).unwrap(), b"5\n");
         // What is in the way of the recording is an input: it is kept.
         let message = open(&path).unwrap().grow(&[&part]).unwrap_err();
         assert!(message.contains("an input too"), "{message}");
@@ -357,6 +465,47 @@ mod tests {
         assert!(folder.contains("there is no folder") && folder.ends_with("see --plot"), "{folder}");
         let folder = message(scratch.path());
         assert!(folder.contains("found a directory") && folder.ends_with("see --plot"), "{folder}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_part_that_is_another_file_too_is_left_alone() {
+        let scratch = tempfile::tempdir().unwrap();
+        let at = |name: &str| scratch.path().join(name);
+        fs::write(at("precious"), "precious").unwrap();
+        fs::hard_link(at("precious"), at("a.csv.part")).unwrap();
+        let mut growing = open(&at("a.csv")).unwrap().grow(&[]).unwrap();
+        growing.append(b"1\n").unwrap();
+        growing.finish().unwrap();
+        assert_eq!(fs::read(at("a.csv")).unwrap(), b"1\n");
+        std::os::unix::fs::symlink("precious", at("a.csv.part")).unwrap();
+        let message = open(&at("a.csv")).unwrap().grow(&[]).unwrap_err();
+        assert!(message.contains("a.csv.part: found "), "{message}");
+        assert_eq!(fs::read(at("precious")).unwrap(), b"precious");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_is_within_a_folder_behind_all_links() {
+        let scratch = tempfile::tempdir().unwrap();
+        let at = |name: &str| scratch.path().join(name);
+        for name in ["home/deep", "away"] {
+            fs::create_dir_all(at(name)).unwrap();
+        }
+        fs::write(at("away/old"), "x").unwrap();
+        std::os::unix::fs::symlink(at("away"), at("home/link")).unwrap();
+        std::os::unix::fs::symlink(at("away/old"), at("home/old")).unwrap();
+        for (name, expected) in [
+            ("home/new", true),
+            ("home/deep/new", true),
+            ("home/deep/../new", true),
+            ("home/link/new", false),
+            ("home/old", false),
+            ("away/new", false),
+        ] {
+            assert_eq!(open(&at(name)).unwrap().is_within(&at("home")), expected, "{name}");
+        }
+        assert!(open(Path::new("/dev/stdout")).unwrap().is_stdout());
     }
 
     #[cfg(unix)]

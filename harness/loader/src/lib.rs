@@ -41,8 +41,7 @@ pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
 pub use select::{select, select_outputs};
 pub use simulate::{
-    Ended, Options, Simulation, Stopped, Times, outputs, set_early, simulate, simulate_into,
-    steps_between_points,
+    Ended, Options, RecordedPoints, Simulation, Stopped, Times, outputs, set_early, simulate, simulate_into,
 };
 pub use status::LogMessage;
 pub use uri::file_uri;

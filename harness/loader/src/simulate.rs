@@ -19,7 +19,7 @@ pub struct Options<'a> {
     pub stop_s: Option<f64>,
     /// Communication step in s; otherwise the default experiment's, otherwise a hundredth of the run.
     pub step_s: Option<f64>,
-    /// Record at most this often, in s; otherwise at every step.
+    /// Record the point nearest to each multiple of this time, in s; otherwise every point.
     pub record_every_s: Option<f64>,
     /// Values set before the run, by name.
     pub sets: Vec<(String, Value)>,
@@ -160,8 +160,7 @@ pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Simulation, Box<S
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
     let mut collector = Collector::new(fmu.description(), &positions);
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
-    let every = steps_between_points(&times, options.record_every_s)?;
-    collector.fits(times.steps().div_ceil(every).saturating_add(1))?;
+    collector.fits(RecordedPoints::new(&times, options.record_every_s)?.count())?;
     options.record = Some(positions);
     match simulate_into(fmu, options, &mut collector) {
         Ok((ended, messages)) => Ok(Simulation { recording: collector.into_recording(), ended, messages }),
@@ -176,30 +175,60 @@ pub fn simulate_into(
     rows: &mut dyn Rows,
 ) -> Result<(Ended, Vec<LogMessage>), Error> {
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
-    let every = steps_between_points(&times, options.record_every_s)?;
+    let recorded = RecordedPoints::new(&times, options.record_every_s)?;
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
     let mut reader = Reader::new(fmu, &positions);
     let mut instance = Instance::new(fmu, "run", &options.instance)?;
     let mut record = |instance: &mut Instance, time_s: f64| reader.read(instance, time_s, rows);
-    let ended = run_steps(fmu, &mut instance, (&times, every), &mut options, &mut record)?;
+    let ended = run_steps(fmu, &mut instance, (&times, recorded), &mut options, &mut record)?;
     Ok((ended, instance.messages()))
 }
 
-/// How many steps lie between two recorded points.
-pub fn steps_between_points(times: &Times, every_s: Option<f64>) -> Result<u64, Error> {
-    match every_s {
-        None => Ok(1),
-        Some(every_s) if every_s >= 0.0 => Ok(((every_s / times.step_s).round() as u64).max(1)),
-        Some(every_s) => Err(Error::Times(format!(
-            "recording every {every_s} s is not possible, allowed: 0 s (at every step) or longer: see --every"
-        ))),
+/// Which communication points are recorded: the start, the point nearest to every whole multiple of a time after it, and the last
+/// one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RecordedPoints {
+    /// That time, in steps; at least one.
+    spacing: f64,
+    steps: u64,
+}
+
+impl RecordedPoints {
+    /// Of a run, at every point where no time is given.
+    ///
+    /// # Errors
+    /// A time below 0.
+    pub fn new(times: &Times, every_s: Option<f64>) -> Result<Self, Error> {
+        let spacing = match every_s {
+            None => 1.0,
+            Some(every_s) if every_s >= 0.0 => (every_s / times.step_s).max(1.0),
+            Some(every_s) => {
+                return Err(Error::Times(format!(
+                    "recording every {every_s} s is not possible, allowed: 0 s (at every step) or longer: see --every"
+                )));
+            }
+        };
+        Ok(Self { spacing, steps: times.steps() })
+    }
+
+    /// Whether communication point `k` is one.
+    pub fn contain(&self, k: u64) -> bool {
+        let multiple = (k as f64 / self.spacing).round();
+        k == self.steps || (multiple * self.spacing).round() == k as f64
+    }
+
+    /// How many they are.
+    pub fn count(&self) -> u64 {
+        // A multiple half a step after a point belongs to the next one.
+        let multiples = ((self.steps as f64 + 0.5) / self.spacing).ceil() as u64;
+        multiples + u64::from(((multiples - 1) as f64 * self.spacing).round() != self.steps as f64)
     }
 }
 
 fn run_steps(
     fmu: &Fmu,
     instance: &mut Instance,
-    (times, every): (&Times, u64),
+    (times, recorded): (&Times, RecordedPoints),
     options: &mut Options<'_>,
     record: &mut dyn FnMut(&mut Instance, f64) -> Result<(), Error>,
 ) -> Result<Ended, Error> {
@@ -244,7 +273,7 @@ fn run_steps(
             return Err(error);
         }
         let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-        if (k + 1) % every == 0 || k + 1 == steps || cancelled {
+        if recorded.contain(k + 1) || cancelled {
             record(instance, end_s)?;
         }
         if let Some(progress) = options.progress.as_mut() {

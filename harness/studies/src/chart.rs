@@ -188,6 +188,12 @@ impl Panel {
     }
 }
 
+/// Whether a text begins as the charts do that are drawn here.
+pub fn is_chart(text: &str) -> bool {
+    text.starts_with(&format!("<svg width=\"{}\" height=", WIDTH / FINE))
+        && text.lines().next().is_some_and(|line| line.contains(&format!("viewBox=\"0 0 {WIDTH} ")))
+}
+
 /// The SVG text of a picture `height` high, shown at its size in pixels.
 fn finished(title: &str, drawn: Drawn, svg: String, height: u32) -> Result<String, ChartError> {
     let cannot = |reason: String| ChartError::Drawing { title: title.to_owned(), reason };

@@ -19,7 +19,7 @@ pub struct Options<'a> {
     pub stop_s: Option<f64>,
     /// Communication step in s; otherwise the default experiment's.
     pub step_s: Option<f64>,
-    /// Record at most this often, in s; otherwise at every step.
+    /// Record the point nearest to each multiple of this time, in s; otherwise every point.
     pub record_every_s: Option<f64>,
     /// Values set before the run, by `component.variable`; they win over the system's parameters.
     pub sets: Vec<(String, Value)>,
@@ -50,7 +50,7 @@ pub fn simulate_into(
     rows: &mut dyn Rows,
 ) -> Result<(Ended, Vec<LogMessage>), Error> {
     let times = system.times(options.start_s, options.stop_s, options.step_s)?;
-    let every = loader::steps_between_points(&times, options.record_every_s)?;
+    let recorded = loader::RecordedPoints::new(&times, options.record_every_s)?;
     let positions = options.record.take().unwrap_or_else(|| loader::outputs(system.description()));
     let mut recorder = Recorder::new(system, &positions);
     let mut inputs = options.inputs.map(|table| HeldInputs::new(system, table)).transpose()?;
@@ -76,7 +76,7 @@ pub fn simulate_into(
             return Ok((Ended::ByItself, running.messages()));
         }
         let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-        if (k + 1) % every == 0 || k + 1 == steps || cancelled {
+        if recorded.contain(k + 1) || cancelled {
             recorder.record(running.instances(), end_s, rows)?;
         }
         if let Some(progress) = options.progress.as_mut() {

@@ -6,7 +6,7 @@ use loader::Collector;
 
 use crate::{
     args::{Check, Run},
-    epoch,
+    epoch, low_orbit,
     outcome::Outcome,
     run::{Prepared, settings::Settings, subject::Given},
 };
@@ -33,7 +33,7 @@ pub fn run(arguments: &Check) -> Outcome {
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let run = Run::of(arguments.subject.clone(), arguments.template.clone());
     let Prepared { flown, subject, settings, .. } = &Prepared::of(&run)?;
-    let Settings { times, columns, plots, limits, sets, inputs, positions } = settings;
+    let Settings { times, wanted, limits, sets, inputs, positions } = settings;
     let given = Given {
         sets: sets.clone(),
         inputs: inputs.as_ref(),
@@ -47,15 +47,17 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let short = terminal::short;
     let begin = flown.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
+    let warnings = low_orbit::warnings(subject.description(), sets);
+    let warnings: String = warnings.iter().map(|warning| format!("\nwarning: {warning}")).collect();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
     Ok(format!(
-        "{} flies from {begin} for {} in {} steps of {} s; {} recorded, {}, {}",
+        "{} flies from {begin} for {} in {} steps of {} s; {} recorded, {}, {}{warnings}",
         subject.name(),
         span(times.stop_s - times.start_s),
         times.steps(),
         short(times.step_s),
-        count(*columns, "variable"),
-        count(plots.len(), "picture"),
+        count(wanted.columns, "variable"),
+        count(wanted.plots.len(), "picture"),
         count(limits.len(), "limit"),
     ))
 }

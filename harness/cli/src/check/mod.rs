@@ -23,6 +23,7 @@ use crate::{
     child::Link,
     ephemeris,
     kind::FileKind,
+    low_orbit,
     outcome::Outcome,
     timeline as carried_timeline,
 };
@@ -106,6 +107,11 @@ pub fn run(arguments: &Check) -> Outcome {
     sections.push(Section { title: "archive".to_owned(), findings: conformance::archive(&fmu) });
     sections
         .push(Section { title: "modelDescription.xml".to_owned(), findings: conformance::description(&fmu) });
+    let low = low_orbit::warnings(fmu.description(), &[]);
+    if !low.is_empty() {
+        let findings = low.into_iter().map(Finding::note).collect();
+        sections.push(Section { title: "orbit".to_owned(), findings });
+    }
     if let Some(read) = carried_timeline::of(&fmu) {
         let findings = match read {
             Ok(timeline) => vec![Finding::good(carried_timeline::summary(&timeline))],

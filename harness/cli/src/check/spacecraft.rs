@@ -14,6 +14,7 @@ use toml::Table;
 use super::figures;
 use crate::{
     args::Check,
+    low_orbit,
     outcome::Outcome,
     pack::{
         assemble::{Parts, assemble},
@@ -70,7 +71,8 @@ pub fn run(arguments: &Check) -> Outcome {
             contents(&text),
             Spacecraft::from_toml("", &text).map_or_else(|_| levers(&text), |it| figures::report(&it))
         ))?;
-        if let Some(warning) = map {
+        let low = low_orbit::warnings(&description, &[]);
+        for warning in map.iter().chain(&low) {
             terminal::print(&format!("warning: {warning}"))?;
         }
         return Ok(ExitCode::SUCCESS);

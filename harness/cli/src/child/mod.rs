@@ -13,5 +13,5 @@ mod system;
 pub use channel::{Link, Payload, push_text};
 pub use printed::Shown;
 pub use relayed::{Relayed, is_child, serve};
-pub use supervisor::{Bounds, ChildProcess, EndReason, Limits, SMALL};
+pub use supervisor::{Bounds, ChildProcess, EndReason, LARGE, SMALL};
 pub use system::end_all;

@@ -36,6 +36,8 @@ pub struct Limits {
 
 /// Enough for every FMU that is looked at and not flown long: memory in bytes, open files.
 pub const SMALL: Limits = Limits { memory: Some(4 << 30), files: Some(1024) };
+/// For flights of any length, of systems too: what allocates without end ends before the computer does.
+pub const LARGE: Limits = Limits { memory: Some(16 << 30), files: None };
 
 /// What the parent ends the child for.
 #[derive(Clone, Copy, Debug, Default)]

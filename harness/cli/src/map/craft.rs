@@ -3,8 +3,8 @@
 use std::{fs, path::Path};
 
 use files::Scratch;
-use loader::{Binary, Fmu};
-use model_description::{Description, VariableKind, value};
+use loader::{Binary, Fmu, Value};
+use model_description::Description;
 use nalgebra::Vector3;
 use physics::{
     bodies::Body,
@@ -16,7 +16,10 @@ use super::{
     options::Map,
     panels::{Rule, Turned},
 };
-use crate::pack::{source, start::with_start_values};
+use crate::{
+    pack::{source, start::with_start_values},
+    start_value,
+};
 
 /// Why something could not be done.
 type Failure = Box<dyn std::error::Error>;
@@ -191,7 +194,7 @@ fn turned(panels: Vec<Panel>, fmu: &Fmu, flown: &Description, offset_rad: Option
 
 fn panels_left_out(flown: &Description) -> bool {
     let enabled = |number: usize| start_of(flown, &format!("panel[{number}].enabled"));
-    (1..).map_while(enabled).any(|enabled| enabled == value::Value::Boolean(false))
+    (1..).map_while(enabled).any(|enabled| enabled == Value::Boolean(false))
 }
 
 /// Where the file puts the Sun, otherwise the mean distance of the body it flies around.
@@ -238,26 +241,14 @@ fn downlink(default: &Description, flown: &Description) -> Downlink {
     Downlink { length_h: (end_s - start_s).max(0.0) / 3600.0, every_h: every * period_s / 3600.0 }
 }
 
-/// The start value of a variable.
-fn start_of(description: &Description, name: &str) -> Option<value::Value> {
-    let variable = description.variables.iter().find(|it| it.name == name)?;
-    match &variable.kind {
-        VariableKind::Real { start, .. } => start.map(value::Value::Real),
-        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => {
-            start.map(value::Value::Integer)
-        }
-        VariableKind::Boolean { start, .. } => start.map(value::Value::Boolean),
-        VariableKind::String { start, .. } => start.clone().map(value::Value::Text),
-    }
+fn start_of(description: &Description, name: &str) -> Option<Value> {
+    start_value::of(description, &[], name)
 }
 
 fn real(description: &Description, name: &str) -> Option<f64> {
     start_of(description, name).map(|value| value.to_f64())
 }
 
-/// The name of an option's start value.
 fn item<'a>(description: &'a Description, name: &str) -> Option<&'a str> {
-    let variable = description.variables.iter().find(|it| it.name == name)?;
-    let value::Value::Integer(number) = start_of(description, name)? else { return None };
-    value::items(description, variable).iter().find(|it| it.value == number).map(|it| it.name.as_str())
+    start_value::item(description, &[], name)
 }

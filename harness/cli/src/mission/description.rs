@@ -35,7 +35,7 @@ pub(super) struct Description {
     pub step: Option<Written>,
     /// Variables to record: names, vectors, patterns with * for outputs; otherwise every output.
     pub record: Option<Vec<String>>,
-    /// Record at most this often, in s or with a unit; otherwise at every step.
+    /// Record the step nearest to each multiple of this time, in s or with a unit; otherwise every step.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Time>"))]
     pub every: Option<Written>,
     /// The CSV file of what is recorded.

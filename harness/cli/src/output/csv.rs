@@ -1,6 +1,10 @@
 //! The CSV of `run --output`, which grows during the simulation.
 
-use std::{error::Error, io, path::PathBuf};
+use std::{
+    error::Error,
+    io,
+    path::{Path, PathBuf},
+};
 
 use files::Growing;
 use loader::{Recording, csv};
@@ -50,6 +54,10 @@ impl Exporter for Csv {
 
     fn has_lost_reader(&self) -> bool {
         self.file.has_lost_reader()
+    }
+
+    fn existing(&self) -> Option<&Path> {
+        self.file.existing()
     }
 
     fn finish(

@@ -1,6 +1,9 @@
 //! What an output format of `heliotorque run` does with a recording.
 
-use std::{error::Error, path::PathBuf};
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
 
 use loader::Recording;
 use model_description::Description;
@@ -15,6 +18,11 @@ pub trait Exporter {
     /// Whether nobody is there any more to read what it writes.
     fn has_lost_reader(&self) -> bool {
         false
+    }
+
+    /// The file that the complete recording would replace.
+    fn existing(&self) -> Option<&Path> {
+        None
     }
 
     /// Writes the complete recording and gives the file its name.

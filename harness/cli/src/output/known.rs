@@ -10,8 +10,7 @@ use loader::Value;
 use model_description::{Description, labels};
 use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
 
-use super::shown::find;
-use crate::mission::Limit;
+use crate::{mission::Limit, start_value};
 
 /// Quantities and the parameters that are their bound either way; `*` stands for the same number in both.
 const BOUNDS: [(&str, &str); 4] = [
@@ -47,7 +46,10 @@ impl Known {
                 let Some(own) = variable.name.strip_prefix(prefix.as_str()) else { continue };
                 let bound = BOUNDS.iter().find_map(|(quantity, bound)| {
                     let named = bound.replace('*', number_in(own, quantity)?);
-                    Some((bound_label(bound), value(described, sets, &format!("{prefix}{named}"))?))
+                    Some((
+                        bound_label(bound),
+                        start_value::real(described, sets, &format!("{prefix}{named}"))?,
+                    ))
                 });
                 if let Some(bound) = bound.filter(|(_, value)| *value > 0.0) {
                     known.bounds.insert(variable.name.clone(), bound);
@@ -97,16 +99,6 @@ fn number_in<'a>(name: &'a str, quantity: &str) -> Option<&'a str> {
             .strip_suffix(after)
             .filter(|number| number.bytes().all(|byte| byte.is_ascii_digit())),
         None => (name == quantity).then_some(""),
-    }
-}
-
-/// The value with which a Real begins.
-fn value(described: &Description, sets: &[(String, Value)], name: &str) -> Option<f64> {
-    let set = sets.iter().rev().find(|(set, _)| set == name);
-    match (set, &find(described, name)?.kind) {
-        (Some((_, Value::Real(value))), _) => Some(*value),
-        (_, VariableKind::Real { start, .. }) => *start,
-        _ => None,
     }
 }
 

@@ -4,6 +4,7 @@ mod csv;
 mod exporter;
 mod known;
 mod shown;
+mod standing;
 mod summary;
 mod svg;
 mod svg_path;
@@ -17,9 +18,9 @@ use files::Destination;
 use loader::Recording;
 use model_description::Description;
 
-use crate::args::Run;
 use csv::Csv;
 use exporter::Exporter;
+use standing::Kind;
 use summary::{Summary, last_values};
 use svg::Svg;
 
@@ -28,15 +29,44 @@ pub use shown::Shown;
 pub use svg::is_lit_fraction;
 pub use svg_path::{check_path as check_svg_path, is_svg_path};
 
+/// A file that a run writes.
+#[derive(Clone, Debug)]
+pub struct OutputFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What gave it.
+    pub option: &'static str,
+    /// The folder that it may not leave: that of the mission whose file names it.
+    pub home: Option<PathBuf>,
+}
+
+impl OutputFile {
+    /// Given on the command line.
+    pub fn of_option(path: &Path, option: &'static str) -> Self {
+        Self { path: path.to_owned(), option, home: None }
+    }
+}
+
 /// A picture of a run.
 #[derive(Clone, Debug)]
 pub struct Plot {
     /// The SVG file.
-    pub path: PathBuf,
+    pub file: OutputFile,
     /// The variables that it shows; `None`: everything recorded.
     pub names: Option<Vec<String>>,
-    /// What gave it.
-    pub option: &'static str,
+}
+
+/// What a run shall write.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    /// The CSV file.
+    pub table: Option<OutputFile>,
+    /// Pictures.
+    pub plots: Vec<Plot>,
+    /// How many of the recording's columns were asked for, the first ones; more is for the pictures.
+    pub columns: usize,
+    /// Whether no summary is wanted.
+    pub is_quiet: bool,
 }
 
 /// Every output of a run.
@@ -51,47 +81,46 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// The outputs that the arguments name, and pictures, their files opened; without any, a summary on the terminal.
-    /// Tables have the first `columns` of what is recorded; `inputs` are not written over.
-    pub fn open(
-        arguments: &Run,
-        plots: &[Plot],
-        columns: usize,
-        known: &Known,
-        inputs: &[&Path],
-    ) -> Result<Self, String> {
-        let csv = arguments.output.as_deref().map(|path| Destination::open(path, "--output", inputs));
-        let csv = csv.transpose()?;
+    /// Everything wanted, its files opened; without any, a summary on the terminal. `empty` is the recording before its first row;
+    /// `inputs` are not written over.
+    pub fn open(wanted: &Wanted, empty: &Recording, known: &Known, inputs: &[&Path]) -> Result<Self, String> {
+        let Wanted { table, plots, columns, is_quiet } = wanted;
+        let open = |file: &OutputFile, kind: Kind<'_>| {
+            let destination = Destination::open(&file.path, file.option, inputs)?;
+            standing::check(file, &destination, kind)?;
+            Ok::<_, String>(destination)
+        };
+        let mut header = Vec::new();
+        loader::csv::write_header(empty, *columns, &mut header).map_err(|error| error.to_string())?;
+        let csv = table.as_ref().map(|file| open(file, Kind::Table(&header))).transpose()?;
         let mut pictures: Vec<Destination> = Vec::new();
-        for plot in plots {
-            let svg = Destination::open(&plot.path, plot.option, inputs)?;
+        for Plot { file, .. } in plots {
+            let svg = open(file, Kind::Picture)?;
             if csv.as_ref().is_some_and(|csv| csv.is_same(&svg)) {
-                return Err(format!("one file cannot take both: see --output and {}", plot.option));
+                return Err(format!("one file cannot take both: see --output and {}", file.option));
             }
             if pictures.iter().any(|other| other.is_same(&svg)) {
-                return Err(format!(
-                    "{}: one file cannot take two pictures: see {}",
-                    plot.path.display(),
-                    plot.option
-                ));
+                let path = file.path.display();
+                return Err(format!("{path}: one file cannot take two pictures: see {}", file.option));
             }
             pictures.push(svg);
         }
-        let named = plots.iter().map(|plot| &plot.path).zip(&pictures);
-        let named = arguments.output.iter().zip(&csv).chain(named);
-        let files = named.filter(|(_, file)| !file.is_stdout()).map(|(path, _)| path.clone()).collect();
-        let says_last = !arguments.quiet && (csv.is_some() || !pictures.is_empty());
+        let named = plots.iter().map(|plot| &plot.file).zip(&pictures);
+        let named = table.iter().zip(&csv).chain(named);
+        let files =
+            named.filter(|(_, opened)| !opened.is_stdout()).map(|(file, _)| file.path.clone()).collect();
+        let says_last = !is_quiet && (csv.is_some() || !pictures.is_empty());
         let mut exporters: Vec<Box<dyn Exporter>> = Vec::new();
         if let Some(csv) = csv {
-            exporters.push(Box::new(Csv::new(csv.grow(inputs)?, columns)));
+            exporters.push(Box::new(Csv::new(csv.grow(inputs)?, *columns)));
         }
         for (svg, plot) in pictures.into_iter().zip(plots) {
             exporters.push(Box::new(Svg::new(svg, plot.names.clone(), known.clone())));
         }
-        if exporters.is_empty() && !arguments.quiet {
+        if exporters.is_empty() && !is_quiet {
             exporters.push(Box::new(Summary));
         }
-        Ok(Self { exporters, files, says_last, columns })
+        Ok(Self { exporters, files, says_last, columns: *columns })
     }
 
     /// Shows every output the recording so far.
@@ -114,6 +143,22 @@ impl Outputs {
             }
         }
         Ok(())
+    }
+
+    /// After a run that ended before its stop: what would replace a file is kept beside it instead, whose names are given, the
+    /// rest completed.
+    pub fn stop(
+        self,
+        described: &Description,
+        recording: &Recording,
+    ) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+        let Self { exporters, mut files, says_last, columns } = self;
+        let (beside, complete): (Vec<_>, Vec<_>) =
+            exporters.into_iter().partition(|output| output.existing().is_some());
+        let kept = beside.into_iter().filter_map(|output| output.leave(described, recording)).collect();
+        files.retain(|file| !file.exists());
+        Self { exporters: complete, files, says_last, columns }.finish(described, recording)?;
+        Ok(kept)
     }
 
     /// Keeps what there is after a simulation that failed; the names of the files in progress.

@@ -1,6 +1,9 @@
 //! The picture of `run --plot`: one panel per vector or variable, in display units.
 
-use std::{error::Error, path::PathBuf};
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
 
 use files::Destination;
 use loader::{Column, Recording};
@@ -68,6 +71,10 @@ impl Svg {
 }
 
 impl Exporter for Svg {
+    fn existing(&self) -> Option<&Path> {
+        self.file.existing()
+    }
+
     fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
         let svg = self.draw(described, recording)?;
         Ok(self.file.fill(|file| file.write_all(svg.as_bytes()))?)

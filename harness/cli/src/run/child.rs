@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     args::RunInChild,
-    child::{Bounds, ChildProcess, EndReason, Limits, Link, Payload, Shown, push_text},
+    child::{Bounds, ChildProcess, EndReason, LARGE, Link, Payload, Shown, push_text},
     outcome::Outcome,
 };
 
@@ -67,7 +67,7 @@ pub fn simulate(
     let own = own.into_iter().chain(input_copy.map(|path| option("--input-copy=", path)));
     // After the program and `run`: the child reads the same arguments.
     let arguments = own.chain(std::env::args_os().skip(2));
-    let child = match ChildProcess::new(arguments, Limits::default(), &[]) {
+    let child = match ChildProcess::new(arguments, LARGE, &[]) {
         Ok(child) => child,
         Err(error) => {
             let outcome = Err(format!("the process of the FMU cannot be started: {error}"));

@@ -45,7 +45,6 @@ impl Flown {
         run.stop = run.stop.or(mission.stop_s);
         run.step = run.step.or(mission.step_s);
         run.every = run.every.or(mission.every_s);
-        run.output = run.output.or_else(|| mission.output.clone());
         if let (None, Some(Inputs::File(path))) = (&run.input, &mission.inputs) {
             run.input = Some(path.clone());
         }

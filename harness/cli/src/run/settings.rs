@@ -9,7 +9,7 @@ use super::{flown::Flown, subject::Subject};
 use crate::{
     epoch,
     mission::{self, Limit, Resolved},
-    output::{self, Plot},
+    output::{self, OutputFile, Plot, Wanted},
 };
 
 /// What the arguments mean for an FMU or a system.
@@ -22,10 +22,8 @@ pub struct Settings {
     pub inputs: Option<InputTable>,
     /// What is recorded.
     pub positions: Vec<usize>,
-    /// How many of these were asked for, the first ones; more is for the pictures.
-    pub columns: usize,
-    /// Pictures.
-    pub plots: Vec<Plot>,
+    /// What is written.
+    pub wanted: Wanted,
     /// What the run is judged by.
     pub limits: Vec<Limit>,
 }
@@ -54,14 +52,22 @@ impl Settings {
         let named = |positions: &[usize]| -> Vec<String> {
             positions.iter().map(|&position| described.variables[position].name.clone()).collect()
         };
+        // What a mission's file names stays beside it; who names it on the command line may put it anywhere.
+        let of_mission = |path: &Path, option: &'static str| OutputFile {
+            path: path.to_owned(),
+            option,
+            home: mission.as_ref().map(|mission| mission.file.parent().unwrap_or(Path::new("")).to_owned()),
+        };
+        let given = arguments.output.as_deref().map(|path| OutputFile::of_option(path, "--output"));
+        let table = given
+            .or_else(|| Some(of_mission(mission.as_ref()?.output.as_deref()?, "`output` in the mission")));
         let mut plots: Vec<Plot> = match (&arguments.plot, mission) {
-            (Some(path), _) => vec![Plot { path: path.clone(), names: None, option: "--plot" }],
+            (Some(path), _) => vec![Plot { file: OutputFile::of_option(path, "--plot"), names: None }],
             (None, Some(mission)) => {
                 let plots = mission.plots.iter().zip(&resolved.plots);
                 let plot = |(plot, shown): (&mission::Plot, &Option<Vec<usize>>)| Plot {
-                    path: plot.file.clone(),
+                    file: of_mission(&plot.file, "`plot` in the mission"),
                     names: shown.as_deref().map(named),
-                    option: "`plot` in the mission",
                 };
                 plots.map(plot).collect()
             }
@@ -96,8 +102,7 @@ impl Settings {
             sets,
             inputs: inputs.or(resolved.inputs),
             positions,
-            columns,
-            plots,
+            wanted: Wanted { table, plots, columns, is_quiet: arguments.quiet },
             limits: resolved.limits,
         })
     }

@@ -235,3 +235,52 @@ fn a_new_file_has_the_permissions_of_its_user() {
         assert_eq!(mode(path), mode(&plain), "{}", path.display());
     }
 }
+
+#[test]
+fn two_runs_with_one_output_do_not_mix() {
+    let Some((scratch, fmu)) = packed("Empty") else { return };
+    let at = |name: &str| scratch.path().join(name);
+    let start = |stop: &str, table: &Path| {
+        let arguments =
+            ["run", shown(&fmu), "--stop", stop, "--step", "1", "--quiet", "--output", shown(table)];
+        heliotorque(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let stops = ["200000", "150000"];
+    let alone = stops.map(|stop| {
+        let table = at(&format!("{stop}.csv"));
+        assert!(start(stop, &table).wait_with_output().unwrap().status.success());
+        fs::read(table).unwrap()
+    });
+    let mut refusals = 0;
+    for pair in 0..10 {
+        let table = at(&format!("pair-{pair}.csv"));
+        let outputs = stops.map(|stop| start(stop, &table)).map(|child| child.wait_with_output().unwrap());
+        let good: Vec<usize> = (0..2).filter(|index| outputs[*index].status.success()).collect();
+        assert!(!good.is_empty(), "{outputs:?}");
+        for output in outputs.iter().filter(|output| !output.status.success()) {
+            let told = text(output);
+            assert!(
+                output.status.code() == Some(1) && told.contains("another run is writing it: see --output"),
+                "{told}"
+            );
+            refusals += 1;
+        }
+        // What stands there is one of the good ones, whole.
+        let found = fs::read(&table).unwrap();
+        assert!(good.iter().any(|index| found == alone[*index]), "{good:?}");
+        assert!(!at(&format!("pair-{pair}.csv.part")).exists());
+    }
+    assert!(refusals > 0, "no two runs of a pair were at work together");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_systems_name_of_the_standard_output_is_a_dash() {
+    let Some((_scratch, fmu)) = packed("Empty") else { return };
+    let dash = heliotorque(&["run", shown(&fmu), "--quiet", "--output", "-"]).output().unwrap();
+    for name in ["/dev/stdout", "/proc/self/fd/1", "/dev/fd/1"] {
+        let output = heliotorque(&["run", shown(&fmu), "--quiet", "--output", name]).output().unwrap();
+        assert!(output.status.success() && output.stdout == dash.stdout, "{name}: {output:?}");
+    }
+    assert!(run(&["run", shown(&fmu), "--output", "/dev/full"], 1).contains("or - for the standard output"));
+}

@@ -153,6 +153,7 @@ fn no_command_loads_a_library_in_its_own_process() {
         ("LIES", "loading the shared library: the process ended: it exited with status 0"),
         ("CRASHES", "loading the shared library: the process ended: signal 11 (segmentation fault)"),
         ("ABORTS", "loading the shared library: the process ended: signal 6 (abort)"),
+        ("ALLOCATES", "loading the shared library: the process ended: signal 6 (abort)"),
         ("SLEEPS", "hangs: "),
         ("PRINTS", "hangs: "),
     ] {

@@ -289,3 +289,70 @@ fn a_mission_that_cannot_run_is_refused_by_check_for_the_same_reason() {
         assert!(told.contains(expected), "{expected}: {told}");
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
+    let Some(scratch) = hangar() else { return };
+    let folder = scratch.path();
+    fs::create_dir_all(folder.join("home/deep")).unwrap();
+    fs::create_dir(folder.join("away")).unwrap();
+    fs::rename(folder.join("template.fmu"), folder.join("home/template.fmu")).unwrap();
+    std::os::unix::fs::symlink("../away", folder.join("home/link")).unwrap();
+    let home = folder.join("home");
+    let (output, plot) = ("output = \"out.csv\"", "file = \"momentum.svg\"");
+    let mission = |output_to: &str, plot_to: &str| {
+        let text = MISSION.replace(output, &format!("output = \"{output_to}\""));
+        fs::write(home.join("m.toml"), text.replace(plot, &format!("file = \"{plot_to}\""))).unwrap();
+    };
+    let absolute = folder.join("away/x.csv");
+    for (output_to, plot_to, option) in [
+        ("../x.csv", "x.svg", "--output"),
+        (shown(&absolute), "x.svg", "--output"),
+        ("link/x.csv", "x.svg", "--output"),
+        ("x.csv", "../x.svg", "--plot"),
+        ("x.csv", "link/x.svg", "--plot"),
+    ] {
+        mission(output_to, plot_to);
+        let told = refused(&home, "m.toml");
+        assert!(
+            told.contains("outside the mission's folder") && told.contains(&format!("{option} may")),
+            "{told}"
+        );
+    }
+    // Not a mission's word but the user's.
+    let run = |more: &[&str]| {
+        said(&home, &[&["run", "m.toml", "--template", "template.fmu", "--quiet"], more].concat())
+    };
+    mission("../x.csv", "../x.svg");
+    let (status, told) = run(&["--output", "../away/a.csv", "--plot", "../away/a.svg"]);
+    assert!(
+        status == Some(0) && folder.join("away/a.csv").exists() && folder.join("away/a.svg").exists(),
+        "{told}"
+    );
+
+    // A file that no run wrote stays; what a run wrote is replaced without a word, a table of another kind with one.
+    mission("deep/x.csv", "x.svg");
+    for (name, option) in [("deep/x.csv", "--output"), ("x.svg", "--plot")] {
+        fs::write(home.join(name), "precious").unwrap();
+        let told = refused(&home, "m.toml");
+        assert!(
+            told.contains("a file that no run wrote") && told.contains(&format!("{option} replaces any")),
+            "{told}"
+        );
+        assert_eq!(fs::read_to_string(home.join(name)).unwrap(), "precious");
+        fs::remove_file(home.join(name)).unwrap();
+    }
+    for expected in ["", "", "found a table with other columns, which this run replaces"] {
+        if !expected.is_empty() {
+            fs::write(home.join("deep/x.csv"), "time,thrust\n0,1\n").unwrap();
+        }
+        let (status, told) = run(&[]);
+        assert_eq!(status, Some(0), "{told}");
+        assert!(told.is_empty() == expected.is_empty() && told.contains(expected), "{told}");
+        assert_eq!(rows(&home.join("deep/x.csv")).len(), 5);
+    }
+    fs::write(home.join("deep/x.csv"), "precious").unwrap();
+    let (status, told) = run(&["--output", "deep/x.csv"]);
+    assert_eq!((status, rows(&home.join("deep/x.csv")).len()), (Some(0), 5), "{told}");
+}

@@ -342,25 +342,11 @@ fn files_that_cannot_be_written_are_told_before_the_simulation() {
 }
 
 #[cfg(target_os = "linux")]
-#[test]
-fn ctrl_c_leaves_a_valid_partial_csv() {
-    let Some((scratch, fmu)) = packed("Empty") else { return };
-    let output = scratch.path().join("out.csv");
-    let mut child = crate::heliotorque(&[
-        "run",
-        shown(&fmu),
-        "--stop",
-        "1e12",
-        "--step",
-        "1",
-        "--every",
-        "1e5",
-        "--output",
-        shown(&output),
-    ])
-    .stderr(std::process::Stdio::piped())
-    .spawn()
-    .unwrap();
+/// Starts a run of hours into a file, and interrupts it once it listens.
+fn interrupted(fmu: &std::path::Path, output: &std::path::Path) -> std::process::Output {
+    let arguments =
+        ["run", shown(fmu), "--stop", "1e12", "--step", "1", "--every", "1e5", "--output", shown(output)];
+    let mut child = crate::heliotorque(&arguments).stderr(std::process::Stdio::piped()).spawn().unwrap();
     // Hours of stepping: only the signal ends it, and only once the program listens.
     while !listens_to_interrupts(child.id()) {
         assert_eq!(child.try_wait().unwrap(), None, "it ended before it listened");
@@ -369,7 +355,15 @@ fn ctrl_c_leaves_a_valid_partial_csv() {
     // The shell's own `kill`: the program of that name is not on every machine.
     let kill = ["-c", "kill -INT \"$1\"", "sh", &child.id().to_string()];
     assert!(std::process::Command::new("sh").args(kill).status().unwrap().success());
-    let ended = child.wait_with_output().unwrap();
+    child.wait_with_output().unwrap()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_leaves_a_valid_partial_csv() {
+    let Some((scratch, fmu)) = packed("Empty") else { return };
+    let output = scratch.path().join("out.csv");
+    let ended = interrupted(&fmu, &output);
     assert_eq!(ended.status.code(), Some(130));
     assert!(crate::text(&ended).contains("interrupted at"), "{}", crate::text(&ended));
     let mut reader = csv::Reader::from_path(&output).unwrap();
@@ -378,6 +372,26 @@ fn ctrl_c_leaves_a_valid_partial_csv() {
     assert!(!rows.is_empty() && rows.iter().all(|row| row.len() == columns));
     let last_s: f64 = rows.last().unwrap()[0].parse().unwrap();
     assert!(last_s < 1e12, "it came to its end");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_does_not_replace_a_complete_file_by_part_of_one() {
+    let Some((scratch, fmu)) = packed("Empty") else { return };
+    let output = scratch.path().join("out.csv");
+    run(&["run", shown(&fmu), "--quiet", "--output", shown(&output)], 0);
+    let complete = std::fs::read(&output).unwrap();
+    let ended = interrupted(&fmu, &output);
+    let told = crate::text(&ended);
+    assert_eq!(ended.status.code(), Some(130), "{told}");
+    assert_eq!(std::fs::read(&output).unwrap(), complete);
+    let (_, rows) = csv(&scratch.path().join("out.csv.part"));
+    assert!(!rows.is_empty());
+    assert!(
+        told.contains(&format!("{} rows so far: ", rows.len())) && told.contains("out.csv.part"),
+        "{told}"
+    );
+    assert!(!told.contains("wrote "), "{told}");
 }
 
 /// Whether a process catches SIGINT (signal 2), by the mask the kernel shows.

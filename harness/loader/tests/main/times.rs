@@ -1,6 +1,6 @@
 //! Communication points carry no accumulated error and the last one is the stop time itself.
 
-use loader::{Options, Times, simulate};
+use loader::{Options, RecordedPoints, Times, simulate};
 use model_description::DefaultExperiment;
 
 use crate::{description, folder};
@@ -105,5 +105,36 @@ fn more_points_than_memory_is_given_for_are_refused_before_the_simulation() {
     }
     for every_s in [-1.0, f64::NAN] {
         assert!(simulate(5.0, 1.0, Some(every_s), None).contains("--every"), "{every_s}");
+    }
+}
+
+#[test]
+fn the_point_nearest_to_each_multiple_is_recorded() {
+    for (stop_s, step_s, every_s) in [
+        (1000.0, 60.0, 100.0),
+        (60.0, 0.3, 1.0),
+        (600.0, 60.0, 120.0),
+        (10.0, 1.0, 0.25),
+        (90.0, 0.1, 0.7),
+        (7.0, 1.0, 100.0),
+    ] {
+        let times = Times::new(0.0, stop_s, step_s).unwrap();
+        let recorded = RecordedPoints::new(&times, Some(every_s)).unwrap();
+        let found: Vec<u64> = (0..=times.steps()).filter(|k| recorded.contain(*k)).collect();
+        assert_eq!(found.len() as u64, recorded.count(), "{step_s}, {every_s}");
+        // By looking at every point; steps longer than the time are recorded all.
+        let mut expected = vec![times.steps()];
+        let multiples = (0..)
+            .map(|n| f64::from(n) * every_s.max(step_s))
+            .take_while(|at_s| *at_s < stop_s + 0.499 * step_s);
+        for at_s in multiples {
+            let distance = |k: &u64| (*k as f64 * step_s - at_s).abs();
+            let nearest =
+                (0..=times.steps()).min_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.cmp(a)));
+            expected.extend(nearest);
+        }
+        expected.sort_unstable();
+        expected.dedup();
+        assert_eq!(found, expected, "{step_s}, {every_s}");
     }
 }

@@ -1,0 +1,125 @@
+//! What stands where a mission's output goes: only what a run wrote is replaced without a word.
+
+use std::{io::Read, path::Path};
+
+use files::Destination;
+use studies::chart;
+
+use super::OutputFile;
+
+/// How much of a file is looked at.
+const HEAD: u64 = 1 << 16;
+
+/// A kind of output.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind<'a> {
+    /// A table that begins with this line.
+    Table(&'a [u8]),
+    /// A picture.
+    Picture,
+}
+
+/// Refuses what a mission's own file may not name: a place outside the mission's folder, and a file that no run wrote. What is
+/// given on the command line may be anywhere.
+///
+/// # Errors
+/// What was found, and what is allowed.
+pub fn check(file: &OutputFile, destination: &Destination, kind: Kind<'_>) -> Result<(), String> {
+    let OutputFile { path, option, home } = file;
+    let Some(home) = home else { return Ok(()) };
+    let (path, instead) = (path.display(), kind.option());
+    if !destination.is_within(home) {
+        return Err(format!(
+            "{path}: found a file outside the mission's folder, allowed: one in it or below; {instead} may lead anywhere: see {option}"
+        ));
+    }
+    let Some(existing) = destination.existing() else { return Ok(()) };
+    match kind.judge(&head(existing)) {
+        Standing::Same => Ok(()),
+        Standing::Alike => {
+            terminal::note(&format!(
+                "{path}: found a table with other columns, which this run replaces: see {option}"
+            ));
+            Ok(())
+        }
+        Standing::Other => Err(format!(
+            "{path}: found a file that no run wrote, allowed: none, or what a run wrote; {instead} replaces any: see {option}"
+        )),
+    }
+}
+
+/// What a file is to the output that would replace it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Standing {
+    /// An earlier one.
+    Same,
+    /// A table over time, which may be a run's.
+    Alike,
+    /// Anything else.
+    Other,
+}
+
+impl Kind<'_> {
+    /// The option that gives it a place instead.
+    fn option(self) -> &'static str {
+        match self {
+            Self::Table(_) => "--output",
+            Self::Picture => "--plot",
+        }
+    }
+
+    fn judge(self, head: &[u8]) -> Standing {
+        let text = String::from_utf8_lossy(head);
+        match self {
+            // An empty file holds nothing to lose.
+            _ if head.is_empty() => Standing::Same,
+            Self::Table(header) if head.starts_with(header) => Standing::Same,
+            Self::Table(_) if is_over_time(&text) => Standing::Alike,
+            Self::Picture if chart::is_chart(&text) => Standing::Same,
+            _ => Standing::Other,
+        }
+    }
+}
+
+/// Whether its first column has the name and the numbers of times.
+fn is_over_time(text: &str) -> bool {
+    let mut first = text.lines().map(|line| line.split(',').next().unwrap_or_default().trim());
+    first.next() == Some("time")
+        && first.next().is_some_and(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite))
+}
+
+/// The beginning of a file; nothing of one that cannot be read is known, so it counts as no run's.
+fn head(path: &Path) -> Vec<u8> {
+    let mut head = Vec::new();
+    let read = files::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    if read.is_ok() { head } else { b"?".to_vec() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_and_pictures_of_runs_are_told_from_other_files() {
+        let table = Kind::Table(b"time,a,b\n");
+        for (text, expected) in [
+            ("", Standing::Same),
+            ("time,a,b\n", Standing::Same),
+            ("time,a,b\n0,1,2\n", Standing::Same),
+            ("time,a,c\n0,1,2\n", Standing::Alike),
+            ("time,a,c\n", Standing::Other),
+            ("time flies\nlike an arrow\n", Standing::Other),
+            ("mass = 1\n", Standing::Other),
+            ("\u{0}\u{1}", Standing::Other),
+        ] {
+            assert_eq!(table.judge(text.as_bytes()), expected, "{text:?}");
+        }
+        let panel = chart::Panel { series: vec![chart::Series::default()], ..chart::Panel::default() };
+        let svg =
+            chart::Chart { panels: vec![panel], ..chart::Chart::default() }.to_svg().unwrap_or_default();
+        assert!(svg.is_empty() || Kind::Picture.judge(svg.as_bytes()) == Standing::Same, "{svg}");
+        for text in ["<svg xmlns=\"http://www.w3.org/2000/svg\"><path/></svg>", "time,a,b\n0,1,2\n"] {
+            assert_eq!(Kind::Picture.judge(text.as_bytes()), Standing::Other, "{text:?}");
+        }
+    }
+}
