@@ -37,6 +37,6 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     app::run().unwrap_or_else(|error| {
         terminal::note(&format!("heliotorque: {}", loader::Error::chain(error.as_ref())));
-        ExitCode::FAILURE
+        if interrupt::raised() { ExitCode::from(interrupt::INTERRUPTED) } else { ExitCode::FAILURE }
     })
 }

@@ -178,6 +178,30 @@ fn no_command_loads_a_library_in_its_own_process() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_ends_every_command_that_loads_a_library_that_hangs() {
+    let Some(scratch) = hostile("SLEEPS", "AT_LOADING") else { return };
+    let Some(commands) = commands_that_load(&scratch) else { return };
+    for words in commands {
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let mut command = heliotorque(&words);
+        command.env("TMPDIR", scratch.path().join("tmp")).stdin(Stdio::null());
+        let child = start(command);
+        let began = Instant::now();
+        while processes(scratch.path()).len() < 2 {
+            assert!(began.elapsed() < LONG, "{words:?} does not begin");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        signal(&child, "INT");
+        let raised = Instant::now();
+        let output = wait(child);
+        assert_eq!(output.status.code(), Some(130), "{words:?}: {}", text(&output));
+        assert!(raised.elapsed() < Duration::from_secs(1), "{words:?}: {:?}", raised.elapsed());
+        nothing_left(&scratch);
+    }
+}
+
 #[test]
 fn a_library_that_hangs_or_exits_while_it_describes_its_models_is_named_with_the_call() {
     for (behaviour, expected) in [
