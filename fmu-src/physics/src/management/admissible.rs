@@ -3,7 +3,8 @@
 //!
 //! The Earth's azimuth is A - delta or A + delta, cos delta = cos theta / cos E (eq 20), which needs
 //! |E| <= min(theta, 180 deg - theta). An antenna that covers the azimuths m - 45 deg to m + 45 deg allows the azimuths
-//! A of the Sun within 45 deg of m + delta or m - delta.
+//! A of the Sun within 45 deg of m + delta or m - delta. The angle theta changes while a downlink lasts, one way over hours: what
+//! holds at its least and at its greatest holds throughout.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -26,8 +27,8 @@ pub struct Branch {
     pub earth_ahead: bool,
     /// Middle of the antenna's quadrant, in rad.
     middle_rad: f64,
-    /// Angle between Sun and Earth, in rad.
-    separation_rad: f64,
+    /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
+    separations_rad: [f64; 2],
     limits: KeepInLimits,
 }
 
@@ -36,25 +37,35 @@ impl Branch {
     pub fn all(limits: KeepInLimits, separation_rad: f64) -> [Self; 4] {
         const SUNSHADE_RAD: f64 = -FRAC_PI_4;
         const BACK_RAD: f64 = 3.0 * FRAC_PI_4;
-        let branch = |earth_ahead, middle_rad| Self { earth_ahead, middle_rad, separation_rad, limits };
+        let separations_rad = [separation_rad; 2];
+        let branch = |earth_ahead, middle_rad| Self { earth_ahead, middle_rad, separations_rad, limits };
         let (behind, ahead) = (branch(false, SUNSHADE_RAD), branch(true, BACK_RAD));
         let (first, second) = if separation_rad < FRAC_PI_2 { (behind, ahead) } else { (ahead, behind) };
         [first, second, branch(true, SUNSHADE_RAD), branch(false, BACK_RAD)]
     }
 
+    /// The same where the angle between Sun and Earth goes from the least to the greatest of these while the downlink lasts.
+    #[must_use]
+    pub fn lasting(self, separations_rad: [f64; 2]) -> Self {
+        Self { separations_rad, ..self }
+    }
+
     /// Greatest magnitude of the elevation, in rad.
     pub fn elevation_rad(&self) -> f64 {
-        self.limits.elevation_rad.min(self.separation_rad).min(PI - self.separation_rad)
+        let [least_rad, greatest_rad] = self.separations_rad;
+        self.limits.elevation_rad.min(least_rad).min(PI - greatest_rad)
     }
 
     /// Least and greatest azimuth at an elevation; `None` where no azimuth will do.
     pub fn azimuths_rad(&self, elevation_rad: f64) -> Option<[f64; 2]> {
-        let cosine = (self.separation_rad.cos() / elevation_rad.cos()).clamp(-1.0, 1.0);
-        let delta_rad = if self.earth_ahead { cosine.acos() } else { -cosine.acos() };
-        let middle_rad = (self.middle_rad - delta_rad + PI).rem_euclid(TAU) - PI;
+        let middles_rad = self.separations_rad.map(|separation_rad| {
+            let cosine = (separation_rad.cos() / elevation_rad.cos()).clamp(-1.0, 1.0);
+            let delta_rad = if self.earth_ahead { cosine.acos() } else { -cosine.acos() };
+            (self.middle_rad - delta_rad + PI).rem_euclid(TAU) - PI
+        });
         let most_rad = self.limits.azimuth_rad.min(FRAC_PI_2);
-        let low_rad = (middle_rad - FRAC_PI_4).max(-most_rad);
-        let high_rad = (middle_rad + FRAC_PI_4).min(most_rad);
+        let low_rad = middles_rad.into_iter().fold(-most_rad, |low_rad, it| low_rad.max(it - FRAC_PI_4));
+        let high_rad = middles_rad.into_iter().fold(most_rad, |high_rad, it| high_rad.min(it + FRAC_PI_4));
         // What stands at a bound is inside, whatever rounding says.
         let is_point = high_rad < low_rad && high_rad > low_rad - ROUNDING_RAD;
         if high_rad >= low_rad || is_point { Some([low_rad.min(high_rad), high_rad]) } else { None }
@@ -132,6 +143,45 @@ mod tests {
             }
         }
         assert!(inside > 10_000 && outside > 10_000, "{inside} {outside}");
+    }
+
+    #[test]
+    fn while_a_downlink_lasts_the_earth_stays_in_the_quadrant() {
+        let (mut inside, mut left) = (0, 0);
+        for i in 0..340 {
+            let start_rad = (5.0 + 0.5 * f64::from(i)).to_radians();
+            let end_rad = start_rad + 1.1_f64.to_radians();
+            let through = (0..=10).map(|k| start_rad + (end_rad - start_rad) * f64::from(k) / 10.0);
+            let places: Vec<_> = through.map(|it| (it, lines(it))).collect();
+            for branch in Branch::all(LIMITS, start_rad) {
+                let lasting = branch.lasting([start_rad, end_rad]);
+                for j in -26..=26 {
+                    for k in [-0.22_f64, 0.0, 0.11] {
+                        let angles = SunAngles { azimuth_rad: 0.01 * f64::from(j), elevation_rad: k };
+                        let off_rad = places.iter().map(|(separation_rad, lines)| {
+                            if k.abs() > separation_rad.min(PI - separation_rad) {
+                                return f64::INFINITY;
+                            }
+                            let place = SunPlace { angles, earth_ahead: branch.earth_ahead };
+                            let frame = downlink_toward(lines, &place).frame;
+                            let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
+                            let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
+                            let off_rad = (azimuth_rad - branch.middle_rad + PI).rem_euclid(TAU) - PI;
+                            off_rad.abs() - FRAC_PI_4
+                        });
+                        let greatest_rad = off_rad.fold(f64::NEG_INFINITY, f64::max);
+                        if greatest_rad.abs() < 1e-9 {
+                            continue;
+                        }
+                        let stays = greatest_rad < 0.0;
+                        assert_eq!(lasting.place(angles).is_some(), stays, "{i} {branch:?} {angles:?}");
+                        inside += u32::from(stays);
+                        left += u32::from(!stays && branch.place(angles).is_some());
+                    }
+                }
+            }
+        }
+        assert!(inside > 10_000 && left > 100, "{inside} {left}");
     }
 
     #[test]

@@ -8,9 +8,11 @@ use super::ahead::Ahead;
 use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
 use super::targeting::Aim;
+use crate::attitude::angle_between_rad;
 use crate::guidance::moving::value;
 use crate::guidance::{ChosenPlace, DownlinkStart, Guided, OrbitAhead, Schedule, SunChooser};
 use crate::momentum::{Convention, DumpPolicy, Totals};
+use crate::numerics::intervals::sampled_range;
 use crate::plant::{StartMomentum, SunLight, SunlitCraft};
 
 /// A manager with what a sample knows.
@@ -50,8 +52,21 @@ impl SunChooser for SampledManager<'_> {
             pressure_pa,
             linear: self.manager.linear(&craft.center_of_mass_body_m()),
         };
-        self.manager.place(aim, self.ahead(start, totals).as_ref())
+        let separations_rad = separations_rad(start);
+        self.manager.place(aim, self.ahead(start, totals).as_ref(), separations_rad)
     }
+}
+
+/// Least and greatest angle between Sun and Earth while the downlink lasts, in rad; that at its begin where the spacecraft is on
+/// no ellipse about its planet.
+fn separations_rad(start: &DownlinkStart<'_>) -> [f64; 2] {
+    let orbit = OrbitAhead::of(start.surroundings);
+    let at = |share: f64| {
+        let epoch_s = start.surroundings.epoch_s + start.span_s * share;
+        let then = orbit.map_or(*start.surroundings, |orbit| orbit.at(epoch_s));
+        angle_between_rad(&value(&then.to_sun()), &value(&then.to_earth()))
+    };
+    sampled_range(at)
 }
 
 /// Units of about a microsecond that targeting takes at most.

@@ -63,7 +63,8 @@ impl SunPlanner for Manager<'_> {
             pressure_pa: outlook.pressure_pa,
             linear,
         };
-        Ok(self.place(aim, ahead.as_ref()))
+        let separations_rad = outlook.separations_rad;
+        Ok(self.place(aim, ahead.as_ref(), separations_rad))
     }
 }
 
@@ -118,7 +119,12 @@ impl Manager<'_> {
 
     /// Where the Sun is to stand for the target predicted from what lies ahead, or else the one target; `None` where no place is
     /// admissible.
-    pub(super) fn place(&self, mut aim: Aim<'_>, ahead: Option<&Ahead>) -> Option<ChosenPlace> {
+    pub(super) fn place(
+        &self,
+        mut aim: Aim<'_>,
+        ahead: Option<&Ahead>,
+        separations_rad: [f64; 2],
+    ) -> Option<ChosenPlace> {
         let predicted = match (ahead, aim.momentum) {
             (Some(Ahead::Science(science)), StartMomentum::Inertial(momentum)) => {
                 // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
@@ -131,7 +137,8 @@ impl Manager<'_> {
             (Some(Ahead::Components(components)), _) => self.kept(&aim, components),
             _ => None,
         };
-        let targeted = self.targeting.sun_place(&aim, &predicted.unwrap_or(self.target_body_n_m_s));
+        let target = predicted.unwrap_or(self.target_body_n_m_s);
+        let targeted = self.targeting.sun_place_throughout(&aim, &target, separations_rad);
         targeted.map(|Targeted { place, clamped }| ChosenPlace { place, clamped })
     }
 

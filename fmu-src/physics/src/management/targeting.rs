@@ -101,7 +101,17 @@ impl Targeting {
     /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
     /// or no place is admissible.
     pub fn sun_place(&self, aim: &Aim<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
-        let branches = self.branches(aim.separation_rad())?;
+        self.sun_place_throughout(aim, target_body_n_m_s, [aim.separation_rad(); 2])
+    }
+
+    /// The same where Sun and Earth come from the least to the greatest of these angles apart while the downlink lasts.
+    pub fn sun_place_throughout(
+        &self,
+        aim: &Aim<'_>,
+        target_body_n_m_s: &Vector3<f64>,
+        separations_rad: [f64; 2],
+    ) -> Option<Targeted> {
+        let branches = self.branches(aim.separation_rad())?.map(|branch| branch.lasting(separations_rad));
         match self.method {
             TargetingMethod::Exact => self.exact(aim, target_body_n_m_s, &branches),
             TargetingMethod::Linear => self.linear(aim, target_body_n_m_s, &branches),
@@ -231,7 +241,7 @@ impl Targeting {
 
     fn linear(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch; 4]) -> Option<Targeted> {
         let linear = aim.linear.as_ref()?;
-        let start = branches[0].nearest(SunAngles::default())?;
+        let start = branches.iter().find_map(|branch| branch.nearest(SunAngles::default()))?;
         let [by_x, by_z] = self.axes.asked();
         let mut change = target - aim.momentum_body_n_m_s(&start);
         change.y = 0.0;

@@ -27,6 +27,15 @@ pub fn first_change_s(mut same_s: f64, mut other_s: f64, mut is_same: impl FnMut
     }
 }
 
+/// Intervals of [`sampled_range`].
+const INTERVALS: u32 = 16;
+
+/// Least and greatest of 17 values of `at`, evenly from 0 to 1: of what turns slowly over that range.
+pub fn sampled_range(mut at: impl FnMut(f64) -> f64) -> [f64; 2] {
+    let values = (0..=INTERVALS).map(|k| at(f64::from(k) / f64::from(INTERVALS)));
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], it| [least.min(it), most.max(it)])
+}
+
 #[cfg(test)]
 mod tests {
     //! Edges are multiples of the step, for any time a double can count; changes are found to the last bit.

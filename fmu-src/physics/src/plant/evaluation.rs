@@ -191,6 +191,11 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         self.kinematics.smooth_until(start_s, limit_s)
     }
 
+    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad.
+    pub(super) fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
+        self.kinematics.separations_rad(from_s, to_s)
+    }
+
     /// Frame and rate that guidance commands at `time_s`, and its window; `None` where there is none.
     pub(super) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
         self.kinematics.guided_attitude(time_s)

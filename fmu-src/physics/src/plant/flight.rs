@@ -91,6 +91,7 @@ impl Flight<'_> {
             let mut plant = self.after(*work);
             let instant = plant.instant(time_s);
             let pressure_pa = plant.pressure_pa(&instant);
+            let separations_rad = plant.separations_rad(time_s, until_s);
             let mut outlook = Outlook {
                 prepared: self.prepared,
                 configuration: self.configuration,
@@ -108,6 +109,7 @@ impl Flight<'_> {
                 to_sun: instant.geometry.to_sun.position_m.normalize(),
                 to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
                 pressure_pa,
+                separations_rad,
             };
             planner.choose(&mut outlook)?
         } else {

@@ -4,18 +4,19 @@
 //! their directions into a body frame, the frame turns them into the body, and the planet's disc takes its part of the
 //! Sun's. Momentum, light and outputs all read this.
 
-use crate::attitude::MovingFrame;
+use crate::attitude::{MovingFrame, angle_between_rad};
 use crate::environment::ephemeris::Ephemeris;
+use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::{Activity, Guided, GuidedAttitude};
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
-use crate::numerics::intervals::first_change_s;
+use crate::numerics::intervals::{first_change_s, sampled_range};
 use crate::numerics::spacing::spacing;
 
 use nalgebra::Rotation3;
 
-use super::configuration::{AttitudeSource, Configuration};
+use super::configuration::{AttitudeSource, Configuration, Motion};
 use super::error::PlantError;
 use super::geometry::Geometry;
 use super::instant::{Instant, Regime};
@@ -184,6 +185,28 @@ impl<'a> Kinematics<'a> {
         let guided = configuration.attitude.guided()?;
         let geometry = self.geometry(time_s);
         Some(self.guided(guided, time_s, &geometry))
+    }
+
+    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft going on along the
+    /// ellipse that it is on.
+    pub fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
+        let configuration = self.configuration;
+        let now = self.trajectory.state_at(configuration, from_s);
+        let from_epoch_s = from_s + configuration.epoch_minus_time_s;
+        let ellipse = match configuration.motion {
+            Motion::TwoBody => Some(configuration.orbit),
+            Motion::Disturbed { gravity, .. } => {
+                TwoBodyOrbit::from_state(&now, gravity.mu_m3_s2, from_epoch_s).ok()
+            }
+            Motion::Held { .. } => None,
+        };
+        sampled_range(|share| {
+            let at_s = from_s + (to_s - from_s) * share;
+            let at_epoch_s = at_s + configuration.epoch_minus_time_s;
+            let spacecraft = ellipse.map_or(now, |ellipse| ellipse.state_at(at_epoch_s));
+            let geometry = Geometry::at(configuration, self.ephemeris, at_s, spacecraft);
+            angle_between_rad(&geometry.to_sun.position_m, &geometry.to_earth.position_m)
+        })
     }
 
     /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.

@@ -98,6 +98,8 @@ pub struct Outlook<'o> {
     pub to_earth: Option<Vector3<f64>>,
     /// Pressure of sunlight, in Pa, without a shadow.
     pub pressure_pa: f64,
+    /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
+    pub separations_rad: [f64; 2],
 }
 
 impl Outlook<'_> {

@@ -100,6 +100,21 @@ fn a_pulse_train_gives_force_times_lever_times_time() {
 }
 
 #[test]
+fn thrust_is_never_active_without_thrusters() {
+    // None at all, and none of the set.
+    for named in [craft(""), craft(&couples(""))] {
+        let mut flight = fly(&named, &[FREE, DARK]);
+        flight.set("thrust.request", 2.0);
+        flight.set("thrust.command", 1.0);
+        flight.set("thrust.stop", 600.0);
+        for second in 1..=5 {
+            flight.step_to(f64::from(second)).unwrap();
+            assert!(!flight.boolean("thrust.active"), "{second}");
+        }
+    }
+}
+
+#[test]
 fn a_long_thrust_follows_the_rocket_equation() {
     // Four through the centre of mass: no torque.
     let main: String = [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]
