@@ -4,8 +4,6 @@
 //! step's end. It closes where the pulse or the step ends, whichever is first, and never sooner than the shortest time after it
 //! opened, over the step's end if need be. A pulse from the next step's start on joins one that is open there, so that a pulse
 //! may go on from step to step. Anything else does not open.
-//!
-//! Reference: the decision is this project's; valves behave so, for a solenoid that was energised goes through its stroke.
 
 use serde::{Deserialize, Serialize};
 
@@ -73,11 +71,6 @@ impl PulseSchedule {
             self.plan(timing, opens_s, closes_s);
         }
         opens && is_free
-    }
-
-    /// The valve is open over the whole step from `start_s` to `end_s`, both in s.
-    pub fn fire(&mut self, timing: &ValveTiming, [start_s, end_s]: [f64; 2]) {
-        self.plan(timing, start_s, end_s);
     }
 
     /// Plans a pulse; one that begins before the present one ends makes that end as late as it does itself, but not before the

@@ -7,7 +7,7 @@ mod given;
 pub mod propulsion;
 pub mod state;
 
-use fmi_export::{Failure, Values};
+use fmi_export::{Elements, Failure, Values};
 use nalgebra::Vector3;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
@@ -34,7 +34,7 @@ use crate::common::choices::PanelTilt;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
 use crate::common::management::{Limits, check_windows};
-use crate::common::spacecraft::{dump_threshold_n_m_s, inertia_body_kg_m2};
+use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// The configuration that parameters, inputs and state describe.
 pub fn configuration(
@@ -347,9 +347,11 @@ pub fn manager<'s>(context: &Plan<'s>, values: &Values, configuration: &Configur
 pub fn is_left_to_master(context: &Plan<'_>, values: &Values) -> bool {
     let variables = context.variables;
     let is_free = matches!(values.choice(variables.attitude.source), Some(AttitudeSource::Free));
-    let setup = context.setup;
-    let default = dump_threshold_n_m_s(&setup.spacecraft, setup.wheel_array.as_ref());
-    is_free && values.vector(variables.dump.threshold) == default
+    let dump = &variables.dump;
+    let others = [dump.reinit_fraction, dump.required_spacing, dump.torque, dump.pulse_period];
+    let [a, b, c, d] = others.map(Elements::from);
+    let given = context.given(values, &[dump.threshold.into(), a, b, c, d]);
+    is_free && !given.has(dump.threshold)
 }
 
 fn settings(context: &Plan<'_>, values: &Values) -> Settings {

@@ -59,7 +59,7 @@ impl Valves {
             let timing = &self.execution[k].valve;
             schedule.command(timing, &commands.pulses[k], step_s, true);
             if commands.fire >> k & 1 == 1 {
-                schedule.fire(timing, step_s);
+                schedule.plan(timing, start_s, end_s);
             }
         }
     }
