@@ -79,6 +79,10 @@ impl Forecast for Outlook<'_> {
         Outlook::cycle_s(self)
     }
 
+    fn span_s(&self) -> f64 {
+        self.span_s
+    }
+
     fn downlink_s(&self) -> f64 {
         Outlook::downlink_s(self)
     }
@@ -149,12 +153,12 @@ impl Manager<'_> {
         let default_n_m = (aim.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
         // What the default attitude adds beside sunlight alone comes in others too.
         let beside = |downlink: &DownlinkAhead| {
-            let light = default_n_m * (ahead.downlink_s() * downlink.part_of(aim.pressure_pa));
+            let light = default_n_m * downlink.equivalent_s(aim.pressure_pa);
             [0, 1].map(|axis| downlink.added[axis] - light[axis])
         };
         let later = ahead.cycles(|downlink| {
             let torques = downlink.separation_rad.and_then(|it| self.targeting.torques(aim, it));
-            let light_s = ahead.downlink_s() * downlink.part_of(aim.pressure_pa);
+            let light_s = downlink.equivalent_s(aim.pressure_pa);
             let beside = beside(downlink);
             [0, 1].map(|axis| {
                 let torques_n_m = torques.map_or([default_n_m[axis]; 2], |it| it[axis]);
