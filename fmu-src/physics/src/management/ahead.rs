@@ -88,8 +88,8 @@ impl Ahead {
 pub struct DownlinkAhead {
     /// How long it lasts, in s.
     pub span_s: f64,
-    /// Angle between Sun and Earth where it begins, in rad; `None` where one has no direction.
-    pub separation_rad: Option<f64>,
+    /// Angles between Sun and Earth where it begins and where it ends, in rad; `None` where one has no direction.
+    pub separations_rad: Option<[f64; 2]>,
     /// Pressure of sunlight there, in Pa.
     pub pressure_pa: f64,
     /// What its default attitude adds to X and Z, in N m s.
@@ -137,6 +137,7 @@ impl Components {
         });
         let (mut visited, mut base) = (0, [0.0; 2]);
         forecast.fly(times_s, step_s, |at| {
+            let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
             let (cycle, sample) = (visited / per_cycle, visited % per_cycle);
             visited += 1;
             let momentum = [at.momentum_body_n_m_s.x, at.momentum_body_n_m_s.z];
@@ -147,10 +148,9 @@ impl Components {
                         components.note(ended, SCIENCE_SAMPLES - 1, since);
                     }
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
-                        let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
                         *downlink = DownlinkAhead {
                             span_s: spans_s[cycle.min(1)],
-                            separation_rad,
+                            separations_rad: separation_rad.map(|it| [it; 2]),
                             pressure_pa: at.pressure_pa,
                             added: [0.0; 2],
                         };
@@ -160,6 +160,11 @@ impl Components {
                 1 => {
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
                         downlink.added = since;
+                        if let Some(([_, end_rad], at_end_rad)) =
+                            downlink.separations_rad.as_mut().zip(separation_rad)
+                        {
+                            *end_rad = at_end_rad;
+                        }
                     }
                     base = momentum;
                 }
