@@ -31,7 +31,10 @@ pub trait Forecast {
     /// Length of a cycle of science and downlink, in s; infinite or 0 where none follows.
     fn cycle_s(&self) -> f64;
 
-    /// Length of a downlink, in s.
+    /// How long the downlink lasts that begins, in s.
+    fn span_s(&self) -> f64;
+
+    /// Length of a coming downlink, in s.
     fn downlink_s(&self) -> f64;
 
     /// Which momentum is watched.
@@ -83,8 +86,10 @@ impl Ahead {
 /// A downlink to come, or the one that begins.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DownlinkAhead {
-    /// Angle between Sun and Earth where it begins, in rad; `None` where one has no direction.
-    pub separation_rad: Option<f64>,
+    /// How long it lasts, in s.
+    pub span_s: f64,
+    /// Angles between Sun and Earth where it begins and where it ends, in rad; `None` where one has no direction.
+    pub separations_rad: Option<[f64; 2]>,
     /// Pressure of sunlight there, in Pa.
     pub pressure_pa: f64,
     /// What its default attitude adds to X and Z, in N m s.
@@ -92,9 +97,9 @@ pub struct DownlinkAhead {
 }
 
 impl DownlinkAhead {
-    /// Its pressure of sunlight as a multiple of another one, in Pa; 0 where that one is none.
-    pub fn part_of(&self, pressure_pa: f64) -> f64 {
-        if pressure_pa > 0.0 { self.pressure_pa / pressure_pa } else { 0.0 }
+    /// How long sunlight of this pressure, in Pa, takes to do what its own does in all of it, in s; 0 without pressure.
+    pub fn equivalent_s(&self, pressure_pa: f64) -> f64 {
+        if pressure_pa > 0.0 { self.span_s * (self.pressure_pa / pressure_pa) } else { 0.0 }
     }
 }
 
@@ -102,7 +107,6 @@ impl DownlinkAhead {
 #[derive(Clone, Copy, Debug)]
 pub struct Components {
     count: usize,
-    downlink_s: f64,
     swings: [[Swing; LONGEST_HORIZON]; 2],
     downlinks: [DownlinkAhead; LONGEST_HORIZON],
     path: [[f64; SCIENCE_SAMPLES]; 2],
@@ -116,26 +120,24 @@ impl Components {
         let count = (horizon as usize).min(LONGEST_HORIZON);
         let mut components = Self {
             count,
-            downlink_s: forecast.downlink_s(),
             swings: [[Swing::default(); LONGEST_HORIZON]; 2],
             downlinks: [DownlinkAhead::default(); LONGEST_HORIZON],
             path: [[0.0; SCIENCE_SAMPLES]; 2],
             policy: forecast.dump_policy(),
         };
         let step_s = science_s / SCIENCE_SAMPLES as f64;
+        let spans_s = [forecast.span_s(), forecast.downlink_s()];
+        let first_end_s = begin_s + spans_s[0];
         // The begin of each downlink, then its science, whose last sample is the next downlink's begin.
         let per_cycle = SCIENCE_SAMPLES + 1;
-        let times_s = (0..=count * per_cycle).map(|k| {
-            let (cycle, sample) = (k / per_cycle, k % per_cycle);
-            let downlink_begin_s = begin_s + cycle as f64 * cycle_s;
-            if sample == 0 {
-                downlink_begin_s
-            } else {
-                downlink_begin_s + (cycle_s - science_s) + (sample - 1) as f64 * step_s
-            }
+        let times_s = (0..=count * per_cycle).map(|k| match (k / per_cycle, k % per_cycle) {
+            (0, 0) => begin_s,
+            (cycle, 0) => first_end_s + (cycle - 1) as f64 * cycle_s + science_s,
+            (cycle, sample) => first_end_s + cycle as f64 * cycle_s + (sample - 1) as f64 * step_s,
         });
         let (mut visited, mut base) = (0, [0.0; 2]);
         forecast.fly(times_s, step_s, |at| {
+            let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
             let (cycle, sample) = (visited / per_cycle, visited % per_cycle);
             visited += 1;
             let momentum = [at.momentum_body_n_m_s.x, at.momentum_body_n_m_s.z];
@@ -146,15 +148,23 @@ impl Components {
                         components.note(ended, SCIENCE_SAMPLES - 1, since);
                     }
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
-                        let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
-                        *downlink =
-                            DownlinkAhead { separation_rad, pressure_pa: at.pressure_pa, added: [0.0; 2] };
+                        *downlink = DownlinkAhead {
+                            span_s: spans_s[cycle.min(1)],
+                            separations_rad: separation_rad.map(|it| [it; 2]),
+                            pressure_pa: at.pressure_pa,
+                            added: [0.0; 2],
+                        };
                     }
                     base = momentum;
                 }
                 1 => {
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
                         downlink.added = since;
+                        if let Some(([_, end_rad], at_end_rad)) =
+                            downlink.separations_rad.as_mut().zip(separation_rad)
+                        {
+                            *end_rad = at_end_rad;
+                        }
                     }
                     base = momentum;
                 }
@@ -193,11 +203,6 @@ impl Components {
             }
         }
         cycles
-    }
-
-    /// Length of a coming downlink, in s.
-    pub fn downlink_s(&self) -> f64 {
-        self.downlink_s
     }
 
     /// How many cycles were forecast.

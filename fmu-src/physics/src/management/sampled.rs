@@ -100,6 +100,7 @@ impl SampledManager<'_> {
             policy: self.policy,
             totals,
             begin_s: start.surroundings.epoch_s,
+            span_s: start.span_s,
         };
         let Ok(ahead) = self.manager.ahead(&mut forecast);
         ahead

@@ -3,7 +3,7 @@
 //! Assumptions: the orbit ahead is [`OrbitAhead`]; science and downlink follow the windows of the orbit phase in its attitudes,
 //! whatever is commanded; direct sunlight without shadows is all that acts.
 //! Method: torque by Gauss-Legendre quadrature of order 6 on intervals that end where a window or a slew does.
-//! Error measure: none at run time; where sunlight alone acts, choices differ from a plant's by less than 3e-4 rad (tested).
+//! Error measure: none at run time; where sunlight alone acts, choices differ from a plant's by less than 3e-5 rad (tested).
 
 use core::convert::Infallible;
 
@@ -35,6 +35,8 @@ pub struct SampledForecast<'a> {
     pub totals: Totals,
     /// The begin, in s past J2000 TDB.
     pub begin_s: f64,
+    /// How long the downlink lasts that begins, in s.
+    pub span_s: f64,
 }
 
 impl SampledForecast<'_> {
@@ -68,6 +70,10 @@ impl Forecast for SampledForecast<'_> {
 
     fn cycle_s(&self) -> f64 {
         self.law.schedule.cycle_s()
+    }
+
+    fn span_s(&self) -> f64 {
+        self.span_s
     }
 
     fn downlink_s(&self) -> f64 {

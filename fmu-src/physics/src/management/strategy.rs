@@ -79,6 +79,10 @@ impl Forecast for Outlook<'_> {
         Outlook::cycle_s(self)
     }
 
+    fn span_s(&self) -> f64 {
+        self.span_s
+    }
+
     fn downlink_s(&self) -> f64 {
         Outlook::downlink_s(self)
     }
@@ -145,16 +149,17 @@ impl Manager<'_> {
     /// The target from which X and Z stay below their thresholds through the coming cycles.
     fn kept(&self, aim: &Aim<'_>, ahead: &Components) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
-        let torques = self.targeting.torques(aim, aim.separation_rad())?;
+        let lasting = ahead.present().separations_rad.and_then(|it| self.targeting.torques(aim, it));
+        let torques = lasting.or_else(|| self.targeting.torques(aim, [aim.separation_rad(); 2]))?;
         let default_n_m = (aim.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
         // What the default attitude adds beside sunlight alone comes in others too.
         let beside = |downlink: &DownlinkAhead| {
-            let light = default_n_m * (ahead.downlink_s() * downlink.part_of(aim.pressure_pa));
+            let light = default_n_m * downlink.equivalent_s(aim.pressure_pa);
             [0, 1].map(|axis| downlink.added[axis] - light[axis])
         };
         let later = ahead.cycles(|downlink| {
-            let torques = downlink.separation_rad.and_then(|it| self.targeting.torques(aim, it));
-            let light_s = ahead.downlink_s() * downlink.part_of(aim.pressure_pa);
+            let torques = downlink.separations_rad.and_then(|it| self.targeting.torques(aim, it));
+            let light_s = downlink.equivalent_s(aim.pressure_pa);
             let beside = beside(downlink);
             [0, 1].map(|axis| {
                 let torques_n_m = torques.map_or([default_n_m[axis]; 2], |it| it[axis]);
@@ -180,8 +185,10 @@ impl Manager<'_> {
     /// The target that keeps the momentum of the next science smallest.
     fn turned(&self, aim: &Aim<'_>, science: &ScienceAhead) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
-        let reach =
-            self.targeting.torques(aim, aim.separation_rad())?.map(|it| it.map(|torque| torque * aim.span_s));
+        let reach = self
+            .targeting
+            .torques(aim, [aim.separation_rad(); 2])?
+            .map(|it| it.map(|torque| torque * aim.span_s));
         let end = science.end_body_n_m_s;
         let range = |axis: usize, reach: Reach, asked: bool| {
             // Under the other antenna the body stands half a turn about the Sun line away.

@@ -118,10 +118,10 @@ impl Targeting {
         }
     }
 
-    /// Least and greatest torque of sunlight about X and Z in N m, the other angle at 0, in a downlink with Sun and Earth this far
-    /// apart; `None` where one of them has no direction.
-    pub fn torques(&self, aim: &Aim<'_>, separation_rad: f64) -> Option<[[f64; 2]; 2]> {
-        let branch = self.branches(separation_rad)?[0];
+    /// Least and greatest torque of sunlight about X and Z in N m, the other angle at 0, in a downlink that begins and ends with Sun
+    /// and Earth this far apart; `None` where one of them has no direction, or the antenna cannot stay with the Earth.
+    pub fn torques(&self, aim: &Aim<'_>, [begin_rad, end_rad]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        let branch = self.branches(begin_rad)?[0].lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
         let torque = |elevation_rad: f64, azimuth_rad: f64| {
             let sun_body = direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
             (aim.torque_body_n_m)(&sun_body)
