@@ -200,8 +200,7 @@ fn fly(fmu: &Fmu, label: &str) -> Result<Flown, StudyError> {
     let mut names = three("momentum.inertial");
     names.extend(three("force.solar"));
     names.extend(["sun.azimuth".to_owned(), "sun.elevation".to_owned()]);
-    let surfaces = surfaces(fmu)
-        .map_err(|error| StudyError::Simulation { case: label.to_owned(), source: error.into() })?;
+    let surfaces = surfaces(fmu);
     for number in 1..=surfaces.len() {
         names.extend(three(&format!("plate[{number}].force")));
     }
