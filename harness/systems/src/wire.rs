@@ -53,7 +53,7 @@ pub struct Wired {
 pub struct Wiring {
     /// Patterns of further outputs to list, `component.variable`.
     pub outputs: Vec<String>,
-    /// Enumerations stay open, for tools that cannot connect them.
+    /// Enumerations are no connectors and stay open, for tools that do not know them.
     pub without_enumerations: bool,
     /// Parameters of components, `component.name=value`; written in the variables' own units.
     pub sets: Vec<String>,
@@ -129,7 +129,7 @@ pub fn wire(
             }
         }
     }
-    list_outputs(&mut wired.structure, components, &wiring.outputs)?;
+    list_outputs(&mut wired.structure, components, wiring)?;
     for (component, (_, fmu)) in wired.structure.components.iter_mut().zip(components) {
         component.connectors.sort_by_key(|it| (it.kind == Kind::Output, fmu.position(&it.name)));
     }
@@ -355,15 +355,15 @@ fn enumeration(
     name
 }
 
-/// Lists the outputs that patterns name.
+/// Lists the outputs that patterns name. Tools that cannot connect enumerations refuse them as connectors too.
 fn list_outputs(
     structure: &mut Structure,
     components: &[(String, Fmu)],
-    patterns: &[String],
+    wiring: &Wiring,
 ) -> Result<(), Error> {
     let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
     let Merged { description, origins } = merge(&structure.name, Experiment::default(), named);
-    for pattern in patterns {
+    for pattern in &wiring.outputs {
         for position in loader::select_outputs(&description, pattern)? {
             let (number, at) = origins[position];
             let variable = &components[number].1.description().variables[at];
@@ -371,7 +371,10 @@ fn list_outputs(
                 let name = &description.variables[position].name;
                 return Err(Error::Wire(format!("{name}: it is no output, allowed: outputs")));
             }
-            add_connector(structure, components, (number, variable), Kind::Output);
+            let is_enumeration = matches!(variable.kind, VariableKind::Enumeration { .. });
+            if !(is_enumeration && wiring.without_enumerations) {
+                add_connector(structure, components, (number, variable), Kind::Output);
+            }
         }
     }
     Ok(())
