@@ -119,9 +119,24 @@ pub fn pack(built: &Built, scratch: &Path) -> Outcome {
                 .args(option)
                 .arg("--output")
                 .arg(root().join("dist").join(file)))?;
+            record(built, file)?;
         }
     }
     Ok(())
+}
+
+/// Time between two rows of a reference flight, in s.
+const EVERY: &str = "600";
+
+/// The default experiment beside the system, outputs at the start being exchanged in initialization.
+fn record(built: &Built, file: &str) -> Outcome {
+    let system = root().join("dist").join(file);
+    run(command(&built.heliotorque)
+        .arg("run")
+        .arg(&system)
+        .args(["--quiet", "--first-exchange", "initial", "--every", EVERY])
+        .arg("--output")
+        .arg(system.with_extension("csv")))
 }
 
 fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Result<PathBuf, String> {

@@ -115,7 +115,10 @@ pub fn wire(
             let found = found.and_then(|found| match &input.kind {
                 VariableKind::Enumeration { .. } if wiring.without_enumerations => {
                     let component = &wired.structure.components[number];
-                    Err(format!("an enumeration, left out: it stands at {}", stands_at(component, fmu, input)))
+                    Err(format!(
+                        "an enumeration, left out: it stands at {}",
+                        stands_at(component, fmu, input)
+                    ))
                 }
                 _ => Ok(found),
             });
@@ -144,10 +147,12 @@ fn bind(structure: &mut Structure, components: &[(String, Fmu)], sets: &[String]
         let named = set.split_once('.').and_then(|(component, assignment)| {
             Some((components.iter().position(|(name, _)| name == component)?, assignment))
         });
-        let (number, assignment) = named
-            .ok_or_else(|| refuse(format!("found no component, allowed: component.name=value of {}", all())))?;
+        let (number, assignment) = named.ok_or_else(|| {
+            refuse(format!("found no component, allowed: component.name=value of {}", all()))
+        })?;
         let description = components[number].1.description();
-        let assigned = loader::assignment(description, assignment).map_err(|error| refuse(error.to_string()))?;
+        let assigned =
+            loader::assignment(description, assignment).map_err(|error| refuse(error.to_string()))?;
         for assigned in assigned {
             let variable = assigned.variable;
             loader::set_early(variable).map_err(|error| refuse(error.to_string()))?;

@@ -31,7 +31,8 @@ pub fn to_parameter_set(set: &ParameterSet) -> String {
     for parameter in &set.parameters {
         let value = match &parameter.value {
             Written::Real { value, unit } => {
-                let unit = unit.as_ref().map(|unit| format!(" unit=\"{}\"", escape(unit))).unwrap_or_default();
+                let unit =
+                    unit.as_ref().map(|unit| format!(" unit=\"{}\"", escape(unit))).unwrap_or_default();
                 format!("Real value=\"{value}\"{unit}")
             }
             Written::Integer(value) => format!("Integer value=\"{value}\""),

@@ -114,8 +114,7 @@ pub(crate) fn prepare<M: Model>(
     let fixed = start::apply(&given, &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
     description.co_simulation = Some(co_simulation::<M>(&description.variables));
-    description.structure =
-        structure(&dependencies, &description.variables).map_err(DescribeError::Table)?;
+    description.structure = structure(&dependencies, &description.variables).map_err(DescribeError::Table)?;
     // Which of them the setup gave stands in the setup.
     let start = Arc::new(interface.start.clone());
     interface.start.mark_none();

@@ -1,7 +1,9 @@
 //! What is wired, written and read again; units on the way.
 
 use loader::Fmu;
-use systems::{Experiment, Linear, System, component_name, Wiring, read_structure, to_parameter_set, to_xml, wire};
+use systems::{
+    Experiment, Linear, System, Wiring, component_name, read_structure, to_parameter_set, to_xml, wire,
+};
 
 use crate::support::{ITEMS, Ssd, description, fmu, giver, ssp, taker};
 

@@ -1,8 +1,8 @@
 //! Experiment, initialization, termination, reset, log settings.
 
 use super::{Instance, once};
-use crate::fmi2::instance::state::{Experiment, InstanceState};
 use crate::fmi2::access::SET_BY_IMPORTER;
+use crate::fmi2::instance::state::{Experiment, InstanceState};
 use crate::fmi2::logger::Category;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
