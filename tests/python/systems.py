@@ -1,8 +1,10 @@
 """Systems under several masters: our own, FMPy's, libcosim's."""
 
+import pathlib
 import zipfile
 
 import numpy as np
+from fmpy import read_model_description
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd
 
@@ -33,6 +35,38 @@ def connectors(ssp):
     outputs = [name for name, kind in kinds.items() if kind == "output"]
     inputs = [name for name, kind in kinds.items() if kind == "input"]
     return outputs, inputs, joined
+
+
+def loop_of(ssp, folder, initially):
+    """A chain of variables that leads back to its beginning: through the connections, and through the components by what
+    their FMUs declare of Outputs, or of InitialUnknowns; None if there is none."""
+    zipfile.ZipFile(ssp).extractall(folder)
+    followers = {}
+    system = read_ssd(str(ssp)).system
+    for it in system.connections:
+        followers.setdefault(f"{it.startElement}.{it.startConnector}", set()).add(f"{it.endElement}.{it.endConnector}")
+    for part in system.elements:
+        description = read_model_description(str(pathlib.Path(folder) / part.source))
+        unknowns = description.initialUnknowns if initially else description.outputs
+        for unknown in unknowns:
+            knowns = description.modelVariables if unknown.dependencies is None else unknown.dependencies
+            for known in knowns:
+                followers.setdefault(f"{part.name}.{known.name}", set()).add(f"{part.name}.{unknown.variable.name}")
+    done = set()
+    for first in followers:
+        path, open_ones = [], [iter([first])]
+        while open_ones:
+            name = next(open_ones[-1], None)
+            if name is None:
+                open_ones.pop()
+                if path:
+                    done.add(path.pop())
+            elif name in path:
+                return path[path.index(name) :]
+            elif name not in done:
+                path.append(name)
+                open_ones.append(iter(followers.get(name, ())))
+    return None
 
 
 def flown_by_libcosim(ssp, folder, step_s, steps, names):

@@ -11,10 +11,14 @@ import pytest
 from lxml import etree
 
 from spacecraft import call
-from systems import connectors, flown, flown_by_fmpy, flown_by_libcosim
+from systems import connectors, flown, flown_by_fmpy, flown_by_libcosim, loop_of
 
-# File, stop and step of a flight; the other system's is its default experiment.
-SYSTEMS = {"MessengerLoop": (14_400.0, 1.0), "DisturbanceLoop": (43_200.0, 10.0)}
+# File, stop and step of a flight; DisturbanceLoop's is its default experiment.
+SYSTEMS = {
+    "MessengerLoop": (14_400.0, 1.0),
+    "MessengerLoopPlain": (14_400.0, 1.0),
+    "DisturbanceLoop": (43_200.0, 10.0),
+}
 DAY_S = 86_400.0
 
 
@@ -75,13 +79,36 @@ def test_outputs_at_the_start_are_exchanged_before_the_first_step(heliotorque, d
     assert exchanged.all() and not zeros.any()
 
 
-def test_libcosim_and_our_jacobi_master_agree_to_the_bit(heliotorque, dist, tmp_path):
-    """libcosim exchanges in initialization, too; it does not know the Enumerations of the other system."""
-    ssp, (stop_s, step_s) = dist / "DisturbanceLoop.ssp", SYSTEMS["DisturbanceLoop"]
-    names = [*ATTITUDE, *elements("disturbance.torque.total", 3)]
-    ours = flown(heliotorque, ssp, names)
+# Systems without connections of enumerations, which libcosim does not know, and what is compared of them.
+PLAIN = {
+    "DisturbanceLoop": [*ATTITUDE, *elements("disturbance.torque.total", 3)],
+    "MessengerLoopPlain": [
+        *elements("plant.attitude.q", 4), *elements("plant.momentum.body", 3), *elements("guidance.command.q", 4),
+    ],
+}
+
+
+@pytest.mark.parametrize("system", PLAIN)
+def test_libcosim_and_our_jacobi_master_agree_to_the_bit(heliotorque, dist, tmp_path, system):
+    """libcosim exchanges in initialization, too."""
+    ssp, (stop_s, step_s), names = dist / f"{system}.ssp", SYSTEMS[system], PLAIN[system]
+    ours = flown(heliotorque, ssp, names, "--stop", str(stop_s))
     theirs = flown_by_libcosim(ssp, tmp_path, step_s, int(stop_s / step_s), names)
     assert [ours[name][-1] for name in names] == theirs
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.parametrize("initially", [False, True])
+def test_no_shipped_system_has_an_algebraic_loop_by_what_its_fmus_declare(dist, tmp_path, system, initially):
+    assert loop_of(dist / f"{system}.ssp", tmp_path, initially) is None
+
+
+def test_the_loop_is_there_where_nothing_is_fixed(heliotorque, dist, tmp_path):
+    """Commanded, the plant turns as it is told at once, and Guidance tells it by where it is."""
+    ssp = tmp_path / "open.ssp"
+    parts = (f"guidance={dist / 'Guidance.fmu'}", f"plant={dist / 'MomentumPlant.fmu'}")
+    assert call(heliotorque, "wire", *parts, "--output", ssp).returncode == 0
+    assert loop_of(ssp, tmp_path / "parts", False) is not None
 
 
 def test_both_masters_converge_to_each_other_with_the_step(heliotorque, dist):

@@ -1,4 +1,5 @@
-//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes.
+//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, dependencies at
+//! many states.
 
 use std::fs;
 use std::path::Path;
@@ -33,6 +34,7 @@ const PARTS: &[Part] = &[
     ("miri", miri),
     ("allocations", allocations),
     ("writes", writes),
+    ("dependencies", dependencies),
 ];
 
 /// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
@@ -50,6 +52,12 @@ pub fn all() -> Outcome {
         part()?;
     }
     Ok(())
+}
+
+/// What acts is declared, at many more states.
+fn dependencies() -> Outcome {
+    let test = ["test", "--locked", "--release", "-p", "models", "--all-features", "dependencies::"];
+    run(command("cargo").args(test).args(["--", "--ignored"]))
 }
 
 fn skipped(what: &str, missing: &str) -> Outcome {

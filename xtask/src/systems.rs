@@ -16,20 +16,23 @@ pub const GUIDED_AT_START: [&str; 4] = [
     "start.q[4]=0.07681231250728458",
 ];
 
-/// An FMU of a system: component, model, whether it is one of the probe's, spacecraft, start values, whether it starts in the
-/// attitude that guidance commands.
+/// An FMU of a system: component, model, whether it is one of the probe's, spacecraft, start values, constants, whether it starts
+/// in the attitude that guidance commands.
 struct Component {
     name: &'static str,
     model: &'static str,
     is_probe: bool,
     spacecraft: Option<&'static str>,
     start: &'static [&'static str],
+    fixed: &'static [&'static str],
     starts_guided: bool,
 }
 
-/// A system: file, stop and step of its default experiment, components, further outputs that its connectors show.
+/// A system: file, that without enumerations if there is one, stop and step of its default experiment, components, further outputs
+/// that its connectors show.
 struct System {
     file: &'static str,
+    plain_file: Option<&'static str>,
     stop: &'static str,
     step: &'static str,
     components: &'static [Component],
@@ -40,6 +43,7 @@ const SYSTEMS: &[System] = &[
     // A day about Mercury: science attitude, downlink after every second periapsis.
     System {
         file: "MessengerLoop.ssp",
+        plain_file: Some("MessengerLoopPlain.ssp"),
         stop: "1d",
         step: "1s",
         components: &[
@@ -49,6 +53,7 @@ const SYSTEMS: &[System] = &[
                 is_probe: false,
                 spacecraft: Some("messenger.toml"),
                 start: &["pointing.scenario=orbitPhase"],
+                fixed: &[],
                 starts_guided: true,
             },
             Component {
@@ -57,7 +62,9 @@ const SYSTEMS: &[System] = &[
                 is_probe: false,
                 spacecraft: Some("messenger-full.toml"),
                 // Forces and torques every 10 s: shadows then cost what a second without them does.
-                start: &["attitude.source=controlled", "shadowing.enabled=true", "solver.dynamicsStep=10"],
+                start: &["shadowing.enabled=true", "solver.dynamicsStep=10"],
+                // No command turns the body at once: there is no algebraic loop.
+                fixed: &["attitude.source=controlled", "command.source=inputs"],
                 starts_guided: true,
             },
         ],
@@ -67,6 +74,7 @@ const SYSTEMS: &[System] = &[
     // Half a day of a small body that light and the gravity gradient turn.
     System {
         file: "DisturbanceLoop.ssp",
+        plain_file: None,
         stop: "12h",
         step: "10s",
         components: &[
@@ -76,6 +84,7 @@ const SYSTEMS: &[System] = &[
                 is_probe: false,
                 spacecraft: Some("messenger-thermal.toml"),
                 start: &[],
+                fixed: &[],
                 starts_guided: false,
             },
             Component {
@@ -84,6 +93,7 @@ const SYSTEMS: &[System] = &[
                 is_probe: true,
                 spacecraft: None,
                 start: &[],
+                fixed: &[],
                 starts_guided: false,
             },
         ],
@@ -99,14 +109,34 @@ pub fn pack(built: &Built, scratch: &Path) -> Outcome {
             let fmu = pack_component(built, component, scratch)?;
             fmus.push(format!("{}={}", component.name, fmu.display()));
         }
-        run(command(&built.heliotorque)
-            .arg("wire")
-            .args(fmus)
-            .args(["--stop", system.stop, "--step", system.step, "--outputs", system.outputs, "--quiet"])
-            .arg("--output")
-            .arg(root().join("dist").join(system.file)))?;
+        let whole = [(system.file, None)].into_iter();
+        let plain = system.plain_file.map(|file| (file, Some("--without-enumerations")));
+        for (file, option) in whole.chain(plain) {
+            run(command(&built.heliotorque)
+                .arg("wire")
+                .args(&fmus)
+                .args(["--stop", system.stop, "--step", system.step, "--outputs", system.outputs, "--quiet"])
+                .args(option)
+                .arg("--output")
+                .arg(root().join("dist").join(file)))?;
+            record(built, file)?;
+        }
     }
     Ok(())
+}
+
+/// Time between two rows of a reference flight, in s.
+const EVERY: &str = "600";
+
+/// The default experiment beside the system, outputs at the start being exchanged in initialization.
+fn record(built: &Built, file: &str) -> Outcome {
+    let system = root().join("dist").join(file);
+    run(command(&built.heliotorque)
+        .arg("run")
+        .arg(&system)
+        .args(["--quiet", "--first-exchange", "initial", "--every", EVERY])
+        .arg("--output")
+        .arg(system.with_extension("csv")))
 }
 
 fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Result<PathBuf, String> {
@@ -120,6 +150,9 @@ fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Resul
     let attitude = GUIDED_AT_START.iter().filter(|_| component.starts_guided);
     for start in component.start.iter().chain(attitude) {
         pack.args(["--set", start]);
+    }
+    for fixed in component.fixed {
+        pack.args(["--fix", fixed]);
     }
     run(pack.arg("--output").arg(&fmu))?;
     Ok(fmu)

@@ -61,8 +61,8 @@ pub trait Model: Sized + 'static {
         Err(SetupError(format!("{file}: {} takes no schedule", Self::NAME)))
     }
 
-    /// Start values that the setup gives to parameters and inputs, instead of the declared ones. What they are for
-    /// is checked when the model is described.
+    /// Start values that the setup gives to parameters and inputs, instead of the declared ones; those that it fixes become local
+    /// constants. What they are for is checked when the model is described.
     fn start_values(_setup: &Self::Setup) -> Vec<StartValue> {
         Vec::new()
     }
@@ -110,8 +110,8 @@ pub trait Model: Sized + 'static {
         None
     }
 
-    /// What every output and calculated parameter depends on: the union over all values of all options. An unknown without
-    /// a row is refused.
+    /// What every output and calculated parameter depends on: the union over all values of all options but those that the setup
+    /// fixes. An unknown without a row is refused.
     fn dependencies(setup: &Self::Setup, variables: &Self::Variables) -> Dependencies;
 }
 
@@ -353,6 +353,8 @@ pub struct StartValue {
     pub line: Option<usize>,
     /// The only model that it is for.
     pub model: Option<String>,
+    /// Whether the variable is a local constant with this value.
+    pub is_fixed: bool,
     /// The variable, or the bare name of a vector or matrix.
     pub name: String,
     /// The value.

@@ -356,6 +356,13 @@ pub struct Wire {
     /// List these outputs too, for tools that show only connectors: component.variable, vectors, patterns with *
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub outputs: Vec<String>,
+    /// Leave enumerations open, for tools that cannot connect them, and say what each stands at
+    #[arg(long)]
+    pub without_enumerations: bool,
+    /// Give a parameter of a component a value, in a parameter set of the component; repeatable, written as for `run`:
+    /// plant.dump.threshold=4,4,4
+    #[arg(long, value_name = "COMPONENT.NAME=VALUE")]
+    pub set: Vec<String>,
     /// Name of the system; otherwise the file's
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
@@ -398,6 +405,10 @@ pub struct Pack {
     /// `run`: attitude.source=commanded, dump.threshold=4,4,4
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// Make a parameter or input a local constant of this FMU, in the `[fixed]` of the packed file; repeatable, written as for
+    /// --set. Dependencies are those of that choice: attitude.source=controlled
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub fix: Vec<String>,
     /// Name of the new FMU, a C identifier; otherwise the model's
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,

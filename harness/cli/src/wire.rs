@@ -9,7 +9,7 @@ use std::{
 
 use files::{Destination, Entries};
 use loader::Fmu;
-use systems::{Experiment, SSD_FILE, Wired};
+use systems::{Experiment, SSD_FILE, Wired, Wiring};
 
 use crate::{args::Wire, home, outcome::Outcome};
 
@@ -37,13 +37,23 @@ pub fn run(arguments: &Wire) -> Outcome {
     let name = arguments.name.clone().or(stem.filter(|stem| stem != "-"));
     let experiment = Experiment { start_s: None, stop_s: arguments.stop, step_s: arguments.step };
     let name = name.unwrap_or_else(|| DEFAULT_NAME.to_owned());
-    let wired = systems::wire(&name, &components, experiment, &arguments.outputs)?;
+    let wiring = Wiring {
+        outputs: arguments.outputs.clone(),
+        without_enumerations: arguments.without_enumerations,
+        sets: arguments.set.clone(),
+    };
+    let wired = systems::wire(&name, &components, experiment, &wiring)?;
 
     let mut entries = Entries::default();
     entries.add(SSD_FILE, systems::to_xml(&wired.structure).into_bytes())?;
     for ((_, file), component) in named.iter().zip(&wired.structure.components) {
         let bytes = files::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
         entries.add(&component.source, bytes)?;
+        for binding in &component.bindings {
+            if let (Some(file), [set]) = (&binding.source, binding.sets.as_slice()) {
+                entries.add(file, systems::to_parameter_set(set).into_bytes())?;
+            }
+        }
     }
     let bytes = entries.to_zip()?;
     let inputs: Vec<&Path> = named.iter().map(|(_, file)| file.as_path()).collect();

@@ -33,8 +33,8 @@ pub use structure::{
     ParameterSet, SSD_FILE, Signal, Structure, Written,
 };
 pub use system::{Part, System};
-pub use wire::{Left, Wired, component_name, wire};
-pub use writer::to_xml;
+pub use wire::{Left, Wired, Wiring, component_name, wire};
+pub use writer::{to_parameter_set, to_xml};
 
 /// Reads the bytes of a `SystemStructure.ssd`.
 ///

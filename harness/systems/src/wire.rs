@@ -12,7 +12,10 @@ use crate::{
     experiment::complete,
     joint::type_name,
     merged::{Merged, merge},
-    structure::{Component, Connection, Connector, End, Enumeration, Experiment, Kind, Signal, Structure},
+    structure::{
+        Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Parameter,
+        ParameterSet, Signal, Structure, Written,
+    },
     units::shown,
 };
 
@@ -45,6 +48,17 @@ pub struct Wired {
     pub left: Vec<Left>,
 }
 
+/// What is asked for beside the connections of equal names.
+#[derive(Clone, Debug, Default)]
+pub struct Wiring {
+    /// Patterns of further outputs to list, `component.variable`.
+    pub outputs: Vec<String>,
+    /// Enumerations are no connectors and stay open, for tools that do not know them.
+    pub without_enumerations: bool,
+    /// Parameters of components, `component.name=value`; written in the variables' own units.
+    pub sets: Vec<String>,
+}
+
 /// The name of a component of an FMU: its file's, the first letter in lower case.
 pub fn component_name(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -53,15 +67,16 @@ pub fn component_name(path: &Path) -> String {
 }
 
 /// Connects every input of a component to the output of another one with its name, type and unit (`RENAMED` names the
-/// exceptions), where there is one such output. `outputs` are patterns of further outputs to list, `component.variable`.
+/// exceptions), where there is one such output.
 ///
 /// # Errors
-/// Names of components that stand twice or are none, patterns that fit nothing, FMUs without co-simulation.
+/// Names of components that stand twice or are none, patterns that fit nothing, values that no variable takes, FMUs without
+/// co-simulation.
 pub fn wire(
     name: &str,
     components: &[(String, Fmu)],
     experiment: Experiment,
-    outputs: &[String],
+    wiring: &Wiring,
 ) -> Result<Wired, Error> {
     for (number, (component, fmu)) in components.iter().enumerate() {
         if !names::is_c_identifier(component) {
@@ -92,10 +107,22 @@ pub fn wire(
         },
         left: Vec::new(),
     };
+    bind(&mut wired.structure, components, &wiring.sets)?;
     for (number, (component, fmu)) in components.iter().enumerate() {
         let inputs = fmu.description().variables.iter().filter(|it| it.causality == Causality::Input);
         for input in inputs {
-            match source(components, number, input) {
+            let found = source(components, number, input);
+            let found = found.and_then(|found| match &input.kind {
+                VariableKind::Enumeration { .. } if wiring.without_enumerations => {
+                    let component = &wired.structure.components[number];
+                    Err(format!(
+                        "an enumeration, left out: it stands at {}",
+                        stands_at(component, fmu, input)
+                    ))
+                }
+                _ => Ok(found),
+            });
+            match found {
                 Ok((from, output)) => {
                     connect(&mut wired.structure, components, (from, output), (number, input))
                 }
@@ -105,11 +132,73 @@ pub fn wire(
             }
         }
     }
-    list_outputs(&mut wired.structure, components, outputs)?;
+    list_outputs(&mut wired.structure, components, wiring)?;
     for (component, (_, fmu)) in wired.structure.components.iter_mut().zip(components) {
         component.connectors.sort_by_key(|it| (it.kind == Kind::Output, fmu.position(&it.name)));
     }
     Ok(wired)
+}
+
+/// The parameter sets of the components, in the variables' own units: not every tool converts.
+fn bind(structure: &mut Structure, components: &[(String, Fmu)], sets: &[String]) -> Result<(), Error> {
+    for set in sets {
+        let refuse = |what: String| Error::Wire(format!("--set {set}: {what}"));
+        let all = || components.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+        let named = set.split_once('.').and_then(|(component, assignment)| {
+            Some((components.iter().position(|(name, _)| name == component)?, assignment))
+        });
+        let (number, assignment) = named.ok_or_else(|| {
+            refuse(format!("found no component, allowed: component.name=value of {}", all()))
+        })?;
+        let description = components[number].1.description();
+        let assigned =
+            loader::assignment(description, assignment).map_err(|error| refuse(error.to_string()))?;
+        for assigned in assigned {
+            let variable = assigned.variable;
+            loader::set_early(variable).map_err(|error| refuse(error.to_string()))?;
+            value::check(description, variable, &assigned.value)
+                .map_err(|misfit| refuse(format!("{}: {misfit}", variable.name)))?;
+            let value = written(description, variable, assigned.value);
+            let component = &mut structure.components[number];
+            if component.bindings.is_empty() {
+                let source = Some(format!("resources/{}.ssv", component.name));
+                let set = ParameterSet { name: component.name.clone(), ..ParameterSet::default() };
+                component.bindings.push(Binding { source, sets: vec![set], ..Binding::default() });
+            }
+            let parameters = &mut component.bindings[0].sets[0].parameters;
+            parameters.retain(|known| known.name != variable.name);
+            parameters.push(Parameter { name: variable.name.clone(), value, line: 0 });
+        }
+    }
+    Ok(())
+}
+
+fn written(description: &Description, variable: &ScalarVariable, given: value::Value) -> Written {
+    match given {
+        value::Value::Real(value) => Written::Real { value, unit: None },
+        value::Value::Boolean(truth) => Written::Boolean(truth),
+        value::Value::Text(text) => Written::Text(text),
+        value::Value::Integer(number) => {
+            let item = value::items(description, variable).iter().find(|item| item.value == number);
+            item.map_or(Written::Integer(number), |item| Written::Enumeration(item.name.clone()))
+        }
+    }
+}
+
+/// What an enumeration that is not connected stands at: its parameter set's value, else its start value.
+fn stands_at(component: &Component, fmu: &Fmu, input: &ScalarVariable) -> String {
+    let sets = component.bindings.iter().flat_map(|binding| &binding.sets);
+    let set = sets.flat_map(|set| &set.parameters).find(|parameter| parameter.name == input.name);
+    if let Some(Parameter { value: Written::Enumeration(item), .. }) = set {
+        return item.clone();
+    }
+    let start = match input.kind {
+        VariableKind::Enumeration { start, .. } => start,
+        _ => None,
+    };
+    let items = value::items(fmu.description(), input);
+    let item = items.iter().find(|item| Some(item.value) == start);
+    item.map_or_else(String::new, |item| item.name.clone())
 }
 
 /// The output that an input takes: component and variable; else why there is none.
@@ -271,15 +360,15 @@ fn enumeration(
     name
 }
 
-/// Lists the outputs that patterns name.
+/// Lists the outputs that patterns name. Tools that cannot connect enumerations refuse them as connectors too.
 fn list_outputs(
     structure: &mut Structure,
     components: &[(String, Fmu)],
-    patterns: &[String],
+    wiring: &Wiring,
 ) -> Result<(), Error> {
     let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
     let Merged { description, origins } = merge(&structure.name, Experiment::default(), named);
-    for pattern in patterns {
+    for pattern in &wiring.outputs {
         for position in loader::select_outputs(&description, pattern)? {
             let (number, at) = origins[position];
             let variable = &components[number].1.description().variables[at];
@@ -287,7 +376,10 @@ fn list_outputs(
                 let name = &description.variables[position].name;
                 return Err(Error::Wire(format!("{name}: it is no output, allowed: outputs")));
             }
-            add_connector(structure, components, (number, variable), Kind::Output);
+            let is_enumeration = matches!(variable.kind, VariableKind::Enumeration { .. });
+            if !(is_enumeration && wiring.without_enumerations) {
+                add_connector(structure, components, (number, variable), Kind::Output);
+            }
         }
     }
     Ok(())

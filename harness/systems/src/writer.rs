@@ -6,14 +6,48 @@ use model_description::{Unit, escape};
 
 use crate::{
     reader::STEP_ANNOTATION,
-    structure::{Component, Connection, Signal, Structure},
+    structure::{Component, Connection, ParameterSet, Signal, Structure, Written},
 };
 
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssd:SystemStructureDescription \
                     xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\" \
                     xmlns:ssd=\"http://ssp-standard.org/SSP1/SystemStructureDescription\" version=\"1.0\"";
 
-/// The file of a structure. Parameter bindings are not written: start values stand in the FMUs.
+/// How OMSimulator's program is told of the step, without which it imports no system: its own annotation of the system, in its own
+/// name space.
+const OMSIMULATOR: [&str; 2] =
+    ["org.openmodelica", "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"];
+/// What its master takes for errors; a master of a fixed step makes no use of it.
+const OMSIMULATOR_TOLERANCE: f64 = 1e-4;
+
+/// The file of a parameter set (`.ssv`).
+pub fn to_parameter_set(set: &ParameterSet) -> String {
+    let mut text = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssv:ParameterSet \
+         xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\" version=\"1.0\" name=\"{}\">\n  \
+         <ssv:Parameters>\n",
+        escape(&set.name)
+    );
+    for parameter in &set.parameters {
+        let value = match &parameter.value {
+            Written::Real { value, unit } => {
+                let unit =
+                    unit.as_ref().map(|unit| format!(" unit=\"{}\"", escape(unit))).unwrap_or_default();
+                format!("Real value=\"{value}\"{unit}")
+            }
+            Written::Integer(value) => format!("Integer value=\"{value}\""),
+            Written::Boolean(value) => format!("Boolean value=\"{value}\""),
+            Written::Text(value) => format!("String value=\"{}\"", escape(value)),
+            Written::Enumeration(item) => format!("Enumeration value=\"{}\"", escape(item)),
+        };
+        let name = escape(&parameter.name);
+        text.push_str(&format!("    <ssv:Parameter name=\"{name}\"><ssv:{value}/></ssv:Parameter>\n"));
+    }
+    text.push_str("  </ssv:Parameters>\n</ssv:ParameterSet>\n");
+    text
+}
+
+/// The file of a structure. Of parameter bindings those with a file are written.
 pub fn to_xml(structure: &Structure) -> String {
     let mut text = String::from(HEAD);
     // Writing to a String cannot fail.
@@ -36,6 +70,18 @@ fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
             write_connection(to, connection)?;
         }
         writeln!(to, "    </ssd:Connections>")?;
+    }
+    if let Some(step_s) = structure.experiment.step_s {
+        let [tool, schema] = OMSIMULATOR;
+        let tolerance = OMSIMULATOR_TOLERANCE;
+        writeln!(
+            to,
+            "    <ssd:Annotations>\n      <ssc:Annotation type=\"{tool}\">\n        <oms:Annotations \
+             xmlns:oms=\"{schema}\">\n          <oms:SimulationInformation>\n            <oms:FixedStepMaster \
+             description=\"oms-ma\" stepSize=\"{step_s}\" absoluteTolerance=\"{tolerance}\" \
+             relativeTolerance=\"{tolerance}\"/>\n          </oms:SimulationInformation>\n        \
+             </oms:Annotations>\n      </ssc:Annotation>\n    </ssd:Annotations>"
+        )?;
     }
     writeln!(to, "  </ssd:System>")?;
     if !structure.enumerations.is_empty() {
@@ -98,6 +144,15 @@ fn write_component(to: &mut String, component: &Component) -> std::fmt::Result {
             }
         }
         writeln!(to, "        </ssd:Connectors>")?;
+    }
+    let files = component.bindings.iter().filter_map(|binding| binding.source.as_ref());
+    let files: Vec<_> = files.collect();
+    if !files.is_empty() {
+        writeln!(to, "        <ssd:ParameterBindings>")?;
+        for file in files {
+            writeln!(to, "          <ssd:ParameterBinding source=\"{}\"/>", escape(file))?;
+        }
+        writeln!(to, "        </ssd:ParameterBindings>")?;
     }
     writeln!(to, "      </ssd:Component>")
 }

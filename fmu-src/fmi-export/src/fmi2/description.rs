@@ -85,7 +85,6 @@ pub(crate) fn prepare<M: Model>(
     let mut interface = declare.finish();
     let scalars = scalar_variables(&interface);
     let dependencies = M::dependencies(&setup, &variables);
-    let structure = structure(&dependencies, &scalars).map_err(DescribeError::Table)?;
     let about = M::about(&setup);
     let text = |text: &str| (!text.is_empty()).then(|| text.to_owned());
     let mut description = Description {
@@ -98,7 +97,6 @@ pub(crate) fn prepare<M: Model>(
         generation_tool: text(&about.tool)
             .or_else(|| Some(concat!("fmi-export ", env!("CARGO_PKG_VERSION")).to_owned())),
         variable_naming: NamingConvention::Structured,
-        co_simulation: Some(co_simulation::<M>(&scalars)),
         types: interface.enumerations.iter().map(simple_type).collect(),
         log_categories: Category::declared(),
         default_experiment: Some(DefaultExperiment {
@@ -107,18 +105,20 @@ pub(crate) fn prepare<M: Model>(
             tolerance: (about.tolerance > 0.0).then_some(about.tolerance),
             step_size: (about.step_size_s > 0.0).then_some(about.step_size_s),
         }),
-        structure,
         variables: scalars,
         ..Description::default()
     };
     description.units = units_of(&description);
     let readers = Readers::new(M::NAME, file, others);
-    start::apply(&M::start_values(&setup), &readers, &mut description, &mut interface.start)
+    let given = M::start_values(&setup);
+    let fixed = start::apply(&given, &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
+    description.co_simulation = Some(co_simulation::<M>(&description.variables));
+    description.structure = structure(&dependencies, &description.variables).map_err(DescribeError::Table)?;
     // Which of them the setup gave stands in the setup.
     let start = Arc::new(interface.start.clone());
     interface.start.mark_none();
-    let digest = digest_of::<M>(&interface, &dependencies, &about, &setup)?;
+    let digest = digest_of::<M>((&interface, &fixed), &dependencies, &about, &setup)?;
     description.guid = format!("{{{digest}}}");
     let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
     let runtime = Box::new(Typed::<M> { setup, variables, start: Arc::clone(&start), state: None });
@@ -235,10 +235,10 @@ fn units_of(description: &Description) -> Vec<model_description::Unit> {
     units::UNITS.iter().filter(|row| used(row.name)).map(units::KnownUnit::to_unit).collect()
 }
 
-/// UUIDv5 of what is declared, the model's `About`, the setup's content, the model's name and optional traits, and the
+/// UUIDv5 of what is declared and what of it is fixed, the model's `About`, the setup's content, the model's name and optional traits, and the
 /// version of its state. Default times do not enter.
 fn digest_of<M: Model>(
-    interface: &Interface,
+    interface: (&Interface, &BTreeSet<usize>),
     dependencies: &Dependencies,
     about: &About,
     setup: &M::Setup,

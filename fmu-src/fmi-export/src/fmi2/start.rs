@@ -2,13 +2,13 @@
 //!
 //! A setup may serve several models of a library. A start value without a model is for each of them that has the
 //! variable; it is an error if none has it. Later wins: the declared start value, a vector under its bare name, one of
-//! its elements, the same two for this model alone.
+//! its elements, the same two for this model alone. What is fixed goes before all these, and is a local constant.
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use model_description::{
-    Causality, Description, ScalarVariable, VariableKind, names,
+    Causality, Description, ScalarVariable, Variability, VariableKind, names,
     value::{self, AngleMisfit, Misfit, Value},
 };
 
@@ -91,15 +91,16 @@ fn bare(name: &str) -> &str {
     }
 }
 
-/// Puts the start values into the description and the table of values; the error is one line a problem.
+/// Puts the start values into the description and the table of values, and gives the places of what is fixed; the error is one
+/// line a problem.
 pub(crate) fn apply(
     given: &[StartValue],
     readers: &Readers<'_>,
     description: &mut Description,
     start: &mut Values,
-) -> Result<(), String> {
+) -> Result<BTreeSet<usize>, String> {
     let mut problems: Vec<(Option<usize>, String)> = Vec::new();
-    let mut assigned: Vec<((bool, bool), usize, Value)> = Vec::new();
+    let mut assigned: Vec<((bool, bool, bool), usize, Value)> = Vec::new();
     let mut unchecked = 0;
     for entry in given {
         if problems.len() == MOST_PROBLEMS {
@@ -109,7 +110,7 @@ pub(crate) fn apply(
         match targets(entry, readers, description) {
             Ok(targets) => {
                 let is_element = description.variables.iter().any(|variable| variable.name == entry.name);
-                let rank = (entry.model.is_some(), is_element);
+                let rank = (entry.is_fixed, entry.model.is_some(), is_element);
                 assigned.extend(targets.into_iter().map(|(index, value)| (rank, index, value)));
             }
             Err(misfit) => {
@@ -127,14 +128,21 @@ pub(crate) fn apply(
         return Err(lines.join("\n"));
     }
     assigned.sort_by_key(|(rank, ..)| *rank);
-    for (_, index, value) in assigned {
+    let mut fixed = BTreeSet::new();
+    for ((is_fixed, ..), index, value) in assigned {
         let position = position_in_table(&description.variables, index);
         if let Some(variable) = description.variables.get_mut(index) {
             value::set_start(variable, &value);
             start.give(position, value);
+            if is_fixed {
+                variable.causality = Causality::Local;
+                variable.variability = Variability::Constant;
+                variable.initial = None;
+                fixed.insert(index);
+            }
         }
     }
-    Ok(())
+    Ok(fixed)
 }
 
 /// How many variables of the same base type are declared before this one.

@@ -9,12 +9,13 @@ use physics::{
 /// The variable that takes a date: in s past J2000 TDB.
 const EPOCH: &str = "start.epoch";
 
-/// The entries of a file's `[start]` as start values of variables.
+/// The entries of a file's `[start]` and `[fixed]` as start values of variables.
 pub fn start_values(entries: &[StartEntry]) -> Vec<StartValue> {
     let convert = |entry: &StartEntry| StartValue {
         key: entry.key.clone(),
         line: Some(entry.line),
         model: entry.model.clone(),
+        is_fixed: entry.is_fixed,
         name: entry.name.clone(),
         value: match &entry.value {
             FileValue::Text(text) if entry.name == EPOCH && dates::looks_like_date(text) => date(text),
@@ -44,12 +45,17 @@ fn given(value: &FileValue) -> SetupValue {
     }
 }
 
-/// The entry that counts for a variable of `model`: one for this model alone goes before one for all.
+/// The entry that counts for a variable of `model`: a constant goes before a start value, one for this model alone before one
+/// for all.
 pub fn entry_of<'a>(entries: &'a [StartEntry], model: &str, name: &str) -> Option<&'a StartEntry> {
-    let of = |asked: Option<&str>| {
-        entries.iter().rfind(|entry| entry.name == name && entry.model.as_deref() == asked)
-    };
-    of(Some(model)).or_else(|| of(None))
+    let counts =
+        |entry: &&StartEntry| entry.name == name && entry.model.as_deref().is_none_or(|asked| asked == model);
+    entries.iter().filter(counts).max_by_key(|entry| (entry.is_fixed, entry.model.is_some()))
+}
+
+/// The item at which a choice of `model` is fixed; `None` where it is open.
+pub fn fixed_item<E: Enumeration>(entries: &[StartEntry], model: &str, name: &str) -> Option<E> {
+    entry_of(entries, model, name).filter(|entry| entry.is_fixed).and_then(|entry| item(&entry.value))
 }
 
 /// The item that a start value names or numbers.

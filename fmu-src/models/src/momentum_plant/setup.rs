@@ -11,11 +11,11 @@ use physics::plant::{ControlDefaults, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
-use super::variables::choices::AttitudeSource;
+use super::variables::choices::{AttitudeSource, CommandSource};
 use crate::common::center::center_of;
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
-use crate::common::start_values::{entry_of, item};
+use crate::common::start_values::{entry_of, fixed_item, item};
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -88,7 +88,19 @@ impl PlantSetup {
 
     /// Which ways to turn the spacecraft are open.
     pub fn open_choices(&self) -> OpenChoices {
-        OpenChoices { ideal: true, guided: true }
+        use AttitudeSource::{Commanded, Controlled, Free, Guided};
+        let start = &self.spacecraft.start;
+        let source = fixed_item::<AttitudeSource>(start, MomentumPlant::NAME, "attitude.source");
+        let command = fixed_item::<CommandSource>(start, MomentumPlant::NAME, "command.source");
+        let is_inputs = matches!(command, Some(CommandSource::Inputs));
+        OpenChoices {
+            ideal: matches!(source, None | Some(Guided | Commanded)),
+            guided: match source {
+                None | Some(Guided) => true,
+                Some(Commanded | Controlled) => !is_inputs,
+                Some(Free) => false,
+            },
+        }
     }
 }
 

@@ -6,6 +6,7 @@ mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;
 mod dynamics;
+mod fixed;
 mod flown_ephemeris;
 mod guidance;
 mod management;

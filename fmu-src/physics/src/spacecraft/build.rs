@@ -233,7 +233,7 @@ impl Builder<'_> {
                 .planet_map
                 .as_ref()
                 .and_then(|map| self.planet_map(&root.key("planet_map"), map)),
-            start: start_entries(&mut self.check, description.start.as_ref()),
+            start: start_entries(&mut self.check, description.start.as_ref(), description.fixed.as_ref()),
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
                 azimuth_rad: self.check.angle(&keep_in.key("azimuth_deg"), limits.azimuth_deg, 0.0, 180.0),
                 elevation_rad: self.check.angle(

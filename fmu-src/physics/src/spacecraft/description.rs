@@ -72,6 +72,8 @@ pub(crate) struct Description {
     pub planet_map: Option<PlanetMapDescription>,
     pub thermal: Option<SurroundingsDescription>,
     pub start: Option<StartTable>,
+    /// Variables that are local constants of this FMU, with their values; `heliotorque pack --fix` writes them.
+    pub fixed: Option<StartTable>,
 }
 
 /// The planet's surface cell by cell, for `planetLight.method` map of DisturbanceTorque. Each key has n rows, belts of

@@ -1,4 +1,4 @@
-//! The table `[start]`: start values by the names of models' variables, which are not known here.
+//! The tables `[start]` and `[fixed]`: start values and constants by the names of models' variables, which are not known here.
 
 use core::fmt;
 use std::collections::BTreeMap;
@@ -16,8 +16,10 @@ pub struct StartEntry {
     pub key: String,
     /// Line from 1.
     pub line: usize,
-    /// The table within `[start]` that it stands in: the model that it is for.
+    /// The table within the table that it stands in: the model that it is for.
     pub model: Option<String>,
+    /// Whether it stands in `[fixed]`: the variable is a constant of the FMU then.
+    pub is_fixed: bool,
     /// The variable.
     pub name: String,
     /// Its value.
@@ -100,9 +102,20 @@ impl<'de> Visitor<'de> for ItemVisitor {
     }
 }
 
-/// The entries of the table; what cannot be a start value of any variable is reported.
-pub(crate) fn start_entries(check: &mut Checker<'_>, table: Option<&StartTable>) -> Vec<StartEntry> {
-    let at = Place::root().key("start");
+/// The entries of both tables, the constants last; what cannot be the value of any variable is reported.
+pub(crate) fn start_entries(
+    check: &mut Checker<'_>,
+    start: Option<&StartTable>,
+    fixed: Option<&StartTable>,
+) -> Vec<StartEntry> {
+    let mut entries = entries(check, "start", start);
+    let constants = self::entries(check, "fixed", fixed).into_iter();
+    entries.extend(constants.map(|entry| StartEntry { is_fixed: true, ..entry }));
+    entries
+}
+
+fn entries(check: &mut Checker<'_>, table_name: &str, table: Option<&StartTable>) -> Vec<StartEntry> {
+    let at = Place::root().key(table_name);
     let mut entries = Vec::new();
     for (key, item) in table.into_iter().flat_map(|table| &table.0) {
         let place = at.key(key);
@@ -128,7 +141,8 @@ fn push(
 ) {
     if let Some(value) = value(check, at, item) {
         let (key, line) = (at.to_string(), check.line(at));
-        entries.push(StartEntry { key, line, model: model.map(str::to_owned), name: name.to_owned(), value });
+        let (model, name) = (model.map(str::to_owned), name.to_owned());
+        entries.push(StartEntry { key, line, model, is_fixed: false, name, value });
     }
 }
 

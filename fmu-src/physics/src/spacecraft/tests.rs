@@ -531,6 +531,7 @@ fn start_values_are_handed_on_with_their_lines() {
         key: key.to_owned(),
         line: lines + line,
         model: model.map(str::to_owned),
+        is_fixed: false,
         name: name.to_owned(),
         value,
     };

@@ -17,7 +17,10 @@ use super::{
     panels::{Rule, Turned},
 };
 use crate::{
-    pack::{source, start::with_start_values},
+    pack::{
+        source,
+        start::{START, with_values},
+    },
     start_value,
 };
 
@@ -97,7 +100,7 @@ impl Craft {
             let is_known = |description| loader::select(description, name).is_ok();
             let (model, description) =
                 if !is_known(&torque) && is_known(&flown) { (FLOWN, &flown) } else { (MODEL, &torque) };
-            text = with_start_values(&text, model, description, &[(format!("--set {set}"), set.clone())])?;
+            text = with_values(&text, START, model, description, &[(format!("--set {set}"), set.clone())])?;
         }
         let described = binary.describe(MODEL, Some(&file), Some(&text))?;
         let flown = describe(FLOWN, &text)?;

@@ -27,6 +27,8 @@ pub struct Parts<'a> {
     pub mission: Option<&'a Mission>,
     /// Start values, written as for `--set`.
     pub sets: &'a [String],
+    /// What becomes a local constant, written as for `--set`.
+    pub fixes: &'a [String],
     /// Whether plates have outputs.
     pub per_plate: bool,
     /// Its name; otherwise the model's.
@@ -110,11 +112,13 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
         settings.extend(mission.settings(&description));
     }
     settings.extend(parts.sets.iter().map(|set| (format!("--set {set}"), set.clone())));
-    if let Some((at, _)) = settings.first() {
+    let fixed = parts.fixes.iter().map(|fix| (format!("--fix {fix}"), fix.clone())).collect();
+    for (table, settings) in [(start::START, settings), (start::FIXED, fixed)] {
+        let Some((at, _)) = settings.first() else { continue };
         if described.setup_file.is_none() {
-            return Err(format!("{at}: {model} reads no file that start values could stand in").into());
+            return Err(format!("{at}: {model} reads no file that values could stand in").into());
         }
-        setup = start::with_start_values(&setup, &model, &description, &settings)?;
+        setup = start::with_values(&setup, table, &model, &description, &settings)?;
         let again = source.binary().describe(&model, file.as_deref(), Some(&setup))?;
         description = model_description::parse(again.xml.as_bytes())?.description;
     }

@@ -47,6 +47,7 @@ pub fn run(arguments: &Pack) -> Outcome {
         origin: None,
         mission: mission.as_ref(),
         sets: &arguments.set,
+        fixes: &arguments.fix,
         per_plate: arguments.per_plate,
         name: arguments.name.as_deref(),
     };

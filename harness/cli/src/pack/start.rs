@@ -1,4 +1,5 @@
-//! `--set` and missions: start values written into the `[start]` table of the packed file, over those that stand there.
+//! `--set`, `--fix` and missions: values written into the tables `[start]` and `[fixed]` of the packed file, over those that stand
+//! there.
 
 use loader::{Assigned, assignment};
 use model_description::{Causality, Description, VariableKind, value};
@@ -7,15 +8,18 @@ use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 use crate::epoch;
 
 /// The table of start values in a setup file.
-const TABLE: &str = "start";
+pub const START: &str = "start";
+/// The table of what is constant in an FMU.
+pub const FIXED: &str = "fixed";
 
-/// The file's text with the start values that `settings` give to variables of the model, each with where it is given; the
+/// The file's text with the values that `settings` give to variables of the model in a table, each with where it is given; the
 /// rest stays, comments too.
 ///
 /// # Errors
 /// A name that the model does not have or that cannot be set, a value that it does not take.
-pub fn with_start_values(
+pub fn with_values(
     text: &str,
+    table_name: &str,
     model: &str,
     description: &Description,
     settings: &[(String, String)],
@@ -24,7 +28,7 @@ pub fn with_start_values(
         return Ok(text.to_owned());
     }
     let mut file: DocumentMut = text.strip_prefix('\u{feff}').unwrap_or(text).parse()?;
-    let mut start = table(file.as_table_mut(), TABLE)?;
+    let mut start = table(file.as_table_mut(), table_name)?;
     // What is for this model alone would win over what is for all.
     if start.contains_key(model) {
         start = table(start, model)?;
@@ -113,7 +117,7 @@ mod tests {
     }
 
     fn written(text: &str, sets: &[&str]) -> String {
-        with_start_values(text, "Plant", &description(), &settings(sets)).unwrap()
+        with_values(text, START, "Plant", &description(), &settings(sets)).unwrap()
     }
 
     fn settings(sets: &[&str]) -> Vec<(String, String)> {
@@ -145,7 +149,7 @@ mod tests {
         if let VariableKind::Real { attributes, .. } = &mut epoch.kind {
             *attributes = RealAttributes { unit: Some("s".to_owned()), ..RealAttributes::default() };
         }
-        let written = |set: &str| with_start_values("", "Plant", &description, &settings(&[set]));
+        let written = |set: &str| with_values("", START, "Plant", &description, &settings(&[set]));
         let text = written("Start.Epoch=2009-04-06 TDB").unwrap();
         assert_eq!(text, "[start]\n\"start.epoch\" = 292248000.0\n");
         let refused = written("start.epoch=2009-04-06").unwrap_err().to_string();
@@ -174,7 +178,7 @@ mod tests {
             ("arm=1", "1 values given for its 2 elements"),
             ("ship.mass", "name=value"),
         ] {
-            let refused = with_start_values("", "Plant", &description(), &settings(&[set])).unwrap_err();
+            let refused = with_values("", START, "Plant", &description(), &settings(&[set])).unwrap_err();
             let text = refused.to_string();
             assert!(text.contains(expected) && text.contains("--set"), "{set}: {text}");
         }

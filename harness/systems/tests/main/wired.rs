@@ -1,7 +1,9 @@
 //! What is wired, written and read again; units on the way.
 
 use loader::Fmu;
-use systems::{Experiment, Linear, System, component_name, read_structure, to_xml, wire};
+use systems::{
+    Experiment, Linear, System, Wiring, component_name, read_structure, to_parameter_set, to_xml, wire,
+};
 
 use crate::support::{ITEMS, Ssd, description, fmu, giver, ssp, taker};
 
@@ -11,11 +13,73 @@ fn opened(folder: &std::path::Path, name: &str, text: &str) -> (String, Fmu) {
     (name.to_owned(), Fmu::open(&path).unwrap())
 }
 
+fn listed(outputs: &[&str]) -> Wiring {
+    Wiring { outputs: outputs.iter().map(|it| (*it).to_owned()).collect(), ..Wiring::default() }
+}
+
+#[test]
+fn enumerations_that_are_left_out_say_what_they_stand_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
+    let wiring = |sets: &[&str]| Wiring {
+        without_enumerations: true,
+        sets: sets.iter().map(|it| (*it).to_owned()).collect(),
+        ..Wiring::default()
+    };
+    let wired = |sets: &[&str]| wire("Pair", &components, Experiment::default(), &wiring(sets)).unwrap();
+    let why = |wired: &systems::Wired| {
+        wired.left.iter().find(|it| it.input == "colour").map(|it| it.why.clone()).unwrap()
+    };
+    let plain = wired(&[]);
+    assert!(plain.structure.connections.iter().all(|it| it.end.connector != "colour"));
+    assert!(plain.structure.enumerations.is_empty());
+    assert_eq!(why(&plain), "an enumeration, left out: it stands at none");
+    let set = wired(&["taker.colour=red"]);
+    assert_eq!(why(&set), "an enumeration, left out: it stands at red");
+}
+
+/// A parameter set at the component, in the variables' own units, is what `run` reads back.
+#[test]
+fn what_is_set_stands_at_the_component_in_its_own_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
+    let wiring = |set: &str| Wiring { sets: vec![set.to_owned()], ..Wiring::default() };
+    let wired = wire("Pair", &components, Experiment::default(), &wiring("taker.angle=180 deg")).unwrap();
+    let binding = &wired.structure.components[1].bindings[0];
+    assert_eq!(binding.source.as_deref(), Some("resources/taker.ssv"));
+    let text = to_parameter_set(&binding.sets[0]);
+    let half_turn = format!("<ssv:Parameter name=\"angle\"><ssv:Real value=\"{}\"/>", core::f64::consts::PI);
+    assert!(text.contains(&half_turn), "{text}");
+    assert!(to_xml(&wired.structure).contains("<ssd:ParameterBinding source=\"resources/taker.ssv\"/>"));
+    for (set, expected) in [
+        ("nobody.angle=1", "allowed: component.name=value of giver, taker"),
+        ("angle=1", "found no component"),
+        ("taker.angel=1", "angle"),
+    ] {
+        let refused = wire("Pair", &components, Experiment::default(), &wiring(set)).unwrap_err().to_string();
+        assert!(refused.contains(expected) && refused.contains(set), "{set}: {refused}");
+    }
+}
+
+/// OMSimulator takes the step from its own annotation alone.
+#[test]
+fn the_step_is_written_for_omsimulator_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let components = [opened(folder.path(), "giver", &giver())];
+    let experiment = Experiment { step_s: Some(0.25), ..Experiment::default() };
+    let wired = wire("One", &components, experiment, &Wiring::default()).unwrap();
+    let text = to_xml(&wired.structure);
+    let system = &text[..text.find("</ssd:System>").unwrap()];
+    assert!(system.contains("<ssc:Annotation type=\"org.openmodelica\">"), "{text}");
+    assert!(system.contains("<oms:FixedStepMaster description=\"oms-ma\" stepSize=\"0.25\""), "{text}");
+    assert_eq!(read_structure(text.as_bytes()).unwrap().experiment.step_s, Some(0.25));
+}
+
 #[test]
 fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
     let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
-    let wired = wire("Pair", &components, Experiment::default(), &["giver.angle".to_owned()]).unwrap();
+    let wired = wire("Pair", &components, Experiment::default(), &listed(&["giver.angle"])).unwrap();
     let joined: Vec<String> =
         wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
     assert_eq!(
@@ -78,7 +142,7 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
         ],
     );
     let components = [opened(folder.path(), "one", &one), opened(folder.path(), "two", &two)];
-    let wired = wire("Pair", &components, Experiment::default(), &[]).unwrap();
+    let wired = wire("Pair", &components, Experiment::default(), &Wiring::default()).unwrap();
     assert_eq!(wired.structure.connections.len(), 3);
     let left: Vec<&str> = wired.left.iter().map(|it| it.input.as_str()).collect();
     assert_eq!(left, ["earth.velocity[1]", "sun.positionBody[2]"]);
@@ -92,7 +156,7 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
     // The same output twice is no choice of ours.
     let three = opened(folder.path(), "three", &one);
     let [one, two] = components;
-    let wired = wire("Three", &[one.clone(), two, three], Experiment::default(), &[]).unwrap();
+    let wired = wire("Three", &[one.clone(), two, three], Experiment::default(), &Wiring::default()).unwrap();
     let joined: Vec<String> =
         wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
     assert_eq!(
@@ -109,9 +173,9 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
     );
     // Names.
     assert_eq!(component_name(std::path::Path::new("dist/MomentumPlant.fmu")), "momentumPlant");
-    let twice = wire("Twice", &[one.clone(), one.clone()], Experiment::default(), &[]);
+    let twice = wire("Twice", &[one.clone(), one.clone()], Experiment::default(), &Wiring::default());
     assert!(twice.unwrap_err().to_string().contains("two components are named \"one\""));
-    let dotted = wire("Dot", &[("a.b".to_owned(), one.1)], Experiment::default(), &[]);
+    let dotted = wire("Dot", &[("a.b".to_owned(), one.1)], Experiment::default(), &Wiring::default());
     assert!(dotted.unwrap_err().to_string().contains("\"a.b\""));
 }
 

@@ -1,10 +1,12 @@
 //! Experiment, initialization, termination, reset, log settings.
 
 use super::{Instance, once};
+use crate::fmi2::access::SET_BY_IMPORTER;
 use crate::fmi2::instance::state::{Experiment, InstanceState};
 use crate::fmi2::logger::Category;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
+use crate::variables::Real;
 use model_description::BaseType;
 use model_description::Status;
 use model_description::call_table::Function;
@@ -67,7 +69,13 @@ impl Instance {
     /// The tolerance of the experiment becomes the value of the model's parameter, unless the master set that: so it is
     /// read, saved and restored like any value.
     fn take_tolerance(&mut self, tolerance: Option<f64>) {
-        let Some(at) = self.tolerance.filter(|at| !self.state.values.is_set(*at)) else { return };
+        let is_settable = |at: &Real| {
+            let (base, reference) = (BaseType::Real, references::of(*at));
+            let flags = self.access.flags(base).get(references::index(base, reference));
+            flags.is_some_and(|flags| flags & SET_BY_IMPORTER != 0)
+        };
+        let is_open = |at: &Real| !self.state.values.is_set(*at) && is_settable(at);
+        let Some(at) = self.tolerance.filter(is_open) else { return };
         let default = self.start.real(at);
         let limits =
             self.access.real_limits.get(references::index(BaseType::Real, references::of(at))).copied();

@@ -220,6 +220,11 @@ fn plant(text: &str) -> Search<MomentumPlant> {
 }
 
 const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
+/// Flight by torque after commands, as in the shipped system.
+fn controlled() -> String {
+    format!("{FULL}\n[fixed]\n\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"\n")
+}
+
 const FLOWN: &str = include_str!("still_ephemeris.toml");
 
 fn guidance() -> Search<Guidance> {
@@ -249,6 +254,7 @@ searches! {
     momentum_plant_per_plate, momentum_plant_per_plate_long, 12: plant(RADIATING);
     momentum_plant_with_everything, momentum_plant_with_everything_long, 12: plant(ALL);
     momentum_plant_with_thrusters, momentum_plant_with_thrusters_long, 16: plant(FULL);
+    momentum_plant_controlled, momentum_plant_controlled_long, 12: plant(&controlled());
     disturbance_torque, disturbance_torque_long, 16:
         Search::<DisturbanceTorque>::new(DisturbanceTorque::DEFAULT_SETUP, DISTURBANCE);
     disturbance_torque_per_plate, disturbance_torque_per_plate_long, 16:

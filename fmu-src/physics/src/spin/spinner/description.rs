@@ -36,6 +36,8 @@ pub struct Description {
     pub l1_orbit: Option<L1OrbitEntry>,
     /// Start values of SpinPlant's parameters and inputs by their names.
     pub start: Option<StartTable>,
+    /// Variables that are local constants of this FMU, with their values; `heliotorque pack --fix` writes them.
+    pub fixed: Option<StartTable>,
 }
 
 /// Mass and inertia as functions of the propellant on board.

@@ -143,7 +143,7 @@ impl Builder<'_> {
             sun_sensor,
             limits: raw.limits,
             l1_orbit,
-            start: start_entries(&mut self.check, raw.start.as_ref()),
+            start: start_entries(&mut self.check, raw.start.as_ref(), raw.fixed.as_ref()),
         }
     }
 

@@ -1,0 +1,69 @@
+//! What a spacecraft file fixes is a local constant, and dependencies are those of that choice.
+
+use fmi_export::Model;
+use fmi_export::fmi2::description_of;
+use fmi_export::model_description::{
+    Causality, Description, Initial, ScalarVariable, Variability, VariableKind, rules,
+};
+use models::{Guidance, MomentumPlant, SpinPlant};
+
+fn with(table: &str, entries: &str) -> Description {
+    let text = format!("{}\n[{table}]\n{entries}\n", MomentumPlant::DEFAULT_SETUP);
+    description_of::<MomentumPlant>("my.toml", &text).unwrap()
+}
+
+fn variable<'a>(description: &'a Description, name: &str) -> &'a ScalarVariable {
+    description.variables.iter().find(|it| it.name == name).unwrap()
+}
+
+/// Names of what an output depends on in steps.
+fn acts_on(description: &Description, output: &str) -> Vec<String> {
+    let at = description.variables.iter().position(|it| it.name == output).unwrap() as u32 + 1;
+    let unknown = description.structure.outputs.iter().find(|it| it.index == at).unwrap();
+    let name = |index: &u32| description.variables[*index as usize - 1].name.clone();
+    unknown.dependencies.as_ref().unwrap().iter().map(name).collect()
+}
+
+#[test]
+fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
+    let open = description_of::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap();
+    let fixed = with("fixed", "\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"");
+    assert_eq!(open.variables.len(), fixed.variables.len());
+    let source = variable(&fixed, "attitude.source");
+    assert_eq!((source.causality, source.variability), (Causality::Local, Variability::Constant));
+    assert_eq!(rules::effective_initial(source), Some(Initial::Exact));
+    assert!(matches!(source.kind, VariableKind::Enumeration { start: Some(3), .. }));
+    for output in ["attitude.q[1]", "estimate.q[1]", "momentum.body[1]", "sun.sensedValid"] {
+        let [before, after] = [&open, &fixed].map(|it| acts_on(it, output));
+        assert!(before.iter().any(|name| name == "command.q[1]"), "{output}: {before:?}");
+        assert!(!after.iter().any(|name| name.starts_with("command.")), "{output}: {after:?}");
+    }
+    assert!(acts_on(&fixed, "wheel[1].torque").iter().any(|name| name == "command.q[1]"));
+    let listed = fixed.structure.initial_unknowns.iter().flat_map(|it| it.dependencies.iter().flatten());
+    for known in listed {
+        let known = &fixed.variables[*known as usize - 1];
+        assert_ne!(known.variability, Variability::Constant, "{}", known.name);
+    }
+}
+
+#[test]
+fn the_guid_follows_what_is_fixed() {
+    let entry = "\"attitude.source\" = \"controlled\"";
+    let [start, fixed] = ["start", "fixed"].map(|table| with(table, entry).guid);
+    let other = with("fixed", "\"attitude.source\" = \"free\"").guid;
+    assert!(start != fixed && fixed != other && start != other);
+    // A file serves several models: what another has is fixed there.
+    let text = format!("{}\n[fixed]\n{entry}\n", Guidance::DEFAULT_SETUP);
+    assert!(description_of::<Guidance>("my.toml", &text).is_ok());
+    assert!(
+        description_of::<SpinPlant>("my.toml", &format!("{}\n[fixed]\nseed = 3\n", SpinPlant::DEFAULT_SETUP))
+            .is_ok_and(|it| variable(&it, "seed").causality == Causality::Local)
+    );
+}
+
+#[test]
+fn what_no_model_has_is_refused_with_its_line() {
+    let text = format!("{}\n[fixed]\n\"attitude.sourc\" = 3\n", MomentumPlant::DEFAULT_SETUP);
+    let refused = description_of::<MomentumPlant>("my.toml", &text).unwrap_err().to_string();
+    assert!(refused.contains("fixed.\"attitude.sourc\"") && refused.contains("attitude.source"), "{refused}");
+}
