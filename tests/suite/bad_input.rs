@@ -146,12 +146,12 @@ fn nan_and_infinity_are_discarded_and_the_instance_stays_usable() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         // The good elements beside the bad one are not written either.
         assert_eq!(instance.set_real(&torque, &[1e-3, bad, 1e-3]), Status::Discard);
-        contains(&text(&instance.take_messages()), &["torque.applied[2]", "finite"]);
+        contains(&text(&instance.take_messages()), &["torque.applied[2]", "allowed is -1e100 to 1e100"]);
         assert_eq!(everything(&mut instance, &names), before);
     }
     let threshold = names.real("dump.threshold[1]");
     assert_eq!(instance.set_real(&[threshold], &[-1.0]), Status::Discard);
-    contains(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "from 1e-6 up"]);
+    contains(&text(&instance.take_messages()), &["dump.threshold[1]", "-1.0", "allowed is 1e-6 to 1e100"]);
     assert_eq!(instance.set_input_derivatives(&torque[..1], &[1], &[f64::NAN]), Status::Discard);
     let kind = names.of(BaseType::Integer, "command.kind");
     assert_eq!(instance.set_integer(&[kind], &[17]), Status::Discard);

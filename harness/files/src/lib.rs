@@ -4,6 +4,9 @@
 //! recording in progress is a [`Growing`] file, `<name>.part`. Temporary files and folders are known to
 //! [`remove_temporaries`], which a signal handler calls.
 
+/// Type of what we add to files of other standards, which ask for a reversed domain name.
+pub const ANNOTATION: &str = "io.github.heliotorque";
+
 mod destination;
 mod entries;
 mod input;

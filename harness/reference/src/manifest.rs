@@ -2,10 +2,8 @@
 
 use std::fmt::Write;
 
+use files::ANNOTATION;
 use model_description::{Start, Xml, escape};
-
-/// Name of our annotation of a flight's results.
-const ANNOTATION: &str = "heliotorque";
 
 /// The files that an FMU lists.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -181,7 +179,7 @@ mod tests {
             ("<other/>", "fmiReferences"),
             ("<fmiReferences><Related role=\"result\"/></fmiReferences>", "source"),
             (
-                "<fmiReferences><Related source=\"a\"><Annotations><Annotation type=\"heliotorque\"><flight \
+                "<fmiReferences><Related source=\"a\"><Annotations><Annotation type=\"io.github.heliotorque\"><flight \
                  tolerance=\"-1\"/></Annotation></Annotations></Related></fmiReferences>",
                 "tolerance \"-1\"",
             ),

@@ -1,5 +1,6 @@
 //! Reads `SystemStructure.ssd` (SSP 1.0, section 5). What cannot be simulated here is refused by its name.
 
+use files::ANNOTATION;
 use model_description::{ReadError, Start, Xml};
 
 use crate::{
@@ -10,8 +11,6 @@ use crate::{
     },
 };
 
-/// Type of the annotation that holds the step, which SSP has no attribute for.
-pub const STEP_ANNOTATION: &str = "heliotorque";
 /// Most components of a system: each is an instance of its FMU.
 pub const MOST_COMPONENTS: usize = 1000;
 /// The only type of component that is simulated.
@@ -237,7 +236,7 @@ fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<Experiment, ReadError>
             return Err(unknown(&annotations, start, "Annotations"));
         }
         while let Some(annotation) = xml.child(&annotations)? {
-            if attribute(&annotation, "type") != Some(STEP_ANNOTATION) {
+            if attribute(&annotation, "type") != Some(ANNOTATION) {
                 xml.skip(&annotation)?;
                 continue;
             }

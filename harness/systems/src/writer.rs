@@ -2,16 +2,19 @@
 
 use std::fmt::Write;
 
+use files::ANNOTATION;
 use model_description::{Unit, escape};
 
-use crate::{
-    reader::STEP_ANNOTATION,
-    structure::{Component, Connection, ParameterSet, Signal, Structure, Written},
-};
+use crate::structure::{Component, Connection, ParameterSet, Signal, Structure, Written};
 
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssd:SystemStructureDescription \
                     xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\" \
                     xmlns:ssd=\"http://ssp-standard.org/SSP1/SystemStructureDescription\" version=\"1.0\"";
+
+/// Components are drawn in a row, in the order in which a master calls them.
+const WIDTH_MM: usize = 60;
+const HEIGHT_MM: usize = 40;
+const PITCH_MM: usize = 100;
 
 /// How OMSimulator's program is told of the step, without which it imports no system: its own annotation of the system, in its own
 /// name space.
@@ -60,8 +63,8 @@ fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
     let tool = concat!("heliotorque ", env!("CARGO_PKG_VERSION"));
     writeln!(to, " name=\"{name}\" generationTool=\"{tool}\">")?;
     writeln!(to, "  <ssd:System name=\"{name}\">\n    <ssd:Elements>")?;
-    for component in &structure.components {
-        write_component(to, component)?;
+    for (place, component) in structure.components.iter().enumerate() {
+        write_component(to, component, place)?;
     }
     writeln!(to, "    </ssd:Elements>")?;
     if !structure.connections.is_empty() {
@@ -110,7 +113,7 @@ fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
     match experiment.step_s {
         Some(step_s) => writeln!(
             to,
-            ">\n    <ssd:Annotations>\n      <ssc:Annotation type=\"{STEP_ANNOTATION}\">\
+            ">\n    <ssd:Annotations>\n      <ssc:Annotation type=\"{ANNOTATION}\">\
              <heliotorque:Step xmlns:heliotorque=\"https://heliotorque/ssp\" size=\"{step_s}\"/>\
              </ssc:Annotation>\n    </ssd:Annotations>\n  </ssd:DefaultExperiment>"
         )?,
@@ -119,10 +122,12 @@ fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
     writeln!(to, "</ssd:SystemStructureDescription>")
 }
 
-fn write_component(to: &mut String, component: &Component) -> std::fmt::Result {
+/// A component, drawn at its place in the row of all.
+fn write_component(to: &mut String, component: &Component, place: usize) -> std::fmt::Result {
     writeln!(
         to,
-        "      <ssd:Component name=\"{}\" type=\"application/x-fmu-sharedlibrary\" source=\"{}\">",
+        "      <ssd:Component name=\"{}\" type=\"application/x-fmu-sharedlibrary\" source=\"{}\" \
+         implementation=\"CoSimulation\">",
         escape(&component.name),
         escape(&component.source)
     )?;
@@ -145,6 +150,12 @@ fn write_component(to: &mut String, component: &Component) -> std::fmt::Result {
         }
         writeln!(to, "        </ssd:Connectors>")?;
     }
+    let left_mm = place * PITCH_MM;
+    writeln!(
+        to,
+        "        <ssd:ElementGeometry x1=\"{left_mm}\" y1=\"0\" x2=\"{}\" y2=\"{HEIGHT_MM}\"/>",
+        left_mm + WIDTH_MM
+    )?;
     let files = component.bindings.iter().filter_map(|binding| binding.source.as_ref());
     let files: Vec<_> = files.collect();
     if !files.is_empty() {

@@ -295,7 +295,7 @@ const REFUSALS: &[(&str, &str)] = &[
     ),
     (
         "[start]\n\"dump.threshold\" = [1,\n -2, 3]\n\"orbit.center\" = \"pluto\"",
-        "my.toml:+2: start.\"dump.threshold\": found -2, allowed: a number from 1e-6 N.m.s up\n\
+        "my.toml:+2: start.\"dump.threshold\": found -2, allowed: a number from 1e-6 to 1e100 N.m.s\n\
          my.toml:+4: start.\"orbit.center\": found \"pluto\", allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7)",
     ),
 ];

@@ -107,6 +107,16 @@ fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reaso
         wired.structure.components[0].connectors.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(of_giver, ["push", "position[1]", "position[2]", "angle", "count", "flag", "colour"]);
     assert_eq!(wired.structure.experiment.step_s, Some(0.5));
+    // What other tools look for: the kind of model, where it is drawn, whose annotation it is.
+    let text = to_xml(&wired.structure);
+    for (part, count) in [
+        (" implementation=\"CoSimulation\">", 2),
+        ("<ssd:ElementGeometry x1=\"0\" y1=\"0\"", 1),
+        ("<ssd:ElementGeometry x1=\"100\" y1=\"0\"", 1),
+        ("<ssc:Annotation type=\"io.github.heliotorque\">", 1),
+    ] {
+        assert_eq!(text.matches(part).count(), count, "{part}: {text}");
+    }
     // What is written is read back; lines alone are new.
     let mut read = read_structure(to_xml(&wired.structure).as_bytes()).unwrap();
     read.components.iter_mut().for_each(|component| {
